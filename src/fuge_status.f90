@@ -1,0 +1,111 @@
+!> Status codes, their texts, and the report that every call fills.
+!>
+!> 0 is done, positive is done with a warning, negative is an error that
+!> leaves all outputs untouched. This is the one table of codes: include/fuge.h
+!> repeats the numbers and a test compares the two.
+module fuge_status
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  public :: fuge_status_text, report
+
+  integer, parameter, public :: FUGE_DONE = 0
+  integer, parameter, public :: FUGE_WARN_RESIDUAL = 1
+  integer, parameter, public :: FUGE_ERR_SIZE = -1
+  integer, parameter, public :: FUGE_ERR_POINTER = -2
+  integer, parameter, public :: FUGE_ERR_NOT_FINITE = -3
+  integer, parameter, public :: FUGE_ERR_WIDTH = -4
+  integer, parameter, public :: FUGE_ERR_MODULUS = -5
+  integer, parameter, public :: FUGE_ERR_ELEMENT = -6
+  integer, parameter, public :: FUGE_ERR_GRID = -7
+  integer, parameter, public :: FUGE_ERR_NOT_SYMMETRIC = -8
+  integer, parameter, public :: FUGE_ERR_NOT_DEFINITE = -9
+  integer, parameter, public :: FUGE_ERR_NO_EQUILIBRIUM = -10
+  integer, parameter, public :: FUGE_ERR_ITERATION_LIMIT = -11
+  integer, parameter, public :: FUGE_ERR_MEMORY = -12
+  integer, parameter, public :: FUGE_ERR_CALL_ORDER = -13
+  integer, parameter, public :: FUGE_ERR_OPTION = -14
+  integer, parameter, public :: FUGE_ERR_UNSUPPORTED = -15
+  integer, parameter, public :: FUGE_ERR_OVERFLOW = -16
+
+  integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_OVERFLOW
+  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_RESIDUAL
+
+  !> The text of each code, lowest first.
+  character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
+    'the magnitudes of the data overflow double precision', &
+    'this engine cannot solve this kind of problem', &
+    'an option has an impossible value', &
+    'a call came before the one it needs', &
+    'out of memory', &
+    'the iteration limit was reached', &
+    'no contact forces can be in equilibrium with this load', &
+    'the influence matrix is not positive definite on the forces', &
+    'the influence matrix is not symmetric', &
+    'this element is not symmetric on this grid', &
+    'unknown element', &
+    'the elastic modulus is not positive', &
+    'a cell width or position is out of its range', &
+    'an input is NaN or infinite', &
+    'a required pointer is NULL or an array is not contiguous', &
+    'a size or range is impossible', &
+    'done', &
+    'done, but the residual is above the tolerance asked for']
+
+  !> Length of a message; longer ones are cut.
+  integer, parameter, public :: FUGE_MESSAGE_LENGTH = 256
+
+  !> What a call has to say of itself.
+  type, public :: fuge_info
+    !> One of the codes above.
+    integer :: status = FUGE_DONE
+    !> What is wrong, where (1-based index, value) and how to mend it; blank when done.
+    character(len=FUGE_MESSAGE_LENGTH) :: message = ''
+    !> Pivots of the tableau.
+    integer :: iterations = 0
+    !> Points with a positive contact force.
+    integer :: contacts = 0
+    !> Products A f of the operator, the certificate's included.
+    integer :: products = 0
+    !> Applications of a preconditioner.
+    integer :: filters = 0
+    !> The certificate: largest scaled violation, see `fuge_residual`.
+    real(dp) :: residual = 0.0_dp
+  contains
+    !> True for an error: outputs were left untouched.
+    procedure :: failed
+  end type fuge_info
+
+contains
+
+  pure function failed(self)
+    class(fuge_info), intent(in) :: self
+    logical :: failed
+
+    failed = self%status < 0
+  end function failed
+
+  !> Set status and message, and nothing else.
+  pure subroutine report(info, status, message)
+    type(fuge_info), intent(inout) :: info
+    integer, intent(in) :: status
+    character(len=*), intent(in) :: message
+
+    info%status = status
+    info%message = message
+  end subroutine report
+
+  !> The general meaning of a status code, in English.
+  pure function fuge_status_text(status) result(meaning)
+    integer, intent(in) :: status
+    character(len=:), allocatable :: meaning
+
+    if (status < LOWEST_STATUS .or. status > HIGHEST_STATUS) then
+      meaning = 'unknown status'
+    else
+      meaning = trim(STATUS_MEANINGS(status))
+    end if
+  end function fuge_status_text
+
+end module fuge_status

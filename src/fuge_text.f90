@@ -1,0 +1,39 @@
+!> Numbers as text, for messages.
+module fuge_text
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  public :: text
+
+  !> The shortest readable text of an integer or a real number.
+  interface text
+    module procedure text_integer
+    module procedure text_real
+  end interface text
+
+contains
+
+  pure function text_integer(value) result(string)
+    integer, intent(in) :: value
+    character(len=:), allocatable :: string
+    character(len=12) :: buffer
+
+    write (buffer, '(i0)') value
+    string = trim(buffer)
+  end function text_integer
+
+  pure function text_real(value) result(string)
+    real(dp), intent(in) :: value
+    character(len=:), allocatable :: string
+    character(len=24) :: buffer
+
+    if (abs(value) >= 1.0e-3_dp .and. abs(value) < 1.0e5_dp) then
+      write (buffer, '(f13.6)') value
+    else
+      write (buffer, '(es12.5e3)') value
+    end if
+    string = trim(adjustl(buffer))
+  end function text_real
+
+end module fuge_text
