@@ -1,0 +1,163 @@
+!> A dense influence matrix as an operator. The matrix stays the caller's: it is
+!> pointed to, never copied.
+module fuge_dense
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+  use fuge_kinds, only: dp
+  use fuge_lapack, only: dgemv
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
+    FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: check_matrix
+
+  !> Largest asymmetry taken for rounding, relative to the largest coefficient.
+  real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
+  !> Side of the square tiles in which the matrix is compared with its transpose.
+  integer, parameter :: TILE = 64
+
+  type, extends(fuge_operator), public :: fuge_dense_operator
+    !> Columns of the caller's matrix; rows beyond n are padding.
+    real(dp), pointer, contiguous :: alpha(:, :) => null()
+  contains
+    procedure :: set
+    procedure :: points
+    procedure :: apply
+    procedure :: deflection
+  end type fuge_dense_operator
+
+contains
+
+  !> Take `alpha` as the influence matrix.
+  !>
+  !> `alpha` is (n, n), or (lda, n) with lda > n where the first n rows count;
+  !> length per force. It is not copied: declare it `target` and keep it
+  !> unchanged as long as the operator lives.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC; the
+  !> operator is then as it was.
+  subroutine set(self, alpha, info)
+    class(fuge_dense_operator), intent(inout) :: self
+    real(dp), intent(in), target :: alpha(:, :)
+    type(fuge_info), intent(out) :: info
+
+    if (.not. is_contiguous(alpha)) then
+      call report(info, FUGE_ERR_POINTER, 'alpha is a section with gaps between its columns: pass the whole ' &
+        //'array, whose first n rows count')
+      return
+    end if
+    call check_matrix(alpha, info)
+    if (info%failed()) return
+    ! Through an address, because only `set` knows that alpha is contiguous.
+    call c_f_pointer(c_loc(alpha(1, 1)), self%alpha, shape(alpha))
+  end subroutine set
+
+  pure function points(self) result(n)
+    class(fuge_dense_operator), intent(in) :: self
+    integer :: n
+
+    n = 0
+    if (associated(self%alpha)) n = size(self%alpha, 2)
+  end function points
+
+  subroutine apply(self, force, displacement, status)
+    class(fuge_dense_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out) :: displacement(:)
+    integer, intent(out) :: status
+    integer :: n
+
+    n = self%points()
+    call dgemv('N', n, n, 1.0_dp, self%alpha, size(self%alpha, 1), force, 1, 0.0_dp, displacement, 1)
+    status = FUGE_DONE
+  end subroutine apply
+
+  pure function deflection(self, force) result(length)
+    class(fuge_dense_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    real(dp) :: length
+    integer :: n, j
+
+    n = self%points()
+    length = 0.0_dp
+    do j = 1, n
+      if (abs(force(j)) > 0.0_dp) then
+        length = length + abs(force(j))*(maxval(self%alpha(:n, j)) - minval(self%alpha(:n, j)))
+      end if
+    end do
+  end function deflection
+
+  !> Refuse a matrix that is not at least n by n, finite and symmetric.
+  !>
+  !> An asymmetry up to 1e-10 of the largest coefficient passes as rounding.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC.
+  pure subroutine check_matrix(alpha, info)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_info), intent(inout) :: info
+    integer :: n
+
+    n = size(alpha, 2)
+    if (n < 1) then
+      call report(info, FUGE_ERR_SIZE, 'n = '//text(n)//': alpha needs at least one column')
+    else if (size(alpha, 1) < n) then
+      call report(info, FUGE_ERR_SIZE, 'alpha has '//text(size(alpha, 1))//' rows and '//text(n) &
+        //' columns: its leading dimension must be at least n')
+    else
+      call check_coefficients(alpha(:n, :), info)
+    end if
+  end subroutine check_matrix
+
+  pure subroutine check_coefficients(alpha, info)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: largest, difference
+    integer :: i, j
+
+    largest = 0.0_dp
+    do j = 1, size(alpha, 2)
+      do i = 1, size(alpha, 1)
+        if (.not. ieee_is_finite(alpha(i, j))) then
+          call report(info, FUGE_ERR_NOT_FINITE, 'alpha('//text(i)//','//text(j)//') = ' &
+            //text(alpha(i, j))//' is not a finite number')
+          return
+        end if
+        largest = max(largest, abs(alpha(i, j)))
+      end do
+    end do
+    call find_asymmetry(alpha, i, j, difference)
+    if (difference > SYMMETRY_TOLERANCE*largest) then
+      call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//text(i)//','//text(j)//') and alpha(' &
+        //text(j)//','//text(i)//') differ by '//text(difference)//' (largest coefficient ' &
+        //text(largest)//'): if that is rounding, pass (alpha + transpose(alpha))/2')
+    end if
+  end subroutine check_coefficients
+
+  !> The largest difference |alpha(i,j) - alpha(j,i)| and where it is.
+  pure subroutine find_asymmetry(alpha, row, column, difference)
+    real(dp), intent(in) :: alpha(:, :)
+    integer, intent(out) :: row, column
+    real(dp), intent(out) :: difference
+    integer :: i, j, first_row, first_column
+
+    row = 1
+    column = 1
+    difference = 0.0_dp
+    ! Square tiles: both a tile and its mirror stay in the cache.
+    do first_column = 1, size(alpha, 2), TILE
+      do first_row = first_column, size(alpha, 2), TILE
+        do j = first_column, min(first_column + TILE - 1, size(alpha, 2))
+          do i = max(first_row, j + 1), min(first_row + TILE - 1, size(alpha, 2))
+            if (abs(alpha(i, j) - alpha(j, i)) > difference) then
+              difference = abs(alpha(i, j) - alpha(j, i))
+              row = i
+              column = j
+            end if
+          end do
+        end do
+      end do
+    end do
+  end subroutine find_asymmetry
+
+end module fuge_dense
