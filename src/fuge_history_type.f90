@@ -1,0 +1,138 @@
+!> The course of the pivots: the basis per step and z, as the paper prints them.
+module fuge_history_type
+  use fuge_kinds, only: dp
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  !> Steps 0 (the artificial start) to `last()`.
+  type, public :: fuge_history
+    private
+    integer :: steps = 0
+    integer, allocatable :: columns(:, :)
+    real(dp), allocatable :: sums(:)
+  contains
+    procedure :: start
+    procedure :: record
+    procedure :: recorded
+    procedure :: basis
+    procedure :: z
+    procedure :: line
+  end type fuge_history
+
+contains
+
+  !> Forget all steps; the next ones have `rows` rows.
+  pure subroutine start(self, rows, status)
+    class(fuge_history), intent(inout) :: self
+    integer, intent(in) :: rows
+    integer, intent(out) :: status
+    integer :: stat
+
+    self%steps = 0
+    if (allocated(self%columns)) deallocate (self%columns, self%sums)
+    allocate (self%columns(rows, 2*rows + 8), self%sums(2*rows + 8), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+  end subroutine start
+
+  !> Append a step: `basis` holds a column number for each row, z is the sum of
+  !> the artificials in the caller's units.
+  pure subroutine record(self, basis, z, status)
+    class(fuge_history), intent(inout) :: self
+    integer, intent(in) :: basis(:)
+    real(dp), intent(in) :: z
+    integer, intent(out) :: status
+
+    status = FUGE_DONE
+    if (self%steps == size(self%sums)) call double_capacity(self, status)
+    if (status /= FUGE_DONE) return
+    self%steps = self%steps + 1
+    self%columns(:, self%steps) = basis
+    self%sums(self%steps) = z
+  end subroutine record
+
+  pure subroutine double_capacity(self, status)
+    class(fuge_history), intent(inout) :: self
+    integer, intent(out) :: status
+    integer, allocatable :: columns(:, :)
+    real(dp), allocatable :: sums(:)
+    integer :: stat
+
+    allocate (columns(size(self%columns, 1), 2*self%steps), sums(2*self%steps), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+    if (status /= FUGE_DONE) return
+    columns(:, :self%steps) = self%columns
+    sums(:self%steps) = self%sums
+    call move_alloc(columns, self%columns)
+    call move_alloc(sums, self%sums)
+  end subroutine double_capacity
+
+  !> Number of steps recorded, step 0 included; 0 if no history was kept.
+  pure function recorded(self)
+    class(fuge_history), intent(in) :: self
+    integer :: recorded
+
+    recorded = self%steps
+  end function recorded
+
+  !> Column numbers in the basis after pivot `step`, (n+m); empty if there is no such step.
+  pure function basis(self, step) result(columns)
+    class(fuge_history), intent(in) :: self
+    integer, intent(in) :: step
+    integer :: columns(rows_at(self, step))
+
+    if (size(columns) > 0) columns = self%columns(:, step + 1)
+  end function basis
+
+  !> Rows of the basis at a step; 0 if there is no such step.
+  pure function rows_at(self, step) result(rows)
+    class(fuge_history), intent(in) :: self
+    integer, intent(in) :: step
+    integer :: rows
+
+    rows = 0
+    if (step >= 0 .and. step < self%steps) rows = size(self%columns, 1)
+  end function rows_at
+
+  !> Sum of the artificial variables after pivot `step`; lengths and forces add
+  !> up in the caller's units, as in the paper. 0 if there is no such step.
+  pure function z(self, step)
+    class(fuge_history), intent(in) :: self
+    integer, intent(in) :: step
+    real(dp) :: z
+
+    z = 0.0_dp
+    if (step >= 0 .and. step < self%steps) z = self%sums(step + 1)
+  end function z
+
+  !> A step in the layout of the paper's Tabelle 2: the column numbers, then z.
+  pure function line(self, step) result(row)
+    class(fuge_history), intent(in) :: self
+    integer, intent(in) :: step
+    character(len=:), allocatable :: row
+    character(len=12) :: number
+    character(len=20) :: objective
+    integer :: k, width
+
+    row = ''
+    if (rows_at(self, step) == 0) return
+    ! All steps align: the largest number of all is in the artificial start.
+    width = digits_of(maxval(self%columns(:, 1))) + 1
+    do k = 1, size(self%columns, 1)
+      write (number, '(i12)') self%columns(k, step + 1)
+      row = row//number(13 - width:)
+    end do
+    write (objective, '(a,sp,es13.6)') '  Z= ', self%z(step)
+    row = row//trim(objective)
+  end function line
+
+  pure function digits_of(value) result(digits)
+    integer, intent(in) :: value
+    integer :: digits
+    character(len=12) :: buffer
+
+    write (buffer, '(i0)') value
+    digits = len_trim(buffer)
+  end function digits_of
+
+end module fuge_history_type
