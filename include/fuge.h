@@ -1,0 +1,217 @@
+/* fuge - frictionless elastic contact.  SPDX-License-Identifier: BSD-3-Clause
+ *
+ * THE PROBLEM.  n candidate points of two elastic bodies, pressed together by a
+ * load F_0 >= 0.  Given the influence matrix alpha (displacement into the body
+ * per contact force), the initial gaps g and F_0, find forces f, gaps c and the
+ * rigid approach v_0 with
+ *
+ *     c = g + alpha f - v_0                      gaps
+ *     c >= 0,  f >= 0,  f_k c_k = 0              contact, no adhesion
+ *     f_1 + .. + f_n = F_0                       equilibrium
+ *
+ * (Fischer, Hoyer, Melosh, equations 9 to 11).  alpha is symmetric and positive
+ * definite on the forces with zero sum; the answer is then unique.  g may have
+ * any datum: it moves v_0 only.  Units are yours, as long as they agree:
+ * length for gaps and v_0, force for f and F_0, length per force for alpha.
+ *
+ * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda], i, k
+ * from 0.  Points in messages count from 1.  Every int function returns a status:
+ * 0 done, > 0 done with a warning, < 0 an error that left all outputs untouched
+ * (fuge_status_text says what each means).  Nothing is printed, nothing aborts,
+ * there is no global state: use one solver in each thread.  NULL where it is not
+ * allowed gives FUGE_ERR_POINTER.
+ *
+ * CALL ORDER.  Either fuge_solve_dense alone, or
+ *     fuge_operator_dense -> fuge_solver_new -> fuge_set_gap, fuge_set_load
+ *     -> fuge_solve -> fuge_get_... -> (set, solve, get again)
+ *     -> fuge_solver_free -> fuge_operator_free
+ */
+#ifndef FUGE_H
+#define FUGE_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FUGE_VERSION "0.1.0"
+
+/* ---- status ------------------------------------------------------------- */
+
+enum {
+  FUGE_DONE = 0,
+  FUGE_WARN_RESIDUAL = 1,       /* answer given, residual above the tolerance  */
+  FUGE_ERR_SIZE = -1,           /* n < 1, lda < n, a range beyond what there is */
+  FUGE_ERR_POINTER = -2,        /* NULL, or in Fortran a non-contiguous matrix */
+  FUGE_ERR_NOT_FINITE = -3,     /* NaN or infinity in an input                 */
+  FUGE_ERR_WIDTH = -4,          /* cell width <= 0; x < 0 in a symmetric model */
+  FUGE_ERR_MODULUS = -5,        /* e_star <= 0                                 */
+  FUGE_ERR_ELEMENT = -6,        /* unknown element                             */
+  FUGE_ERR_GRID = -7,           /* element not symmetric on unequal widths     */
+  FUGE_ERR_NOT_SYMMETRIC = -8,  /* asymmetry above 1e-10 of the largest entry  */
+  FUGE_ERR_NOT_DEFINITE = -9,   /* alpha not positive definite on the forces   */
+  FUGE_ERR_NO_EQUILIBRIUM = -10,/* load < 0                                    */
+  FUGE_ERR_ITERATION_LIMIT = -11,
+  FUGE_ERR_MEMORY = -12,
+  FUGE_ERR_CALL_ORDER = -13,
+  FUGE_ERR_OPTION = -14,
+  FUGE_ERR_UNSUPPORTED = -15,   /* this version or engine cannot do that       */
+  FUGE_ERR_OVERFLOW = -16       /* magnitudes leave double precision           */
+};
+
+/* General meaning of a status; a constant string, never NULL. */
+const char *fuge_status_text(int status);
+
+/* Version of the library that is linked; compare with FUGE_VERSION. */
+const char *fuge_version(void);
+
+/* ---- options and report ------------------------------------------------- */
+
+enum {                          /* fuge_options.method */
+  FUGE_AUTO = 0,                /* the best engine for the operator */
+  FUGE_TABLEAU = 1              /* the paper's tableau, Phase I of the simplex method */
+};
+
+enum {                          /* fuge_options.pivot_rule, of the tableau */
+  FUGE_PAPER_RULE = 0,          /* drive an artificial out, then lowest column number */
+  FUGE_MOST_NEGATIVE = 1,       /* most negative entry of the last row */
+  FUGE_GREATEST_DECREASE = 2    /* greatest decrease of the sum of artificials */
+};
+
+typedef struct fuge_options {
+  int method;
+  int pivot_rule;
+  int max_iterations;           /* most pivots; 0: the engine's own limit */
+  int keep_history;             /* nonzero: fuge_get_history will have all steps */
+  int reserved_int[4];
+  double tolerance;             /* largest relative residual that counts as done */
+  double reserved[7];
+} fuge_options;
+
+typedef struct fuge_info {
+  int status;                   /* what fuge_solve returned */
+  int iterations;               /* pivots */
+  int contacts;                 /* points with a positive force */
+  int products;                 /* products alpha f by the operator */
+  int filters;                  /* preconditioner applications */
+  int reserved_int[3];
+  double residual;              /* certificate: largest scaled violation of the problem */
+  double reserved[7];
+} fuge_info;
+
+/* Fill *opt with the defaults. */
+void fuge_default_options(fuge_options *opt);
+
+/* ---- one call ----------------------------------------------------------- */
+
+/* Solve with the default options.
+ *   alpha     in   lda x n, the first n rows count; length per force
+ *   gap       in   n, initial gaps (external load included); length
+ *   load      in   F_0 >= 0; force.  0: no forces, the bodies just touch
+ *   force     out  n; force        gap_out  out  n; length
+ *   approach  out  v_0; length
+ * Outputs may be the same array as gap. */
+int fuge_solve_dense(int n, const double *alpha, int lda, const double *gap, double load,
+                     double *force, double *gap_out, double *approach);
+
+/* The checks of fuge_solve_dense's data with a message: what is wrong, where, and
+ * how to mend it.  At most len bytes go to message, always ended by NUL. */
+int fuge_check_dense(int n, const double *alpha, int lda, const double *gap, double load,
+                     char *message, size_t len);
+
+/* ---- half-plane --------------------------------------------------------- */
+
+enum {                          /* element: what a force and a displacement mean */
+  FUGE_CENTRE = 0,              /* uniform pressure f/width on a cell, displacement at its centre */
+  FUGE_MEAN = 1,                /* the same pressure, mean displacement of a cell: any widths */
+  FUGE_HAT = 2                  /* pressure a hat with peak f/width at x and base 2 width,
+                                   displacement at x */
+};
+
+/* Influence matrix of cells on an elastic half-plane.
+ *   x, width  in   n; centres and widths of the cells; length
+ *   e_star    in   E/(1-nu^2) in plane strain, E in plane stress; force per length^2
+ *   alpha     out  lda x n; displacement per force per unit depth
+ * Displacements are relative to a depth whose log datum is twice the length that
+ * the cells cover: all coefficients are positive.  FUGE_CENTRE and FUGE_HAT need
+ * equal widths (FUGE_ERR_GRID otherwise). */
+int fuge_halfplane_matrix(int n, const double *x, const double *width, double e_star,
+                          int element, double *alpha, int lda);
+
+/* The same, folded for a scene symmetric about x = 0: give the cells with x >= 0;
+ * a force is the sum over a cell and its mirror image, the load is the whole one. */
+int fuge_halfplane_symmetric_matrix(int n, const double *x, const double *width, double e_star,
+                                    int element, double *alpha, int lda);
+
+/* The checks of the two above (symmetric: 0 or 1) with a message, as fuge_check_dense. */
+int fuge_check_halfplane(int n, const double *x, const double *width, double e_star,
+                         int element, int symmetric, char *message, size_t len);
+
+/* ---- operators ---------------------------------------------------------- */
+
+typedef struct fuge_operator fuge_operator;
+
+/* A dense matrix as operator.  alpha (lda x n) is not copied: keep it unchanged
+ * until the operator is freed.  *op is set on success only. */
+int fuge_operator_dense(int n, const double *alpha, int lda, fuge_operator **op);
+
+/* Free and set *op to NULL; NULL and *op == NULL are fine.  Free its solvers first. */
+void fuge_operator_free(fuge_operator **op);
+
+/* ---- solver ------------------------------------------------------------- */
+
+typedef struct fuge_solver fuge_solver;
+
+/* opt may be NULL for the defaults.  *s is set on success only; op must outlive it. */
+int fuge_solver_new(const fuge_operator *op, const fuge_options *opt, fuge_solver **s);
+
+/* Free and set *s to NULL; NULL and *s == NULL are fine. */
+void fuge_solver_free(fuge_solver **s);
+
+/* Initial gaps, n, copied; length.  gap_upper must be NULL in this version
+ * (FUGE_ERR_UNSUPPORTED).  Makes earlier results unavailable. */
+int fuge_set_gap(fuge_solver *s, const double *gap, const double *gap_upper);
+
+/* Load F_0 >= 0; force.  Makes earlier results unavailable. */
+int fuge_set_load(fuge_solver *s, double load);
+
+/* Solve; FUGE_ERR_CALL_ORDER before gaps and load are set. */
+int fuge_solve(fuge_solver *s);
+
+/* Forget results and history; operator, options, gaps and load stay. */
+int fuge_reset(fuge_solver *s);
+
+/* ---- results ------------------------------------------------------------ */
+
+/* Each gives FUGE_ERR_CALL_ORDER unless the last fuge_solve gave an answer for
+ * the present gaps and load. */
+int fuge_get_force(const fuge_solver *s, double *force);        /* n; force */
+int fuge_get_gap(const fuge_solver *s, double *gap);            /* n; length */
+int fuge_get_rigid(const fuge_solver *s, double *q);            /* 1: v_0; length */
+int fuge_get_resultant(const fuge_solver *s, double *w);        /* 1: sum of the forces */
+
+/* Report of the last fuge_solve, failed or not. */
+int fuge_get_info(const fuge_solver *s, fuge_info *info);
+
+/* Course of the pivots (options.keep_history).  Steps first .. first+count-1;
+ * step 0 is the artificial start.
+ *   basis      out  count rows of n+1 column numbers, row k at basis + k*(n+1):
+ *                   1..n forces, n+1..2n gaps, 2n+1 v_0, then artificials
+ *   z          out  count; sum of the artificial variables in your units
+ *   available  out  steps that there are
+ * count = 0 only asks for available; basis and z may then be NULL. A solve with
+ * zero load needs no pivots and keeps no steps. */
+int fuge_get_history(const fuge_solver *s, int first, int count, int *basis, double *z,
+                     int *available);
+
+/* Message of the last call on s that set or solved, or of a getter that failed:
+ * what, where, how to mend it; empty when all was well.  At most len bytes, always
+ * ended by NUL. */
+int fuge_last_message(const fuge_solver *s, char *buf, size_t len);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

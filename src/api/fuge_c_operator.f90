@@ -1,0 +1,77 @@
+!> C bindings, section "operators".
+module fuge_c_operator
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_loc, c_associated, c_f_pointer
+  use fuge_c_types, only: operator_handle
+  use fuge_dense, only: fuge_dense_operator
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: take_matrix
+
+contains
+
+  function c_operator_dense(n, alpha, lda, destination) bind(c, name='fuge_operator_dense') result(status)
+    integer(c_int), intent(in), value :: n, lda
+    type(c_ptr), intent(in), value :: alpha, destination
+    integer(c_int) :: status
+    type(fuge_dense_operator) :: operator
+    type(operator_handle), pointer :: handle
+    type(c_ptr), pointer :: slot
+    type(fuge_info) :: info
+    integer :: stat
+
+    status = FUGE_ERR_POINTER
+    if (.not. c_associated(destination)) return
+    call take_matrix(n, alpha, lda, operator, info)
+    status = int(info%status, c_int)
+    if (info%failed()) return
+    status = FUGE_ERR_MEMORY
+    allocate (handle, stat=stat)
+    if (stat /= 0) return
+    allocate (handle%operator, source=operator, stat=stat)
+    if (stat /= 0) then
+      deallocate (handle)
+      return
+    end if
+    call c_f_pointer(destination, slot)
+    slot = c_loc(handle)
+    status = FUGE_DONE
+  end function c_operator_dense
+
+  !> Point an operator to a C matrix, with all checks and their messages.
+  subroutine take_matrix(n, alpha, lda, operator, info)
+    integer(c_int), intent(in) :: n, lda
+    type(c_ptr), intent(in) :: alpha
+    type(fuge_dense_operator), intent(out) :: operator
+    type(fuge_info), intent(out) :: info
+    real(c_double), pointer :: matrix(:, :)
+
+    if (n < 1) then
+      call report(info, FUGE_ERR_SIZE, 'n = '//text(int(n))//': at least one point is needed')
+    else if (lda < n) then
+      call report(info, FUGE_ERR_SIZE, 'lda = '//text(int(lda))//' is less than n = '//text(int(n)) &
+                  //': it is the distance between columns, in doubles')
+    else if (.not. c_associated(alpha)) then
+      call report(info, FUGE_ERR_POINTER, 'alpha is NULL')
+    else
+      call c_f_pointer(alpha, matrix, [lda, n])
+      call operator%set(matrix, info)
+    end if
+  end subroutine take_matrix
+
+  subroutine c_operator_free(source) bind(c, name='fuge_operator_free')
+    type(c_ptr), intent(in), value :: source
+    type(operator_handle), pointer :: handle
+    type(c_ptr), pointer :: slot
+
+    if (.not. c_associated(source)) return
+    call c_f_pointer(source, slot)
+    if (.not. c_associated(slot)) return
+    call c_f_pointer(slot, handle)
+    deallocate (handle)
+    slot = c_null_ptr
+  end subroutine c_operator_free
+
+end module fuge_c_operator

@@ -1,0 +1,168 @@
+!> C bindings, section "solver": life cycle, data, solve.
+module fuge_c_solver
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_loc, c_associated, c_f_pointer
+  use fuge_c_types, only: c_options, operator_handle, solver_handle, from_c
+  use fuge_history_type, only: fuge_history
+  use fuge_options_type, only: fuge_options, check_options
+  use fuge_problem_type, only: check_finite, check_load
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY, &
+    FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED
+  implicit none
+  private
+
+  public :: take_solver
+
+contains
+
+  function c_solver_new(operator, options, destination) bind(c, name='fuge_solver_new') result(status)
+    type(c_ptr), intent(in), value :: operator, options, destination
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(c_options), pointer :: wanted
+    type(c_ptr), pointer :: slot
+    type(fuge_options) :: chosen
+    type(fuge_info) :: info
+    integer :: stat
+
+    status = FUGE_ERR_POINTER
+    if (.not. (c_associated(operator) .and. c_associated(destination))) return
+    if (c_associated(options)) then
+      call c_f_pointer(options, wanted)
+      chosen = from_c(wanted)
+    end if
+    call check_options(chosen, info)
+    status = int(info%status, c_int)
+    if (info%failed()) return
+    status = FUGE_ERR_MEMORY
+    allocate (handle, stat=stat)
+    if (stat /= 0) return
+    handle%options = chosen
+    call c_f_pointer(operator, handle%operator)
+    call c_f_pointer(destination, slot)
+    slot = c_loc(handle)
+    status = FUGE_DONE
+  end function c_solver_new
+
+  subroutine c_solver_free(source) bind(c, name='fuge_solver_free')
+    type(c_ptr), intent(in), value :: source
+    type(solver_handle), pointer :: handle
+    type(c_ptr), pointer :: slot
+
+    if (.not. c_associated(source)) return
+    call c_f_pointer(source, slot)
+    if (.not. c_associated(slot)) return
+    call c_f_pointer(slot, handle)
+    deallocate (handle)
+    slot = c_null_ptr
+  end subroutine c_solver_free
+
+  function c_set_gap(solver, gap, gap_upper) bind(c, name='fuge_set_gap') result(status)
+    type(c_ptr), intent(in), value :: solver, gap, gap_upper
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(c_double), pointer :: values(:)
+    real(c_double), allocatable :: copy(:)
+    type(fuge_info) :: info
+    integer :: stat
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed() .and. .not. c_associated(gap)) call report(info, FUGE_ERR_POINTER, 'gap is NULL')
+    if (.not. info%failed() .and. c_associated(gap_upper)) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'gap_upper is not NULL: no engine of this version solves two-sided contact')
+    end if
+    if (.not. info%failed()) then
+      call c_f_pointer(gap, values, [handle%operator%operator%points()])
+      call check_finite(values, 'gap', info)
+    end if
+    if (.not. info%failed()) then
+      allocate (copy, source=values, stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the gaps')
+    end if
+    if (.not. info%failed()) then
+      call move_alloc(copy, handle%problem%gap)
+      handle%solved = .false.
+    end if
+    status = answer(handle, info)
+  end function c_set_gap
+
+  function c_set_load(solver, load) bind(c, name='fuge_set_load') result(status)
+    type(c_ptr), intent(in), value :: solver
+    real(c_double), intent(in), value :: load
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) call check_load(load, info)
+    if (.not. info%failed()) then
+      if (.not. allocated(handle%problem%resultant)) allocate (handle%problem%resultant(1))
+      handle%problem%resultant(1) = load
+      handle%solved = .false.
+    end if
+    status = answer(handle, info)
+  end function c_set_load
+
+  function c_solve(solver) bind(c, name='fuge_solve') result(status)
+    type(c_ptr), intent(in), value :: solver
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) then
+      if (.not. allocated(handle%problem%gap)) then
+        call report(info, FUGE_ERR_CALL_ORDER, 'the gaps are not known: call fuge_set_gap before fuge_solve')
+      else if (.not. allocated(handle%problem%resultant)) then
+        call report(info, FUGE_ERR_CALL_ORDER, 'the load is not known: call fuge_set_load before fuge_solve')
+      end if
+    end if
+    if (.not. info%failed()) then
+      call handle%solver%solve(handle%operator%operator, handle%problem, handle%solution, info, handle%options)
+      handle%solved = .not. info%failed()
+      handle%info = info
+      handle%tried = .true.
+    end if
+    status = answer(handle, info)
+  end function c_solve
+
+  !> Forget answers and history; operator, options, gaps and load stay.
+  function c_reset(solver) bind(c, name='fuge_reset') result(status)
+    type(c_ptr), intent(in), value :: solver
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) then
+      handle%solved = .false.
+      handle%tried = .false.
+      handle%solver%history = fuge_history()
+    end if
+    status = answer(handle, info)
+  end function c_reset
+
+  !> The object behind a handle; FUGE_ERR_POINTER for NULL.
+  subroutine take_solver(solver, handle, info)
+    type(c_ptr), intent(in) :: solver
+    type(solver_handle), pointer, intent(out) :: handle
+    type(fuge_info), intent(inout) :: info
+
+    nullify (handle)
+    if (c_associated(solver)) then
+      call c_f_pointer(solver, handle)
+    else
+      call report(info, FUGE_ERR_POINTER, 'the solver is NULL')
+    end if
+  end subroutine take_solver
+
+  !> The status to return; its message stays with the handle.
+  function answer(handle, info) result(status)
+    type(solver_handle), pointer, intent(in) :: handle
+    type(fuge_info), intent(in) :: info
+    integer(c_int) :: status
+
+    if (associated(handle)) handle%message = info%message
+    status = int(info%status, c_int)
+  end function answer
+
+end module fuge_c_solver

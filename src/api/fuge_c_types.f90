@@ -1,0 +1,99 @@
+!> What the C side sees of the library's types: structs, handles and strings.
+module fuge_c_types
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_null_char, c_ptr, c_size_t, &
+    c_associated, c_f_pointer
+  use fuge_history_type, only: fuge_history
+  use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_POINTER, FUGE_MESSAGE_LENGTH
+  implicit none
+  private
+
+  public :: from_c, to_c, copy_string
+
+  !> struct fuge_options.
+  type, bind(c), public :: c_options
+    integer(c_int) :: method, pivot_rule, max_iterations, keep_history
+    integer(c_int) :: reserved_int(4)
+    real(c_double) :: tolerance
+    real(c_double) :: reserved(7)
+  end type c_options
+
+  !> struct fuge_info.
+  type, bind(c), public :: c_info
+    integer(c_int) :: status, iterations, contacts, products, filters
+    integer(c_int) :: reserved_int(3)
+    real(c_double) :: residual
+    real(c_double) :: reserved(7)
+  end type c_info
+
+  !> Behind struct fuge_operator.
+  type, public :: operator_handle
+    class(fuge_operator), allocatable :: operator
+  end type operator_handle
+
+  !> Behind struct fuge_solver.
+  type, public :: solver_handle
+    type(operator_handle), pointer :: operator => null()
+    type(fuge_options) :: options
+    type(fuge_problem) :: problem
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution
+    !> Report of the last solve.
+    type(fuge_info) :: info
+    !> Of the last call that had something to say.
+    character(len=FUGE_MESSAGE_LENGTH) :: message = ''
+    !> The solution belongs to the present gaps and load.
+    logical :: solved = .false.
+    !> A solve has been tried, so that `info` means something.
+    logical :: tried = .false.
+  end type solver_handle
+
+contains
+
+  pure function from_c(source) result(options)
+    type(c_options), intent(in) :: source
+    type(fuge_options) :: options
+
+    options%method = int(source%method)
+    options%pivot_rule = int(source%pivot_rule)
+    options%max_iterations = int(source%max_iterations)
+    options%keep_history = source%keep_history /= 0
+    options%tolerance = source%tolerance
+  end function from_c
+
+  pure function to_c(source) result(info)
+    type(fuge_info), intent(in) :: source
+    type(c_info) :: info
+
+    info%status = int(source%status, c_int)
+    info%iterations = int(source%iterations, c_int)
+    info%contacts = int(source%contacts, c_int)
+    info%products = int(source%products, c_int)
+    info%filters = int(source%filters, c_int)
+    info%residual = source%residual
+    info%reserved_int = 0
+    info%reserved = 0.0_c_double
+  end function to_c
+
+  !> Copy a message into a C buffer of `length` bytes: cut if need be, always
+  !> ended by NUL. A NULL buffer or length 0 is left alone.
+  subroutine copy_string(message, buffer, length)
+    character(len=*), intent(in) :: message
+    type(c_ptr), intent(in) :: buffer
+    integer(c_size_t), intent(in) :: length
+    character(kind=c_char), pointer :: bytes(:)
+    integer :: k, last
+
+    if (.not. c_associated(buffer) .or. length < 1) return
+    last = int(min(int(len_trim(message), c_size_t), length - 1))
+    call c_f_pointer(buffer, bytes, [last + 1])
+    do k = 1, last
+      bytes(k) = message(k:k)
+    end do
+    bytes(last + 1) = c_null_char
+  end subroutine copy_string
+
+end module fuge_c_types
