@@ -1,0 +1,16 @@
+# fuge_set_warnings(target): Fortran 2008 and C99 without a warning.
+function(fuge_set_warnings target)
+  set(gnu_fortran -std=f2008 -Wall -Wextra -pedantic -Wimplicit-interface -fimplicit-none)
+  set(gnu_c -Wall -Wextra -pedantic)
+  set(is_gnu_fortran "$<COMPILE_LANG_AND_ID:Fortran,GNU>")
+  set(is_flang "$<COMPILE_LANG_AND_ID:Fortran,LLVMFlang>")
+  set(is_c "$<COMPILE_LANG_AND_ID:C,GNU,Clang,AppleClang>")
+  set(is_cxx "$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>")
+  target_compile_options(${target} PRIVATE
+    "$<${is_gnu_fortran}:${gnu_fortran}>" "$<${is_flang}:-pedantic>"
+    "$<${is_c}:${gnu_c}>" "$<${is_cxx}:${gnu_c}>")
+  if(FUGE_WERROR)
+    target_compile_options(${target} PRIVATE
+      "$<${is_gnu_fortran}:-Werror>" "$<${is_flang}:-Werror>" "$<${is_c}:-Werror>" "$<${is_cxx}:-Werror>")
+  endif()
+endfunction()
