@@ -1,0 +1,107 @@
+!> The paper's rigid punch y = 0.05 x**4 (mm) on an elastic half-plane: Bild 7 and 8.
+!>
+!> Half model of 33 cells, 0.025 mm wide, side by side from x = 0; F in N per mm of
+!> thickness. The contact ends at the outer edge of the last cell with a force.
+!> Writes punch_halfwidth.dat and punch_pressure.dat for the pictures.
+program punch
+  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, &
+    fuge_solver, FUGE_CENTRE
+  implicit none
+
+  integer, parameter :: POINTS = 33
+  real(dp), parameter :: SPACING = 0.025_dp, PROFILE = 0.05_dp
+  real(dp), parameter :: E_STAR = 1.0e6_dp/(1.0_dp - 0.25_dp**2)
+  real(dp), parameter :: PI = acos(-1.0_dp)
+
+  call run()
+
+contains
+
+  subroutine run()
+    real(dp), target :: alpha(POINTS, POINTS)
+    real(dp) :: x(POINTS), width(POINTS)
+    type(fuge_dense_operator) :: operator
+    type(fuge_problem) :: problem
+    type(fuge_info) :: info
+    integer :: k, kilonewtons, file
+
+    x = [(SPACING*(real(k, dp) - 0.5_dp), k=1, POINTS)]
+    width = SPACING
+    call fuge_halfplane_matrix(x, width, E_STAR, FUGE_CENTRE, alpha, info, symmetric=.true.)
+    if (.not. info%failed()) call operator%set(alpha, info)
+    if (info%failed()) error stop 'no influence matrix'
+    problem%gap = PROFILE*x**4
+    allocate (problem%resultant(1))
+
+    print '(a)', ' F [kN/mm]   half contact length [mm]   error   largest pressure [N/mm2]    error   residual'
+    print '(a)', '             fuge     exact                     fuge        exact'
+    open (newunit=file, file='punch_halfwidth.dat', status='replace', action='write')
+    do kilonewtons = 5, 50, 5
+      call one_load(operator, problem, x, real(kilonewtons, dp), file)
+    end do
+    close (file)
+  end subroutine run
+
+  subroutine one_load(operator, problem, x, kilonewtons, file)
+    type(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(inout) :: problem
+    real(dp), intent(in) :: x(:), kilonewtons
+    integer, intent(in) :: file
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution
+    type(fuge_info) :: info
+    real(dp) :: pressure(POINTS), reached, exact, peak
+
+    problem%resultant(1) = 1.0e3_dp*kilonewtons
+    call solver%solve(operator, problem, solution, info)
+    if (info%status /= 0) error stop 'the punch was not solved'
+    ! A force is that of a cell and its mirror image.
+    pressure = solution%force/(2.0_dp*SPACING)
+
+    reached = maxval(x + 0.5_dp*SPACING, mask=solution%force > 0.0_dp)
+    exact = half_width(problem%resultant(1))
+    peak = maxval(exact_pressure(x, exact))
+    print '(f8.0,f13.3,f11.6,f9.2,a,f14.1,f13.1,f10.2,a,es10.1)', kilonewtons, reached, exact, &
+      percent(reached, exact), ' %', maxval(pressure), peak, percent(maxval(pressure), peak), ' %', info%residual
+    write (file, '(3f12.6)') kilonewtons, reached, exact
+    if (nint(kilonewtons) == 30) then
+      call write_pressure(x, pressure, exact)
+      ! The number that the paper reports.
+      if (abs(reached - 0.700_dp) > 1.0e-9_dp) error stop 'half contact length at 30 kN is not 0.700 mm'
+    end if
+  end subroutine one_load
+
+  subroutine write_pressure(x, pressure, a)
+    real(dp), intent(in) :: x(:), pressure(:), a
+    integer :: file, k
+
+    open (newunit=file, file='punch_pressure.dat', status='replace', action='write')
+    do k = 1, size(x)
+      write (file, '(f8.4,2f14.3)') x(k), pressure(k), exact_pressure(x(k), a)
+    end do
+    close (file)
+  end subroutine write_pressure
+
+  !> F = (3 pi/4) E* A a**4 for a profile A x**4, A the factor `PROFILE`.
+  pure function half_width(load) result(a)
+    real(dp), intent(in) :: load
+    real(dp) :: a
+
+    a = (load/(0.75_dp*PI*E_STAR*PROFILE))**0.25_dp
+  end function half_width
+
+  elemental function exact_pressure(x, a) result(pressure)
+    real(dp), intent(in) :: x, a
+    real(dp) :: pressure
+
+    pressure = E_STAR*PROFILE*(2.0_dp*x**2 + a**2)*sqrt(max(a**2 - x**2, 0.0_dp))
+  end function exact_pressure
+
+  pure function percent(value, reference)
+    real(dp), intent(in) :: value, reference
+    real(dp) :: percent
+
+    percent = 100.0_dp*(value - reference)/reference
+  end function percent
+
+end program punch
