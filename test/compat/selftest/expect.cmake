@@ -1,0 +1,11 @@
+# cmake -D STATUS=<exit status> -D EXPECTED=<file> -P expect.cmake -- <program>
+math(EXPR last "${CMAKE_ARGC} - 1")
+set(program "${CMAKE_ARGV${last}}")
+execute_process(COMMAND "${program}" RESULT_VARIABLE status OUTPUT_VARIABLE output)
+file(READ "${EXPECTED}" expected)
+if(NOT status STREQUAL STATUS)
+  message(FATAL_ERROR "exit status ${status}, not ${STATUS}; output:\n${output}")
+endif()
+if(NOT output STREQUAL expected)
+  message(FATAL_ERROR "the output is not that of ${EXPECTED}:\n${output}")
+endif()

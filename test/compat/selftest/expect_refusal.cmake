@@ -1,0 +1,20 @@
+# cmake -D TRANSLATOR=<program> -D INPUT=<file.pf> -D OUTPUT=<file.F90> -P expect_refusal.cmake
+# The first line of the .pf file must be "! refused: <line>: <reason>".
+file(STRINGS "${INPUT}" first LIMIT_COUNT 1)
+if(NOT first MATCHES "^! refused: ([0-9]+: .+)$")
+  message(FATAL_ERROR "${INPUT} does not say why it must be refused")
+endif()
+set(expected "${INPUT}:${CMAKE_MATCH_1}\n")
+file(WRITE "${OUTPUT}" "left over from an earlier run\n")
+execute_process(COMMAND "${TRANSLATOR}" "${INPUT}" "${OUTPUT}"
+  RESULT_VARIABLE status ERROR_VARIABLE error)
+if(NOT status STREQUAL "1")
+  message(FATAL_ERROR "exit status ${status}, not 1; message: ${error}")
+endif()
+string(FIND "${error}" "${expected}" position)
+if(NOT position EQUAL 0)
+  message(FATAL_ERROR "the message is not ${expected} but ${error}")
+endif()
+if(EXISTS "${OUTPUT}")
+  message(FATAL_ERROR "the refused file left ${OUTPUT} behind")
+endif()
