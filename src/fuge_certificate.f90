@@ -31,10 +31,11 @@ contains
     class(fuge_violation), intent(in) :: self
     real(dp) :: worst
 
-    worst = max(self%gap_equation, self%sign, self%complementarity, self%equilibrium)
-    ! max may drop a NaN, which must not pass for small.
-    if (.not. all([self%gap_equation, self%sign, self%complementarity, self%equilibrium] <= huge(worst))) &
-      worst = huge(worst)
+    associate (parts => [self%gap_equation, self%sign, self%complementarity, self%equilibrium])
+      worst = maxval(parts)
+      ! A maximum may drop a NaN, which must not pass for small.
+      if (.not. all(parts <= huge(worst))) worst = huge(worst)
+    end associate
   end function worst
 
   !> Violation of equations (9), (10), (11) by an answer.

@@ -30,7 +30,8 @@ contains
     integer :: stat
 
     self%steps = 0
-    if (allocated(self%columns)) deallocate (self%columns, self%sums)
+    if (allocated(self%columns)) deallocate (self%columns)
+    if (allocated(self%sums)) deallocate (self%sums)
     allocate (self%columns(rows, 2*rows + 8), self%sums(2*rows + 8), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
   end subroutine start

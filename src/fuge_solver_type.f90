@@ -156,8 +156,8 @@ contains
       call report(info, status, 'no memory to factor alpha')
     else if (deficient > 0) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces with zero sum: points 1 to ' &
-                  //text(deficient)//' carry some that store no energy; look for a repeated point or a wrong sign at point ' &
-                  //text(deficient))
+                  //text(deficient)//' carry some that store no energy; look for a repeated point or a wrong sign ' &
+                  //'at point '//text(deficient))
     end if
   end subroutine require_definite
 

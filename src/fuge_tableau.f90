@@ -51,7 +51,8 @@ contains
     integer :: n, k, j, stat
 
     n = size(gap)
-    if (allocated(self%table)) deallocate (self%table, self%basis)
+    if (allocated(self%table)) deallocate (self%table)
+    if (allocated(self%basis)) deallocate (self%basis)
     allocate (self%table(n + 2, 2*n + 2), self%basis(n + 1), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) return

@@ -1,5 +1,6 @@
 !> Numbers as text, for messages.
 module fuge_text
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
   implicit none
   private
@@ -28,10 +29,13 @@ contains
     character(len=:), allocatable :: string
     character(len=24) :: buffer
 
-    if (abs(value) >= 1.0e-3_dp .and. abs(value) < 1.0e5_dp) then
-      write (buffer, '(f13.6)') value
+    if (.not. ieee_is_finite(value)) then
+      ! Apart, because a comparison with NaN may trap.
+      write (buffer, '(es13.5e3)') value
+    else if (abs(value) >= 1.0e-3_dp .and. abs(value) < 1.0e5_dp) then
+      write (buffer, '(f14.6)') value
     else
-      write (buffer, '(es12.5e3)') value
+      write (buffer, '(es13.5e3)') value
     end if
     string = trim(adjustl(buffer))
   end function text_real

@@ -10,10 +10,10 @@ module fuge_c_general
 
   integer :: k
   ! C wants pointers that stay valid: constants in all but the attribute.
-  character(kind=c_char, len=72), target, save :: meanings(LOWEST_STATUS:HIGHEST_STATUS + 1) = &
+  character(kind=c_char, len=72), target :: meanings(LOWEST_STATUS:HIGHEST_STATUS + 1) = &
     [character(len=72) :: (trim(STATUS_MEANINGS(k))//c_null_char, k=LOWEST_STATUS, HIGHEST_STATUS), &
      'unknown status'//c_null_char]
-  character(kind=c_char, len=16), target, save :: version = FUGE_VERSION_TEXT//c_null_char
+  character(kind=c_char, len=16), target :: version = FUGE_VERSION_TEXT//c_null_char
 
 contains
 

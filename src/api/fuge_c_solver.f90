@@ -68,7 +68,8 @@ contains
     call take_solver(solver, handle, info)
     if (.not. info%failed() .and. .not. c_associated(gap)) call report(info, FUGE_ERR_POINTER, 'gap is NULL')
     if (.not. info%failed() .and. c_associated(gap_upper)) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'gap_upper is not NULL: no engine of this version solves two-sided contact')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'gap_upper is not NULL: ' &
+                  //'no engine of this version solves two-sided contact')
     end if
     if (.not. info%failed()) then
       call c_f_pointer(gap, values, [handle%operator%operator%points()])
