@@ -26,12 +26,20 @@ install(FILES "${PROJECT_BINARY_DIR}/fuge-config.cmake" "${PROJECT_BINARY_DIR}/f
   DESTINATION "${package_dir}")
 
 # A static library has no record of what it needs: then these are needed always.
-set(pc_libs "-lfuge")
+set(pc_libs -lfuge)
 if(library_type STREQUAL "STATIC_LIBRARY")
-  string(APPEND pc_libs " -llapack -lblas")
-  foreach(library IN LISTS fortran_runtime)
-    string(APPEND pc_libs " -l${library}")
-  endforeach()
+  set(pc_libraries ${LAPACK_LIBRARIES} ${fortran_runtime})
+  list(TRANSFORM pc_libraries PREPEND "-l" REGEX "^[^-/]")
+  # Directories that the C compiler does not search by itself.
+  set(pc_dirs ${fortran_runtime_dirs})
+  list(REMOVE_ITEM pc_dirs "" ${CMAKE_C_IMPLICIT_LINK_DIRECTORIES})
+  list(TRANSFORM pc_dirs PREPEND "-L")
+  list(APPEND pc_libs ${pc_dirs} ${pc_libraries})
+  list(REMOVE_DUPLICATES pc_libs)
 endif()
+list(JOIN pc_libs " " pc_libs)
+# The prefix seen from the .pc file, so that the installed tree can be moved.
+file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
 configure_file(cmake/fuge.pc.in fuge.pc @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/fuge.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

@@ -99,14 +99,17 @@ contains
     real(dp), intent(in) :: value, measure
     real(dp) :: relative
 
-    if (abs(value) <= 0.0_dp) then
+    if (.not. abs(value) <= huge(value)) then
+      ! NaN or infinite: a number, because maxval may drop a NaN.
+      relative = huge(value)
+    else if (abs(value) <= 0.0_dp) then
       relative = 0.0_dp
     else if (measure >= 1.0_dp) then
       relative = value/measure
     else if (abs(value) < measure*huge(value)) then
       relative = value/measure
     else
-      ! Too large to divide, or NaN.
+      ! Too large to divide, or compared with NaN.
       relative = sign(huge(value), value)
     end if
   end function relative

@@ -123,19 +123,26 @@ contains
   subroutine check_definite(alpha, deficient, status)
     real(dp), intent(in) :: alpha(:, :)
     integer, intent(out) :: deficient, status
-    real(dp), allocatable :: form(:, :)
+    real(dp), allocatable :: form(:, :), energy(:)
     integer :: n, j, stat, info
 
     n = size(alpha, 2)
     deficient = 0
-    allocate (form(n - 1, n - 1), stat=stat)
+    allocate (form(n - 1, n - 1), energy(n - 1), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0 .or. n == 1) return
     do j = 2, n
       form(:, j - 1) = (alpha(2:n, j) - alpha(1, j)) - (alpha(2:n, 1) - alpha(1, 1))
+      energy(j - 1) = form(j - 1, j - 1)
     end do
     call dpotrf('L', n - 1, form, n - 1, info)
     if (info > 0) deficient = info + 1
+    ! What is left of the diagonal may be rounding: then it is zero.
+    do j = 1, merge(info, n, info > 0) - 1
+      if (form(j, j)**2 > real(n, dp)*epsilon(energy)*energy(j)) cycle
+      deficient = j + 1
+      exit
+    end do
   end subroutine check_definite
 
 end module fuge_contact_set

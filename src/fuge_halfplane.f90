@@ -88,7 +88,7 @@ contains
     if (folded) then
       length = 4.0_dp*maxval(x + 0.5_dp*width)
     else
-      length = 2.0_dp*(maxval(x + 0.5_dp*width) - minval(x - 0.5_dp*width))
+      length = 2.0_dp*(maxval((x - x(1)) + 0.5_dp*width) - minval((x - x(1)) - 0.5_dp*width))
     end if
   end function datum_length
 
@@ -228,8 +228,8 @@ contains
         call report(info, FUGE_ERR_WIDTH, 'x('//text(k)//') = '//text(x(k)) &
                     //' is negative: a symmetric model takes the cells with x >= 0 only')
       else if (element /= FUGE_MEAN .and. abs(width(k) - width(1)) > WIDTH_TOLERANCE*width(1)) then
-        call report(info, FUGE_ERR_GRID, 'width('//text(k)//') = '//text(width(k))//' differs from width(1) = ' &
-                    //text(width(1))//': on unequal cells only FUGE_MEAN is symmetric, use it')
+        call report(info, FUGE_ERR_GRID, 'width('//text(k)//') = '//text(width(k))//' differs from width(1) by ' &
+                    //text(width(k) - width(1))//': on unequal cells only FUGE_MEAN is symmetric, use it')
       else if (max(exponent(x(k)), exponent(width(k))) > LARGEST_EXPONENT) then
         call report(info, FUGE_ERR_OVERFLOW, 'cell '//text(k)//' at x = '//text(x(k)) &
                     //' is too large: choose another unit of length')

@@ -6,12 +6,16 @@
 module fuge_problem_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
+    FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
   use fuge_text, only: text
   implicit none
   private
 
-  public :: check_problem, check_load, check_finite
+  public :: set_problem, check_problem, check_load, check_finite
+
+  !> Larger powers of two leave no room for sums.
+  integer, parameter, public :: LARGEST_EXPONENT = maxexponent(1.0_dp) - 32
 
   !> The data beside the operator, in the operator's units.
   type, public :: fuge_problem
@@ -33,12 +37,30 @@ module fuge_problem_type
 
 contains
 
+  !> A problem with one load. Error: FUGE_ERR_MEMORY.
+  pure subroutine set_problem(gap, load, problem, info)
+    real(dp), intent(in) :: gap(:), load
+    type(fuge_problem), intent(out) :: problem
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (problem%gap(size(gap)), problem%resultant(1), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the gaps')
+    else
+      problem%gap = gap
+      problem%resultant = load
+    end if
+  end subroutine set_problem
+
   !> Refuse data that no engine can use: wrong sizes (FUGE_ERR_SIZE), NaN or
-  !> infinity (FUGE_ERR_NOT_FINITE), a pulling load (FUGE_ERR_NO_EQUILIBRIUM).
+  !> infinity (FUGE_ERR_NOT_FINITE), gaps near overflow (FUGE_ERR_OVERFLOW), a pulling
+  !> load (FUGE_ERR_NO_EQUILIBRIUM).
   pure subroutine check_problem(problem, n, info)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
     type(fuge_info), intent(inout) :: info
+    integer :: length
 
     call check_length(problem%gap, n, 'gap', info)
     if (info%failed()) return
@@ -46,6 +68,11 @@ contains
     if (info%failed()) return
     call check_finite(problem%gap, 'gap', info)
     if (info%failed()) return
+    length = exponent(maxval(abs(problem%gap)))
+    if (length > LARGEST_EXPONENT) then
+      call report(info, FUGE_ERR_OVERFLOW, 'gaps reach 2**'//text(length)//': choose units in which they are smaller')
+      return
+    end if
     call check_load(problem%resultant(1), info)
   end subroutine check_problem
 

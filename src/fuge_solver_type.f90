@@ -7,7 +7,7 @@ module fuge_solver_type
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options
-  use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem
+  use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem, LARGEST_EXPONENT
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW
   use fuge_tableau, only: run_phase_one
@@ -15,7 +15,7 @@ module fuge_solver_type
   implicit none
   private
 
-  public :: fuge_solve_dense
+  public :: fuge_solve_dense, check_solvable
 
   !> Pivots allowed for each row when the caller sets no limit; two are usual.
   integer, parameter :: PIVOTS_PER_ROW = 50
@@ -109,8 +109,7 @@ contains
     select type (operator)
     type is (fuge_dense_operator)
       associate (alpha => operator%alpha, load => problem%resultant(1))
-        call check_magnitudes(alpha(:operator%points(), :), problem, info)
-        if (.not. info%failed()) call require_definite(alpha, info)
+        call check_solvable(alpha, load, info)
         if (info%failed()) return
         limit = options%max_iterations
         if (limit == 0) limit = PIVOTS_PER_ROW*(size(problem%gap) + 1)
@@ -146,6 +145,16 @@ contains
     end select
   end subroutine explain
 
+  !> Refuse what no engine solves with a load: numbers that overflow
+  !> (FUGE_ERR_OVERFLOW), an alpha without a unique answer (FUGE_ERR_NOT_DEFINITE).
+  subroutine check_solvable(alpha, load, info)
+    real(dp), intent(in) :: alpha(:, :), load
+    type(fuge_info), intent(inout) :: info
+
+    call check_magnitudes(alpha(:size(alpha, 2), :), load, info)
+    if (.not. info%failed()) call require_definite(alpha, info)
+  end subroutine check_solvable
+
   subroutine require_definite(alpha, info)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_info), intent(inout) :: info
@@ -161,19 +170,16 @@ contains
     end if
   end subroutine require_definite
 
-  !> Refuse data whose products leave the range of double precision.
-  pure subroutine check_magnitudes(alpha, problem, info)
-    real(dp), intent(in) :: alpha(:, :)
-    type(fuge_problem), intent(in) :: problem
+  !> Refuse an alpha whose products with the load leave the range of double precision.
+  pure subroutine check_magnitudes(alpha, load, info)
+    real(dp), intent(in) :: alpha(:, :), load
     type(fuge_info), intent(inout) :: info
-    integer, parameter :: LARGEST = maxexponent(1.0_dp) - 32
-    integer :: deflection, length
+    integer :: deflection
 
-    length = exponent(maxval(abs(problem%gap)))
-    deflection = exponent(maxval(abs(alpha))) + exponent(problem%resultant(1))
-    if (max(length, deflection) > LARGEST) then
-      call report(info, FUGE_ERR_OVERFLOW, 'gaps or alpha times load reach 2**'//text(max(length, deflection)) &
-                  //': choose units in which they are smaller')
+    deflection = exponent(maxval(abs(alpha))) + exponent(load)
+    if (deflection > LARGEST_EXPONENT) then
+      call report(info, FUGE_ERR_OVERFLOW, 'alpha times load reaches 2**'//text(deflection) &
+                  //': choose units in which it is smaller')
     end if
   end subroutine check_magnitudes
 
@@ -223,9 +229,8 @@ contains
                   //' value(s): both need '//text(operator%points()))
       return
     end if
-    allocate (problem%gap, source=gap)
-    allocate (problem%resultant(1))
-    problem%resultant(1) = load
+    call set_problem(gap, load, problem, info)
+    if (info%failed()) return
     call solver%solve(operator, problem, solution, info)
     if (info%failed()) return
     force = solution%force

@@ -4,8 +4,8 @@ module fuge_c_dense
   use fuge_c_operator, only: take_matrix
   use fuge_c_types, only: copy_string
   use fuge_dense, only: fuge_dense_operator
-  use fuge_problem_type, only: fuge_problem, check_problem
-  use fuge_solver_type, only: fuge_solve_dense
+  use fuge_problem_type, only: fuge_problem, check_problem, set_problem
+  use fuge_solver_type, only: fuge_solve_dense, check_solvable
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_MEMORY
   implicit none
   private
@@ -76,10 +76,9 @@ contains
     if (.not. info%failed() .and. .not. c_associated(gap)) call report(info, FUGE_ERR_POINTER, 'gap is NULL')
     if (.not. info%failed()) then
       call c_f_pointer(gap, values, [n])
-      allocate (problem%gap, source=values)
-      allocate (problem%resultant(1))
-      problem%resultant(1) = load
-      call check_problem(problem, int(n), info)
+      call set_problem(values, load, problem, info)
+      if (.not. info%failed()) call check_problem(problem, int(n), info)
+      if (.not. info%failed() .and. load > 0.0_c_double) call check_solvable(operator%alpha, load, info)
     end if
     call copy_string(info%message, message, length)
     status = int(info%status, c_int)

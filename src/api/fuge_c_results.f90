@@ -86,7 +86,7 @@ contains
       else if (.not. c_associated(available) .or. &
                (number > 0 .and. .not. (c_associated(basis) .and. c_associated(z)))) then
         call report(info, FUGE_ERR_POINTER, 'available is NULL, or basis or z is with count > 0')
-      else if (first < 0 .or. number < 0 .or. number > history%recorded() - min(first, history%recorded())) then
+      else if (first < 0 .or. number < 0 .or. number > history%recorded() - max(0, min(first, history%recorded()))) then
         call report(info, FUGE_ERR_SIZE, 'first and count reach beyond the steps kept: ask for them with count = 0, ' &
                     //'and keep them with options.keep_history')
       else

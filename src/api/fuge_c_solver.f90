@@ -120,6 +120,8 @@ contains
     if (.not. info%failed()) then
       call handle%solver%solve(handle%operator%operator, handle%problem, handle%solution, info, handle%options)
       handle%solved = .not. info%failed()
+    end if
+    if (associated(handle)) then
       handle%info = info
       handle%tried = .true.
     end if
