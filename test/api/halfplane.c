@@ -1,0 +1,221 @@
+/* Section "half-plane" of fuge.h. */
+#include "check.h"
+
+enum { N = 5, LDA = 7 };
+static const double H = 0.25, E_STAR = 3.0, TOLERANCE = 1e-14;
+static const double X[N] = {0.125, 0.375, 0.625, 0.875, 1.125};
+static const double EQUAL[N] = {0.25, 0.25, 0.25, 0.25, 0.25};
+/* Cells of different widths, side by side from x = 0. */
+static const double UNEQUAL_X[N] = {0.125, 0.375, 0.75, 1.5, 2.25};
+static const double UNEQUAL[N] = {0.25, 0.25, 0.5, 1.0, 0.5};
+
+typedef int (*matrix_function)(int, const double *, const double *, double, int, double *, int);
+static const matrix_function MATRIX[2] = {fuge_halfplane_matrix, fuge_halfplane_symmetric_matrix};
+
+/* Integral and double integral of ln|x|. */
+static double log_integral(double x) { return x == 0.0 ? 0.0 : x * log(fabs(x)) - x; }
+static double log_integral2(double x) { return x == 0.0 ? 0.0 : x * x * (0.5 * log(fabs(x)) - 0.75); }
+
+/* Displacement at distance d per force on a cell of width h, log datum `datum`. */
+static double at_centre(double d, double h, double datum) {
+  double mean = (log_integral(d + 0.5 * h) - log_integral(d - 0.5 * h)) / h;
+  return -2.0 / (acos(-1.0) * E_STAR) * (mean - log(datum));
+}
+
+/* The same, mean over a cell of the same width. */
+static double mean_of_cell(double d, double h, double datum) {
+  double mean = (log_integral2(d + h) - 2.0 * log_integral2(d) + log_integral2(d - h)) / (h * h);
+  return -2.0 / (acos(-1.0) * E_STAR) * (mean - log(datum));
+}
+
+static void test_coefficients(int element, double (*expected)(double, double, double)) {
+  double alpha[N * N];
+  CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, element, alpha, N), FUGE_DONE);
+  for (int i = 0; i < N; i++)
+    for (int k = 0; k < N; k++) {
+      CHECK_NEAR(alpha[i + k * N], expected(X[i] - X[k], H, 2.0 * N * H), TOLERANCE);
+      CHECK(alpha[i + k * N] > 0.0);
+    }
+}
+
+/* (2/pi)(1 + 2 ln 2)/E*, by hand. */
+static void test_one_cell(void) {
+  const double x = 7.0, width = 1.0;
+  double alpha;
+  CHECK_STATUS(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, &alpha, 1), FUGE_DONE);
+  CHECK_NEAR(alpha, 2.0 / acos(-1.0) * (1.0 + 2.0 * log(2.0)) / E_STAR, TOLERANCE);
+}
+
+/* The same cell, so narrow that its edges round to one number. */
+static void test_narrow_cell_far_away(void) {
+  const double x = 1e9, width = 1e-9;
+  double alpha;
+  CHECK_STATUS(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, &alpha, 1), FUGE_DONE);
+  CHECK_NEAR(alpha, 2.0 / acos(-1.0) * (1.0 + 2.0 * log(2.0)) / E_STAR, TOLERANCE);
+}
+
+static void test_unequal_cells_are_symmetric(void) {
+  for (int folded = 0; folded < 2; folded++) {
+    double alpha[N * N];
+    CHECK_STATUS(MATRIX[folded](N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, alpha, N), FUGE_DONE);
+    for (int i = 0; i < N; i++)
+      for (int k = 0; k < i; k++) CHECK_NEAR(alpha[i + k * N], alpha[k + i * N], 0.0);
+  }
+}
+
+/* Half a force on a cell and half on its mirror image. */
+static void test_folding(void) {
+  double x[2 * N], width[2 * N], whole[4 * N * N], folded[N * N];
+  for (int k = 0; k < N; k++) {
+    x[N - 1 - k] = -UNEQUAL_X[k];
+    x[N + k] = UNEQUAL_X[k];
+    width[N - 1 - k] = width[N + k] = UNEQUAL[k];
+  }
+  CHECK_STATUS(fuge_halfplane_matrix(2 * N, x, width, E_STAR, FUGE_MEAN, whole, 2 * N), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_symmetric_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, folded, N), FUGE_DONE);
+  for (int i = 0; i < N; i++)
+    for (int k = 0; k < N; k++) {
+      double cell = whole[N + i + (N + k) * 2 * N], image = whole[N + i + (N - 1 - k) * 2 * N];
+      CHECK_NEAR(folded[i + k * N], 0.5 * (cell + image), TOLERANCE);
+    }
+}
+
+/* A cell on the axis is its own mirror image. */
+static void test_cell_on_axis(void) {
+  const double x[2] = {0.0, 0.5}, width[2] = {0.5, 0.5};
+  double alpha[4];
+  CHECK_STATUS(fuge_halfplane_symmetric_matrix(2, x, width, E_STAR, FUGE_CENTRE, alpha, 2), FUGE_DONE);
+  CHECK_NEAR(alpha[0], at_centre(0.0, 0.5, 3.0), TOLERANCE);
+  CHECK_NEAR(alpha[1], at_centre(0.5, 0.5, 3.0), TOLERANCE);
+  CHECK_NEAR(alpha[3], 0.5 * (at_centre(0.0, 0.5, 3.0) + at_centre(1.0, 0.5, 3.0)), TOLERANCE);
+}
+
+/* Rows beyond n are never written. */
+static void test_padding(void) {
+  for (int folded = 0; folded < 2; folded++) {
+    double tight[N * N], wide[LDA * N];
+    fill(wide, LDA * N);
+    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_HAT, tight, N), FUGE_DONE);
+    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_HAT, wide, LDA), FUGE_DONE);
+    for (int k = 0; k < N; k++) {
+      for (int i = 0; i < N; i++) CHECK_NEAR(wide[i + k * LDA], tight[i + k * N], 0.0);
+      CHECK_UNTOUCHED(&wide[N + k * LDA], LDA - N);
+    }
+  }
+}
+
+/* One value of good input made bad; `folded` says for which model: 0, 1 or both (2). */
+typedef struct bad_input {
+  int n;
+  int at;                /* index that gets `x` and `width` */
+  double x, width, e_star;
+  int element, folded, status;
+  const char *part;
+} bad_input;
+
+static const bad_input BAD_INPUT[] = {
+  {0, 0, 0.125, 0.25, 3, FUGE_MEAN, 2, FUGE_ERR_SIZE, "n = 0"},
+  {-2, 0, 0.125, 0.25, 3, FUGE_MEAN, 2, FUGE_ERR_SIZE, "n = -2"},
+  {N, 2, NAN, 0.25, 3, FUGE_MEAN, 2, FUGE_ERR_NOT_FINITE, "x(3)"},
+  {N, 4, 1.125, INFINITY, 3, FUGE_MEAN, 2, FUGE_ERR_NOT_FINITE, "width(5)"},
+  {N, 0, 0.125, 0.25, NAN, FUGE_MEAN, 2, FUGE_ERR_NOT_FINITE, "e_star"},
+  {N, 1, 0.375, 0.0, 3, FUGE_MEAN, 2, FUGE_ERR_WIDTH, "width(2) = 0"},
+  {N, 1, 0.375, -0.5, 3, FUGE_CENTRE, 2, FUGE_ERR_WIDTH, "-0.5"},
+  {N, 0, -0.125, 0.25, 3, FUGE_MEAN, 1, FUGE_ERR_WIDTH, "x(1) = -0.125"},
+  {N, 0, -0.125, 0.25, 3, FUGE_MEAN, 0, FUGE_DONE, ""},
+  {N, 0, 0.125, 0.25, 0, FUGE_MEAN, 2, FUGE_ERR_MODULUS, "e_star = 0"},
+  {N, 0, 0.125, 0.25, -2, FUGE_MEAN, 2, FUGE_ERR_MODULUS, "-2.0"},
+  {N, 0, 0.125, 0.25, 3, FUGE_HAT + 1, 2, FUGE_ERR_ELEMENT, "element = 3"},
+  {N, 0, 0.125, 0.25, 3, -1, 2, FUGE_ERR_ELEMENT, "element = -1"},
+  {N, 3, 0.875, 0.5, 3, FUGE_CENTRE, 2, FUGE_ERR_GRID, "width(4) = 0.5"},
+  {N, 3, 0.875, 0.5, 3, FUGE_HAT, 2, FUGE_ERR_GRID, "FUGE_MEAN"},
+  {N, 3, 0.875, 0.5, 3, FUGE_MEAN, 2, FUGE_DONE, ""},
+  {N, 0, 0.125, 0.25, 1e-200, FUGE_MEAN, 2, FUGE_ERR_OVERFLOW, "units"},
+  {N, 0, 0.125, 0.25, 1e200, FUGE_MEAN, 2, FUGE_ERR_OVERFLOW, "units"},
+  {N, 4, 1e200, 0.25, 3, FUGE_MEAN, 2, FUGE_ERR_OVERFLOW, "cell 5"}
+};
+
+/* The matrix function and the check agree; the message says what and where. */
+static void check_bad_input(const bad_input *bad, int folded) {
+  double x[N], width[N], alpha[N * N];
+  char message[256] = "not written";
+  memcpy(x, X, sizeof x);
+  memcpy(width, EQUAL, sizeof width);
+  x[bad->at] = bad->x;
+  width[bad->at] = bad->width;
+  fill(alpha, N * N);
+  CHECK_STATUS(MATRIX[folded](bad->n, x, width, bad->e_star, bad->element, alpha, N), bad->status);
+  if (bad->status < 0) CHECK_UNTOUCHED(alpha, N * N);
+  CHECK_STATUS(fuge_check_halfplane(bad->n, x, width, bad->e_star, bad->element, folded, message, sizeof message),
+               bad->status);
+  if (bad->status < 0) CHECK_CONTAINS(message, bad->part);
+  else CHECK_STRING(message, "");
+}
+
+static void test_bad_input(void) {
+  for (size_t k = 0; k < sizeof BAD_INPUT / sizeof BAD_INPUT[0]; k++)
+    for (int folded = 0; folded < 2; folded++)
+      if (BAD_INPUT[k].folded == folded || BAD_INPUT[k].folded == 2) check_bad_input(&BAD_INPUT[k], folded);
+}
+
+static void test_leading_dimension(void) {
+  for (int folded = 0; folded < 2; folded++) {
+    double alpha[N * N];
+    fill(alpha, N * N);
+    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_MEAN, alpha, N - 1), FUGE_ERR_SIZE);
+    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_MEAN, alpha, -N), FUGE_ERR_SIZE);
+    CHECK_UNTOUCHED(alpha, N * N);
+  }
+}
+
+static void test_null_pointers(void) {
+  for (int folded = 0; folded < 2; folded++) {
+    double alpha[N * N];
+    fill(alpha, N * N);
+    CHECK_STATUS(MATRIX[folded](N, NULL, EQUAL, E_STAR, FUGE_MEAN, alpha, N), FUGE_ERR_POINTER);
+    CHECK_STATUS(MATRIX[folded](N, X, NULL, E_STAR, FUGE_MEAN, alpha, N), FUGE_ERR_POINTER);
+    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_MEAN, NULL, N), FUGE_ERR_POINTER);
+    CHECK_UNTOUCHED(alpha, N * N);
+  }
+}
+
+static void test_check_null_pointers(void) {
+  char message[256] = "";
+  CHECK_STATUS(fuge_check_halfplane(N, NULL, EQUAL, E_STAR, FUGE_MEAN, 0, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_CONTAINS(message, "x is NULL");
+  CHECK_STATUS(fuge_check_halfplane(N, X, NULL, E_STAR, FUGE_MEAN, 0, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_CONTAINS(message, "width is NULL");
+  CHECK_STATUS(fuge_check_halfplane(N, X, EQUAL, -1.0, FUGE_MEAN, 0, NULL, 9), FUGE_ERR_MODULUS);
+}
+
+/* The bytes before and beyond stay as they are. */
+static void test_message_is_cut(void) {
+  char store[9] = "########", *buffer = store + 1;
+  CHECK_STATUS(fuge_check_halfplane(0, X, EQUAL, E_STAR, FUGE_MEAN, 0, buffer, 0), FUGE_ERR_SIZE);
+  CHECK_STRING(buffer, "#######");
+  CHECK_STATUS(fuge_check_halfplane(0, X, EQUAL, E_STAR, FUGE_MEAN, 0, buffer, 5), FUGE_ERR_SIZE);
+  CHECK_STRING(buffer, "n = ");
+  CHECK_STRING(buffer + 5, "##");
+  CHECK_STATUS(fuge_check_halfplane(0, X, EQUAL, E_STAR, FUGE_MEAN, 0, buffer, 1), FUGE_ERR_SIZE);
+  CHECK_STRING(buffer, "");
+  CHECK(store[0] == '#');
+}
+
+int main(void) {
+  test_coefficients(FUGE_CENTRE, at_centre);
+  test_coefficients(FUGE_MEAN, mean_of_cell);
+  /* A hat is the mean of a uniform cell: the same number on equal cells. */
+  test_coefficients(FUGE_HAT, mean_of_cell);
+  test_one_cell();
+  test_narrow_cell_far_away();
+  test_unequal_cells_are_symmetric();
+  test_folding();
+  test_cell_on_axis();
+  test_padding();
+  test_bad_input();
+  test_leading_dimension();
+  test_null_pointers();
+  test_check_null_pointers();
+  test_message_is_cut();
+  return check_summary();
+}

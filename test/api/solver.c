@@ -1,0 +1,375 @@
+/* Section "solver" of fuge.h: life cycle, data, call order, failures of a solve. */
+#include "table1.h"
+
+static void check_solved(fuge_solver *solver) {
+  double force[2], gap[2], approach;
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
+  CHECK_STATUS(fuge_get_rigid(solver, &approach), FUGE_DONE);
+  check_table1(force, gap, approach);
+}
+
+/* No result of any kind, and nothing written. */
+static void check_no_answer(const fuge_solver *solver) {
+  double values[2];
+  fill(values, 2);
+  CHECK_STATUS(fuge_get_force(solver, values), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_get_gap(solver, values), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_get_rigid(solver, values), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_get_resultant(solver, values), FUGE_ERR_CALL_ORDER);
+  CHECK_UNTOUCHED(values, 2);
+}
+
+static void check_message(const fuge_solver *solver, const char *part) {
+  char message[256] = "";
+  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_CONTAINS(message, part);
+}
+
+static void test_life_cycle(void) {
+  fuge_operator *op = NULL;
+  fuge_solver *solver = table1_solver(NULL, &op);
+  check_solved(solver);
+  fuge_solver_free(&solver);
+  CHECK(solver == NULL);
+  fuge_solver_free(&solver);
+  CHECK(solver == NULL);
+  fuge_solver_free(NULL);
+  fuge_operator_free(&op);
+}
+
+static void test_new_null_pointers(void) {
+  fuge_operator *op = NULL;
+  fuge_solver *solver = NULL;
+  CHECK_STATUS(fuge_solver_new(NULL, NULL, &solver), FUGE_ERR_POINTER);
+  CHECK(solver == NULL);
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(op, NULL, NULL), FUGE_ERR_POINTER);
+  fuge_operator_free(&op);
+}
+
+static void test_null_solver(void) {
+  CHECK_STATUS(fuge_set_gap(NULL, TABLE1_GAP, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_set_load(NULL, 1.0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_solve(NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_reset(NULL), FUGE_ERR_POINTER);
+}
+
+/* ---- options ------------------------------------------------------------ */
+
+static void check_option(const fuge_operator *op, const fuge_options *options, int status) {
+  char place;
+  fuge_solver *const before = (fuge_solver *)(void *)&place;
+  fuge_solver *solver = before;
+  CHECK_STATUS(fuge_solver_new(op, options, &solver), status);
+  if (status < 0) {
+    CHECK(solver == before);
+  } else {
+    fuge_solver_free(&solver);
+  }
+}
+
+static void check_int_option(const fuge_operator *op, size_t offset, int value, int status) {
+  fuge_options options;
+  fuge_default_options(&options);
+  memcpy((char *)&options + offset, &value, sizeof value);
+  check_option(op, &options, status);
+}
+
+static void check_tolerance(const fuge_operator *op, double tolerance, int status) {
+  fuge_options options;
+  fuge_default_options(&options);
+  options.tolerance = tolerance;
+  check_option(op, &options, status);
+}
+
+static void test_bad_options(void) {
+  fuge_operator *op = NULL;
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
+  check_int_option(op, offsetof(fuge_options, method), 99, FUGE_ERR_OPTION);
+  check_int_option(op, offsetof(fuge_options, method), -1, FUGE_ERR_OPTION);
+  check_int_option(op, offsetof(fuge_options, method), FUGE_TABLEAU, FUGE_DONE);
+  check_int_option(op, offsetof(fuge_options, pivot_rule), FUGE_GREATEST_DECREASE + 1, FUGE_ERR_OPTION);
+  check_int_option(op, offsetof(fuge_options, pivot_rule), -1, FUGE_ERR_OPTION);
+  check_int_option(op, offsetof(fuge_options, max_iterations), -1, FUGE_ERR_OPTION);
+  check_int_option(op, offsetof(fuge_options, max_iterations), 7, FUGE_DONE);
+  check_int_option(op, offsetof(fuge_options, keep_history), -5, FUGE_DONE);
+  const double bad_tolerances[] = {0.0, -1e-10, 1.0, INFINITY, -INFINITY, NAN};
+  for (int k = 0; k < 6; k++) check_tolerance(op, bad_tolerances[k], FUGE_ERR_OPTION);
+  check_tolerance(op, 0.5, FUGE_DONE);
+  fuge_operator_free(&op);
+}
+
+/* Every rule and engine finds the one answer. */
+static void test_every_rule(void) {
+  for (int rule = FUGE_PAPER_RULE; rule <= FUGE_GREATEST_DECREASE; rule++) {
+    fuge_options options;
+    fuge_operator *op = NULL;
+    fuge_default_options(&options);
+    options.method = FUGE_TABLEAU;
+    options.pivot_rule = rule;
+    fuge_solver *solver = table1_solver(&options, &op);
+    check_solved(solver);
+    free_both(&solver, &op);
+  }
+}
+
+/* The caller may throw the options away. */
+static void test_options_are_copied(void) {
+  fuge_options options;
+  fuge_operator *op = NULL;
+  fuge_default_options(&options);
+  fuge_solver *solver = table1_solver(&options, &op);
+  memset(&options, 0xff, sizeof options);
+  check_solved(solver);
+  free_both(&solver, &op);
+}
+
+/* ---- call order --------------------------------------------------------- */
+
+static void test_solve_needs_data(void) {
+  fuge_operator *op = NULL;
+  fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CALL_ORDER);
+  check_message(solver, "fuge_set_gap");
+  CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CALL_ORDER);
+  check_message(solver, "fuge_set_load");
+  check_no_answer(solver);
+  CHECK_STATUS(fuge_set_load(solver, TABLE1_LOAD), FUGE_DONE);
+  check_solved(solver);
+  free_both(&solver, &op);
+}
+
+static void test_load_before_gap(void) {
+  fuge_operator *op = NULL;
+  fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
+  CHECK_STATUS(fuge_set_load(solver, TABLE1_LOAD), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CALL_ORDER);
+  check_message(solver, "fuge_set_gap");
+  CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, NULL), FUGE_DONE);
+  check_solved(solver);
+  free_both(&solver, &op);
+}
+
+static void test_results_end_with_new_data(void) {
+  fuge_operator *op = NULL;
+  fuge_solver *solver = table1_solver(NULL, &op);
+  check_no_answer(solver);
+  check_message(solver, "fuge_solve");
+  check_solved(solver);
+  CHECK_STATUS(fuge_set_load(solver, 1.0), FUGE_DONE);
+  check_no_answer(solver);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, NULL), FUGE_DONE);
+  check_no_answer(solver);
+  free_both(&solver, &op);
+}
+
+static void test_load_steps(void) {
+  const double loads[] = {1.0, 20.0, 0.0, 2.0}, first[] = {1.0, 15.0, 0.0, 2.0};
+  fuge_operator *op = NULL;
+  fuge_solver *solver = table1_solver(NULL, &op);
+  for (int k = 0; k < 4; k++) {
+    double force[2];
+    CHECK_STATUS(fuge_set_load(solver, loads[k]), FUGE_DONE);
+    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+    CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+    CHECK_NEAR(force[0], first[k], 20.0 * EXACT);
+    CHECK_NEAR(force[1], loads[k] - first[k], 20.0 * EXACT);
+  }
+  check_solved(solver);
+  free_both(&solver, &op);
+}
+
+static void test_reset(void) {
+  double residual = SENTINEL;
+  int available = -1;
+  fuge_info info;
+  fuge_options options;
+  fuge_operator *op = NULL;
+  fuge_default_options(&options);
+  options.keep_history = 1;
+  fuge_solver *solver = table1_solver(&options, &op);
+  check_solved(solver);
+  CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
+  check_no_answer(solver);
+  info.residual = residual;
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_ERR_CALL_ORDER);
+  CHECK_UNTOUCHED(&info.residual, 1);
+  CHECK_STATUS(fuge_get_history(solver, 0, 0, NULL, NULL, &available), FUGE_ERR_CALL_ORDER);
+  CHECK_INT(available, -1);
+  /* The data have stayed. */
+  check_solved(solver);
+  free_both(&solver, &op);
+}
+
+static void test_reset_of_new_solver(void) {
+  fuge_operator *op = NULL;
+  fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
+  CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CALL_ORDER);
+  free_both(&solver, &op);
+}
+
+static void test_two_solvers_on_one_operator(void) {
+  double force[2];
+  fuge_operator *op = NULL;
+  fuge_solver *one = table1_solver(NULL, &op), *other = NULL;
+  CHECK_STATUS(fuge_solver_new(op, NULL, &other), FUGE_DONE);
+  CHECK_STATUS(fuge_set_gap(other, TABLE1_GAP, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_load(other, 20.0), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(other), FUGE_DONE);
+  check_no_answer(one);
+  check_solved(one);
+  CHECK_STATUS(fuge_get_force(other, force), FUGE_DONE);
+  CHECK_NEAR(force[0], 15.0, 20.0 * EXACT);
+  fuge_solver_free(&other);
+  check_solved(one);
+  free_both(&one, &op);
+}
+
+/* ---- data that are refused ---------------------------------------------- */
+
+static void check_load_refused(fuge_solver *solver, double load, int status, const char *part) {
+  CHECK_STATUS(fuge_set_load(solver, load), status);
+  check_message(solver, part);
+}
+
+/* What is refused changes nothing: the answer of before is still there. */
+static void test_refused_data(void) {
+  const double nan_gap[2] = {0.0, NAN}, infinite_gap[2] = {INFINITY, 1.0};
+  double force[2];
+  fuge_operator *op = NULL;
+  fuge_solver *solver = table1_solver(NULL, &op);
+  check_solved(solver);
+  check_load_refused(solver, -3.0, FUGE_ERR_NO_EQUILIBRIUM, "-3.0");
+  check_load_refused(solver, NAN, FUGE_ERR_NOT_FINITE, "load");
+  check_load_refused(solver, INFINITY, FUGE_ERR_NOT_FINITE, "load");
+  CHECK_STATUS(fuge_set_gap(solver, nan_gap, NULL), FUGE_ERR_NOT_FINITE);
+  check_message(solver, "gap(2)");
+  CHECK_STATUS(fuge_set_gap(solver, infinite_gap, NULL), FUGE_ERR_NOT_FINITE);
+  check_message(solver, "gap(1)");
+  CHECK_STATUS(fuge_set_gap(solver, NULL, NULL), FUGE_ERR_POINTER);
+  check_message(solver, "gap is NULL");
+  CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, TABLE1_GAP), FUGE_ERR_UNSUPPORTED);
+  check_message(solver, "gap_upper");
+  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  check_solved(solver);
+  free_both(&solver, &op);
+}
+
+static void test_gap_is_copied(void) {
+  double gap[2] = {0.0, 1.0};
+  fuge_operator *op = NULL;
+  fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
+  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_load(solver, TABLE1_LOAD), FUGE_DONE);
+  gap[0] = gap[1] = NAN;
+  check_solved(solver);
+  free_both(&solver, &op);
+}
+
+/* ---- solves that fail or warn ------------------------------------------- */
+
+static void check_solve_fails(fuge_solver *solver, int status, const char *part) {
+  fuge_info info;
+  memset(&info, 0xff, sizeof info);
+  CHECK_STATUS(fuge_solve(solver), status);
+  check_message(solver, part);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_INT(info.status, status);
+  check_no_answer(solver);
+}
+
+static void test_iteration_limit(void) {
+  fuge_info info;
+  fuge_options options;
+  fuge_operator *op = NULL;
+  fuge_default_options(&options);
+  options.method = FUGE_TABLEAU;
+  options.max_iterations = 2;
+  fuge_solver *solver = table1_solver(&options, &op);
+  check_solve_fails(solver, FUGE_ERR_ITERATION_LIMIT, "max_iterations");
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_INT(info.iterations, 2);
+  free_both(&solver, &op);
+
+  options.max_iterations = 3;
+  solver = table1_solver(&options, &op);
+  check_solved(solver);
+  free_both(&solver, &op);
+}
+
+static void test_not_definite(void) {
+  const double alpha[4] = {1.0, 2.0, 2.0, 1.0};
+  fuge_operator *op = NULL;
+  fuge_solver *solver = new_solver(alpha, 2, NULL, &op);
+  CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_load(solver, TABLE1_LOAD), FUGE_DONE);
+  check_solve_fails(solver, FUGE_ERR_NOT_DEFINITE, "point 2");
+  free_both(&solver, &op);
+}
+
+/* An answer of before is gone, the data stay and can be mended. */
+static void test_overflow_after_answer(void) {
+  fuge_operator *op = NULL;
+  fuge_solver *solver = table1_solver(NULL, &op);
+  check_solved(solver);
+  CHECK_STATUS(fuge_set_load(solver, 1.7e308), FUGE_DONE);
+  check_solve_fails(solver, FUGE_ERR_OVERFLOW, "units");
+  CHECK_STATUS(fuge_set_load(solver, TABLE1_LOAD), FUGE_DONE);
+  check_solved(solver);
+  free_both(&solver, &op);
+}
+
+/* A tolerance that rounding cannot meet: a warning, and an answer. */
+static void test_residual_warning(void) {
+  enum { N = 33 };
+  double x[N], width[N], gap[N], alpha[N * N], force[N];
+  fuge_info info;
+  fuge_options options;
+  fuge_operator *op = NULL;
+  for (int k = 0; k < N; k++) {
+    x[k] = 0.1 * k;
+    width[k] = 0.1;
+    gap[k] = 0.05 * x[k] * x[k];
+  }
+  CHECK_STATUS(fuge_halfplane_symmetric_matrix(N, x, width, 1.0, FUGE_CENTRE, alpha, N), FUGE_DONE);
+  fuge_default_options(&options);
+  options.tolerance = 1e-300;
+  fuge_solver *solver = new_solver(alpha, N, &options, &op);
+  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_load(solver, 0.3), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_WARN_RESIDUAL);
+  check_message(solver, "residual");
+  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_INT(info.status, FUGE_WARN_RESIDUAL);
+  CHECK(info.residual > options.tolerance && info.residual < 1e-12);
+  free_both(&solver, &op);
+}
+
+int main(void) {
+  test_life_cycle();
+  test_new_null_pointers();
+  test_null_solver();
+  test_bad_options();
+  test_every_rule();
+  test_options_are_copied();
+  test_solve_needs_data();
+  test_load_before_gap();
+  test_results_end_with_new_data();
+  test_load_steps();
+  test_reset();
+  test_reset_of_new_solver();
+  test_two_solvers_on_one_operator();
+  test_refused_data();
+  test_gap_is_copied();
+  test_iteration_limit();
+  test_not_definite();
+  test_overflow_after_answer();
+  test_residual_warning();
+  return check_summary();
+}
