@@ -14,8 +14,8 @@
 !>   FUGE_HAT     a hat of half-base w seen at a point: widths w and w, since the
 !>                hat is the convolution of two uniform strips.
 module fuge_halfplane
+  use fuge_check, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_problem_type, only: check_finite
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, &
     FUGE_ERR_ELEMENT, FUGE_ERR_GRID, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW
   use fuge_text, only: text

@@ -5,7 +5,7 @@ module fuge_history_type
   implicit none
   private
 
-  !> Steps 0 (the artificial start) to `last()`.
+  !> Steps 0 (the artificial start) to `recorded()` - 1.
   type, public :: fuge_history
     private
     integer :: steps = 0
@@ -45,6 +45,8 @@ contains
     integer, intent(out) :: status
 
     status = FUGE_DONE
+    if (.not. allocated(self%sums)) call self%start(size(basis), status)
+    if (status /= FUGE_DONE) return
     if (self%steps == size(self%sums)) call double_capacity(self, status)
     if (status /= FUGE_DONE) return
     self%steps = self%steps + 1

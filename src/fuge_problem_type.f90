@@ -5,6 +5,7 @@
 !> (paper, equations 9 to 11; R is the column of ones, q is the approach v_0).
 module fuge_problem_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_check, only: check_finite
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
@@ -12,12 +13,13 @@ module fuge_problem_type
   implicit none
   private
 
-  public :: set_problem, check_problem, check_load, check_finite
+  public :: set_problem, check_problem, check_load
 
   !> Larger powers of two leave no room for sums.
   integer, parameter, public :: LARGEST_EXPONENT = maxexponent(1.0_dp) - 32
 
-  !> The data beside the operator, in the operator's units.
+  !> The data beside the operator, in the operator's units. Components may be added:
+  !> set them by name.
   type, public :: fuge_problem
     !> Initial gap a + b with the external load included, (n), length; any datum.
     real(dp), allocatable :: gap(:)
@@ -103,20 +105,5 @@ contains
         //text(expected))
     end if
   end subroutine check_length
-
-  !> Refuse NaN and infinity, with the first index (FUGE_ERR_NOT_FINITE).
-  pure subroutine check_finite(values, name, info)
-    real(dp), intent(in) :: values(:)
-    character(len=*), intent(in) :: name
-    type(fuge_info), intent(inout) :: info
-    integer :: k
-
-    do k = 1, size(values)
-      if (ieee_is_finite(values(k))) cycle
-      call report(info, FUGE_ERR_NOT_FINITE, name//'('//text(k)//') = '//text(values(k)) &
-        //' is not a finite number')
-      return
-    end do
-  end subroutine check_finite
 
 end module fuge_problem_type

@@ -7,7 +7,7 @@ module fuge_text
 
   public :: text
 
-  !> The shortest readable text of an integer or a real number.
+  !> An integer, or a real number to six digits or so, without blanks.
   interface text
     module procedure text_integer
     module procedure text_real

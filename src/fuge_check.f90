@@ -1,0 +1,29 @@
+!> Checks that several modules share.
+module fuge_check
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: check_finite
+
+contains
+
+  !> Refuse NaN and infinity, with the first index (FUGE_ERR_NOT_FINITE).
+  pure subroutine check_finite(values, name, info)
+    real(dp), intent(in) :: values(:)
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    do k = 1, size(values)
+      if (ieee_is_finite(values(k))) cycle
+      call report(info, FUGE_ERR_NOT_FINITE, name//'('//text(k)//') = '//text(values(k)) &
+        //' is not a finite number')
+      return
+    end do
+  end subroutine check_finite
+
+end module fuge_check
