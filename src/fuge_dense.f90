@@ -4,7 +4,6 @@ module fuge_dense
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgemv
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
     FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC
@@ -12,9 +11,7 @@ module fuge_dense
   implicit none
   private
 
-  public :: check_matrix
-
-  !> Largest asymmetry taken for rounding, relative to the largest coefficient.
+  !> Largest asymmetry taken for rounding, relative to the range of the coefficients.
   real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
   !> Side of the square tiles in which the matrix is compared with its transpose.
   integer, parameter :: TILE = 64
@@ -22,10 +19,14 @@ module fuge_dense
   type, extends(fuge_operator), public :: fuge_dense_operator
     !> Columns of the caller's matrix; rows beyond n are padding.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
+    !> Coefficient nearest to zero, 0 if there are both signs: taken from a
+    !> coefficient it costs no digits.
+    real(dp), private :: constant = 0.0_dp
   contains
     procedure :: set
     procedure :: points
     procedure :: apply
+    procedure :: datum
     procedure :: deflection
   end type fuge_dense_operator
 
@@ -42,14 +43,16 @@ contains
     class(fuge_dense_operator), intent(inout) :: self
     real(dp), intent(in), target :: alpha(:, :)
     type(fuge_info), intent(out) :: info
+    real(dp) :: least, most
 
     if (.not. is_contiguous(alpha)) then
       call report(info, FUGE_ERR_POINTER, 'alpha is a section with gaps between its columns: pass the whole ' &
         //'array, whose first n rows count')
       return
     end if
-    call check_matrix(alpha, info)
+    call check_matrix(alpha, info, least, most)
     if (info%failed()) return
+    self%constant = max(least, 0.0_dp) + min(most, 0.0_dp)
     ! Through an address, because only `set` knows that alpha is contiguous.
     call c_f_pointer(c_loc(alpha(1, 1)), self%alpha, shape(alpha))
   end subroutine set
@@ -62,25 +65,38 @@ contains
     if (associated(self%alpha)) n = size(self%alpha, 2)
   end function points
 
+  !> Column by column, not by BLAS: each coefficient loses the datum before it is
+  !> multiplied, and points without force cost nothing.
   subroutine apply(self, force, displacement, status)
     class(fuge_dense_operator), intent(in) :: self
     real(dp), intent(in) :: force(:)
     real(dp), intent(out) :: displacement(:)
     integer, intent(out) :: status
-    integer :: n
+    integer :: j, n
 
     n = self%points()
-    call dgemv('N', n, n, 1.0_dp, self%alpha, size(self%alpha, 1), force, 1, 0.0_dp, displacement, 1)
+    displacement = 0.0_dp
+    do j = 1, n
+      if (abs(force(j)) > 0.0_dp) displacement = displacement + (self%alpha(:n, j) - self%constant)*force(j)
+    end do
     status = FUGE_DONE
   end subroutine apply
 
-  pure function deflection(self, force) result(length)
+  function datum(self)
     class(fuge_dense_operator), intent(in) :: self
-    real(dp), intent(in) :: force(:)
-    real(dp) :: length
-    integer :: n, j
+    real(dp) :: datum
 
-    n = self%points()
+    datum = self%constant
+  end function datum
+
+  !> sum_j |f_j| (max_i alpha_ij - min_i alpha_ij), whatever the displacement.
+  function deflection(self, force, displacement) result(length)
+    class(fuge_dense_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:), displacement(:)
+    real(dp) :: length
+    integer :: j, n
+
+    n = size(displacement)
     length = 0.0_dp
     do j = 1, n
       if (abs(force(j)) > 0.0_dp) then
@@ -89,15 +105,20 @@ contains
     end do
   end function deflection
 
-  !> Refuse a matrix that is not at least n by n, finite and symmetric.
+  !> Refuse a matrix that is not at least n by n, finite and symmetric; otherwise
+  !> tell its least and its largest coefficient.
   !>
-  !> An asymmetry up to 1e-10 of the largest coefficient passes as rounding.
+  !> An asymmetry up to 1e-10 of the range of the coefficients passes as rounding.
   !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC.
-  pure subroutine check_matrix(alpha, info)
+  pure subroutine check_matrix(alpha, info, least, most)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_info), intent(inout) :: info
-    integer :: n
+    real(dp), intent(out) :: least, most
+    real(dp) :: difference
+    integer :: i, j, n
 
+    least = 0.0_dp
+    most = 0.0_dp
     n = size(alpha, 2)
     if (n < 1) then
       call report(info, FUGE_ERR_SIZE, 'n = '//text(n)//': alpha needs at least one column')
@@ -107,31 +128,30 @@ contains
     else
       call check_coefficients(alpha(:n, :), info)
     end if
+    if (info%failed()) return
+    least = minval(alpha(:n, :))
+    most = maxval(alpha(:n, :))
+    call find_asymmetry(alpha(:n, :), i, j, difference)
+    if (difference > SYMMETRY_TOLERANCE*(most - least)) then
+      call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//text(i)//','//text(j)//') and alpha(' &
+        //text(j)//','//text(i)//') differ by '//text(difference)//' (coefficients from '//text(least) &
+        //' to '//text(most)//'): if that is rounding, pass (alpha + transpose(alpha))/2')
+    end if
   end subroutine check_matrix
 
   pure subroutine check_coefficients(alpha, info)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_info), intent(inout) :: info
-    real(dp) :: largest, difference
     integer :: i, j
 
-    largest = 0.0_dp
     do j = 1, size(alpha, 2)
       do i = 1, size(alpha, 1)
-        if (.not. ieee_is_finite(alpha(i, j))) then
-          call report(info, FUGE_ERR_NOT_FINITE, 'alpha('//text(i)//','//text(j)//') = ' &
-            //text(alpha(i, j))//' is not a finite number')
-          return
-        end if
-        largest = max(largest, abs(alpha(i, j)))
+        if (ieee_is_finite(alpha(i, j))) cycle
+        call report(info, FUGE_ERR_NOT_FINITE, 'alpha('//text(i)//','//text(j)//') = ' &
+          //text(alpha(i, j))//' is not a finite number')
+        return
       end do
     end do
-    call find_asymmetry(alpha, i, j, difference)
-    if (difference > SYMMETRY_TOLERANCE*largest) then
-      call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//text(i)//','//text(j)//') and alpha(' &
-        //text(j)//','//text(i)//') differ by '//text(difference)//' (largest coefficient ' &
-        //text(largest)//'): if that is rounding, pass (alpha + transpose(alpha))/2')
-    end if
   end subroutine check_coefficients
 
   !> The largest difference |alpha(i,j) - alpha(j,i)| and where it is.

@@ -11,10 +11,13 @@ module fuge_operator_type
   contains
     !> Number of candidate points n; 0 while the operator is not set.
     procedure(count_points), deferred :: points
-    !> u = A f.
+    !> u = (A - datum) f.
     procedure(multiply), deferred :: apply
-    !> Size of the deflection that forces cause, free of the rigid datum.
-    procedure(measure), deferred :: deflection
+    !> A constant taken out of all of A in `apply`, 0 unless overridden: only v_0
+    !> sees it, and without it a large one costs the products their digits.
+    procedure :: datum => no_datum
+    !> A length by which to judge errors of the gaps, see below.
+    procedure :: deflection => largest_displacement
   end type fuge_operator
 
   abstract interface
@@ -33,15 +36,27 @@ module fuge_operator_type
       real(dp), intent(out) :: displacement(:)
       integer, intent(out) :: status
     end subroutine multiply
-
-    !> sum_j |f_j| (max_i A_ij - min_i A_ij), or a bound near it: a length by which
-    !> an error of the gaps can be judged, whatever the datum of A.
-    pure function measure(self, force) result(length)
-      import :: fuge_operator, dp
-      class(fuge_operator), intent(in) :: self
-      real(dp), intent(in) :: force(:)
-      real(dp) :: length
-    end function measure
   end interface
+
+contains
+
+  function no_datum(self) result(datum)
+    class(fuge_operator), intent(in) :: self
+    real(dp) :: datum
+
+    datum = 0.0_dp*real(self%points(), dp)
+  end function no_datum
+
+  !> How far `force` (n) bends the body, with `displacement` (n) what `apply` made of
+  !> it. Best is sum_j |f_j| (max_i A_ij - min_i A_ij), which no datum changes; where
+  !> an operator does not override it, the largest displacement has to do.
+  function largest_displacement(self, force, displacement) result(length)
+    class(fuge_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:), displacement(:)
+    real(dp) :: length
+
+    length = 0.0_dp
+    if (self%points() == size(force)) length = maxval(abs(displacement))
+  end function largest_displacement
 
 end module fuge_operator_type
