@@ -10,8 +10,9 @@
  *     f_1 + .. + f_n = F_0                       equilibrium
  *
  * (Fischer, Hoyer, Melosh, equations 9 to 11).  alpha is symmetric and positive
- * definite on the forces with zero sum; the answer is then unique.  g may have
- * any datum: it moves v_0 only.  Units are yours, as long as they agree:
+ * definite on the forces with zero sum; for F_0 > 0 the answer is then unique, for
+ * F_0 = 0 v_0 is the largest possible, min g.  g may have any datum: it moves v_0
+ * only.  Units are yours, as long as they agree:
  * length for gaps and v_0, force for f and F_0, length per force for alpha.
  *
  * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda], i, k
@@ -42,6 +43,8 @@ extern "C" {
 enum {
   FUGE_DONE = 0,
   FUGE_WARN_RESIDUAL = 1,       /* answer given, residual above the tolerance  */
+  FUGE_WARN_NOT_UNIQUE = 2,     /* alpha singular on the contact: one of many force sets;
+                                   gaps and approach are unique */
   FUGE_ERR_SIZE = -1,           /* n < 1, lda < n, a range beyond what there is */
   FUGE_ERR_POINTER = -2,        /* NULL, or in Fortran a non-contiguous matrix */
   FUGE_ERR_NOT_FINITE = -3,     /* NaN or infinity in an input                 */
@@ -49,8 +52,8 @@ enum {
   FUGE_ERR_MODULUS = -5,        /* e_star <= 0                                 */
   FUGE_ERR_ELEMENT = -6,        /* unknown element                             */
   FUGE_ERR_GRID = -7,           /* element not symmetric on unequal widths     */
-  FUGE_ERR_NOT_SYMMETRIC = -8,  /* asymmetry above 1e-10 of the largest entry  */
-  FUGE_ERR_NOT_DEFINITE = -9,   /* alpha not positive definite on the forces   */
+  FUGE_ERR_NOT_SYMMETRIC = -8,  /* asymmetry above 1e-10 of the range of alpha */
+  FUGE_ERR_NOT_DEFINITE = -9,   /* alpha not positive definite on forces with zero sum */
   FUGE_ERR_NO_EQUILIBRIUM = -10,/* load < 0                                    */
   FUGE_ERR_ITERATION_LIMIT = -11,
   FUGE_ERR_MEMORY = -12,
@@ -69,8 +72,9 @@ const char *fuge_version(void);
 /* ---- options and report ------------------------------------------------- */
 
 enum {                          /* fuge_options.method */
-  FUGE_AUTO = 0,                /* the best engine for the operator */
-  FUGE_TABLEAU = 1              /* the paper's tableau, Phase I of the simplex method */
+  FUGE_AUTO = 0,                /* the active set; the tableau if the history is kept */
+  FUGE_TABLEAU = 1,             /* the paper's tableau, Phase I of the simplex method */
+  FUGE_ACTIVE_SET = 2           /* block principal pivoting: the fast one */
 };
 
 enum {                          /* fuge_options.pivot_rule, of the tableau */
@@ -82,7 +86,7 @@ enum {                          /* fuge_options.pivot_rule, of the tableau */
 typedef struct fuge_options {
   int method;
   int pivot_rule;
-  int max_iterations;           /* most pivots; 0: the engine's own limit */
+  int max_iterations;           /* most pivots or contact sets; 0: 50 for each row */
   int keep_history;             /* nonzero: fuge_get_history will have all steps */
   int reserved_int[4];
   double tolerance;             /* largest relative residual that counts as done */
@@ -91,7 +95,7 @@ typedef struct fuge_options {
 
 typedef struct fuge_info {
   int status;                   /* what fuge_solve returned */
-  int iterations;               /* pivots */
+  int iterations;               /* pivots of the tableau, contact sets of the active set */
   int contacts;                 /* points with a positive force */
   int products;                 /* products alpha f by the operator */
   int filters;                  /* preconditioner applications */
@@ -115,8 +119,9 @@ void fuge_default_options(fuge_options *opt);
 int fuge_solve_dense(int n, const double *alpha, int lda, const double *gap, double load,
                      double *force, double *gap_out, double *approach);
 
-/* The checks of fuge_solve_dense's data with a message: what is wrong, where, and
- * how to mend it.  At most len bytes go to message, always ended by NUL. */
+/* The status that fuge_solve_dense returns for these data, with its message: what is
+ * wrong, where, and how to mend it.  Solves to find out.  At most len bytes go to
+ * message, always ended by NUL. */
 int fuge_check_dense(int n, const double *alpha, int lda, const double *gap, double load,
                      char *message, size_t len);
 
@@ -133,8 +138,8 @@ enum {                          /* element: what a force and a displacement mean
  *   x, width  in   n; centres and widths of the cells; length
  *   e_star    in   E/(1-nu^2) in plane strain, E in plane stress; force per length^2
  *   alpha     out  lda x n; displacement per force per unit depth
- * Displacements are relative to a depth whose log datum is twice the length that
- * the cells cover: all coefficients are positive.  FUGE_CENTRE and FUGE_HAT need
+ * The displacement by a line load is taken as zero at the distance D, twice the length
+ * that the cells cover: all coefficients are positive.  FUGE_CENTRE and FUGE_HAT need
  * equal widths (FUGE_ERR_GRID otherwise). */
 int fuge_halfplane_matrix(int n, const double *x, const double *width, double e_star,
                           int element, double *alpha, int lda);
@@ -176,10 +181,12 @@ int fuge_set_gap(fuge_solver *s, const double *gap, const double *gap_upper);
 /* Load F_0 >= 0; force.  Makes earlier results unavailable. */
 int fuge_set_load(fuge_solver *s, double load);
 
-/* Solve; FUGE_ERR_CALL_ORDER before gaps and load are set. */
+/* Solve; FUGE_ERR_CALL_ORDER before gaps and load are set.  The active set starts from
+ * the contact set of the last solve. */
 int fuge_solve(fuge_solver *s);
 
-/* Forget results and history; operator, options, gaps and load stay. */
+/* Forget results, contact set and history: the next fuge_solve starts from scratch.
+ * Operator, options, gaps and load stay. */
 int fuge_reset(fuge_solver *s);
 
 /* ---- results ------------------------------------------------------------ */

@@ -1,5 +1,6 @@
 !> Options of a solve. Every default stands here and nowhere else.
 module fuge_options_type
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_OPTION
   use fuge_text, only: text
@@ -11,6 +12,7 @@ module fuge_options_type
   !> Engines (`method`).
   integer, parameter, public :: FUGE_AUTO = 0
   integer, parameter, public :: FUGE_TABLEAU = 1
+  integer, parameter, public :: FUGE_ACTIVE_SET = 2
 
   !> Pricing of the tableau's entering column (`pivot_rule`).
   integer, parameter, public :: FUGE_PAPER_RULE = 0
@@ -18,11 +20,11 @@ module fuge_options_type
   integer, parameter, public :: FUGE_GREATEST_DECREASE = 2
 
   type, public :: fuge_options
-    !> Engine: FUGE_AUTO or FUGE_TABLEAU.
+    !> Engine: FUGE_AUTO, FUGE_TABLEAU or FUGE_ACTIVE_SET.
     integer :: method = FUGE_AUTO
     !> Pricing of the tableau.
     integer :: pivot_rule = FUGE_PAPER_RULE
-    !> Most pivots allowed; 0 lets the engine choose (50 for each row).
+    !> Most pivots or contact sets tried; 0 lets the engine choose (50 for each row).
     integer :: max_iterations = 0
     !> Keep basis and z of every pivot.
     logical :: keep_history = .false.
@@ -37,19 +39,28 @@ contains
     type(fuge_options), intent(in) :: options
     type(fuge_info), intent(inout) :: info
 
-    if (all(options%method /= [FUGE_AUTO, FUGE_TABLEAU])) then
+    if (all(options%method /= [FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET])) then
       call report(info, FUGE_ERR_OPTION, 'method = '//text(options%method) &
-        //' is not an engine: use FUGE_AUTO or FUGE_TABLEAU')
+        //' is not an engine: use FUGE_AUTO, FUGE_TABLEAU or FUGE_ACTIVE_SET')
     else if (all(options%pivot_rule /= [FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE])) then
       call report(info, FUGE_ERR_OPTION, 'pivot_rule = '//text(options%pivot_rule) &
         //' is unknown: use FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE or FUGE_GREATEST_DECREASE')
     else if (options%max_iterations < 0) then
       call report(info, FUGE_ERR_OPTION, 'max_iterations = '//text(options%max_iterations) &
         //' is negative: use 0 for the engine''s own limit')
-    else if (.not. (options%tolerance > 0.0_dp .and. options%tolerance < 1.0_dp)) then
+    else if (.not. is_between_0_and_1(options%tolerance)) then
       call report(info, FUGE_ERR_OPTION, 'tolerance = '//text(options%tolerance) &
         //' is not between 0 and 1: it is relative, 1e-10 is the default')
     end if
   end subroutine check_options
+
+  !> Asked in this order, because comparing NaN may trap.
+  pure function is_between_0_and_1(value) result(between)
+    real(dp), intent(in) :: value
+    logical :: between
+
+    between = ieee_is_finite(value)
+    if (between) between = value > 0.0_dp .and. value < 1.0_dp
+  end function is_between_0_and_1
 
 end module fuge_options_type

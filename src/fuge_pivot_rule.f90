@@ -112,9 +112,14 @@ contains
     rows = size(table, 1) - 1
     last = size(table, 2)
     falls = table(:rows, column) > PIVOT_TOLERANCE*maxval(abs(table(:rows, column)))
-    row = 0
-    if (.not. any(falls)) return
-    step = minval(table(:rows, last)/table(:rows, column), mask=falls)
+    if (.not. any(falls)) then
+      row = 0
+      return
+    end if
+    step = huge(step)
+    do row = 1, rows
+      if (falls(row)) step = min(step, table(row, last)/table(row, column))
+    end do
     falls = falls .and. table(:rows, last) - step*table(:rows, column) <= TIE_TOLERANCE
     row = first_true(falls)
     if (count(falls) > 1) row = lexicographic_least(table, column, falls)

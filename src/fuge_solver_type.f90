@@ -1,31 +1,32 @@
 !> From a problem to a certified answer: checks, choice of engine, certificate.
 module fuge_solver_type
   use fuge_certificate, only: fuge_residual, fuge_violation
-  use fuge_contact_set, only: solve_contact_set, check_definite
+  use fuge_contact_factor, only: contact_factor
   use fuge_dense, only: fuge_dense_operator
+  use fuge_dense_engines, only: solve_by_tableau, solve_by_active_set
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
-  use fuge_options_type, only: fuge_options, check_options
-  use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem, LARGEST_EXPONENT
+  use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET
+  use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, &
-    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW
-  use fuge_tableau, only: run_phase_one
+    FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED
   use fuge_text, only: text
   implicit none
   private
 
-  public :: fuge_solve_dense, check_solvable
-
-  !> Pivots allowed for each row when the caller sets no limit; two are usual.
-  integer, parameter :: PIVOTS_PER_ROW = 50
+  public :: fuge_solve_dense
 
   !> What stays between solves. One solver for each thread.
   type, public :: fuge_solver
     !> Basis and z of each pivot of the last tableau solve, if it was asked for.
     type(fuge_history) :: history
+    !> Contact set of the last solve, where the next one starts, and its factor.
+    logical, allocatable, private :: contact(:)
+    type(contact_factor), private :: factor
   contains
     procedure :: solve
+    procedure :: reset
   end type fuge_solver
 
 contains
@@ -62,7 +63,7 @@ contains
     if (info%failed()) return
 
     if (problem%resultant(1) > 0.0_dp) then
-      call solve_by_tableau(operator, problem, chosen, self%history, answer, info)
+      call run_engine(self, operator, problem, chosen, answer, info)
     else
       call rest_without_load(problem, answer)
     end if
@@ -74,6 +75,16 @@ contains
     call move_alloc(answer%rigid, solution%rigid)
   end subroutine solve
 
+  !> Forget the last contact set and the history: the next solve starts from scratch.
+  !> Call it when the operator has changed, though nothing depends on it but speed.
+  subroutine reset(self)
+    class(fuge_solver), intent(inout) :: self
+
+    self%history = fuge_history()
+    self%factor = contact_factor()
+    if (allocated(self%contact)) deallocate (self%contact)
+  end subroutine reset
+
   pure subroutine allocate_answer(answer, n, info)
     type(fuge_solution), intent(inout) :: answer
     integer, intent(in) :: n
@@ -81,8 +92,8 @@ contains
     integer :: stat
 
     allocate (answer%force(n), answer%gap(n), answer%rigid(1), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the answer, 3 arrays of ' &
-                               //text(n)//' numbers at most')
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of ' &
+                               //text(n)//' points')
   end subroutine allocate_answer
 
   !> The limit of a vanishing load: the bodies just touch at the smallest gap.
@@ -95,93 +106,62 @@ contains
     answer%gap = problem%gap - answer%rigid(1)
   end subroutine rest_without_load
 
-  !> The paper's engine: Phase I finds the contact set, LAPACK the numbers.
-  subroutine solve_by_tableau(operator, problem, options, history, answer, info)
+  !> Choice of engine. FUGE_AUTO is the active set, but for a history, which only the
+  !> tableau has.
+  subroutine run_engine(self, operator, problem, options, answer, info)
+    class(fuge_solver), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
-    type(fuge_history), intent(inout) :: history
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
     logical :: contact(size(problem%gap))
-    integer :: limit, status
+    integer :: method
 
+    ! The operator may have changed since the last solve.
+    self%factor = contact_factor()
+    method = options%method
+    if (method == FUGE_AUTO) method = merge(FUGE_TABLEAU, FUGE_ACTIVE_SET, options%keep_history)
     select type (operator)
-    type is (fuge_dense_operator)
-      associate (alpha => operator%alpha, load => problem%resultant(1))
-        call check_solvable(alpha, load, info)
-        if (info%failed()) return
-        limit = options%max_iterations
-        if (limit == 0) limit = PIVOTS_PER_ROW*(size(problem%gap) + 1)
-        call run_phase_one(alpha, problem%gap, load, options%pivot_rule, limit, &
-                           options%keep_history, history, contact, info%iterations, status)
-        if (status == FUGE_DONE) then
-          call solve_contact_set(alpha, problem%gap, load, contact, answer%force, answer%gap, &
-                                 answer%rigid(1), status)
-        end if
-        call explain(status, limit, count(contact), info)
-      end associate
+    class is (fuge_dense_operator)
+      if (method == FUGE_TABLEAU) then
+        call solve_by_tableau(operator%alpha, problem, options, self%history, contact, self%factor, answer, info)
+      else
+        call solve_warm(self, operator%alpha, problem, options, contact, answer, info)
+      end if
+      if (info%failed()) then
+        self%contact = [logical ::]
+      else
+        self%contact = contact
+      end if
     class default
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the tableau needs the coefficients of a fuge_dense_operator')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a fuge_dense_operator')
     end select
-  end subroutine solve_by_tableau
+  end subroutine run_engine
 
-  !> Put an engine's status into words.
-  pure subroutine explain(status, limit, contacts, info)
-    integer, intent(in) :: status, limit, contacts
+  !> The active set from the last contact set; from scratch if there is none, or if
+  !> it leads nowhere.
+  subroutine solve_warm(self, alpha, problem, options, contact, answer, info)
+    class(fuge_solver), intent(inout) :: self
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    logical, intent(out) :: contact(:)
+    type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
+    logical :: warm
 
-    select case (status)
-    case (FUGE_DONE)
-      return
-    case (FUGE_ERR_ITERATION_LIMIT)
-      call report(info, status, text(limit)//' pivots were not enough: raise max_iterations (0 allows ' &
-                  //text(PIVOTS_PER_ROW)//' for each row)')
-    case (FUGE_ERR_NOT_DEFINITE)
-      call report(info, status, 'alpha is singular on the contact set of '//text(contacts) &
-                  //' points: remove points that move together')
-    case default
-      call report(info, status, fuge_status_text(status))
-    end select
-  end subroutine explain
-
-  !> Refuse what no engine solves with a load: numbers that overflow
-  !> (FUGE_ERR_OVERFLOW), an alpha without a unique answer (FUGE_ERR_NOT_DEFINITE).
-  subroutine check_solvable(alpha, load, info)
-    real(dp), intent(in) :: alpha(:, :), load
-    type(fuge_info), intent(inout) :: info
-
-    call check_magnitudes(alpha(:size(alpha, 2), :), load, info)
-    if (.not. info%failed()) call require_definite(alpha, info)
-  end subroutine check_solvable
-
-  subroutine require_definite(alpha, info)
-    real(dp), intent(in) :: alpha(:, :)
-    type(fuge_info), intent(inout) :: info
-    integer :: deficient, status
-
-    call check_definite(alpha, deficient, status)
-    if (status /= FUGE_DONE) then
-      call report(info, status, 'no memory to factor alpha')
-    else if (deficient > 0) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces with zero sum: points 1 to ' &
-                  //text(deficient)//' carry some that store no energy; look for a repeated point or a wrong sign ' &
-                  //'at point '//text(deficient))
+    warm = .false.
+    if (allocated(self%contact)) warm = size(self%contact) == size(contact)
+    contact = .false.
+    if (warm) contact = self%contact
+    call solve_by_active_set(alpha, problem, options, contact, self%factor, answer, info)
+    if (warm .and. info%failed()) then
+      info = fuge_info()
+      contact = .false.
+      call solve_by_active_set(alpha, problem, options, contact, self%factor, answer, info)
     end if
-  end subroutine require_definite
-
-  !> Refuse an alpha whose products with the load leave the range of double precision.
-  pure subroutine check_magnitudes(alpha, load, info)
-    real(dp), intent(in) :: alpha(:, :), load
-    type(fuge_info), intent(inout) :: info
-    integer :: deflection
-
-    deflection = exponent(maxval(abs(alpha))) + exponent(load)
-    if (deflection > LARGEST_EXPONENT) then
-      call report(info, FUGE_ERR_OVERFLOW, 'alpha times load reaches 2**'//text(deflection) &
-                  //': choose units in which it is smaller')
-    end if
-  end subroutine check_magnitudes
+  end subroutine solve_warm
 
   !> Fill the report from the certificate; above the tolerance it is a warning.
   subroutine certify(operator, problem, answer, tolerance, info)

@@ -12,6 +12,7 @@ module fuge_status
 
   integer, parameter, public :: FUGE_DONE = 0
   integer, parameter, public :: FUGE_WARN_RESIDUAL = 1
+  integer, parameter, public :: FUGE_WARN_NOT_UNIQUE = 2
   integer, parameter, public :: FUGE_ERR_SIZE = -1
   integer, parameter, public :: FUGE_ERR_POINTER = -2
   integer, parameter, public :: FUGE_ERR_NOT_FINITE = -3
@@ -30,7 +31,7 @@ module fuge_status
   integer, parameter, public :: FUGE_ERR_OVERFLOW = -16
 
   integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_OVERFLOW
-  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_RESIDUAL
+  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_NOT_UNIQUE
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
@@ -51,7 +52,8 @@ module fuge_status
     'a required pointer is NULL or an array is not contiguous', &
     'a size or range is impossible', &
     'done', &
-    'done, but the residual is above the tolerance asked for']
+    'done, but the residual is above the tolerance asked for', &
+    'done, but the forces are not unique; gaps and approach are']
 
   !> Length of a message; longer ones are cut.
   integer, parameter, public :: FUGE_MESSAGE_LENGTH = 256
@@ -62,7 +64,7 @@ module fuge_status
     integer :: status = FUGE_DONE
     !> What is wrong, where (1-based index, value) and how to mend it; blank when done.
     character(len=FUGE_MESSAGE_LENGTH) :: message = ''
-    !> Pivots of the tableau.
+    !> Pivots of the tableau, contact sets tried by the active set.
     integer :: iterations = 0
     !> Points with a positive contact force.
     integer :: contacts = 0

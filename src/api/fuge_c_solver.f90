@@ -2,9 +2,9 @@
 module fuge_c_solver
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_loc, c_associated, c_f_pointer
   use fuge_c_types, only: c_options, operator_handle, solver_handle, from_c
-  use fuge_history_type, only: fuge_history
+  use fuge_check, only: check_finite
   use fuge_options_type, only: fuge_options, check_options
-  use fuge_problem_type, only: check_finite, check_load
+  use fuge_problem_type, only: check_load
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED
   implicit none
@@ -139,7 +139,7 @@ contains
     if (.not. info%failed()) then
       handle%solved = .false.
       handle%tried = .false.
-      handle%solver%history = fuge_history()
+      call handle%solver%reset()
     end if
     status = answer(handle, info)
   end function c_reset

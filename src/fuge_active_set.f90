@@ -1,0 +1,180 @@
+!> The fast engine for a dense matrix: block principal pivoting.
+!>
+!> Solve the equations of a guessed contact set, let every point that violates a sign
+!> change sides, repeat (J. J. Judice, F. M. Pires, Computers & Operations Research
+!> 21, 1994). When the number of violations has not fallen for a while, only the
+!> violating point of least index changes sides until it has: the least-index
+!> criss-cross method, finite for every positive definite alpha (D. den Hertog,
+!> C. Roos, T. Terlaky, Linear Algebra and its Applications 187, 1993).
+module fuge_active_set
+  use fuge_contact_factor, only: contact_factor
+  use fuge_kinds, only: dp, xp
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
+  implicit none
+  private
+
+  public :: run_active_set, add_deflection
+
+  !> Violations below this part of the largest force, or of a length, are rounding.
+  real(dp), parameter :: SIGN_TOLERANCE = 1.0e-14_dp
+  !> Block changes without progress before single ones.
+  integer, parameter :: PATIENCE = 3
+  !> A correction above this part of the forces calls for extended precision.
+  real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
+  integer, parameter :: REFINEMENTS = 10
+
+contains
+
+  !> From a guess to the contact set, its forces and gaps.
+  !>
+  !> `alpha` (at least n rows, n columns), `gap` (n), `load` > 0; `contact` (n) the
+  !> guess, then the set, never empty; `factor` is that of the set on return; out:
+  !> `force` (n), `gap_out` (n), `approach`. `iterations` counts the sets tried.
+  !> Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT.
+  subroutine run_active_set(alpha, gap, load, limit, factor, contact, force, gap_out, approach, iterations, status)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: gap(:), load
+    integer, intent(in) :: limit
+    type(contact_factor), intent(inout) :: factor
+    logical, intent(inout) :: contact(:)
+    real(dp), intent(out) :: force(:), gap_out(:), approach
+    integer, intent(out) :: iterations, status
+    real(dp) :: shape(size(gap)), motion, lowest
+    logical :: wrong(size(gap))
+    integer :: fewest, patience_left
+
+    lowest = minval(gap)
+    shape = gap - lowest
+    fewest = huge(fewest)
+    patience_left = PATIENCE
+    iterations = 0
+    do
+      call factor%set(alpha, contact, status)
+      if (status /= FUGE_DONE) return
+      iterations = iterations + 1
+      call factor%solve(shape, load, force, motion)
+      gap_out = shape - motion
+      call add_deflection(alpha, factor%datum, contact, force, gap_out)
+      wrong = violations(alpha, shape, contact, force, gap_out)
+      if (.not. any(wrong)) exit
+      if (iterations >= limit) then
+        status = FUGE_ERR_ITERATION_LIMIT
+        return
+      end if
+      if (count(wrong) < fewest) then
+        fewest = count(wrong)
+        patience_left = PATIENCE
+      else
+        patience_left = patience_left - 1
+      end if
+      if (patience_left < 0) call keep_first(wrong)
+      contact = contact .neqv. wrong
+    end do
+    call refine(alpha, shape, load, factor, contact, force, motion)
+    force = max(force, 0.0_dp)
+    gap_out = shape - motion
+    call add_deflection(alpha, factor%datum, contact, force, gap_out)
+    gap_out = max(gap_out, 0.0_dp)
+    where (contact) gap_out = 0.0_dp
+    approach = (motion + factor%datum*load) + lowest
+  end subroutine run_active_set
+
+  !> u := u + (alpha - datum) F, with the columns of the contact only.
+  !>
+  !> Not by BLAS: taking the datum out of each product is what keeps its digits.
+  pure subroutine add_deflection(alpha, datum, contact, force, u)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, force(:)
+    logical, intent(in) :: contact(:)
+    real(dp), intent(inout) :: u(:)
+    integer :: j, n
+
+    n = size(u)
+    do j = 1, n
+      if (contact(j)) u = u + (alpha(:n, j) - datum)*force(j)
+    end do
+  end subroutine add_deflection
+
+  !> Pulling forces on the contact set and negative gaps off it.
+  pure function violations(alpha, shape, contact, force, gap_out) result(wrong)
+    real(dp), intent(in) :: alpha(:, :), shape(:), force(:), gap_out(:)
+    logical, intent(in) :: contact(:)
+    logical :: wrong(size(contact))
+    real(dp) :: largest, deflection
+    integer :: j, k
+
+    largest = maxval(abs(force))
+    ! The dip that the largest force makes at its own point.
+    k = maxloc(abs(force), dim=1)
+    deflection = 0.0_dp
+    do j = 1, size(shape)
+      deflection = max(deflection, abs(alpha(k, k) - alpha(j, k))*largest)
+    end do
+    where (contact)
+      wrong = force < -SIGN_TOLERANCE*largest
+    elsewhere
+      wrong = gap_out < -SIGN_TOLERANCE*(shape + deflection)
+    end where
+  end function violations
+
+  pure subroutine keep_first(mask)
+    logical, intent(inout) :: mask(:)
+    integer :: k
+
+    do k = 1, size(mask)
+      if (.not. mask(k)) cycle
+      mask(k + 1:) = .false.
+      return
+    end do
+  end subroutine keep_first
+
+  !> Iterative refinement on the contact set. The first residual is in double
+  !> precision; where its correction shows an ill-conditioned or singular alpha the
+  !> next ones are in extended precision.
+  subroutine refine(alpha, shape, load, factor, contact, force, motion)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: shape(:), load
+    type(contact_factor), intent(in) :: factor
+    logical, intent(in) :: contact(:)
+    real(dp), intent(inout) :: force(:), motion
+    real(dp) :: residual(size(shape)), correction(size(shape)), missing, shift, change, last
+    integer :: step
+
+    residual = shape - motion
+    call add_deflection(alpha, factor%datum, contact, force, residual)
+    missing = load - sum(force)
+    last = huge(last)
+    do step = 1, REFINEMENTS
+      call factor%solve(residual, missing, correction, shift)
+      change = maxval(abs(correction))
+      if (.not. change < 0.5_dp*last) exit
+      force = force + correction
+      motion = motion + shift
+      if (change <= EXACT_ENOUGH*maxval(abs(force))) exit
+      last = change
+      call extended_residual(alpha, shape, load, factor%datum, contact, force, motion, residual, missing)
+    end do
+  end subroutine refine
+
+  !> The residual of gaps and equilibrium on the contact set.
+  pure subroutine extended_residual(alpha, shape, load, datum, contact, force, motion, residual, missing)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: shape(:), load, datum, force(:), motion
+    logical, intent(in) :: contact(:)
+    real(dp), intent(out) :: residual(:), missing
+    real(xp) :: sums(size(shape)), total
+    integer :: j, n
+
+    n = size(shape)
+    sums = real(shape, xp) - real(motion, xp)
+    total = real(load, xp)
+    do j = 1, n
+      if (.not. contact(j)) cycle
+      sums = sums + (real(alpha(:n, j), xp) - real(datum, xp))*real(force(j), xp)
+      total = total - real(force(j), xp)
+    end do
+    residual = real(sums, dp)
+    missing = real(total, dp)
+  end subroutine extended_residual
+
+end module fuge_active_set

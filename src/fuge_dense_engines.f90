@@ -1,0 +1,180 @@
+!> The engines for a dense matrix, from checked data to an answer and its words.
+module fuge_dense_engines
+  use fuge_active_set, only: run_active_set
+  use fuge_contact_factor, only: contact_factor
+  use fuge_definiteness, only: check_definite
+  use fuge_history_type, only: fuge_history
+  use fuge_kinds, only: dp
+  use fuge_options_type, only: fuge_options
+  use fuge_presolve, only: guess_contact_set
+  use fuge_problem_type, only: fuge_problem, fuge_solution, LARGEST_EXPONENT
+  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, &
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_OVERFLOW
+  use fuge_tableau, only: run_phase_one
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: solve_by_tableau, solve_by_active_set, check_solvable
+
+  !> Pivots or sets allowed for each row when the caller sets no limit.
+  integer, parameter :: ITERATIONS_PER_ROW = 50
+  !> A negative energy below this part of the coefficients is rounding.
+  real(dp), parameter :: PAIR_TOLERANCE = 1.0e-12_dp
+
+contains
+
+  !> The paper's engine: Phase I finds the contact set, and the numbers are solved
+  !> anew on it, which also mends points that the rounding of the pivots misjudged.
+  !>
+  !> `alpha` (at least n rows, n columns), `problem` checked, load > 0; `contact` (n) and
+  !> `factor` belong to the answer on return.
+  subroutine solve_by_tableau(alpha, problem, options, history, contact, factor, answer, info)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    type(fuge_history), intent(inout) :: history
+    logical, intent(out) :: contact(:)
+    type(contact_factor), intent(inout) :: factor
+    type(fuge_solution), intent(inout) :: answer
+    type(fuge_info), intent(inout) :: info
+    integer :: limit, sets, status
+
+    associate (gap => problem%gap, load => problem%resultant(1))
+      contact = .false.
+      call check_solvable(alpha, load, info)
+      if (info%failed()) return
+      limit = limit_of(options, size(gap))
+      call run_phase_one(alpha, gap, load, options%pivot_rule, limit, options%keep_history, history, contact, &
+                         info%iterations, status)
+      if (status == FUGE_DONE) then
+        call run_active_set(alpha, gap, load, limit_of(fuge_options(), size(gap)), factor, contact, &
+                            answer%force, answer%gap, answer%rigid(1), sets, status)
+      end if
+      call explain(status, limit, count(contact), info)
+    end associate
+  end subroutine solve_by_tableau
+
+  !> Block principal pivoting. `contact` (n): on entry a guess, or none to have one
+  !> made; on return the contact set, with its `factor`.
+  subroutine solve_by_active_set(alpha, problem, options, contact, factor, answer, info)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    logical, intent(inout) :: contact(:)
+    type(contact_factor), intent(inout) :: factor
+    type(fuge_solution), intent(inout) :: answer
+    type(fuge_info), intent(inout) :: info
+    integer :: limit, more, status
+
+    associate (gap => problem%gap, load => problem%resultant(1))
+      call check_magnitudes(alpha(:size(gap), :), load, info)
+      if (.not. info%failed()) call check_pairs(alpha, info)
+      if (info%failed()) return
+      limit = limit_of(options, size(gap))
+      if (.not. any(contact)) call guess_contact_set(alpha, gap, load, contact, info%products)
+      call run_active_set(alpha, gap, load, limit, factor, contact, answer%force, answer%gap, &
+                          answer%rigid(1), info%iterations, status)
+      if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
+        ! A set tried on the way was singular; the last one need not be.
+        factor = contact_factor()
+        call run_active_set(alpha, gap, load, limit, factor, contact, answer%force, answer%gap, &
+                            answer%rigid(1), more, status)
+        info%iterations = info%iterations + more
+      end if
+      call explain(status, limit, count(contact), info)
+      if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
+        call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
+                    //'the forces are not; those given are near the least squares')
+      end if
+    end associate
+  end subroutine solve_by_active_set
+
+  !> Refuse an alpha for which a pair of opposite forces gains energy: the cheap part
+  !> of definiteness. The contact block itself is seen when it is factored.
+  pure subroutine check_pairs(alpha, info)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: own(size(alpha, 2)), energy
+    integer :: i, j
+
+    own = [(alpha(j, j), j=1, size(own))]
+    do j = 1, size(own)
+      do i = j + 1, size(own)
+        energy = (own(i) - alpha(i, j)) + (own(j) - alpha(i, j))
+        if (energy >= -PAIR_TOLERANCE*(abs(own(i)) + abs(own(j)))) cycle
+        call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite: opposite forces at points ' &
+                    //text(j)//' and '//text(i)//' store the negative energy '//text(0.5_dp*energy) &
+                    //' per force squared; look for a wrong sign')
+        return
+      end do
+    end do
+  end subroutine check_pairs
+
+  pure function limit_of(options, n) result(limit)
+    type(fuge_options), intent(in) :: options
+    integer, intent(in) :: n
+    integer :: limit
+
+    limit = options%max_iterations
+    if (limit == 0) limit = ITERATIONS_PER_ROW*(n + 1)
+  end function limit_of
+
+  !> Put an engine's status into words.
+  pure subroutine explain(status, limit, contacts, info)
+    integer, intent(in) :: status, limit, contacts
+    type(fuge_info), intent(inout) :: info
+
+    select case (status)
+    case (FUGE_DONE)
+      return
+    case (FUGE_ERR_ITERATION_LIMIT)
+      call report(info, status, text(limit)//' iterations were not enough: raise max_iterations (0 allows ' &
+                  //text(ITERATIONS_PER_ROW)//' for each row)')
+    case (FUGE_ERR_NOT_DEFINITE)
+      call report(info, status, 'alpha is singular on the contact set of '//text(contacts) &
+                  //' points: remove points that move together')
+    case default
+      call report(info, status, fuge_status_text(status))
+    end select
+  end subroutine explain
+
+  !> Refuse what no engine solves with a load: numbers that overflow
+  !> (FUGE_ERR_OVERFLOW), an alpha without a unique answer (FUGE_ERR_NOT_DEFINITE).
+  subroutine check_solvable(alpha, load, info)
+    real(dp), intent(in) :: alpha(:, :), load
+    type(fuge_info), intent(inout) :: info
+
+    call check_magnitudes(alpha(:size(alpha, 2), :), load, info)
+    if (.not. info%failed()) call require_definite(alpha, info)
+  end subroutine check_solvable
+
+  subroutine require_definite(alpha, info)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_info), intent(inout) :: info
+    integer :: deficient, status
+
+    call check_definite(alpha, deficient, status)
+    if (status /= FUGE_DONE) then
+      call report(info, status, 'no memory to factor alpha')
+    else if (deficient > 0) then
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces with zero sum: points 1 to ' &
+                  //text(deficient)//' carry some that store no energy; look for a repeated point or a wrong sign ' &
+                  //'at point '//text(deficient))
+    end if
+  end subroutine require_definite
+
+  !> Refuse an alpha whose products with the load leave the range of double precision.
+  pure subroutine check_magnitudes(alpha, load, info)
+    real(dp), intent(in) :: alpha(:, :), load
+    type(fuge_info), intent(inout) :: info
+    integer :: deflection
+
+    deflection = exponent(maxval(abs(alpha))) + exponent(load)
+    if (deflection > LARGEST_EXPONENT) then
+      call report(info, FUGE_ERR_OVERFLOW, 'alpha times load reaches 2**'//text(deflection) &
+                  //': choose units in which it is smaller')
+    end if
+  end subroutine check_magnitudes
+
+end module fuge_dense_engines
