@@ -97,8 +97,7 @@ static const bad_data BAD_DATA[] = {
 
 /* Data that only a factorisation or the scales of a solve show to be bad. */
 static const bad_data BAD_FOR_SOLVE[] = {
-  {2, 2, {1, 2, 2, 1}, {0, 1}, 2, FUGE_ERR_NOT_DEFINITE, "point 2"},
-  {3, 3, {2, 1, 1, 1, 2, 2, 1, 2, 2}, {0, 0, 0}, 2, FUGE_ERR_NOT_DEFINITE, "point 3"},
+  {2, 2, {1, 2, 2, 1}, {0, 1}, 2, FUGE_ERR_NOT_DEFINITE, "points 1 and 2"},
   {2, 2, {2e300, 1e300, 1e300, 2e300}, {0, 1}, 1e30, FUGE_ERR_OVERFLOW, "units"},
   {2, 2, {0.2, 0.1, 0.1, 0.2}, {-1e308, 1e308}, 2, FUGE_ERR_OVERFLOW, "units"},
   {2, 2, {0.2, 0.1, 0.1, 0.2}, {-1.7e308, 1.7e308}, 0, FUGE_ERR_OVERFLOW, "units"}
@@ -126,6 +125,19 @@ static void test_bad_data(void) {
     check_refused(&BAD_DATA[k]);
     check_explained(&BAD_DATA[k]);
   }
+}
+
+/* A repeated point: the forces there are not unique, all else is. */
+static void test_repeated_point(void) {
+  const double alpha[9] = {2, 1, 1, 1, 2, 2, 1, 2, 2}, zero[3] = {0, 0, 0};
+  double force[3], gap[3], approach;
+  char message[256] = "";
+  CHECK_STATUS(fuge_solve_dense(3, alpha, 3, zero, 2.0, force, gap, &approach), FUGE_WARN_NOT_UNIQUE);
+  CHECK_NEAR(force[0], 1.0, 2.0 * EXACT);
+  CHECK_NEAR(force[1] + force[2], 1.0, 2.0 * EXACT);
+  CHECK_NEAR(approach, 3.0, 4.0 * EXACT);
+  CHECK_STATUS(fuge_check_dense(3, alpha, 3, zero, 2.0, message, sizeof message), FUGE_WARN_NOT_UNIQUE);
+  CHECK_CONTAINS(message, "not");
 }
 
 static void test_bad_for_solve(void) {
@@ -202,6 +214,7 @@ int main(void) {
   test_gap_datum();
   test_both_in_contact();
   test_bad_data();
+  test_repeated_point();
   test_bad_for_solve();
   test_error_in_place();
   test_null_pointers();

@@ -23,7 +23,7 @@ static void test_status_texts(void) {
 }
 
 static void test_unknown_status(void) {
-  const int unknown[] = {FUGE_WARN_RESIDUAL + 1, FUGE_ERR_OVERFLOW - 1, INT_MAX, INT_MIN};
+  const int unknown[] = {FUGE_WARN_NOT_UNIQUE + 1, FUGE_ERR_OVERFLOW - 1, INT_MAX, INT_MIN};
   for (int k = 0; k < 4; k++) CHECK_STRING(fuge_status_text(unknown[k]), "unknown status");
 }
 

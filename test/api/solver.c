@@ -308,7 +308,7 @@ static void test_not_definite(void) {
   fuge_solver *solver = new_solver(alpha, 2, NULL, &op);
   CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_set_load(solver, TABLE1_LOAD), FUGE_DONE);
-  check_solve_fails(solver, FUGE_ERR_NOT_DEFINITE, "point 2");
+  check_solve_fails(solver, FUGE_ERR_NOT_DEFINITE, "points 1 and 2");
   free_both(&solver, &op);
 }
 
