@@ -112,7 +112,7 @@ contains
     end do
     where (contact)
       wrong = force < -SIGN_TOLERANCE*largest
-    elsewhere
+    else where
       wrong = gap_out < -SIGN_TOLERANCE*(shape + deflection)
     end where
   end function violations
