@@ -36,6 +36,9 @@ if(library_type STREQUAL "STATIC_LIBRARY")
   list(TRANSFORM pc_dirs PREPEND "-L")
   list(APPEND pc_libs ${pc_dirs} ${pc_libraries})
   list(REMOVE_DUPLICATES pc_libs)
+  # All of the others may need it.
+  list(REMOVE_ITEM pc_libs -lm)
+  list(APPEND pc_libs -lm)
 endif()
 list(JOIN pc_libs " " pc_libs)
 # The prefix seen from the .pc file, so that the installed tree can be moved.
