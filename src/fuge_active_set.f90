@@ -19,8 +19,10 @@ module fuge_active_set
   real(dp), parameter :: SIGN_TOLERANCE = 1.0e-14_dp
   !> Block changes without progress before single ones.
   integer, parameter :: PATIENCE = 3
-  !> A correction above this part of the forces calls for extended precision.
+  !> A correction above this part of the forces calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
+  !> Spread of the pivots below which double precision is enough for a residual.
+  real(dp), parameter :: WELL_CONDITIONED = 1.0e4_dp
   integer, parameter :: REFINEMENTS = 10
 
 contains
@@ -39,24 +41,34 @@ contains
     logical, intent(inout) :: contact(:)
     real(dp), intent(out) :: force(:), gap_out(:), approach
     integer, intent(out) :: iterations, status
-    real(dp) :: shape(size(gap)), motion, lowest
-    logical :: wrong(size(gap))
+    real(dp) :: shape(size(gap)), motion, base
+    logical :: wrong(size(gap)), settled
     integer :: fewest, patience_left
 
-    lowest = minval(gap)
-    shape = gap - lowest
+    base = minval(gap)
+    shape = gap - base
     fewest = huge(fewest)
     patience_left = PATIENCE
     iterations = 0
+    settled = .false.
     do
       call factor%set(alpha, contact, status)
       if (status /= FUGE_DONE) return
-      iterations = iterations + 1
       call factor%solve(shape, load, force, motion)
       gap_out = shape - motion
       call add_deflection(alpha, factor%datum, contact, force, gap_out)
-      wrong = violations(alpha, shape, contact, force, gap_out)
-      if (.not. any(wrong)) exit
+      wrong = violations(alpha, factor%datum, shape - motion, contact, force, gap_out)
+      iterations = iterations + 1
+      if (.not. any(wrong)) then
+        if (settled) exit
+        ! Once more with gaps counted from where the bodies meet: one point far below
+        ! the others would cost them digits.
+        settled = .true.
+        iterations = iterations - 1
+        base = gap(minloc(abs(shape - motion), dim=1))
+        shape = gap - base
+        cycle
+      end if
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
         return
@@ -76,7 +88,7 @@ contains
     call add_deflection(alpha, factor%datum, contact, force, gap_out)
     gap_out = max(gap_out, 0.0_dp)
     where (contact) gap_out = 0.0_dp
-    approach = (motion + factor%datum*load) + lowest
+    approach = (motion + factor%datum*load) + base
   end subroutine run_active_set
 
   !> u := u + (alpha - datum) F, with the columns of the contact only.
@@ -96,24 +108,23 @@ contains
   end subroutine add_deflection
 
   !> Pulling forces on the contact set and negative gaps off it.
-  pure function violations(alpha, shape, contact, force, gap_out) result(wrong)
-    real(dp), intent(in) :: alpha(:, :), shape(:), force(:), gap_out(:)
+  !>
+  !> `distance` (n) is the gap less the motion: what the displacement has to make up
+  !> for at a point in contact.
+  pure function violations(alpha, datum, distance, contact, force, gap_out) result(wrong)
+    real(dp), intent(in) :: alpha(:, :), datum, distance(:), force(:), gap_out(:)
     logical, intent(in) :: contact(:)
     logical :: wrong(size(contact))
-    real(dp) :: largest, deflection
-    integer :: j, k
+    real(dp) :: largest
+    integer :: k
 
-    largest = maxval(abs(force))
-    ! The dip that the largest force makes at its own point.
+    ! The point with the largest force stands for all in the length of a displacement.
     k = maxloc(abs(force), dim=1)
-    deflection = 0.0_dp
-    do j = 1, size(shape)
-      deflection = max(deflection, abs(alpha(k, k) - alpha(j, k))*largest)
-    end do
+    largest = abs(force(k))
     where (contact)
       wrong = force < -SIGN_TOLERANCE*largest
     else where
-      wrong = gap_out < -SIGN_TOLERANCE*(shape + deflection)
+      wrong = gap_out < -SIGN_TOLERANCE*(abs(distance) + abs(alpha(:size(contact), k) - datum)*largest)
     end where
   end function violations
 
@@ -128,9 +139,9 @@ contains
     end do
   end subroutine keep_first
 
-  !> Iterative refinement on the contact set. The first residual is in double
-  !> precision; where its correction shows an ill-conditioned or singular alpha the
-  !> next ones are in extended precision.
+  !> Iterative refinement on the contact set. For a well-conditioned alpha one residual
+  !> in double precision does; otherwise residuals are in extended precision, which
+  !> sees errors of the forces that double precision cannot.
   subroutine refine(alpha, shape, load, factor, contact, force, motion)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: shape(:), load
@@ -140,9 +151,13 @@ contains
     real(dp) :: residual(size(shape)), correction(size(shape)), missing, shift, change, last
     integer :: step
 
-    residual = shape - motion
-    call add_deflection(alpha, factor%datum, contact, force, residual)
-    missing = load - sum(force)
+    if (factor%spread < WELL_CONDITIONED .and. .not. factor%ridge > 0.0_dp) then
+      residual = shape - motion
+      call add_deflection(alpha, factor%datum, contact, force, residual)
+      missing = load - sum(force)
+    else
+      call extended_residual(alpha, shape, load, factor%datum, contact, force, motion, residual, missing)
+    end if
     last = huge(last)
     do step = 1, REFINEMENTS
       call factor%solve(residual, missing, correction, shift)

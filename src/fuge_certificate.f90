@@ -40,12 +40,15 @@ contains
 
   !> Violation of equations (9), (10), (11) by an answer.
   !>
-  !> Lengths at point k are compared with (gap_k - min gap) plus the deflection
-  !> that the forces cause: neither depends on the datum of the gaps or of A. The
-  !> mean of equation (9) over the contact, which only tells how exact v_0 is, is
-  !> compared with v_0 and the terms that make it. Forces are compared with the
-  !> largest one. One product A f. `status` is 0, FUGE_ERR_SIZE if an array is missing
-  !> or of the wrong length, FUGE_ERR_MEMORY, or what the operator returned.
+  !> With d the datum of the operator and w = v_0 - d sum f, the length at point k is
+  !> |gap_k - w| + sum_j |A_kj - d| |f_j|: the depth to which k is pressed, or its
+  !> distance, and the terms of its displacement. It does not depend on the datum of
+  !> the gaps or of A, nor on other points. The error of equation (9) at the point in
+  !> contact with the least length tells how exact v_0 is and is compared with v_0
+  !> and the terms that make it; elsewhere the error less that one is compared with
+  !> the length, beyond the rounding of the caller's own numbers. Forces are compared
+  !> with the largest one. One product A f. `status` is 0, FUGE_ERR_SIZE if an array is
+  !> missing or of the wrong length, FUGE_ERR_MEMORY, or what the operator returned.
   subroutine fuge_residual(operator, problem, solution, violation, status)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -53,7 +56,7 @@ contains
     type(fuge_violation), intent(out) :: violation
     integer, intent(out) :: status
     real(dp), allocatable :: error(:), length(:)
-    real(dp) :: lowest, middle, mean, rigid, datum, largest
+    real(dp) :: rigid, largest
     integer :: n, stat
 
     status = FUGE_ERR_SIZE
@@ -65,23 +68,40 @@ contains
     call operator%apply(solution%force, error, status)
     if (status /= FUGE_DONE) return
 
-    lowest = minval(problem%gap)
-    middle = mean_at_contact(error, solution%force, problem%gap)
     rigid = operator%datum()*sum(solution%force)
-    datum = max(maxval(abs(problem%gap)), maxval(abs(error)), abs(rigid), abs(solution%rigid(1)))
-    length = (problem%gap - lowest) + operator%deflection(solution%force, error)
+    call operator%magnitude(solution%force, error, length)
+    error = (problem%gap - (solution%rigid(1) - rigid)) + error - solution%gap
+    length = abs(problem%gap - (solution%rigid(1) - rigid)) + length
     largest = maxval(abs(solution%force))
-    ! gap + A f - c without its constants: v_0 less the same constants at every point.
-    error = (problem%gap - lowest) + (error - middle) - solution%gap
-    mean = mean_at_contact(error, solution%force, problem%gap)
-    violation%gap_equation = max(maxval(relative(abs(error - mean), length)), &
-                                 relative(abs(((lowest + middle) + mean + rigid) - solution%rigid(1)), datum))
+    violation%gap_equation = gap_violation(error, length, solution%force, problem%gap, &
+                                           abs(rigid) + abs(solution%rigid(1)))
     violation%sign = max(maxval(relative(-solution%force, largest)), maxval(relative(-solution%gap, length)), 0.0_dp)
     violation%complementarity = maxval(min(relative(abs(solution%force), largest), &
                                            relative(abs(solution%gap), length)))
     violation%equilibrium = relative(abs(sum(solution%force) - problem%resultant(1)), &
                                      max(sum(abs(solution%force)), problem%resultant(1)))
   end subroutine fuge_residual
+
+  !> The error of equation (9), apart for what all points share and for the rest.
+  pure function gap_violation(error, length, force, gap, datum) result(violation)
+    real(dp), intent(in) :: error(:), length(:), force(:), gap(:), datum
+    real(dp) :: violation
+    real(dp) :: rounding(size(error)), shared
+    integer :: reference
+
+    if (any(abs(force) > 0.0_dp)) then
+      reference = minloc(length, dim=1, mask=abs(force) > 0.0_dp)
+    else
+      reference = minloc(gap, dim=1)
+    end if
+    shared = error(reference)
+    ! Half a unit in the last place of the gap and of v_0, and as much for their sum.
+    rounding = 2.0_dp*epsilon(datum)*(abs(gap) + abs(gap(reference)) + datum)
+    violation = max(maxval(relative(max(abs(error - shared) - rounding, 0.0_dp), length + length(reference))), &
+                    relative(abs(shared), max(datum, abs(gap(reference)), length(reference))))
+    ! A maximum may drop a NaN, which must not pass for small.
+    if (.not. all(abs(error) <= huge(violation))) violation = huge(violation)
+  end function gap_violation
 
   !> Is everything there, and as long as the operator has points?
   pure function fits(operator, problem, solution)
@@ -102,21 +122,6 @@ contains
     length = -1
     if (allocated(values)) length = size(values)
   end function length_of
-
-  !> Mean over the points in contact, the heavily loaded ones first: rounding of
-  !> large gaps far away stays out of it. Without forces, the value at the lowest gap.
-  pure function mean_at_contact(values, force, gap) result(mean)
-    real(dp), intent(in) :: values(:), force(:), gap(:)
-    real(dp) :: mean
-    real(dp) :: largest
-
-    largest = maxval(abs(force))
-    if (largest > 0.0_dp) then
-      mean = sum(values*(abs(force)/largest))/sum(abs(force)/largest)
-    else
-      mean = values(minloc(gap, dim=1))
-    end if
-  end function mean_at_contact
 
   !> value/measure, where nothing compared with nothing is no violation.
   elemental function relative(value, measure)

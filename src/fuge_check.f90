@@ -9,6 +9,9 @@ module fuge_check
 
   public :: check_finite
 
+  !> Larger powers of two leave no room for sums.
+  integer, parameter, public :: LARGEST_EXPONENT = maxexponent(1.0_dp) - 32
+
 contains
 
   !> Refuse NaN and infinity, with the first index (FUGE_ERR_NOT_FINITE).

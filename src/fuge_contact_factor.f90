@@ -35,6 +35,8 @@ module fuge_contact_factor
     !> 0 unless alpha is singular on a base: then its forces are not unique, and the
     !> ridge picks those of the least squares.
     real(dp), public :: ridge = 0.0_dp
+    !> Largest diagonal over least pivot: a lower bound of the condition number.
+    real(dp), public :: spread = 1.0_dp
     !> lower**(-1) times each border, and what the border is: RIGID, a point added
     !> (> 0) or a point removed (< 0).
     real(dp), allocatable :: border(:, :)
@@ -160,8 +162,10 @@ contains
     call dpotrf('L', m, self%lower, m, info)
     done = info == 0
     if (.not. done) return
+    self%spread = 1.0_dp
     do j = 1, m
       done = done .and. self%lower(j, j)**2 > PIVOT_TOLERANCE*real(m, dp)*diagonal(j)
+      if (done) self%spread = max(self%spread, maxval(diagonal)/self%lower(j, j)**2)
     end do
   end subroutine factor_base
 
@@ -286,7 +290,9 @@ contains
     call dsyrk('L', 'T', p, m, -1.0_dp, self%border, m, 1.0_dp, self%small, limit)
     singular = .false.
     do j = 1, p
-      if (self%keys(j) > 0) singular = singular .or. self%small(j, j) <= PIVOT_TOLERANCE*real(m, dp)*diagonal(j)
+      if (self%keys(j) <= 0) cycle
+      singular = singular .or. self%small(j, j) <= PIVOT_TOLERANCE*real(m, dp)*diagonal(j)
+      if (.not. singular) self%spread = max(self%spread, diagonal(j)/self%small(j, j))
     end do
     if (singular) return
     call dsytrf('L', p, self%small, limit, self%pivots, work, size(work), info)

@@ -3,10 +3,11 @@
 module fuge_dense
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+  use fuge_check, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
-    FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC
+    FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
   use fuge_text, only: text
   implicit none
   private
@@ -27,7 +28,7 @@ module fuge_dense
     procedure :: points
     procedure :: apply
     procedure :: datum
-    procedure :: deflection
+    procedure :: magnitude
   end type fuge_dense_operator
 
 contains
@@ -37,8 +38,8 @@ contains
   !> `alpha` is (n, n), or (lda, n) with lda > n where the first n rows count;
   !> length per force. It is not copied: declare it `target` and keep it
   !> unchanged as long as the operator lives.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC; the
-  !> operator is then as it was.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC,
+  !> FUGE_ERR_OVERFLOW; the operator is then as it was.
   subroutine set(self, alpha, info)
     class(fuge_dense_operator), intent(inout) :: self
     real(dp), intent(in), target :: alpha(:, :)
@@ -89,27 +90,24 @@ contains
     datum = self%constant
   end function datum
 
-  !> sum_j |f_j| (max_i alpha_ij - min_i alpha_ij), whatever the displacement.
-  function deflection(self, force, displacement) result(length)
+  subroutine magnitude(self, force, displacement, length)
     class(fuge_dense_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
-    real(dp) :: length
+    real(dp), intent(out) :: length(:)
     integer :: j, n
 
     n = size(displacement)
     length = 0.0_dp
     do j = 1, n
-      if (abs(force(j)) > 0.0_dp) then
-        length = length + abs(force(j))*(maxval(self%alpha(:n, j)) - minval(self%alpha(:n, j)))
-      end if
+      if (abs(force(j)) > 0.0_dp) length = length + abs((self%alpha(:n, j) - self%constant)*force(j))
     end do
-  end function deflection
+  end subroutine magnitude
 
   !> Refuse a matrix that is not at least n by n, finite and symmetric; otherwise
   !> tell its least and its largest coefficient.
   !>
   !> An asymmetry up to 1e-10 of the range of the coefficients passes as rounding.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW.
   pure subroutine check_matrix(alpha, info, least, most)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_info), intent(inout) :: info
@@ -131,6 +129,11 @@ contains
     if (info%failed()) return
     least = minval(alpha(:n, :))
     most = maxval(alpha(:n, :))
+    if (max(exponent(least), exponent(most)) > LARGEST_EXPONENT) then
+      call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches from '//text(least)//' to '//text(most) &
+        //': choose units in which it is smaller')
+      return
+    end if
     call find_asymmetry(alpha(:n, :), i, j, difference)
     if (difference > SYMMETRY_TOLERANCE*(most - least)) then
       call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//text(i)//','//text(j)//') and alpha(' &

@@ -1,13 +1,14 @@
 !> The engines for a dense matrix, from checked data to an answer and its words.
 module fuge_dense_engines
   use fuge_active_set, only: run_active_set
+  use fuge_check, only: LARGEST_EXPONENT
   use fuge_contact_factor, only: contact_factor
   use fuge_definiteness, only: check_definite
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
   use fuge_presolve, only: guess_contact_set
-  use fuge_problem_type, only: fuge_problem, fuge_solution, LARGEST_EXPONENT
+  use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_OVERFLOW
   use fuge_tableau, only: run_phase_one
@@ -47,6 +48,8 @@ contains
       limit = limit_of(options, size(gap))
       call run_phase_one(alpha, gap, load, options%pivot_rule, limit, options%keep_history, history, contact, &
                          info%iterations, status)
+      ! Only a limit that was asked for ends the solve; otherwise the set so far will do.
+      if (status == FUGE_ERR_ITERATION_LIMIT .and. options%max_iterations == 0) status = FUGE_DONE
       if (status == FUGE_DONE) then
         call run_active_set(alpha, gap, load, limit_of(fuge_options(), size(gap)), factor, contact, &
                             answer%force, answer%gap, answer%rigid(1), sets, status)
@@ -164,16 +167,19 @@ contains
     end if
   end subroutine require_definite
 
-  !> Refuse an alpha whose products with the load leave the range of double precision.
+  !> Refuse an alpha whose products with the load leave the range of double precision,
+  !> at either end.
   pure subroutine check_magnitudes(alpha, load, info)
     real(dp), intent(in) :: alpha(:, :), load
     type(fuge_info), intent(inout) :: info
+    real(dp) :: largest
     integer :: deflection
 
-    deflection = exponent(maxval(abs(alpha))) + exponent(load)
-    if (deflection > LARGEST_EXPONENT) then
-      call report(info, FUGE_ERR_OVERFLOW, 'alpha times load reaches 2**'//text(deflection) &
-                  //': choose units in which it is smaller')
+    largest = maxval(abs(alpha))
+    deflection = exponent(largest) + exponent(load)
+    if (abs(deflection) > LARGEST_EXPONENT .or. abs(exponent(largest)) > LARGEST_EXPONENT) then
+      call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches '//text(largest)//' and alpha times load 2**'//text(deflection) &
+                  //': choose units in which they are nearer to 1')
     end if
   end subroutine check_magnitudes
 

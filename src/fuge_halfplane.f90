@@ -230,9 +230,9 @@ contains
       else if (element /= FUGE_MEAN .and. abs(width(k) - width(1)) > WIDTH_TOLERANCE*width(1)) then
         call report(info, FUGE_ERR_GRID, 'width('//text(k)//') = '//text(width(k))//' differs from width(1) by ' &
                     //text(width(k) - width(1))//': on unequal cells only FUGE_MEAN is symmetric, use it')
-      else if (max(exponent(x(k)), exponent(width(k))) > LARGEST_EXPONENT) then
-        call report(info, FUGE_ERR_OVERFLOW, 'cell '//text(k)//' at x = '//text(x(k)) &
-                    //' is too large: choose another unit of length')
+      else if (exponent(x(k)) > LARGEST_EXPONENT .or. abs(exponent(width(k))) > LARGEST_EXPONENT) then
+        call report(info, FUGE_ERR_OVERFLOW, 'cell '//text(k)//' at x = '//text(x(k))//' of width '//text(width(k)) &
+                    //' is out of range: choose another unit of length')
       end if
       if (info%failed()) return
     end do

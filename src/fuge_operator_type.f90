@@ -16,8 +16,8 @@ module fuge_operator_type
     !> A constant taken out of all of A in `apply`, 0 unless overridden: only v_0
     !> sees it, and without it a large one costs the products their digits.
     procedure :: datum => no_datum
-    !> A length by which to judge errors of the gaps, see below.
-    procedure :: deflection => largest_displacement
+    !> Lengths by which to judge errors of the displacements, see below.
+    procedure :: magnitude => largest_displacement
   end type fuge_operator
 
   abstract interface
@@ -47,16 +47,16 @@ contains
     datum = 0.0_dp*real(self%points(), dp)
   end function no_datum
 
-  !> How far `force` (n) bends the body, with `displacement` (n) what `apply` made of
-  !> it. Best is sum_j |f_j| (max_i A_ij - min_i A_ij), which no datum changes; where
-  !> an operator does not override it, the largest displacement has to do.
-  function largest_displacement(self, force, displacement) result(length)
+  !> sum_j |A_ij - datum| |f_j| at each point, `length` (n): what the terms of a
+  !> displacement add up to before they cancel. `displacement` (n) is what `apply` made
+  !> of `force` (n); its largest value has to do where an operator does not override this.
+  subroutine largest_displacement(self, force, displacement, length)
     class(fuge_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
-    real(dp) :: length
+    real(dp), intent(out) :: length(:)
 
     length = 0.0_dp
     if (self%points() == size(force)) length = maxval(abs(displacement))
-  end function largest_displacement
+  end subroutine largest_displacement
 
 end module fuge_operator_type

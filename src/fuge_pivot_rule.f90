@@ -34,23 +34,27 @@ contains
     real(dp), intent(in) :: table(:, :)
     integer, intent(in) :: basis(:), rule
     integer, intent(out) :: column, row
-    logical :: basic(3*size(basis) - 1)
-    real(dp) :: merit, best
+    logical :: basic(3*size(basis) - 1), artificial(size(basis)), tied(size(basis))
+    real(dp) :: step, merit, best
     integer :: n, j, r
 
     n = size(basis) - 1
     basic = .false.
     basic(basis) = .true.
+    artificial = is_artificial(n, 1, basis)
     column = 0
     row = 0
     best = 0.0_dp
     do j = 1, stored_columns(n, 1)
       if (basic(j)) cycle
-      if (.not. improves(table(:, j))) cycle
-      r = leaving_row(table, j)
-      if (r == 0) cycle
+      if (.not. improves(table(:, j), artificial)) cycle
+      call ratio_test(table, j, step, tied)
+      if (.not. any(tied)) cycle
+      ! Before ties are decided, which is dear: can this column win at all?
+      if (column > 0 .and. merit_of(rule, table(n + 2, j), step, any(tied .and. artificial)) <= best) cycle
+      r = decide(table, j, tied)
       if (is_barred(basic, n, j, basis(r))) cycle
-      merit = merit_of(table, basis, rule, j, r)
+      merit = merit_of(rule, table(n + 2, j), step, artificial(r))
       if (column > 0 .and. merit <= best) cycle
       column = j
       row = r
@@ -59,14 +63,16 @@ contains
     end do
   end subroutine select_pivot
 
-  !> Condition (b1): a negative entry in the last row.
-  pure function improves(column)
+  !> Condition (b1): a negative entry in the last row, which is minus the sum over the
+  !> rows of the artificials: compared with what that sum is made of.
+  pure function improves(column, artificial)
     real(dp), intent(in) :: column(:)
+    logical, intent(in) :: artificial(:)
     logical :: improves
     integer :: last
 
     last = size(column)
-    improves = column(last) < -ENTRY_TOLERANCE*maxval(abs(column(:last - 1)))
+    improves = column(last) < -ENTRY_TOLERANCE*sum(abs(column(:last - 1)), mask=artificial)
   end function improves
 
   !> Condition (b2): the partner would stay in the basis.
@@ -81,49 +87,68 @@ contains
     if (partner > 0) is_barred = basic(partner) .and. leaving /= partner
   end function is_barred
 
-  !> What the rule prefers is larger; of equals the lowest column stays.
-  pure function merit_of(table, basis, rule, column, row) result(merit)
-    real(dp), intent(in) :: table(:, :)
-    integer, intent(in) :: basis(:), rule, column, row
+  !> What the rule prefers is larger; of equals the lowest column stays. `entry` is that
+  !> of the last row, `step` how far the column can enter, `artificial` whether it
+  !> drives an artificial out.
+  pure function merit_of(rule, entry, step, artificial) result(merit)
+    integer, intent(in) :: rule
+    real(dp), intent(in) :: entry, step
+    logical, intent(in) :: artificial
     real(dp) :: merit
-    integer :: n
 
-    n = size(basis) - 1
     select case (rule)
     case (FUGE_MOST_NEGATIVE)
-      merit = -table(n + 2, column)
+      merit = -entry
     case (FUGE_GREATEST_DECREASE)
-      merit = -table(n + 2, column)*table(row, 2*n + 2)/table(row, column)
+      merit = -entry*step
     case default
-      merit = merge(1.0_dp, 0.0_dp, is_artificial(n, 1, basis(row)))
+      merit = merge(1.0_dp, 0.0_dp, artificial)
     end select
   end function merit_of
 
-  !> Condition (a), the ratio test: the row whose variable reaches zero first as
-  !> `column` enters; 0 if none does.
+  !> Condition (a): the row whose variable reaches zero first as `column` enters; 0 if
+  !> none does.
   pure function leaving_row(table, column) result(row)
     real(dp), intent(in) :: table(:, :)
     integer, intent(in) :: column
     integer :: row
-    logical :: falls(size(table, 1) - 1)
+    logical :: tied(size(table, 1) - 1)
     real(dp) :: step
-    integer :: rows, last
 
-    rows = size(table, 1) - 1
-    last = size(table, 2)
-    falls = table(:rows, column) > PIVOT_TOLERANCE*maxval(abs(table(:rows, column)))
-    if (.not. any(falls)) then
-      row = 0
-      return
-    end if
-    step = huge(step)
-    do row = 1, rows
-      if (falls(row)) step = min(step, table(row, last)/table(row, column))
-    end do
-    falls = falls .and. table(:rows, last) - step*table(:rows, column) <= TIE_TOLERANCE
-    row = first_true(falls)
-    if (count(falls) > 1) row = lexicographic_least(table, column, falls)
+    call ratio_test(table, column, step, tied)
+    row = decide(table, column, tied)
   end function leaving_row
+
+  !> How far `column` can enter, and the rows (n+1) that stop it there; none if it can
+  !> enter without end.
+  pure subroutine ratio_test(table, column, step, tied)
+    real(dp), intent(in) :: table(:, :)
+    integer, intent(in) :: column
+    real(dp), intent(out) :: step
+    logical, intent(out) :: tied(:)
+    integer :: i, rows, last
+
+    rows = size(tied)
+    last = size(table, 2)
+    tied = table(:rows, column) > PIVOT_TOLERANCE*maxval(abs(table(:rows, column)))
+    step = huge(step)
+    do i = 1, rows
+      if (tied(i)) step = min(step, table(i, last)/table(i, column))
+    end do
+    do i = 1, rows
+      if (tied(i)) tied(i) = table(i, last) - step*table(i, column) <= TIE_TOLERANCE
+    end do
+  end subroutine ratio_test
+
+  pure function decide(table, column, tied) result(row)
+    real(dp), intent(in) :: table(:, :)
+    integer, intent(in) :: column
+    logical, intent(in) :: tied(:)
+    integer :: row
+
+    row = first_true(tied)
+    if (count(tied) > 1) row = lexicographic_least(table, column, tied)
+  end function decide
 
   !> Of tied rows the one whose row of the inverse basis, divided by its pivot, is
   !> lexicographically least: as if gap k had been raised by epsilon^k.

@@ -5,7 +5,7 @@
 !> (paper, equations 9 to 11; R is the column of ones, q is the approach v_0).
 module fuge_problem_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge_check, only: check_finite
+  use fuge_check, only: check_finite, LARGEST_EXPONENT
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
@@ -14,9 +14,6 @@ module fuge_problem_type
   private
 
   public :: set_problem, check_problem, check_load
-
-  !> Larger powers of two leave no room for sums.
-  integer, parameter, public :: LARGEST_EXPONENT = maxexponent(1.0_dp) - 32
 
   !> The data beside the operator, in the operator's units. Components may be added:
   !> set them by name.

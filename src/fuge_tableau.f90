@@ -226,9 +226,8 @@ contains
   !>
   !> `contact` (n) marks the points whose force ends in the basis; `pivots` counts.
   !> The history is started and filled if `keep_history`. Rounding can leave an
-  !> artificial without an admissible column; the set found so far is then
-  !> returned and the certificate of the final solve decides.
-  !> Errors: FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT.
+  !> artificial without an admissible column: the set found so far is then returned,
+  !> as it is with FUGE_ERR_ITERATION_LIMIT. Other error: FUGE_ERR_MEMORY.
   subroutine run_phase_one(alpha, gap, load, rule, max_pivots, keep_history, history, contact, pivots, status)
     real(dp), intent(in) :: alpha(:, :), gap(:), load
     integer, intent(in) :: rule, max_pivots
@@ -255,7 +254,7 @@ contains
         pivots = pivots + 1
       end if
     end do
-    if (status == FUGE_DONE) contact = tableau%contact_set()
+    if (allocated(tableau%basis)) contact = tableau%contact_set()
   end subroutine run_phase_one
 
 end module fuge_tableau
