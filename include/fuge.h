@@ -189,6 +189,25 @@ int fuge_solve(fuge_solver *s);
  * Operator, options, gaps and load stay. */
 int fuge_reset(fuge_solver *s);
 
+/* ---- load path ---------------------------------------------------------- */
+
+/* The exact course of the contact as the load grows from 0 to load, without load
+ * steps: every load at which a point joins or leaves.  Points that change at the same
+ * load have an entry each.
+ *   op         in   a dense operator, n points
+ *   gap        in   n; length             load  in  >= 0; force
+ *   capacity   in   length of the five arrays; each may be NULL if not wanted
+ *   loads      out  load at the event, ascending; the first ones are 0
+ *   approach   out  v_0 there; length
+ *   stiffness  out  dF_0/dv_0 from there to the next event; force per length
+ *   point      out  the point, from 1; negative: it leaves
+ *   contacts   out  points in contact from there on
+ *   events     out  how many there are; only the first capacity are written
+ *   message    out  at most len bytes, ended by NUL; may be NULL */
+int fuge_load_path(const fuge_operator *op, const double *gap, double load, int capacity,
+                   double *loads, double *approach, double *stiffness, int *point, int *contacts,
+                   int *events, char *message, size_t len);
+
 /* ---- results ------------------------------------------------------------ */
 
 /* Each gives FUGE_ERR_CALL_ORDER unless the last fuge_solve gave an answer for
@@ -197,6 +216,15 @@ int fuge_get_force(const fuge_solver *s, double *force);        /* n; force */
 int fuge_get_gap(const fuge_solver *s, double *gap);            /* n; length */
 int fuge_get_rigid(const fuge_solver *s, double *q);            /* 1: v_0; length */
 int fuge_get_resultant(const fuge_solver *s, double *w);        /* 1: sum of the forces */
+
+/* Derivative of the last solution in a direction, exact as long as the contact set
+ * stays: changes of force and gap (n) and v_0 (1) for a change of the gaps (n; NULL
+ * for none) and of the load.  gap and rigid may be NULL.  The contact stiffness is
+ * 1/rigid for gap_change NULL and load_change 1; a unit gap_change at k gives column k
+ * of the sensitivity to the gaps.  Two triangular solves each.  FUGE_ERR_CALL_ORDER
+ * also after a solve with zero load. */
+int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double load_change,
+                        double *force, double *gap, double *rigid);
 
 /* Report of the last fuge_solve, failed or not. */
 int fuge_get_info(const fuge_solver *s, fuge_info *info);

@@ -8,6 +8,7 @@ module fuge
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET, &
     FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
+  use fuge_parametric, only: fuge_load_path, fuge_path
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense
   use fuge_status, only: fuge_info, fuge_status_text, FUGE_MESSAGE_LENGTH, &

@@ -13,12 +13,12 @@ module fuge_active_set
   implicit none
   private
 
-  public :: run_active_set, add_deflection
+  public :: run_active_set, add_deflection, keep_first
 
   !> Violations below this part of the largest force, or of a length, are rounding.
   real(dp), parameter :: SIGN_TOLERANCE = 1.0e-14_dp
   !> Block changes without progress before single ones.
-  integer, parameter :: PATIENCE = 3
+  integer, parameter, public :: PATIENCE = 3
   !> A correction above this part of the forces calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
   !> Spread of the pivots below which double precision is enough for a residual.
@@ -128,6 +128,7 @@ contains
     end where
   end function violations
 
+  !> Only the true element of least index stays true.
   pure subroutine keep_first(mask)
     logical, intent(inout) :: mask(:)
     integer :: k

@@ -47,6 +47,7 @@ module fuge_contact_factor
     integer, allocatable :: pivots(:)
   contains
     procedure :: set
+    procedure :: is_set
     procedure :: solve
   end type contact_factor
 
@@ -79,6 +80,14 @@ contains
     if (singular) status = FUGE_ERR_NOT_DEFINITE
   end subroutine set
 
+  !> Is there a factor to solve with?
+  pure function is_set(self)
+    class(contact_factor), intent(in) :: self
+    logical :: is_set
+
+    is_set = self%borders > 0
+  end function is_set
+
   !> Take the contact set as the new base and factor its block.
   subroutine build(self, alpha, contact, status)
     class(contact_factor), intent(inout) :: self
@@ -104,7 +113,7 @@ contains
       call factor_base(self, alpha, RIDGES(attempt)*range, done)
       if (done) return
     end do
-    deallocate (self%keys)
+    call release(self)
     status = FUGE_ERR_NOT_DEFINITE
   end subroutine build
 
@@ -127,12 +136,12 @@ contains
     self%base = pack([(i, i=1, size(contact))], contact)
     self%place = 0
     self%place(self%base) = [(i, i=1, m)]
-    self%borders = 0
   end subroutine choose_base
 
   pure subroutine release(self)
     class(contact_factor), intent(inout) :: self
 
+    self%borders = 0
     if (allocated(self%base)) deallocate (self%base)
     if (allocated(self%place)) deallocate (self%place)
     if (allocated(self%lower)) deallocate (self%lower)

@@ -16,10 +16,10 @@ module fuge_dense_engines
   implicit none
   private
 
-  public :: solve_by_tableau, solve_by_active_set, check_solvable
+  public :: solve_by_tableau, solve_by_active_set, check_scene
 
   !> Pivots or sets allowed for each row when the caller sets no limit.
-  integer, parameter :: ITERATIONS_PER_ROW = 50
+  integer, parameter, public :: ITERATIONS_PER_ROW = 50
   !> A negative energy below this part of the coefficients is rounding.
   real(dp), parameter :: PAIR_TOLERANCE = 1.0e-12_dp
 
@@ -71,8 +71,7 @@ contains
     integer :: limit, more, status
 
     associate (gap => problem%gap, load => problem%resultant(1))
-      call check_magnitudes(alpha(:size(gap), :), load, info)
-      if (.not. info%failed()) call check_pairs(alpha, info)
+      call check_scene(alpha, load, info)
       if (info%failed()) return
       limit = limit_of(options, size(gap))
       if (.not. any(contact)) call guess_contact_set(alpha, gap, load, contact, info%products)
@@ -92,6 +91,16 @@ contains
       end if
     end associate
   end subroutine solve_by_active_set
+
+  !> What can be refused before anything is factored: FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_NOT_DEFINITE.
+  pure subroutine check_scene(alpha, load, info)
+    real(dp), intent(in) :: alpha(:, :), load
+    type(fuge_info), intent(inout) :: info
+
+    call check_magnitudes(alpha(:size(alpha, 2), :), load, info)
+    if (.not. info%failed()) call check_pairs(alpha, info)
+  end subroutine check_scene
 
   !> Refuse an alpha for which a pair of opposite forces gains energy: the cheap part
   !> of definiteness. The contact block itself is seen when it is factored.

@@ -1,6 +1,8 @@
 !> From a problem to a certified answer: checks, choice of engine, certificate.
 module fuge_solver_type
+  use fuge_active_set, only: add_deflection
   use fuge_certificate, only: fuge_residual, fuge_violation
+  use fuge_check, only: check_finite
   use fuge_contact_factor, only: contact_factor
   use fuge_dense, only: fuge_dense_operator
   use fuge_dense_engines, only: solve_by_tableau, solve_by_active_set
@@ -10,7 +12,7 @@ module fuge_solver_type
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, &
-    FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED
+    FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED
   use fuge_text, only: text
   implicit none
   private
@@ -27,6 +29,7 @@ module fuge_solver_type
   contains
     procedure :: solve
     procedure :: reset
+    procedure :: derivative
   end type fuge_solver
 
 contains
@@ -51,6 +54,7 @@ contains
 
     if (present(options)) chosen = options
     self%history = fuge_history()
+    self%factor = contact_factor()
     call check_options(chosen, info)
     if (info%failed()) return
     if (operator%points() < 1) then
@@ -70,9 +74,7 @@ contains
     if (info%failed()) return
     call certify(operator, problem, answer, chosen%tolerance, info)
     if (info%failed()) return
-    call move_alloc(answer%force, solution%force)
-    call move_alloc(answer%gap, solution%gap)
-    call move_alloc(answer%rigid, solution%rigid)
+    call take(answer, solution)
   end subroutine solve
 
   !> Forget the last contact set and the history: the next solve starts from scratch.
@@ -84,6 +86,59 @@ contains
     self%factor = contact_factor()
     if (allocated(self%contact)) deallocate (self%contact)
   end subroutine reset
+
+  !> How the last solution changes with gaps and load, to first order and exactly so as
+  !> long as the contact set stays: dF, dc and dv_0, by two triangular solves.
+  !>
+  !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force;
+  !> `change` the changes in the order of `fuge_solution`. The contact stiffness
+  !> dF_0/dv_0 is 1/change%rigid(1) for gap_change 0 and load_change 1; column k of the
+  !> sensitivity to the gaps is that of a unit gap_change at k. A point that just touches
+  !> without force counts as on the side that the solve left it.
+  !> Errors, `change` untouched: FUGE_ERR_CALL_ORDER without a solution with a load,
+  !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_UNSUPPORTED, FUGE_ERR_MEMORY.
+  subroutine derivative(self, operator, gap_change, load_change, change, info)
+    class(fuge_solver), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(out) :: info
+    type(fuge_solution) :: found
+    real(dp) :: motion
+    integer :: n
+
+    n = operator%points()
+    if (.not. self%factor%is_set()) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
+    else if (size(gap_change) /= n .or. size(self%contact) /= n) then
+      call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
+                  //text(n)//' points and the last solution '//text(size(self%contact)))
+    else
+      call check_finite(gap_change, 'gap_change', info)
+      if (.not. info%failed()) call check_finite([load_change], 'load_change', info)
+      if (.not. info%failed()) call allocate_answer(found, n, info)
+    end if
+    if (info%failed()) return
+    select type (operator)
+    class is (fuge_dense_operator)
+      call self%factor%solve(gap_change, load_change, found%force, motion)
+      found%gap = gap_change - motion
+      call add_deflection(operator%alpha, self%factor%datum, self%contact, found%force, found%gap)
+      where (self%contact) found%gap = 0.0_dp
+      found%rigid = motion + self%factor%datum*load_change
+      call take(found, change)
+    class default
+      call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a fuge_dense_operator')
+    end select
+  end subroutine derivative
+
+  pure subroutine take(answer, solution)
+    type(fuge_solution), intent(inout) :: answer, solution
+
+    call move_alloc(answer%force, solution%force)
+    call move_alloc(answer%gap, solution%gap)
+    call move_alloc(answer%rigid, solution%rigid)
+  end subroutine take
 
   pure subroutine allocate_answer(answer, n, info)
     type(fuge_solution), intent(inout) :: answer
@@ -118,8 +173,6 @@ contains
     logical :: contact(size(problem%gap))
     integer :: method
 
-    ! The operator may have changed since the last solve.
-    self%factor = contact_factor()
     method = options%method
     if (method == FUGE_AUTO) method = merge(FUGE_TABLEAU, FUGE_ACTIVE_SET, options%keep_history)
     select type (operator)
@@ -129,11 +182,7 @@ contains
       else
         call solve_warm(self, operator%alpha, problem, options, contact, answer, info)
       end if
-      if (info%failed()) then
-        self%contact = [logical ::]
-      else
-        self%contact = contact
-      end if
+      if (.not. info%failed()) self%contact = contact
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a fuge_dense_operator')
     end select

@@ -3,7 +3,9 @@ module fuge_c_results
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_solver, only: take_solver
   use fuge_c_types, only: c_info, solver_handle, to_c, copy_string
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
+  use fuge_problem_type, only: fuge_solution
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, &
+    FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -45,6 +47,42 @@ contains
     status = ready(solver, w, handle)
     if (status == FUGE_DONE) call copy_out([sum(handle%solution%force)], w)
   end function c_get_resultant
+
+  !> First-order changes of the last solution, see `derivative` of `fuge_solver`.
+  function c_get_derivative(solver, gap_change, load_change, force, gap, rigid) &
+    bind(c, name='fuge_get_derivative') result(status)
+    type(c_ptr), intent(in), value :: solver, gap_change, force, gap, rigid
+    real(c_double), intent(in), value :: load_change
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(c_double), pointer :: values(:)
+    real(c_double), allocatable :: direction(:)
+    type(fuge_solution) :: change
+    type(fuge_info) :: info
+    integer :: stat
+
+    status = ready(solver, force, handle)
+    if (status /= FUGE_DONE) return
+    allocate (direction(handle%operator%operator%points()), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the change of the gaps')
+    else
+      direction = 0.0_c_double
+      if (c_associated(gap_change)) then
+        call c_f_pointer(gap_change, values, [size(direction)])
+        direction = values
+      end if
+      call handle%solver%derivative(handle%operator%operator, direction, load_change, change, info)
+    end if
+    status = int(info%status, c_int)
+    if (info%failed()) then
+      handle%message = info%message
+      return
+    end if
+    call copy_out(change%force, force)
+    if (c_associated(gap)) call copy_out(change%gap, gap)
+    if (c_associated(rigid)) call copy_out(change%rigid, rigid)
+  end function c_get_derivative
 
   function c_get_info(solver, destination) bind(c, name='fuge_get_info') result(status)
     type(c_ptr), intent(in), value :: solver, destination

@@ -1,0 +1,68 @@
+!> C bindings, section "load path".
+module fuge_c_path
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
+  use fuge_c_types, only: operator_handle, copy_string
+  use fuge_parametric, only: fuge_load_path, fuge_path
+  use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
+  implicit none
+  private
+
+contains
+
+  function c_load_path(operator, gap, load, capacity, loads, approach, stiffness, point, contacts, events, &
+                       message, length) bind(c, name='fuge_load_path') result(status)
+    type(c_ptr), intent(in), value :: operator, gap, loads, approach, stiffness, point, contacts, events, message
+    real(c_double), intent(in), value :: load
+    integer(c_int), intent(in), value :: capacity
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(operator_handle), pointer :: handle
+    real(c_double), pointer :: initial(:)
+    integer(c_int), pointer :: number
+    type(fuge_path) :: path
+    type(fuge_info) :: info
+    integer :: count
+
+    if (.not. (c_associated(operator) .and. c_associated(gap) .and. c_associated(events))) then
+      call report(info, FUGE_ERR_POINTER, 'operator, gap or events is NULL')
+    else if (capacity < 0) then
+      call report(info, FUGE_ERR_SIZE, 'capacity is negative: it is the length of the arrays')
+    else
+      call c_f_pointer(operator, handle)
+      call c_f_pointer(gap, initial, [handle%operator%points()])
+      call fuge_load_path(handle%operator, initial, load, path, info)
+    end if
+    call copy_string(info%message, message, length)
+    status = int(info%status, c_int)
+    if (info%failed()) return
+    count = min(path%events, int(capacity))
+    call copy_reals(path%load(:count), loads)
+    call copy_reals(path%approach(:count), approach)
+    call copy_reals(path%stiffness(:count), stiffness)
+    call copy_integers(path%point(:count), point)
+    call copy_integers(path%contacts(:count), contacts)
+    call c_f_pointer(events, number)
+    number = int(path%events, c_int)
+  end function c_load_path
+
+  subroutine copy_reals(values, destination)
+    real(c_double), intent(in) :: values(:)
+    type(c_ptr), intent(in) :: destination
+    real(c_double), pointer :: array(:)
+
+    if (.not. c_associated(destination)) return
+    call c_f_pointer(destination, array, [size(values)])
+    array = values
+  end subroutine copy_reals
+
+  subroutine copy_integers(values, destination)
+    integer, intent(in) :: values(:)
+    type(c_ptr), intent(in) :: destination
+    integer(c_int), pointer :: array(:)
+
+    if (.not. c_associated(destination)) return
+    call c_f_pointer(destination, array, [size(values)])
+    array = int(values, c_int)
+  end subroutine copy_integers
+
+end module fuge_c_path
