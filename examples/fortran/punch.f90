@@ -2,10 +2,11 @@
 !>
 !> Half model of 33 cells, 0.025 mm wide, side by side from x = 0; F in N per mm of
 !> thickness. The contact ends at the outer edge of the last cell with a force.
-!> Writes punch_halfwidth.dat and punch_pressure.dat for the pictures.
+!> Writes punch_pressure.dat and, from the exact load path, punch_halfwidth.dat for the
+!> pictures.
 program punch
-  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, &
-    fuge_solver, FUGE_CENTRE
+  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_load_path, fuge_path, &
+    fuge_problem, fuge_solution, fuge_solver, FUGE_CENTRE
   implicit none
 
   integer, parameter :: POINTS = 33
@@ -23,7 +24,7 @@ contains
     type(fuge_dense_operator) :: operator
     type(fuge_problem) :: problem
     type(fuge_info) :: info
-    integer :: k, kilonewtons, file
+    integer :: k, kilonewtons
 
     x = [(SPACING*(real(k, dp) - 0.5_dp), k=1, POINTS)]
     width = SPACING
@@ -35,18 +36,36 @@ contains
 
     print '(a)', ' F [kN/mm]   half contact length [mm]   error   largest pressure [N/mm2]    error   residual'
     print '(a)', '             fuge     exact                     fuge        exact'
-    open (newunit=file, file='punch_halfwidth.dat', status='replace', action='write')
     do kilonewtons = 5, 50, 5
-      call one_load(operator, problem, x, real(kilonewtons, dp), file)
+      call one_load(operator, problem, x, real(kilonewtons, dp))
     end do
-    close (file)
+    call all_loads(operator, problem%gap, x)
   end subroutine run
 
-  subroutine one_load(operator, problem, x, kilonewtons, file)
+  !> Bild 8 without load steps: every load up to 50 kN at which a cell joins.
+  subroutine all_loads(operator, gap, x)
+    type(fuge_dense_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap(:), x(:)
+    type(fuge_path) :: path
+    type(fuge_info) :: info
+    integer :: k, file
+
+    call fuge_load_path(operator, gap, 50.0e3_dp, path, info)
+    if (info%status /= 0) error stop 'the load path was not found'
+    open (newunit=file, file='punch_halfwidth.dat', status='replace', action='write')
+    do k = 1, path%events
+      write (file, '(4es16.7)') path%load(k)/1.0e3_dp, x(path%point(k)) + 0.5_dp*SPACING, path%approach(k), &
+        path%stiffness(k)/1.0e3_dp
+    end do
+    close (file)
+    print '(/,a,i0,a)', 'From 0 to 50 kN/mm the contact changes ', path%events, ' times (punch_halfwidth.dat);'
+    print '(a,f8.4,a)', 'the last time at ', path%load(path%events)/1.0e3_dp, ' kN/mm'
+  end subroutine all_loads
+
+  subroutine one_load(operator, problem, x, kilonewtons)
     type(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(inout) :: problem
     real(dp), intent(in) :: x(:), kilonewtons
-    integer, intent(in) :: file
     type(fuge_solver) :: solver
     type(fuge_solution) :: solution
     type(fuge_info) :: info
@@ -63,7 +82,6 @@ contains
     peak = maxval(exact_pressure(x, exact))
     print '(f8.0,f13.3,f11.6,f9.2,a,f14.1,f13.1,f10.2,a,es10.1)', kilonewtons, reached, exact, &
       percent(reached, exact), ' %', maxval(pressure), peak, percent(maxval(pressure), peak), ' %', info%residual
-    write (file, '(3f12.6)') kilonewtons, reached, exact
     if (nint(kilonewtons) == 30) then
       call write_pressure(x, pressure, exact)
       ! The number that the paper reports.

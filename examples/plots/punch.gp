@@ -22,13 +22,12 @@ plot p(x) with lines lw 2 lc rgb "#999999" title "exact", \
      "punch_pressure.dat" using 1:($2/1e3) with points pt 7 ps 0.8 lc rgb "#c0392b" title "fuge, 33 cells", \
      "" using (-$1):($2/1e3) with points pt 7 ps 0.8 lc rgb "#c0392b" notitle
 
-set title "Half contact length"
+set title "Half contact length, every load at which a cell joins"
 set xlabel "F [kN/mm]"
 set ylabel "a [mm]"
 set xrange [0:55]
-set yrange [0.3:0.9]
+set yrange [0:0.9]
 set key bottom right
-plot [F=0.5:55] b(F) with lines lw 2 lc rgb "#999999" title "exact", \
-     "punch_halfwidth.dat" using 1:2:(0.0125) with yerrorbars pt 7 ps 0.9 lc rgb "#c0392b" \
-     title "fuge, bars: the width of a cell"
+plot [F=0.001:55] b(F) with lines lw 2 lc rgb "#999999" title "exact", \
+     "punch_halfwidth.dat" using 1:2 with steps lw 1.5 lc rgb "#c0392b" title "fuge, 33 cells of 0.025 mm"
 unset multiplot
