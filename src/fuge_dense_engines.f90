@@ -187,8 +187,8 @@ contains
     largest = maxval(abs(alpha))
     deflection = exponent(largest) + exponent(load)
     if (abs(deflection) > LARGEST_EXPONENT .or. abs(exponent(largest)) > LARGEST_EXPONENT) then
-      call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches '//text(largest)//' and alpha times load 2**'//text(deflection) &
-                  //': choose units in which they are nearer to 1')
+      call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches '//text(largest)//' and alpha times load 2**' &
+                  //text(deflection)//': choose units in which they are nearer to 1')
     end if
   end subroutine check_magnitudes
 
