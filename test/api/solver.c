@@ -283,6 +283,41 @@ static void check_solve_fails(fuge_solver *solver, int status, const char *part)
   check_no_answer(solver);
 }
 
+/* After a small step one or two contact sets are enough; after fuge_reset the guess
+ * is made anew. */
+static void test_warm_start(void) {
+  enum { N = 40 };
+  double x[N], width[N], gap[N], alpha[N * N];
+  fuge_info info;
+  fuge_operator *op = NULL;
+  fuge_solver *solver = NULL;
+  for (int k = 0; k < N; k++) {
+    x[k] = 0.05 * (k - 0.5 * (N - 1));
+    width[k] = 0.05;
+    gap[k] = x[k] * x[k];
+  }
+  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, alpha, N), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_dense(N, alpha, N, &op), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(op, NULL, &solver), FUGE_DONE);
+  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_load(solver, 0.5), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK(info.products > 1);
+  for (int step = 1; step <= 10; step++) {
+    CHECK_STATUS(fuge_set_load(solver, 0.5 * (1.0 + 0.01 * step)), FUGE_DONE);
+    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+    CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+    CHECK(info.iterations <= 2);
+    CHECK_INT(info.products, 1);
+  }
+  CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK(info.products > 1);
+  free_both(&solver, &op);
+}
+
 static void test_iteration_limit(void) {
   fuge_info info;
   fuge_options options;
@@ -367,6 +402,7 @@ int main(void) {
   test_two_solvers_on_one_operator();
   test_refused_data();
   test_gap_is_copied();
+  test_warm_start();
   test_iteration_limit();
   test_not_definite();
   test_overflow_after_answer();
