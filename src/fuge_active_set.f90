@@ -19,6 +19,12 @@ module fuge_active_set
   real(dp), parameter :: SIGN_TOLERANCE = 1.0e-14_dp
   !> Block changes without progress before single ones.
   integer, parameter, public :: PATIENCE = 3
+  !> Violations below this part that keep coming back are rounding too; a large spread
+  !> of the pivots raises it.
+  real(dp), parameter :: NOISE = 1.0e-11_dp
+  real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
+  !> Spread of the pivots above which signs are judged after refinement only.
+  real(dp), parameter :: ILL_CONDITIONED = 1.0e8_dp
   !> A correction above this part of the forces calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
   !> Spread of the pivots below which double precision is enough for a residual.
@@ -41,8 +47,8 @@ contains
     logical, intent(inout) :: contact(:)
     real(dp), intent(out) :: force(:), gap_out(:), approach
     integer, intent(out) :: iterations, status
-    real(dp) :: shape(size(gap)), motion, base
-    logical :: wrong(size(gap)), settled
+    real(dp) :: shape(size(gap)), violation(size(gap)), motion, base
+    logical :: wrong(size(gap)), careful, fresh
     integer :: fewest, patience_left
 
     base = minval(gap)
@@ -50,25 +56,35 @@ contains
     fewest = huge(fewest)
     patience_left = PATIENCE
     iterations = 0
-    settled = .false.
+    careful = .false.
+    fresh = .true.
     do
       call factor%set(alpha, contact, status)
       if (status /= FUGE_DONE) return
       call factor%solve(shape, load, force, motion)
-      gap_out = shape - motion
-      call add_deflection(alpha, factor%datum, contact, force, gap_out)
-      wrong = violations(alpha, factor%datum, shape - motion, contact, force, gap_out)
-      iterations = iterations + 1
-      if (.not. any(wrong)) then
-        if (settled) exit
-        ! Once more with gaps counted from where the bodies meet: one point far below
-        ! the others would cost them digits.
-        settled = .true.
-        iterations = iterations - 1
+      if (fresh) iterations = iterations + 1
+      fresh = .false.
+      careful = careful .or. factor%spread > ILL_CONDITIONED .or. factor%ridge > 0.0_dp
+      if (careful) then
+        ! Gaps are counted from where the bodies meet: one point far below the others
+        ! would cost them digits.
         base = gap(minloc(abs(shape - motion), dim=1))
         shape = gap - base
+        call factor%solve(shape, load, force, motion)
+        call refine(alpha, shape, load, factor, factor%ridge, contact, force, motion)
+      end if
+      gap_out = shape - motion
+      call add_deflection(alpha, factor%datum, contact, force, gap_out)
+      violation = violations(alpha, factor%datum, shape - motion, contact, force, gap_out)
+      wrong = violation > SIGN_TOLERANCE
+      if (.not. any(wrong)) then
+        if (careful) exit
+        ! Once more with care, before the set is believed.
+        careful = .true.
         cycle
       end if
+      ! What neither goes away nor shows is rounding; the certificate has the last word.
+      if (patience_left < 0 .and. maxval(violation) < NOISE*max(1.0_dp, NOISE_GROWTH*factor%spread)) exit
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
         return
@@ -79,10 +95,12 @@ contains
       else
         patience_left = patience_left - 1
       end if
+      careful = patience_left < PATIENCE
       if (patience_left < 0) call keep_first(wrong)
       contact = contact .neqv. wrong
+      fresh = .true.
     end do
-    call refine(alpha, shape, load, factor, contact, force, motion)
+    if (factor%ridge > 0.0_dp) call refine(alpha, shape, load, factor, 0.0_dp, contact, force, motion)
     force = max(force, 0.0_dp)
     gap_out = shape - motion
     call add_deflection(alpha, factor%datum, contact, force, gap_out)
@@ -107,25 +125,30 @@ contains
     end do
   end subroutine add_deflection
 
-  !> Pulling forces on the contact set and negative gaps off it.
+  !> Pulling forces on the contact set as parts of the largest force, negative gaps off
+  !> it as parts of a length.
   !>
   !> `distance` (n) is the gap less the motion: what the displacement has to make up
   !> for at a point in contact.
-  pure function violations(alpha, datum, distance, contact, force, gap_out) result(wrong)
+  pure function violations(alpha, datum, distance, contact, force, gap_out) result(violation)
     real(dp), intent(in) :: alpha(:, :), datum, distance(:), force(:), gap_out(:)
     logical, intent(in) :: contact(:)
-    logical :: wrong(size(contact))
-    real(dp) :: largest
-    integer :: k
+    real(dp) :: violation(size(contact))
+    real(dp) :: largest, length
+    integer :: j, k
 
     ! The point with the largest force stands for all in the length of a displacement.
     k = maxloc(abs(force), dim=1)
     largest = abs(force(k))
-    where (contact)
-      wrong = force < -SIGN_TOLERANCE*largest
-    else where
-      wrong = gap_out < -SIGN_TOLERANCE*(abs(distance) + abs(alpha(:size(contact), k) - datum)*largest)
-    end where
+    violation = 0.0_dp
+    do j = 1, size(contact)
+      if (contact(j)) then
+        if (force(j) < 0.0_dp) violation(j) = -force(j)/largest
+      else if (gap_out(j) < 0.0_dp) then
+        length = abs(distance(j)) + abs(alpha(j, k) - datum)*largest
+        violation(j) = min(-gap_out(j)/max(length, -gap_out(j)), 1.0_dp)
+      end if
+    end do
   end function violations
 
   !> Only the true element of least index stays true.
@@ -142,10 +165,11 @@ contains
 
   !> Iterative refinement on the contact set. For a well-conditioned alpha one residual
   !> in double precision does; otherwise residuals are in extended precision, which
-  !> sees errors of the forces that double precision cannot.
-  subroutine refine(alpha, shape, load, factor, contact, force, motion)
+  !> sees errors of the forces that double precision cannot. With the ridge of the
+  !> factor the system solved is that of alpha and the ridge, with 0 that of alpha.
+  subroutine refine(alpha, shape, load, factor, ridge, contact, force, motion)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: shape(:), load
+    real(dp), intent(in) :: shape(:), load, ridge
     type(contact_factor), intent(in) :: factor
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: force(:), motion
@@ -157,7 +181,7 @@ contains
       call add_deflection(alpha, factor%datum, contact, force, residual)
       missing = load - sum(force)
     else
-      call extended_residual(alpha, shape, load, factor%datum, contact, force, motion, residual, missing)
+      call extended_residual(alpha, shape, load, factor%datum, ridge, contact, force, motion, residual, missing)
     end if
     last = huge(last)
     do step = 1, REFINEMENTS
@@ -168,21 +192,21 @@ contains
       motion = motion + shift
       if (change <= EXACT_ENOUGH*maxval(abs(force))) exit
       last = change
-      call extended_residual(alpha, shape, load, factor%datum, contact, force, motion, residual, missing)
+      call extended_residual(alpha, shape, load, factor%datum, ridge, contact, force, motion, residual, missing)
     end do
   end subroutine refine
 
   !> The residual of gaps and equilibrium on the contact set.
-  pure subroutine extended_residual(alpha, shape, load, datum, contact, force, motion, residual, missing)
+  pure subroutine extended_residual(alpha, shape, load, datum, ridge, contact, force, motion, residual, missing)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: shape(:), load, datum, force(:), motion
+    real(dp), intent(in) :: shape(:), load, datum, ridge, force(:), motion
     logical, intent(in) :: contact(:)
     real(dp), intent(out) :: residual(:), missing
     real(xp) :: sums(size(shape)), total
     integer :: j, n
 
     n = size(shape)
-    sums = real(shape, xp) - real(motion, xp)
+    sums = real(shape, xp) - real(motion, xp) + real(ridge, xp)*real(force, xp)
     total = real(load, xp)
     do j = 1, n
       if (.not. contact(j)) cycle

@@ -90,7 +90,8 @@ contains
     integer :: reference
 
     if (any(abs(force) > 0.0_dp)) then
-      reference = minloc(length, dim=1, mask=abs(force) > 0.0_dp)
+      ! A force that may be rounding is no contact.
+      reference = minloc(length, dim=1, mask=abs(force) > sqrt(epsilon(datum))*maxval(abs(force)))
     else
       reference = minloc(gap, dim=1)
     end if

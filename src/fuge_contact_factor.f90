@@ -22,7 +22,7 @@ module fuge_contact_factor
   !> A pivot below this part of its diagonal, for each point of the base, is rounding.
   real(dp), parameter :: PIVOT_TOLERANCE = 16.0_dp*epsilon(1.0_dp)
   !> Ridges tried where alpha is singular, relative to its range.
-  real(dp), parameter :: RIDGES(4) = [1.0e-13_dp, 1.0e-12_dp, 1.0e-11_dp, 1.0e-10_dp]
+  real(dp), parameter :: RIDGES(3) = [1.0e-12_dp, 1.0e-11_dp, 1.0e-10_dp]
 
   type, public :: contact_factor
     private

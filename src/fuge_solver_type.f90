@@ -108,7 +108,7 @@ contains
     integer :: n
 
     n = operator%points()
-    if (.not. self%factor%is_set()) then
+    if (.not. (self%factor%is_set() .and. allocated(self%contact))) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
     else if (size(gap_change) /= n .or. size(self%contact) /= n) then
       call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
@@ -182,11 +182,22 @@ contains
       else
         call solve_warm(self, operator%alpha, problem, options, contact, answer, info)
       end if
-      if (.not. info%failed()) self%contact = contact
+      if (.not. info%failed()) call remember(self, contact)
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a fuge_dense_operator')
     end select
   end subroutine run_engine
+
+  !> Keep the contact set for the next solve; without memory that starts from scratch.
+  pure subroutine remember(self, contact)
+    class(fuge_solver), intent(inout) :: self
+    logical, intent(in) :: contact(:)
+    integer :: stat
+
+    if (allocated(self%contact)) deallocate (self%contact)
+    allocate (self%contact(size(contact)), stat=stat)
+    if (stat == 0) self%contact = contact
+  end subroutine remember
 
   !> The active set from the last contact set; from scratch if there is none, or if
   !> it leads nowhere.
