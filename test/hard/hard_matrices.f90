@@ -1,0 +1,95 @@
+!> Matrices that several hard scenes share.
+module hard_matrices
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge, only: dp, fuge_halfplane_matrix, fuge_info, FUGE_MEAN
+  use hard_reference, only: integers
+  implicit none
+  private
+
+  public :: decimal, halfplane, integer_bed, places, ring, string, tridiagonal
+
+contains
+
+  !> Cells of modulus 1.
+  pure function halfplane(x, width) result(alpha)
+    real(dp), intent(in) :: x(:), width
+    real(dp) :: alpha(size(x), size(x))
+    type(fuge_info) :: info
+
+    call fuge_halfplane_matrix(x, spread(width, 1, size(x)), 1.0_dp, FUGE_MEAN, alpha, info)
+  end function halfplane
+
+  !> n places around 0.
+  pure function places(n, spacing) result(x)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: spacing
+    real(dp) :: x(n)
+    integer :: k
+
+    x = [(spacing*(real(k, dp) - 0.5_dp*real(n + 1, dp)), k=1, n)]
+  end function places
+
+  !> A stretched string: alpha falls with the distance, whole numbers for whole places.
+  pure function string(x, top) result(alpha)
+    real(dp), intent(in) :: x(:), top
+    real(dp) :: alpha(size(x), size(x))
+    integer :: j
+
+    do j = 1, size(x)
+      alpha(:, j) = top - abs(x - x(j))
+    end do
+  end function string
+
+  !> Springs in a ring that feel 7 neighbours on either side.
+  pure function ring(n) result(alpha)
+    integer, intent(in) :: n
+    real(dp) :: alpha(n, n)
+    integer :: i, j, distance
+
+    do j = 1, n
+      do i = 1, n
+        distance = min(abs(i - j), n - abs(i - j))
+        alpha(i, j) = real(max(0, 8 - distance) + merge(1, 0, i == j), dp)
+      end do
+    end do
+  end function ring
+
+  pure function tridiagonal(n) result(alpha)
+    integer, intent(in) :: n
+    real(dp) :: alpha(n, n)
+    integer :: i, j
+
+    do j = 1, n
+      alpha(:, j) = [(real(merge(2, merge(-1, 0, abs(i - j) == 1), i == j), dp), i=1, n)]
+    end do
+  end function tridiagonal
+
+  !> B B^T + n with random whole numbers from -2 to 2 in B.
+  pure function integer_bed(n, start) result(alpha)
+    integer, intent(in) :: n
+    integer(int64), intent(in) :: start
+    real(dp) :: alpha(n, n), b(n, n)
+    integer(int64) :: seed
+    integer :: k
+
+    seed = start
+    do k = 1, n
+      call integers(seed, -2, 2, b(:, k))
+    end do
+    alpha = matmul(b, transpose(b))
+    do k = 1, n
+      alpha(k, k) = alpha(k, k) + real(n, dp)
+    end do
+  end function integer_bed
+
+  !> A whole number as text.
+  pure function decimal(value) result(string)
+    integer, intent(in) :: value
+    character(len=:), allocatable :: string
+    character(len=12) :: buffer
+
+    write (buffer, '(i0)') value
+    string = trim(buffer)
+  end function decimal
+
+end module hard_matrices

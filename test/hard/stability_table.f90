@@ -1,0 +1,118 @@
+!> The table of doc/stability.md: every hard scene by both engines.
+!>
+!> stability_table [file] writes it to a file or to the terminal, and stops with an
+!> error where a scene misses what it promises.
+program stability_table
+  use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
+  use fuge, only: dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_TABLEAU, FUGE_DONE
+  use hard_matrices, only: decimal
+  use hard_run, only: solve_scene, force_error, gap_error, own_violation
+  use hard_scenes, only: hard_scene, numbered_scene, SCENES
+  implicit none
+
+  !> A residual above this needs a warning.
+  real(dp), parameter :: MOST = 1.0e-10_dp
+
+  call run()
+
+contains
+
+  subroutine run()
+    character(len=512) :: file
+    integer :: number, misses, unit
+
+    unit = output_unit
+    call get_command_argument(1, file)
+    if (len_trim(file) > 0) open (newunit=unit, file=trim(file), action='write')
+    write (unit, '(a)') '| scene | n | what is hard | tableau | pivots | residual | error ' &
+      //'| active set | sets | residual | error |'
+    write (unit, '(a)') '| --- | ---: | --- | --- | ---: | ---: | ---: | --- | ---: | ---: | ---: |'
+    misses = 0
+    do number = 1, SCENES
+      call write_row(unit, numbered_scene(number), misses)
+    end do
+    if (unit /= output_unit) close (unit)
+    if (misses > 0) then
+      write (error_unit, '(i0,a)') misses, ' scene(s) missed'
+      error stop 1
+    end if
+  end subroutine run
+
+  subroutine write_row(unit, scene, misses)
+    integer, intent(in) :: unit
+    type(hard_scene), intent(in) :: scene
+    integer, intent(inout) :: misses
+    type(fuge_solution) :: slow, fast
+    type(fuge_info) :: slow_info, fast_info
+    character(len=:), allocatable :: row
+
+    call solve_scene(scene, FUGE_ACTIVE_SET, fast, fast_info)
+    row = '| '//trim(scene%name)//' | '//decimal(size(scene%gap))//' | '//trim(scene%why)
+    if (scene%large) then
+      row = row//' | | | | '
+    else
+      call solve_scene(scene, FUGE_TABLEAU, slow, slow_info)
+      row = row//cells(scene, slow_info, slow, fast)
+      call check(scene, slow_info, slow, misses)
+    end if
+    row = row//cells(scene, fast_info, fast, slow)//' |'
+    call check(scene, fast_info, fast, misses)
+    write (unit, '(a)') row
+  end subroutine write_row
+
+  !> Status, iterations, residual, error against the known answer or the other engine.
+  function cells(scene, info, solution, other) result(row)
+    type(hard_scene), intent(in) :: scene
+    type(fuge_info), intent(in) :: info
+    type(fuge_solution), intent(in) :: solution, other
+    character(len=:), allocatable :: row
+
+    row = ' | '//decimal(info%status)//' | '//decimal(info%iterations)//' | '
+    if (info%failed()) then
+      row = row//' | '
+      return
+    end if
+    row = row//short(info%residual)//' | '
+    if (allocated(scene%force)) then
+      row = row//short(max(force_error(scene, scene%force, solution%force), gap_error(scene, solution)))
+    else if (allocated(scene%opening)) then
+      row = row//short(gap_error(scene, solution))//' (gaps)'
+    else if (allocated(other%force)) then
+      row = row//short(force_error(scene, other%force, solution%force))//' (other)'
+    end if
+  end function cells
+
+  !> An answer without a warning has a small residual, by fuge and by these tests.
+  subroutine check(scene, info, solution, misses)
+    type(hard_scene), intent(in) :: scene
+    type(fuge_info), intent(in) :: info
+    type(fuge_solution), intent(in) :: solution
+    integer, intent(inout) :: misses
+    logical :: fine
+
+    fine = info%status /= FUGE_DONE
+    if (.not. fine) fine = info%residual <= MOST .and. own_violation(scene, solution) <= MOST
+    if (fine) return
+    misses = misses + 1
+    write (error_unit, '(a)') trim(scene%name)//': '//trim(info%message)
+    if (.not. info%failed()) write (error_unit, '(2es12.3)') info%residual, own_violation(scene, solution)
+  end subroutine check
+
+  !> One digit and the power of ten are enough.
+  function short(value) result(string)
+    real(dp), intent(in) :: value
+    character(len=:), allocatable :: string
+    integer :: power, digit
+
+    string = '0'
+    if (.not. value > 0.0_dp) return
+    power = floor(log10(value))
+    digit = nint(value/10.0_dp**power)
+    if (digit == 10) then
+      digit = 1
+      power = power + 1
+    end if
+    string = decimal(digit)//'e'//decimal(power)
+  end function short
+
+end program stability_table
