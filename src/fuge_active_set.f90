@@ -1,53 +1,53 @@
-!> The fast engine for a dense matrix: block principal pivoting.
+!> The fast engine for a dense matrix: block principal pivoting, with a way down the
+!> energy where that does not get on.
 !>
 !> Solve the equations of a guessed contact set, let every point that violates a sign
 !> change sides, repeat (J. J. Judice, F. M. Pires, Computers & Operations Research
-!> 21, 1994). When the number of violations has not fallen for a while, only the
-!> violating point of least index changes sides until it has: the least-index
-!> criss-cross method, finite for every positive definite alpha (D. den Hertog,
-!> C. Roos, T. Terlaky, Linear Algebra and its Applications 187, 1993).
+!> 21, 1994). When the number of violations has not fallen for a while, go on with
+!> pushing forces only, one point joining at a time: the primal active set method
+!> (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23), in
+!> which the energy falls with every point that joins, so that it ends.
 module fuge_active_set
   use fuge_contact_factor, only: contact_factor
-  use fuge_kinds, only: dp, xp
+  use fuge_kinds, only: dp
+  use fuge_set_answer, only: solve_set, refine, add_deflection, violations, terms_of, largest_term, &
+    motion_at_shallowest
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
   implicit none
   private
 
-  public :: run_active_set, add_deflection, keep_first
+  public :: run_active_set, keep_first
 
   !> Violations below this part of the largest force, or of a length, are rounding.
   real(dp), parameter :: SIGN_TOLERANCE = 1.0e-14_dp
   !> Block changes without progress before single ones.
   integer, parameter, public :: PATIENCE = 3
-  !> Violations below this part that keep coming back are rounding too; a large spread
-  !> of the pivots raises it.
+  !> Violations below this part that are left after single changes are rounding too; a
+  !> large spread of the pivots raises it.
   real(dp), parameter :: NOISE = 1.0e-11_dp
   real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
   !> Spread of the pivots above which signs are judged after refinement only.
   real(dp), parameter :: ILL_CONDITIONED = 1.0e8_dp
-  !> A correction above this part of the forces calls for another one.
-  real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
-  !> Spread of the pivots below which double precision is enough for a residual.
-  real(dp), parameter :: WELL_CONDITIONED = 1.0e4_dp
-  integer, parameter :: REFINEMENTS = 10
 
 contains
 
   !> From a guess to the contact set, its forces and gaps.
   !>
-  !> `alpha` (at least n rows, n columns), `gap` (n), `load` > 0; `contact` (n) the
-  !> guess, then the set, never empty; `factor` is that of the set on return; out:
-  !> `force` (n), `gap_out` (n), `approach`. `iterations` counts the sets tried.
+  !> `alpha` (at least n rows, n columns), `gap` (n), `load` > 0, `datum` the coefficient
+  !> of alpha nearest to zero; `contact` (n) the guess, then the set, never empty;
+  !> `factor` is that of the set on return; out: `force` (n), `gap_out` (n), `approach`.
+  !> `iterations` counts the sets tried.
   !> Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT.
-  subroutine run_active_set(alpha, gap, load, limit, factor, contact, force, gap_out, approach, iterations, status)
+  subroutine run_active_set(alpha, datum, gap, load, limit, factor, contact, force, gap_out, approach, &
+                            iterations, status)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: gap(:), load
+    real(dp), intent(in) :: datum, gap(:), load
     integer, intent(in) :: limit
     type(contact_factor), intent(inout) :: factor
     logical, intent(inout) :: contact(:)
     real(dp), intent(out) :: force(:), gap_out(:), approach
     integer, intent(out) :: iterations, status
-    real(dp) :: shape(size(gap)), violation(size(gap)), motion, base
+    real(dp) :: shape(size(gap)), terms(size(gap)), violation(size(gap)), motion, base
     logical :: wrong(size(gap)), careful, fresh
     integer :: fewest, patience_left
 
@@ -61,7 +61,7 @@ contains
     do
       call factor%set(alpha, contact, status)
       if (status /= FUGE_DONE) return
-      call factor%solve(shape, load, force, motion)
+      call solve_set(factor, datum, shape, load, force, motion)
       if (fresh) iterations = iterations + 1
       fresh = .false.
       careful = careful .or. factor%spread > ILL_CONDITIONED .or. factor%ridge > 0.0_dp
@@ -70,12 +70,17 @@ contains
         ! would cost them digits.
         base = gap(minloc(abs(shape - motion), dim=1))
         shape = gap - base
-        call factor%solve(shape, load, force, motion)
-        call refine(alpha, shape, load, factor, factor%ridge, contact, force, motion)
+        call solve_set(factor, datum, shape, load, force, motion)
+        call refine(alpha, datum, shape, load, factor, factor%ridge, contact, force, motion)
       end if
       gap_out = shape - motion
-      call add_deflection(alpha, factor%datum, contact, force, gap_out)
-      violation = violations(alpha, factor%datum, shape - motion, contact, force, gap_out)
+      call add_deflection(alpha, datum, contact, force, gap_out)
+      if (careful) then
+        terms = terms_of(alpha, datum, contact, force)
+      else
+        terms = largest_term(alpha, datum, force)
+      end if
+      violation = violations(shape - motion, terms, contact, force, gap_out)
       wrong = violation > SIGN_TOLERANCE
       if (.not. any(wrong)) then
         if (careful) exit
@@ -83,73 +88,107 @@ contains
         careful = .true.
         cycle
       end if
-      ! What neither goes away nor shows is rounding; the certificate has the last word.
+      ! What single changes have left is rounding; the certificate has the last word.
       if (patience_left < 0 .and. maxval(violation) < NOISE*max(1.0_dp, NOISE_GROWTH*factor%spread)) exit
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
         return
       end if
-      if (count(wrong) < fewest) then
-        fewest = count(wrong)
-        patience_left = PATIENCE
-      else
-        patience_left = patience_left - 1
-      end if
+      patience_left = patience_left - 1
+      if (count(wrong) < fewest .and. patience_left >= 0) patience_left = PATIENCE
+      fewest = min(fewest, count(wrong))
       careful = patience_left < PATIENCE
-      if (patience_left < 0) call keep_first(wrong)
-      contact = contact .neqv. wrong
-      fresh = .true.
+      if (patience_left < 0) then
+        call descend(alpha, datum, shape, load, limit, factor, contact, force, iterations, status)
+        if (status /= FUGE_DONE) return
+      else
+        contact = contact .neqv. wrong
+        fresh = .true.
+      end if
     end do
-    if (factor%ridge > 0.0_dp) call refine(alpha, shape, load, factor, 0.0_dp, contact, force, motion)
+    if (factor%ridge > 0.0_dp) call refine(alpha, datum, shape, load, factor, 0.0_dp, contact, force, motion)
     force = max(force, 0.0_dp)
+    motion = motion_at_shallowest(alpha, datum, shape, contact, force, motion)
     gap_out = shape - motion
-    call add_deflection(alpha, factor%datum, contact, force, gap_out)
+    call add_deflection(alpha, datum, contact, force, gap_out)
     gap_out = max(gap_out, 0.0_dp)
     where (contact) gap_out = 0.0_dp
-    approach = (motion + factor%datum*load) + base
+    approach = (motion + datum*load) + base
   end subroutine run_active_set
 
-  !> u := u + (alpha - datum) F, with the columns of the contact only.
-  !>
-  !> Not by BLAS: taking the datum out of each product is what keeps its digits.
-  pure subroutine add_deflection(alpha, datum, contact, force, u)
+  !> Down the energy: from pushing forces towards the answer of their set as far as no
+  !> force pulls, then the point with the most negative gap joins, until none has one.
+  !> `force` (n) in: where to start; `contact` and `factor` out.
+  subroutine descend(alpha, datum, shape, load, limit, factor, contact, force, iterations, status)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, force(:)
-    logical, intent(in) :: contact(:)
-    real(dp), intent(inout) :: u(:)
-    integer :: j, n
+    real(dp), intent(in) :: datum, shape(:), load
+    integer, intent(in) :: limit
+    type(contact_factor), intent(inout) :: factor
+    logical, intent(inout) :: contact(:)
+    real(dp), intent(inout) :: force(:)
+    integer, intent(inout) :: iterations
+    integer, intent(out) :: status
+    real(dp) :: wanted(size(shape)), gap_out(size(shape)), terms(size(shape)), motion
+    logical :: barred(size(shape)), wrong(size(shape))
+    integer :: newest
 
-    n = size(u)
-    do j = 1, n
-      if (contact(j)) u = u + (alpha(:n, j) - datum)*force(j)
-    end do
-  end subroutine add_deflection
-
-  !> Pulling forces on the contact set as parts of the largest force, negative gaps off
-  !> it as parts of a length.
-  !>
-  !> `distance` (n) is the gap less the motion: what the displacement has to make up
-  !> for at a point in contact.
-  pure function violations(alpha, datum, distance, contact, force, gap_out) result(violation)
-    real(dp), intent(in) :: alpha(:, :), datum, distance(:), force(:), gap_out(:)
-    logical, intent(in) :: contact(:)
-    real(dp) :: violation(size(contact))
-    real(dp) :: largest, length
-    integer :: j, k
-
-    ! The point with the largest force stands for all in the length of a displacement.
-    k = maxloc(abs(force), dim=1)
-    largest = abs(force(k))
-    violation = 0.0_dp
-    do j = 1, size(contact)
-      if (contact(j)) then
-        if (force(j) < 0.0_dp) violation(j) = -force(j)/largest
-      else if (gap_out(j) < 0.0_dp) then
-        length = abs(distance(j)) + abs(alpha(j, k) - datum)*largest
-        violation(j) = min(-gap_out(j)/max(length, -gap_out(j)), 1.0_dp)
+    force = max(force, 0.0_dp)
+    force = force*(load/sum(force))
+    contact = force > 0.0_dp
+    barred = .false.
+    newest = 0
+    do
+      call factor%set(alpha, contact, status)
+      if (status /= FUGE_DONE) return
+      call solve_set(factor, datum, shape, load, wanted, motion)
+      call refine(alpha, datum, shape, load, factor, factor%ridge, contact, wanted, motion)
+      iterations = iterations + 1
+      if (any(contact .and. wanted <= 0.0_dp)) then
+        call step_back(wanted, contact, force, newest, barred)
+      else
+        force = wanted
+        if (newest > 0) barred = barred .and. barred(newest)
+        gap_out = shape - motion
+        call add_deflection(alpha, datum, contact, force, gap_out)
+        terms = terms_of(alpha, datum, contact, force)
+        wrong = violations(shape - motion, terms, contact, force, gap_out) > SIGN_TOLERANCE .and. .not. barred
+        if (.not. any(wrong)) return
+        newest = minloc(gap_out, dim=1, mask=wrong)
+        contact(newest) = .true.
+      end if
+      if (iterations >= limit) then
+        status = FUGE_ERR_ITERATION_LIMIT
+        return
       end if
     end do
-  end function violations
+  end subroutine descend
+
+  !> Go towards the wanted forces until the first becomes zero; that point leaves. A point
+  !> that was to join but would pull at once did so by rounding: it is barred until the
+  !> forces have moved.
+  pure subroutine step_back(wanted, contact, force, newest, barred)
+    real(dp), intent(in) :: wanted(:)
+    logical, intent(inout) :: contact(:), barred(:)
+    real(dp), intent(inout) :: force(:)
+    integer, intent(in) :: newest
+    real(dp) :: way(size(force))
+    integer :: k
+
+    k = 0
+    if (newest > 0) then
+      if (contact(newest) .and. wanted(newest) <= 0.0_dp) k = newest
+    end if
+    if (k > 0) then
+      barred(k) = .true.
+    else
+      way = huge(way)
+      where (contact .and. wanted <= 0.0_dp) way = force/max(force - wanted, tiny(way))
+      k = minloc(way, dim=1)
+      where (contact) force = max(force + min(way(k), 1.0_dp)*(wanted - force), 0.0_dp)
+    end if
+    force(k) = 0.0_dp
+    contact(k) = .false.
+  end subroutine step_back
 
   !> Only the true element of least index stays true.
   pure subroutine keep_first(mask)
@@ -162,59 +201,5 @@ contains
       return
     end do
   end subroutine keep_first
-
-  !> Iterative refinement on the contact set. For a well-conditioned alpha one residual
-  !> in double precision does; otherwise residuals are in extended precision, which
-  !> sees errors of the forces that double precision cannot. With the ridge of the
-  !> factor the system solved is that of alpha and the ridge, with 0 that of alpha.
-  subroutine refine(alpha, shape, load, factor, ridge, contact, force, motion)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: shape(:), load, ridge
-    type(contact_factor), intent(in) :: factor
-    logical, intent(in) :: contact(:)
-    real(dp), intent(inout) :: force(:), motion
-    real(dp) :: residual(size(shape)), correction(size(shape)), missing, shift, change, last
-    integer :: step
-
-    if (factor%spread < WELL_CONDITIONED .and. .not. factor%ridge > 0.0_dp) then
-      residual = shape - motion
-      call add_deflection(alpha, factor%datum, contact, force, residual)
-      missing = load - sum(force)
-    else
-      call extended_residual(alpha, shape, load, factor%datum, ridge, contact, force, motion, residual, missing)
-    end if
-    last = huge(last)
-    do step = 1, REFINEMENTS
-      call factor%solve(residual, missing, correction, shift)
-      change = maxval(abs(correction))
-      if (.not. change < 0.5_dp*last) exit
-      force = force + correction
-      motion = motion + shift
-      if (change <= EXACT_ENOUGH*maxval(abs(force))) exit
-      last = change
-      call extended_residual(alpha, shape, load, factor%datum, ridge, contact, force, motion, residual, missing)
-    end do
-  end subroutine refine
-
-  !> The residual of gaps and equilibrium on the contact set.
-  pure subroutine extended_residual(alpha, shape, load, datum, ridge, contact, force, motion, residual, missing)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: shape(:), load, datum, ridge, force(:), motion
-    logical, intent(in) :: contact(:)
-    real(dp), intent(out) :: residual(:), missing
-    real(xp) :: sums(size(shape)), total
-    integer :: j, n
-
-    n = size(shape)
-    sums = real(shape, xp) - real(motion, xp) + real(ridge, xp)*real(force, xp)
-    total = real(load, xp)
-    do j = 1, n
-      if (.not. contact(j)) cycle
-      sums = sums + (real(alpha(:n, j), xp) - real(datum, xp))*real(force(j), xp)
-      total = total - real(force(j), xp)
-    end do
-    residual = real(sums, dp)
-    missing = real(total, dp)
-  end subroutine extended_residual
 
 end module fuge_active_set

@@ -94,7 +94,7 @@ contains
     real(dp), intent(in), contiguous :: alpha(:, :)
     logical, intent(in) :: contact(:)
     integer, intent(out) :: status
-    integer, parameter :: DATUMS = 4
+    integer, parameter :: DATUMS = 10
     real(dp) :: nearest, range
     integer :: attempt
     logical :: done
@@ -102,9 +102,14 @@ contains
     call choose_base(self, contact, status)
     if (status /= FUGE_DONE) return
     call extremes(alpha, self%base, nearest, range)
-    ! Any datum will do that makes the block positive definite.
+    ! Any datum will do that makes the block positive definite; alpha's own if it can.
+    if (abs(nearest) <= range) then
+      self%datum = 0.0_dp
+      call factor_base(self, alpha, 0.0_dp, done)
+      if (done) return
+    end if
     do attempt = 0, DATUMS - 1
-      self%datum = nearest - range*real(4**attempt - 1, dp)
+      self%datum = nearest - range*real(8**attempt - 1, dp)
       call factor_base(self, alpha, 0.0_dp, done)
       if (done) return
     end do
@@ -306,7 +311,24 @@ contains
     if (singular) return
     call dsytrf('L', p, self%small, limit, self%pivots, work, size(work), info)
     singular = info /= 0
+    if (.not. singular) singular = negatives(self) /= count(self%keys(:p) <= 0)
   end subroutine factor_small
+
+  !> Negative eigenvalues of the small system: one for the rigid motion and one for each
+  !> point removed if alpha is positive definite on the set, on forces with zero sum.
+  pure function negatives(self) result(number)
+    class(contact_factor), intent(in) :: self
+    integer :: number
+    integer :: j
+
+    number = 0
+    j = 1
+    do while (j <= self%borders)
+      ! A block of two has one eigenvalue of each sign.
+      if (self%pivots(j) < 0 .or. self%small(j, j) < 0.0_dp) number = number + 1
+      j = j + merge(1, 2, self%pivots(j) > 0)
+    end do
+  end function negatives
 
   !> Entry of the bordered matrix between two borders.
   pure function corner(self, alpha, row, column) result(entry)

@@ -28,10 +28,11 @@ contains
   !> The paper's engine: Phase I finds the contact set, and the numbers are solved
   !> anew on it, which also mends points that the rounding of the pivots misjudged.
   !>
-  !> `alpha` (at least n rows, n columns), `problem` checked, load > 0; `contact` (n) and
-  !> `factor` belong to the answer on return.
-  subroutine solve_by_tableau(alpha, problem, options, history, contact, factor, answer, info)
+  !> `alpha` (at least n rows, n columns), `datum` its coefficient nearest to zero, `problem`
+  !> checked, load > 0; `contact` (n) and `factor` belong to the answer on return.
+  subroutine solve_by_tableau(alpha, datum, problem, options, history, contact, factor, answer, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
     type(fuge_history), intent(inout) :: history
@@ -51,7 +52,7 @@ contains
       ! Only a limit that was asked for ends the solve; otherwise the set so far will do.
       if (status == FUGE_ERR_ITERATION_LIMIT .and. options%max_iterations == 0) status = FUGE_DONE
       if (status == FUGE_DONE) then
-        call run_active_set(alpha, gap, load, limit_of(fuge_options(), size(gap)), factor, contact, &
+        call run_active_set(alpha, datum, gap, load, limit_of(fuge_options(), size(gap)), factor, contact, &
                             answer%force, answer%gap, answer%rigid(1), sets, status)
       end if
       call explain(status, limit, count(contact), info)
@@ -60,8 +61,9 @@ contains
 
   !> Block principal pivoting. `contact` (n): on entry a guess, or none to have one
   !> made; on return the contact set, with its `factor`.
-  subroutine solve_by_active_set(alpha, problem, options, contact, factor, answer, info)
+  subroutine solve_by_active_set(alpha, datum, problem, options, contact, factor, answer, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
     logical, intent(inout) :: contact(:)
@@ -75,12 +77,12 @@ contains
       if (info%failed()) return
       limit = limit_of(options, size(gap))
       if (.not. any(contact)) call guess_contact_set(alpha, gap, load, contact, info%products)
-      call run_active_set(alpha, gap, load, limit, factor, contact, answer%force, answer%gap, &
+      call run_active_set(alpha, datum, gap, load, limit, factor, contact, answer%force, answer%gap, &
                           answer%rigid(1), info%iterations, status)
       if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
         ! A set tried on the way was singular; the last one need not be.
         factor = contact_factor()
-        call run_active_set(alpha, gap, load, limit, factor, contact, answer%force, answer%gap, &
+        call run_active_set(alpha, datum, gap, load, limit, factor, contact, answer%force, answer%gap, &
                             answer%rigid(1), more, status)
         info%iterations = info%iterations + more
       end if

@@ -5,7 +5,7 @@
 !> could at once, and how the next piece runs, is a small contact problem in the rates
 !> for the points that have neither force nor gap there. No load steps.
 module fuge_parametric
-  use fuge_active_set, only: add_deflection, PATIENCE, keep_first
+  use fuge_active_set, only: PATIENCE, keep_first
   use fuge_check, only: check_finite
   use fuge_contact_factor, only: contact_factor
   use fuge_dense, only: fuge_dense_operator
@@ -13,6 +13,7 @@ module fuge_parametric
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, check_problem, set_problem
+  use fuge_set_answer, only: add_deflection
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, &
     FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED
   use fuge_text, only: text

@@ -12,6 +12,8 @@ module fuge_presolve
   integer, parameter :: MOST_ITERATIONS = 12
   !> Good enough when fewer than one point in this many changes sides.
   integer, parameter :: SETTLED = 64
+  !> Slopes below this part of the lengths that make them are rounding.
+  real(dp), parameter :: ROUNDING = 1.0e-13_dp
 
 contains
 
@@ -26,7 +28,7 @@ contains
     logical, intent(out) :: contact(:)
     integer, intent(inout) :: products
     real(dp), dimension(size(gap)) :: part, slope, direction, change, shape
-    real(dp) :: unit, previous, squares, step, curvature, lowest
+    real(dp) :: unit, previous, squares, step, curvature, lowest, total, noise
     logical :: before(size(gap)), restarted
     integer :: iteration, n
 
@@ -43,7 +45,9 @@ contains
     do iteration = 1, MOST_ITERATIONS
       call multiply(alpha, part, load/unit, slope)
       slope = slope + shape
+      noise = ROUNDING*maxval(abs(slope))
       slope = slope - mean_of(slope, contact)
+      if (maxval(abs(slope), mask=contact) <= noise) exit
       squares = sum(slope**2, mask=contact)
       if (.not. squares > 0.0_dp) exit
       if (restarted) direction = 0.0_dp
@@ -59,7 +63,10 @@ contains
       part = max(part - step*direction, 0.0_dp)
       restarted = any(part <= 0.0_dp .and. slope < 0.0_dp)
       where (part <= 0.0_dp .and. slope < 0.0_dp) part = -step*slope
-      part = part/sum(part)
+      total = sum(part)
+      ! Nothing is left of the forces after a step along rounding.
+      if (.not. total > 0.0_dp) exit
+      part = part/total
       contact = part > 0.0_dp
       if (count(contact .neqv. before)*SETTLED < count(contact)) exit
     end do

@@ -1,6 +1,5 @@
 !> From a problem to a certified answer: checks, choice of engine, certificate.
 module fuge_solver_type
-  use fuge_active_set, only: add_deflection
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_check, only: check_finite
   use fuge_contact_factor, only: contact_factor
@@ -11,6 +10,7 @@ module fuge_solver_type
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
+  use fuge_set_answer, only: add_deflection
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED
   use fuge_text, only: text
@@ -178,9 +178,9 @@ contains
     select type (operator)
     class is (fuge_dense_operator)
       if (method == FUGE_TABLEAU) then
-        call solve_by_tableau(operator%alpha, problem, options, self%history, contact, self%factor, answer, info)
+        call solve_by_tableau(operator%alpha, operator%datum(), problem, options, self%history, contact, self%factor, answer, info)
       else
-        call solve_warm(self, operator%alpha, problem, options, contact, answer, info)
+        call solve_warm(self, operator%alpha, operator%datum(), problem, options, contact, answer, info)
       end if
       if (.not. info%failed()) call remember(self, contact)
     class default
@@ -201,9 +201,10 @@ contains
 
   !> The active set from the last contact set; from scratch if there is none, or if
   !> it leads nowhere.
-  subroutine solve_warm(self, alpha, problem, options, contact, answer, info)
+  subroutine solve_warm(self, alpha, datum, problem, options, contact, answer, info)
     class(fuge_solver), intent(inout) :: self
     real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
     logical, intent(out) :: contact(:)
@@ -215,11 +216,11 @@ contains
     if (allocated(self%contact)) warm = size(self%contact) == size(contact)
     contact = .false.
     if (warm) contact = self%contact
-    call solve_by_active_set(alpha, problem, options, contact, self%factor, answer, info)
+    call solve_by_active_set(alpha, datum, problem, options, contact, self%factor, answer, info)
     if (warm .and. info%failed()) then
       info = fuge_info()
       contact = .false.
-      call solve_by_active_set(alpha, problem, options, contact, self%factor, answer, info)
+      call solve_by_active_set(alpha, datum, problem, options, contact, self%factor, answer, info)
     end if
   end subroutine solve_warm
 
