@@ -376,7 +376,8 @@ static void test_residual_warning(void) {
   options.tolerance = 1e-300;
   fuge_solver *solver = new_solver(alpha, N, &options, &op);
   CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_set_load(solver, 0.3), FUGE_DONE);
+  /* A third, and enough points for the sum of their forces to round. */
+  CHECK_STATUS(fuge_set_load(solver, 1.0 / 3.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_WARN_RESIDUAL);
   check_message(solver, "residual");
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
