@@ -178,7 +178,8 @@ contains
     select type (operator)
     class is (fuge_dense_operator)
       if (method == FUGE_TABLEAU) then
-        call solve_by_tableau(operator%alpha, operator%datum(), problem, options, self%history, contact, self%factor, answer, info)
+        call solve_by_tableau(operator%alpha, operator%datum(), problem, options, self%history, contact, &
+                              self%factor, answer, info)
       else
         call solve_warm(self, operator%alpha, operator%datum(), problem, options, contact, answer, info)
       end if

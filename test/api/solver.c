@@ -376,14 +376,21 @@ static void test_residual_warning(void) {
   options.tolerance = 1e-300;
   fuge_solver *solver = new_solver(alpha, N, &options, &op);
   CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
-  /* A third, and enough points for the sum of their forces to round. */
-  CHECK_STATUS(fuge_set_load(solver, 1.0 / 3.0), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_WARN_RESIDUAL);
-  check_message(solver, "residual");
-  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
-  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
-  CHECK_INT(info.status, FUGE_WARN_RESIDUAL);
-  CHECK(info.residual > options.tolerance && info.residual < 1e-12);
+  /* Rounding may be exactly zero for one load, but not for all. */
+  int warned = 0;
+  for (int k = 1; k <= 50; k++) {
+    CHECK_STATUS(fuge_set_load(solver, k / 7.0), FUGE_DONE);
+    int status = fuge_solve(solver);
+    CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+    CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+    CHECK_INT(info.status, status);
+    CHECK(info.residual < 1e-12);
+    CHECK_INT(status, info.residual > options.tolerance ? FUGE_WARN_RESIDUAL : FUGE_DONE);
+    if (status != FUGE_WARN_RESIDUAL) continue;
+    check_message(solver, "residual");
+    warned++;
+  }
+  CHECK(warned > 0);
   free_both(&solver, &op);
 }
 
