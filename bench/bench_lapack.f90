@@ -1,0 +1,29 @@
+!> The two routines of LAPACK and BLAS that the benchmark itself needs.
+module bench_lapack
+  use fuge, only: dp
+  implicit none
+  private
+
+  public :: dposv, dsyrk
+
+  interface
+    !> Solve a symmetric positive definite system by Cholesky; `a` becomes the factor.
+    subroutine dposv(uplo, n, nrhs, a, lda, b, ldb, info)
+      import :: dp
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(dp), intent(inout) :: a(lda, *), b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dposv
+
+    !> C := alpha A A^T + beta C (trans = 'N'), one triangle.
+    subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
+      import :: dp
+      character(len=1), intent(in) :: uplo, trans
+      integer, intent(in) :: n, k, lda, ldc
+      real(dp), intent(in) :: alpha, a(lda, *), beta
+      real(dp), intent(inout) :: c(ldc, *)
+    end subroutine dsyrk
+  end interface
+
+end module bench_lapack
