@@ -4,7 +4,7 @@ module fuge_lapack
   implicit none
   private
 
-  public :: dgemv, dpotrf, dsyrk, dsysvx, dsytrf, dsytrs, dtrsm, dtrsv
+  public :: dgemv, dpotrf, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
 
   interface
     !> y := alpha A x + beta y.
@@ -24,21 +24,6 @@ module fuge_lapack
       real(dp), intent(inout) :: a(lda, *)
       integer, intent(out) :: info
     end subroutine dpotrf
-
-    !> Symmetric indefinite solve with iterative refinement and condition estimate.
-    subroutine dsysvx(fact, uplo, n, nrhs, a, lda, af, ldaf, ipiv, b, ldb, x, ldx, rcond, &
-                      ferr, berr, work, lwork, iwork, info)
-      import :: dp
-      character(len=1), intent(in) :: fact, uplo
-      integer, intent(in) :: n, nrhs, lda, ldaf, ldb, ldx, lwork
-      real(dp), intent(in) :: a(lda, *), b(ldb, *)
-      real(dp), intent(inout) :: af(ldaf, *)
-      integer, intent(inout) :: ipiv(*)
-      real(dp), intent(out) :: x(ldx, *), rcond, ferr(*), berr(*)
-      real(dp), intent(inout) :: work(*)
-      integer, intent(inout) :: iwork(*)
-      integer, intent(out) :: info
-    end subroutine dsysvx
 
     !> C := alpha A^T A + beta C (trans = 'T'), one triangle.
     subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
