@@ -51,11 +51,12 @@ contains
                          info%iterations, status)
       ! Only a limit that was asked for ends the solve; otherwise the set so far will do.
       if (status == FUGE_ERR_ITERATION_LIMIT .and. options%max_iterations == 0) status = FUGE_DONE
-      if (status == FUGE_DONE) then
-        call run_active_set(alpha, datum, gap, load, limit_of(fuge_options(), size(gap)), factor, contact, &
-                            answer%force, answer%gap, answer%rigid(1), sets, status)
+      if (status /= FUGE_DONE) then
+        call explain(status, limit, count(contact), info)
+      else
+        call solve_from(alpha, datum, problem, limit_of(fuge_options(), size(gap)), contact, factor, answer, &
+                        sets, info)
       end if
-      call explain(status, limit, count(contact), info)
     end associate
   end subroutine solve_by_tableau
 
@@ -70,29 +71,48 @@ contains
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
-    integer :: limit, more, status
+    integer :: sets
 
     associate (gap => problem%gap, load => problem%resultant(1))
       call check_scene(alpha, load, info)
       if (info%failed()) return
-      limit = limit_of(options, size(gap))
       if (.not. any(contact)) call guess_contact_set(alpha, gap, load, contact, info%products)
+      call solve_from(alpha, datum, problem, limit_of(options, size(gap)), contact, factor, answer, sets, info)
+      info%iterations = sets
+    end associate
+  end subroutine solve_by_active_set
+
+  !> From a contact set, found or guessed, to the answer and its words. `sets` counts
+  !> those tried.
+  subroutine solve_from(alpha, datum, problem, limit, contact, factor, answer, sets, info)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: limit
+    logical, intent(inout) :: contact(:)
+    type(contact_factor), intent(inout) :: factor
+    type(fuge_solution), intent(inout) :: answer
+    integer, intent(out) :: sets
+    type(fuge_info), intent(inout) :: info
+    integer :: more, status
+
+    associate (gap => problem%gap, load => problem%resultant(1))
       call run_active_set(alpha, datum, gap, load, limit, factor, contact, answer%force, answer%gap, &
-                          answer%rigid(1), info%iterations, status)
+                          answer%rigid(1), sets, status)
       if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
         ! A set tried on the way was singular; the last one need not be.
         factor = contact_factor()
         call run_active_set(alpha, datum, gap, load, limit, factor, contact, answer%force, answer%gap, &
                             answer%rigid(1), more, status)
-        info%iterations = info%iterations + more
-      end if
-      call explain(status, limit, count(contact), info)
-      if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
-        call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
-                    //'the forces are not; those given are near the least squares')
+        sets = sets + more
       end if
     end associate
-  end subroutine solve_by_active_set
+    call explain(status, limit, count(contact), info)
+    if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
+      call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
+                  //'the forces are not; those given are near the least squares')
+    end if
+  end subroutine solve_from
 
   !> What can be refused before anything is factored: FUGE_ERR_OVERFLOW,
   !> FUGE_ERR_NOT_DEFINITE.
@@ -172,9 +192,9 @@ contains
     if (status /= FUGE_DONE) then
       call report(info, status, 'no memory to factor alpha')
     else if (deficient > 0) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces with zero sum: points 1 to ' &
-                  //text(deficient)//' carry some that store no energy; look for a repeated point or a wrong sign ' &
-                  //'at point '//text(deficient))
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces with zero sum: ' &
+                  //'point '//text(deficient)//' and others carry some that store no energy; look for a repeated ' &
+                  //'point or a wrong sign at point '//text(deficient))
     end if
   end subroutine require_definite
 

@@ -21,7 +21,7 @@ contains
   !>
   !> `alpha` (at least n rows, n columns), `gap` (n), `load` > 0; `products` is raised
   !> by the products with alpha. Forces are kept as parts of the load and lengths as
-  !> parts of a length of the scene, so that nothing over- or underflows.
+  !> parts of a length of the scene, so that units do not matter.
   subroutine guess_contact_set(alpha, gap, load, contact, products)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: gap(:), load

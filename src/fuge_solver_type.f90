@@ -10,7 +10,7 @@ module fuge_solver_type
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
-  use fuge_set_answer, only: add_deflection
+  use fuge_set_answer, only: solve_set, add_deflection
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED
   use fuge_text, only: text
@@ -37,11 +37,12 @@ contains
   !> Solve the contact problem (paper, equations 9 to 11) and certify the answer.
   !>
   !> `operator` displacements per force, `problem` gaps and load, `options` as in
-  !> `fuge_options` (defaults when absent). On return info%status is FUGE_DONE, or
-  !> FUGE_WARN_RESIDUAL with the residual in the message, or an error that leaves
-  !> `solution` untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION,
-  !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT,
-  !> FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  !> `fuge_options` (defaults when absent). On return info%status is FUGE_DONE,
+  !> FUGE_WARN_RESIDUAL with the residual in the message, FUGE_WARN_NOT_UNIQUE where
+  !> alpha is singular on the contact, or an error that leaves `solution` untouched:
+  !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM,
+  !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED,
+  !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   subroutine solve(self, operator, problem, solution, info, options)
     class(fuge_solver), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
@@ -121,11 +122,11 @@ contains
     if (info%failed()) return
     select type (operator)
     class is (fuge_dense_operator)
-      call self%factor%solve(gap_change, load_change, found%force, motion)
+      call solve_set(self%factor, operator%datum(), gap_change, load_change, found%force, motion)
       found%gap = gap_change - motion
-      call add_deflection(operator%alpha, self%factor%datum, self%contact, found%force, found%gap)
+      call add_deflection(operator%alpha, operator%datum(), self%contact, found%force, found%gap)
       where (self%contact) found%gap = 0.0_dp
-      found%rigid = motion + self%factor%datum*load_change
+      found%rigid = motion + operator%datum()*load_change
       call take(found, change)
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a fuge_dense_operator')

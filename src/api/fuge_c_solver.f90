@@ -92,11 +92,16 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
     type(fuge_info) :: info
+    integer :: stat
 
     call take_solver(solver, handle, info)
     if (.not. info%failed()) call check_load(load, info)
     if (.not. info%failed()) then
-      if (.not. allocated(handle%problem%resultant)) allocate (handle%problem%resultant(1))
+      stat = 0
+      if (.not. allocated(handle%problem%resultant)) allocate (handle%problem%resultant(1), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the load')
+    end if
+    if (.not. info%failed()) then
       handle%problem%resultant(1) = load
       handle%solved = .false.
     end if
