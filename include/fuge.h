@@ -60,7 +60,10 @@ enum {
   FUGE_ERR_CALL_ORDER = -13,
   FUGE_ERR_OPTION = -14,
   FUGE_ERR_UNSUPPORTED = -15,   /* this version or engine cannot do that       */
-  FUGE_ERR_OVERFLOW = -16       /* magnitudes leave double precision           */
+  FUGE_ERR_OVERFLOW = -16,      /* magnitudes leave double precision           */
+  FUGE_ERR_CALLBACK = -17,      /* an operator's callback failed or gave NaN   */
+  FUGE_ERR_CANCELLED = -18,     /* the progress callback ended the solve       */
+  FUGE_ERR_FILE = -19           /* a file cannot be read                       */
 };
 
 /* General meaning of a status; a constant string, never NULL. */
@@ -74,7 +77,8 @@ const char *fuge_version(void);
 enum {                          /* fuge_options.method */
   FUGE_AUTO = 0,                /* the active set; the tableau if the history is kept */
   FUGE_TABLEAU = 1,             /* the paper's tableau, Phase I of the simplex method */
-  FUGE_ACTIVE_SET = 2           /* block principal pivoting: the fast one */
+  FUGE_ACTIVE_SET = 2,          /* block principal pivoting: the fast one for a matrix */
+  FUGE_ITERATIVE = 3            /* products only: the fast one for many points */
 };
 
 enum {                          /* fuge_options.pivot_rule, of the tableau */

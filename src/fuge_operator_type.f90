@@ -4,6 +4,7 @@
 !> definite on the forces with zero resultant; u is positive into the body.
 module fuge_operator_type
   use fuge_kinds, only: dp
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -18,6 +19,12 @@ module fuge_operator_type
     procedure :: datum => no_datum
     !> Lengths by which to judge errors of the displacements, see below.
     procedure :: magnitude => largest_displacement
+    !> Is there a `filter`? Without one the conjugate gradients run plain.
+    procedure :: has_filter => without_filter
+    !> force = M length, M symmetric, positive definite and near the inverse of A.
+    procedure :: filter => copy_through
+    !> The same body on cells of twice the width, for a first guess; none by default.
+    procedure :: coarsen => no_coarser
   end type fuge_operator
 
   abstract interface
@@ -39,6 +46,33 @@ module fuge_operator_type
   end interface
 
 contains
+
+  function without_filter(self) result(filtered)
+    class(fuge_operator), intent(in) :: self
+    logical :: filtered
+
+    filtered = self%points() < 0
+  end function without_filter
+
+  !> `length` (n); `force` (n); `status` as for `apply`. Called only where `has_filter`.
+  subroutine copy_through(self, length, force, status)
+    class(fuge_operator), intent(in) :: self
+    real(dp), intent(in) :: length(:)
+    real(dp), intent(out) :: force(:)
+    integer, intent(out) :: status
+
+    force = length
+    status = merge(FUGE_DONE, FUGE_ERR_SIZE, self%points() == size(length))
+  end subroutine copy_through
+
+  !> `coarse` has (n+1)/2 points, each in the place of points 2k-1 and 2k of this one (the
+  !> last may stand for one alone), or stays unallocated where there is none.
+  subroutine no_coarser(self, coarse)
+    class(fuge_operator), intent(in) :: self
+    class(fuge_operator), allocatable, intent(out) :: coarse
+
+    if (self%points() < 0) allocate (coarse, source=self)
+  end subroutine no_coarser
 
   function no_datum(self) result(datum)
     class(fuge_operator), intent(in) :: self

@@ -13,6 +13,7 @@ module fuge_options_type
   integer, parameter, public :: FUGE_AUTO = 0
   integer, parameter, public :: FUGE_TABLEAU = 1
   integer, parameter, public :: FUGE_ACTIVE_SET = 2
+  integer, parameter, public :: FUGE_ITERATIVE = 3
 
   !> Pricing of the tableau's entering column (`pivot_rule`).
   integer, parameter, public :: FUGE_PAPER_RULE = 0
@@ -20,7 +21,7 @@ module fuge_options_type
   integer, parameter, public :: FUGE_GREATEST_DECREASE = 2
 
   type, public :: fuge_options
-    !> Engine: FUGE_AUTO, FUGE_TABLEAU or FUGE_ACTIVE_SET.
+    !> Engine: FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET or FUGE_ITERATIVE.
     integer :: method = FUGE_AUTO
     !> Pricing of the tableau.
     integer :: pivot_rule = FUGE_PAPER_RULE
@@ -39,9 +40,9 @@ contains
     type(fuge_options), intent(in) :: options
     type(fuge_info), intent(inout) :: info
 
-    if (all(options%method /= [FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET])) then
+    if (all(options%method /= [FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET, FUGE_ITERATIVE])) then
       call report(info, FUGE_ERR_OPTION, 'method = '//text(options%method) &
-        //' is not an engine: use FUGE_AUTO, FUGE_TABLEAU or FUGE_ACTIVE_SET')
+        //' is not an engine: use FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET or FUGE_ITERATIVE')
     else if (all(options%pivot_rule /= [FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE])) then
       call report(info, FUGE_ERR_OPTION, 'pivot_rule = '//text(options%pivot_rule) &
         //' is unknown: use FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE or FUGE_GREATEST_DECREASE')

@@ -29,12 +29,18 @@ module fuge_status
   integer, parameter, public :: FUGE_ERR_OPTION = -14
   integer, parameter, public :: FUGE_ERR_UNSUPPORTED = -15
   integer, parameter, public :: FUGE_ERR_OVERFLOW = -16
+  integer, parameter, public :: FUGE_ERR_CALLBACK = -17
+  integer, parameter, public :: FUGE_ERR_CANCELLED = -18
+  integer, parameter, public :: FUGE_ERR_FILE = -19
 
-  integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_OVERFLOW
+  integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_FILE
   integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_NOT_UNIQUE
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
+    'a file cannot be read', &
+    'the progress callback cancelled the solve', &
+    'a callback failed or returned NaN', &
     'the magnitudes of the data overflow double precision', &
     'this engine cannot solve this kind of problem', &
     'an option has an impossible value', &
