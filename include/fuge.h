@@ -157,6 +157,36 @@ int fuge_halfplane_symmetric_matrix(int n, const double *x, const double *width,
 int fuge_check_halfplane(int n, const double *x, const double *width, double e_star,
                          int element, int symmetric, char *message, size_t len);
 
+/* ---- edges of contact --------------------------------------------------- */
+
+enum {                          /* what an edge is */
+  FUGE_EDGE_REFINED = 0,        /* better than the grid; the others are the cell's edge because */
+  FUGE_EDGE_FEW_CELLS = 1,      /* fewer than five cells are in contact */
+  FUGE_EDGE_SINGULAR = 2,       /* the pressure does not fall like a square root, as under a corner */
+  FUGE_EDGE_GRID_END = 3        /* contact reaches the last cell of the grid */
+};
+
+/* The intervals of contact on a half-plane and their edges, from the forces; for a
+ * smooth gap to third order in the width, if nothing else is in contact nearby, else
+ * to second order with a small factor.
+ *   x, width    in   n; a uniform grid, ascending, all widths equal; length
+ *   force       in   n; in contact where positive
+ *   element     in   as for the matrix.  With FUGE_MEAN the gap has to be the mean over
+ *                    a cell too: if it is the gap at the centre, say FUGE_HAT, whose
+ *                    forces are the same
+ *   symmetric   in   1: the folded scene, x[0] = 0 or width/2 if it starts on the axis;
+ *                    an interval that touches the axis is given whole, left = -right,
+ *                    of others the image at x > 0.  0: not folded
+ *   capacity    in   length of the four arrays; each may be NULL if not wanted
+ *   left, right out  the edges, from left to right; length
+ *   left_kind, right_kind  out  FUGE_EDGE_...
+ *   count       out  intervals that there are; only the first capacity are written
+ *   message     out  at most len bytes, ended by NUL; may be NULL
+ * FUGE_ERR_GRID if the grid is not uniform. */
+int fuge_contact_edges(int n, const double *x, const double *width, const double *force,
+                       int element, int symmetric, int capacity, double *left, double *right,
+                       int *left_kind, int *right_kind, int *count, char *message, size_t len);
+
 /* ---- operators ---------------------------------------------------------- */
 
 typedef struct fuge_operator fuge_operator;
