@@ -51,7 +51,7 @@ enum {
   FUGE_ERR_WIDTH = -4,          /* cell width <= 0; x < 0 in a symmetric model */
   FUGE_ERR_MODULUS = -5,        /* e_star <= 0                                 */
   FUGE_ERR_ELEMENT = -6,        /* unknown element                             */
-  FUGE_ERR_GRID = -7,           /* element not symmetric on unequal widths     */
+  FUGE_ERR_GRID = -7,           /* element not symmetric on unequal widths; grid not uniform */
   FUGE_ERR_NOT_SYMMETRIC = -8,  /* asymmetry above 1e-10 of the range of alpha */
   FUGE_ERR_NOT_DEFINITE = -9,   /* alpha not positive definite on forces with zero sum */
   FUGE_ERR_NO_EQUILIBRIUM = -10,/* load < 0                                    */
@@ -167,8 +167,8 @@ enum {                          /* what an edge is */
 };
 
 /* The intervals of contact on a half-plane and their edges, from the forces; for a
- * smooth gap to third order in the width, if nothing else is in contact nearby, else
- * to second order with a small factor.
+ * smooth gap to third order in the width; to second order with a small factor if there
+ * are other contacts or the far edge is a corner.
  *   x, width    in   n; a uniform grid, ascending, all widths equal; length
  *   force       in   n; in contact where positive
  *   element     in   as for the matrix.  With FUGE_MEAN the gap has to be the mean over

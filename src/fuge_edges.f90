@@ -11,9 +11,9 @@
 !>     p = D s^(-3/2) + K s^(-1/2) + L s^(1/2) + M s^(3/2) + ..
 !>
 !> The elements press as far as the effective edge, at which K would vanish if it were
-!> the true one; D is what the elements do to L. Moving an edge outwards by d changes
-!> the pressure by K(d)/2 times the eigensolution with s^(-3/2), which is known for one
-!> interval: so K(d) = 0 gives d. See doc/theory.md, "Edges of the contact".
+!> the true one; D is what the elements do to L. Moving an edge outwards changes the
+!> pressure at the rate -K/2 times the eigensolution with s^(-3/2), which is known for
+!> one interval: how far to go until K = 0 follows. See doc/theory.md, "Edges of the contact".
 module fuge_edges
   use fuge_check, only: check_finite
   use fuge_halfplane, only: check_halfplane, FUGE_CENTRE, FUGE_HAT
@@ -57,7 +57,7 @@ module fuge_edges
 
   !> Of a smooth gap the true edge is within about half a cell of `TYPICAL`, counted
   !> outwards from the cell's: else the cell would pull or the next one overlap. What
-  !> is beyond `REACH` is no such edge; on five cells the largest found is 0.61.
+  !> is beyond `REACH` is no such edge; the largest found, on five cells, is 0.62.
   real(dp), parameter :: TYPICAL = -0.15_dp, REACH = 0.85_dp
 
   real(dp), parameter :: PI = acos(-1.0_dp)
@@ -79,8 +79,8 @@ contains
   !> .false.): a folded scene, x(1) = 0 or width/2 if it starts on the axis; an interval
   !> that touches the axis is given whole, left = -right, of others the right image.
   !>
-  !> For a smooth gap the error is of third order in the width, if nothing else is in
-  !> contact nearby, else of second order with a small factor. For FUGE_MEAN the
+  !> For a smooth gap the error is of third order in the width; of second order with a
+  !> small factor if there are other contacts or the far edge is a corner. For FUGE_MEAN the
   !> gap has to be the mean over the cell too; if it is the gap at the centre, say
   !> FUGE_HAT, whose forces are the same. Where an edge cannot be refined it is the
   !> outer edge of the last cell with a force, and its kind says why:

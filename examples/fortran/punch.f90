@@ -3,8 +3,8 @@
 !> Half model of 33 cells, 0.025 mm wide, side by side from x = 0; F in N per mm of
 !> thickness. The contact ends at the outer edge of the last cell with a force; the
 !> fall of the pressure tells its edge to third order in the width.
-!> Writes punch_pressure.dat and, from the exact load path, punch_halfwidth.dat for the
-!> pictures.
+!> Writes punch_pressure.dat, punch_edge.dat and, from the exact load path,
+!> punch_halfwidth.dat for the pictures.
 program punch
   use fuge, only: dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_interval, &
     fuge_load_path, fuge_path, fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver, FUGE_CENTRE, &
@@ -26,7 +26,7 @@ contains
     type(fuge_dense_operator) :: operator
     type(fuge_problem) :: problem
     type(fuge_info) :: info
-    integer :: k, kilonewtons
+    integer :: file, k, kilonewtons
 
     x = [(SPACING*(real(k, dp) - 0.5_dp), k=1, POINTS)]
     width = SPACING
@@ -38,9 +38,11 @@ contains
 
     print '(a)', ' F [kN/mm]  half contact length [mm]    error    largest pressure [N/mm2]  error  residual'
     print '(a)', '            cells    edge      exact   of edge       fuge        exact'
+    open (newunit=file, file='punch_edge.dat', status='replace', action='write')
     do kilonewtons = 5, 50, 5
-      call one_load(operator, problem, x, real(kilonewtons, dp))
+      call one_load(operator, problem, x, real(kilonewtons, dp), file)
     end do
+    close (file)
     call all_loads(operator, problem%gap, x)
     call all_spacings()
   end subroutine run
@@ -125,10 +127,11 @@ contains
     print '(a,f8.4,a)', 'the last time at ', path%load(path%events)/1.0e3_dp, ' kN/mm'
   end subroutine all_loads
 
-  subroutine one_load(operator, problem, x, kilonewtons)
+  subroutine one_load(operator, problem, x, kilonewtons, file)
     type(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(inout) :: problem
     real(dp), intent(in) :: x(:), kilonewtons
+    integer, intent(in) :: file
     type(fuge_solver) :: solver
     type(fuge_solution) :: solution
     type(fuge_info) :: info
@@ -143,6 +146,7 @@ contains
 
     reached = maxval(x + 0.5_dp*SPACING, mask=solution%force > 0.0_dp)
     refined = edge(x, [(SPACING, k=1, POINTS)], solution%force)
+    write (file, '(f8.3,f12.7)') kilonewtons, refined
     exact = half_width(problem%resultant(1))
     peak = maxval(exact_pressure(x, exact))
     print '(f8.0,f9.3,2f10.6,f9.4,a,f12.1,f13.1,f7.2,a,es9.1)', kilonewtons, reached, refined, exact, &

@@ -1,5 +1,5 @@
 # Bild 7 and 8: pressure at 30 kN/mm, and half contact length over the load.
-# Run where punch_pressure.dat and punch_halfwidth.dat are.
+# Run where punch_pressure.dat, punch_halfwidth.dat and punch_edge.dat are.
 set terminal pngcairo size 1200,480 font "sans,13" enhanced
 set output "punch.png"
 set multiplot layout 1,2
@@ -22,12 +22,13 @@ plot p(x) with lines lw 2 lc rgb "#999999" title "exact", \
      "punch_pressure.dat" using 1:($2/1e3) with points pt 7 ps 0.8 lc rgb "#c0392b" title "fuge, 33 cells", \
      "" using (-$1):($2/1e3) with points pt 7 ps 0.8 lc rgb "#c0392b" notitle
 
-set title "Half contact length, every load at which a cell joins"
+set title "Half contact length"
 set xlabel "F [kN/mm]"
 set ylabel "a [mm]"
 set xrange [0:55]
 set yrange [0:0.9]
 set key bottom right
 plot [F=0.001:55] b(F) with lines lw 2 lc rgb "#999999" title "exact", \
-     "punch_halfwidth.dat" using 1:2 with steps lw 1.5 lc rgb "#c0392b" title "fuge, 33 cells of 0.025 mm"
+     "punch_halfwidth.dat" using 1:2 with steps lw 1.5 lc rgb "#c0392b" title "last cell in contact, 0.025 mm wide", \
+     "punch_edge.dat" using 1:2 with points pt 7 ps 0.9 lc rgb "#2471a3" title "edge from the pressure"
 unset multiplot

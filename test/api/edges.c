@@ -99,7 +99,8 @@ static void test_refusals(void) {
   int count = -7;
   char message[256] = "";
   fill(&left, 1);
-  CHECK_STATUS(fuge_contact_edges(0, x, width, width, 0, 0, 1, &left, NULL, NULL, NULL, &count, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_contact_edges(0, x, width, width, 0, 0, 1, &left, NULL, NULL, NULL, &count, NULL, 0),
+               FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_contact_edges(2, x, width, width, 0, 0, -1, &left, NULL, NULL, NULL, &count, NULL, 0),
                FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_contact_edges(2, NULL, width, width, 0, 0, 1, &left, NULL, NULL, NULL, &count, NULL, 0),
