@@ -74,7 +74,8 @@ contains
   function largest_error(cells) result(error)
     integer, intent(in) :: cells
     real(dp) :: error(2)
-    real(dp) :: alpha(cells, cells), x(cells), width(cells), force(cells), gap(cells), load, approach, reached(2)
+    real(dp), target :: alpha(cells, cells)
+    real(dp) :: x(cells), width(cells), force(cells), gap(cells), load, approach, reached(2)
     type(fuge_info) :: info
     integer :: k
 
