@@ -49,7 +49,7 @@ enum {
   FUGE_ERR_POINTER = -2,        /* NULL, or in Fortran a non-contiguous matrix */
   FUGE_ERR_NOT_FINITE = -3,     /* NaN or infinity in an input                 */
   FUGE_ERR_WIDTH = -4,          /* cell width <= 0; x < 0 in a symmetric model */
-  FUGE_ERR_MODULUS = -5,        /* e_star <= 0                                 */
+  FUGE_ERR_MODULUS = -5,        /* elastic modulus <= 0; Poisson's ratio out of range */
   FUGE_ERR_ELEMENT = -6,        /* unknown element                             */
   FUGE_ERR_GRID = -7,           /* element not symmetric on unequal widths     */
   FUGE_ERR_NOT_SYMMETRIC = -8,  /* asymmetry above 1e-10 of the range of alpha */
@@ -128,6 +128,34 @@ int fuge_solve_dense(int n, const double *alpha, int lda, const double *gap, dou
  * message, always ended by NUL. */
 int fuge_check_dense(int n, const double *alpha, int lda, const double *gap, double load,
                      char *message, size_t len);
+
+/* ---- two bodies --------------------------------------------------------- */
+
+enum {                          /* state */
+  FUGE_PLANE_STRAIN = 0,        /* long bodies, no strain out of the plane */
+  FUGE_PLANE_STRESS = 1         /* thin bodies, no stress out of the plane */
+};
+
+/* A rigid body has the modulus INFINITY.  Messages as for fuge_check_dense; message may
+ * be NULL. */
+
+/* Modulus of one body's surface: E/(1-nu^2) in plane strain, E in plane stress.
+ *   young    in   E > 0; force per length^2
+ *   poisson  in   nu, above -1 and at most 0.5
+ *   modulus  out  force per length^2
+ * FUGE_ERR_MODULUS for E or nu out of range: with such a nu the shear or the bulk
+ * modulus is not positive.  FUGE_ERR_OPTION for another state. */
+int fuge_plane_modulus(double young, double poisson, int state, double *modulus,
+                       char *message, size_t len);
+
+/* Combined modulus of two bodies, 1/e_star = 1/e1 + 1/e2: the e_star of the half-plane.
+ * One of e1 and e2 may be INFINITY; FUGE_ERR_MODULUS if both are. */
+int fuge_combined_modulus(double e1, double e2, double *e_star, char *message, size_t len);
+
+/* Parts of the displacement alpha f that bodies 1 and 2 take: e_star/e1 and e_star/e2,
+ * of sum 1. */
+int fuge_displacement_shares(double e1, double e2, double *share1, double *share2,
+                             char *message, size_t len);
 
 /* ---- half-plane --------------------------------------------------------- */
 

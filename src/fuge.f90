@@ -1,5 +1,7 @@
 !> fuge: frictionless elastic contact. This is the whole public interface.
 module fuge
+  use fuge_bodies, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
+    FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_dense, only: fuge_dense_operator
   use fuge_halfplane, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
