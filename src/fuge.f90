@@ -13,6 +13,8 @@ module fuge
     FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
   use fuge_parametric, only: fuge_load_path, fuge_path
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_profiles, only: fuge_read_profile, fuge_sample_profile, fuge_level_profile, &
+    FUGE_LEVEL_MEAN, FUGE_LEVEL_LINE
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense
   use fuge_status, only: fuge_info, fuge_status_text, FUGE_MESSAGE_LENGTH, &
     FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, &
