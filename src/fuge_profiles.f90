@@ -110,6 +110,7 @@ contains
       end if
     end if
     close (file, iostat=status)
+    if (status /= 0 .and. .not. info%failed()) call report(info, FUGE_ERR_FILE, named(path)//' cannot be closed')
   end subroutine read_file
 
   pure function count_lines(content) result(lines)

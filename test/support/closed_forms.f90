@@ -338,8 +338,8 @@ contains
     real(dp) :: value
 
     value = 0.0_dp
-    if (.not. self%is_full()) &
-      value = 4.0_dp*self%amplitude*root_integral(abs(sin(PI*x/self%length)), sin(PI*self%a/self%length))
+    if (self%is_full()) return
+    value = 4.0_dp*self%amplitude*root_integral(abs(sin(PI*x/self%length)), sin(PI*self%a/self%length))
   end function wave_gap
 
 end module closed_forms
