@@ -48,8 +48,9 @@ enum {
   FUGE_ERR_SIZE = -1,           /* n < 1, lda < n, a range beyond what there is */
   FUGE_ERR_POINTER = -2,        /* NULL, or in Fortran a non-contiguous matrix */
   FUGE_ERR_NOT_FINITE = -3,     /* NaN or infinity in an input                 */
-  FUGE_ERR_WIDTH = -4,          /* cell width <= 0; x < 0 in a symmetric model */
-  FUGE_ERR_MODULUS = -5,        /* e_star <= 0                                 */
+  FUGE_ERR_WIDTH = -4,          /* cell width <= 0; x < 0 in a symmetric model; x of a
+                                   profile does not increase, point outside of it */
+  FUGE_ERR_MODULUS = -5,        /* elastic modulus <= 0; Poisson's ratio out of range */
   FUGE_ERR_ELEMENT = -6,        /* unknown element                             */
   FUGE_ERR_GRID = -7,           /* element not symmetric on unequal widths; grid not uniform */
   FUGE_ERR_NOT_SYMMETRIC = -8,  /* asymmetry above 1e-10 of the range of alpha */
@@ -128,6 +129,65 @@ int fuge_solve_dense(int n, const double *alpha, int lda, const double *gap, dou
  * message, always ended by NUL. */
 int fuge_check_dense(int n, const double *alpha, int lda, const double *gap, double load,
                      char *message, size_t len);
+
+/* ---- two bodies --------------------------------------------------------- */
+
+enum {                          /* state */
+  FUGE_PLANE_STRAIN = 0,        /* long bodies, no strain out of the plane */
+  FUGE_PLANE_STRESS = 1         /* thin bodies, no stress out of the plane */
+};
+
+/* A rigid body has the modulus INFINITY.  Messages as for fuge_check_dense; message may
+ * be NULL. */
+
+/* Modulus of one body's surface: E/(1-nu^2) in plane strain, E in plane stress.
+ *   young    in   E > 0; force per length^2
+ *   poisson  in   nu, above -1 and at most 0.5
+ *   modulus  out  force per length^2
+ * FUGE_ERR_MODULUS for E or nu out of range: with such a nu the shear or the bulk
+ * modulus is not positive.  FUGE_ERR_OPTION for another state. */
+int fuge_plane_modulus(double young, double poisson, int state, double *modulus,
+                       char *message, size_t len);
+
+/* Combined modulus of two bodies, 1/e_star = 1/e1 + 1/e2: the e_star of the half-plane.
+ * One of e1 and e2 may be INFINITY; FUGE_ERR_MODULUS if both are. */
+int fuge_combined_modulus(double e1, double e2, double *e_star, char *message, size_t len);
+
+/* Parts of the displacement alpha f that bodies 1 and 2 take: e_star/e1 and e_star/e2,
+ * of sum 1. */
+int fuge_displacement_shares(double e1, double e2, double *share1, double *share2,
+                             char *message, size_t len);
+
+/* ---- profiles ----------------------------------------------------------- */
+
+/* Read a profile from a text file: on each line x and z, separated by blanks, tabs, a
+ * comma or a semicolon; x strictly increasing, 2 points or more.  Blank lines, comments
+ * after # or ! and one line of words before the numbers are skipped.  Heights z are
+ * positive upwards: the initial gap of two profiles is upper - lower.
+ *   path      in   name of the file
+ *   capacity  in   length of x and z; each may be NULL if not wanted
+ *   x, z      out  in the unit of the file
+ *   count     out  points in the file; only the first capacity are written
+ *   message   out  at most len bytes, ended by NUL; may be NULL
+ * FUGE_ERR_FILE: the message has the file, the line and the reason. */
+int fuge_read_profile(const char *path, int capacity, double *x, double *z, int *count,
+                      char *message, size_t len);
+
+/* Heights of the profile x, z (n >= 2, x strictly increasing) by linear interpolation.
+ *   centre  in   points, any order, within x[0] .. x[n-1]; length
+ *   height  out  points; no array may overlap another
+ * FUGE_ERR_WIDTH: a centre is outside, or x does not increase. */
+int fuge_sample_profile(int n, const double *x, const double *z, int points, const double *centre,
+                        double *height, char *message, size_t len);
+
+enum {                          /* form */
+  FUGE_LEVEL_MEAN = 0,          /* the mean height */
+  FUGE_LEVEL_LINE = 1           /* the least-squares line */
+};
+
+/* Take the mean or the line off z (n >= 2), in place.  Points count by the length they
+ * stand for. */
+int fuge_level_profile(int n, const double *x, double *z, int form, char *message, size_t len);
 
 /* ---- half-plane --------------------------------------------------------- */
 

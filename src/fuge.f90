@@ -1,5 +1,7 @@
 !> fuge: frictionless elastic contact. This is the whole public interface.
 module fuge
+  use fuge_bodies, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
+    FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_dense, only: fuge_dense_operator
   use fuge_edges, only: fuge_contact_edges, fuge_interval, FUGE_EDGE_REFINED, FUGE_EDGE_FEW_CELLS, &
@@ -13,6 +15,8 @@ module fuge
     FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
   use fuge_parametric, only: fuge_load_path, fuge_path
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_profiles, only: fuge_read_profile, fuge_sample_profile, fuge_level_profile, &
+    FUGE_LEVEL_MEAN, FUGE_LEVEL_LINE
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense
   use fuge_status, only: fuge_info, fuge_status_text, FUGE_MESSAGE_LENGTH, &
     FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, &

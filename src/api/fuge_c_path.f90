@@ -1,7 +1,7 @@
 !> C bindings, section "load path".
 module fuge_c_path
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
-  use fuge_c_types, only: operator_handle, copy_string
+  use fuge_c_types, only: operator_handle, copy_string, copy_reals
   use fuge_parametric, only: fuge_load_path, fuge_path
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
   implicit none
@@ -44,16 +44,6 @@ contains
     call c_f_pointer(events, number)
     number = int(path%events, c_int)
   end function c_load_path
-
-  subroutine copy_reals(values, destination)
-    real(c_double), intent(in) :: values(:)
-    type(c_ptr), intent(in) :: destination
-    real(c_double), pointer :: array(:)
-
-    if (.not. c_associated(destination)) return
-    call c_f_pointer(destination, array, [size(values)])
-    array = values
-  end subroutine copy_reals
 
   subroutine copy_integers(values, destination)
     integer, intent(in) :: values(:)

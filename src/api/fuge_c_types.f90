@@ -11,7 +11,7 @@ module fuge_c_types
   implicit none
   private
 
-  public :: from_c, to_c, copy_string
+  public :: from_c, to_c, copy_string, copy_reals
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
@@ -95,5 +95,16 @@ contains
     end do
     bytes(last + 1) = c_null_char
   end subroutine copy_string
+
+  !> Fill an array of C; NULL is left alone.
+  subroutine copy_reals(values, destination)
+    real(c_double), intent(in) :: values(:)
+    type(c_ptr), intent(in) :: destination
+    real(c_double), pointer :: array(:)
+
+    if (.not. c_associated(destination)) return
+    call c_f_pointer(destination, array, [size(values)])
+    array = values
+  end subroutine copy_reals
 
 end module fuge_c_types
