@@ -79,6 +79,8 @@ contains
     call c_f_pointer(source, slot)
     if (.not. c_associated(slot)) return
     call c_f_pointer(slot, handle)
+    ! Apart, because flang 22 would leak what an extension of fuge_operator has allocated.
+    deallocate (handle%operator)
     deallocate (handle)
     slot = c_null_ptr
   end subroutine c_operator_free
