@@ -255,6 +255,30 @@ typedef struct fuge_operator fuge_operator;
  * until the operator is freed.  *op is set on success only. */
 int fuge_operator_dense(int n, const double *alpha, int lda, fuge_operator **op);
 
+/* A product u = A f by a function of yours.
+ *   f     in   n forces       u  out  n displacements: every one, u is not zero before
+ *   user  in   what fuge_operator_callback was given
+ * Return 0; anything else, NaN or infinity in u ends the solve with FUGE_ERR_CALLBACK,
+ * whose message has the number of the product and a positive value returned.  A must
+ * be linear, symmetric and the same in all calls, else the answer is not certified.
+ * The function may not free what calls it, nor leave by longjmp or an exception.
+ * Solvers that run in several threads with one operator call it from all of them. */
+typedef int (*fuge_apply)(int n, const double *f, double *u, void *user);
+
+/* An operator that knows its products only.  user is passed on, never looked at: it
+ * may be NULL.  *op is set on success only. */
+int fuge_operator_callback(int n, fuge_apply apply, void *user, fuge_operator **op);
+
+/* Optional, to need fewer products: an approximate inverse of A, from n lengths (f) to
+ * n forces (u), linear, symmetric and positive definite; same rules and same user.
+ * Only for callback operators (FUGE_ERR_UNSUPPORTED), and not during a solve.  The
+ * last one set, filter or diagonal, counts. */
+int fuge_operator_set_filter(fuge_operator *op, fuge_apply filter);
+
+/* The filter 1/alpha_kk.  diagonal: n coefficients alpha_kk > 0, copied; length per force.
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_DEFINITE for one <= 0. */
+int fuge_operator_set_diagonal(fuge_operator *op, const double *diagonal);
+
 /* Free and set *op to NULL; NULL and *op == NULL are fine.  Free its solvers first. */
 void fuge_operator_free(fuge_operator **op);
 
@@ -274,6 +298,20 @@ int fuge_set_gap(fuge_solver *s, const double *gap, const double *gap_upper);
 
 /* Load F_0 >= 0; force.  Makes earlier results unavailable. */
 int fuge_set_load(fuge_solver *s, double load);
+
+/* Progress of a solve, called once in each iteration.
+ *   iteration  grows from call to call, from 1 in each solve
+ *   residual   >= 0, no unit: how far it still is.  Tableau: z relative to its start;
+ *              other engines: the largest scaled violation.  It need not fall steadily
+ *   contacts   points taken for touching
+ * Nonzero cancels: fuge_solve returns FUGE_ERR_CANCELLED without an answer, and can be
+ * called again.  Do not call functions with this solver from inside. */
+typedef int (*fuge_progress)(int iteration, double residual, int contacts, void *user);
+
+/* Call progress from now on, with user; NULL for none.  fuge_reset leaves it. A solve
+ * with zero load has no iterations.  After the pivots of the tableau come the
+ * contact sets of its final solve. */
+int fuge_set_progress(fuge_solver *s, fuge_progress progress, void *user);
 
 /* Solve; FUGE_ERR_CALL_ORDER before gaps and load are set.  The active set starts from
  * the contact set of the last solve. */

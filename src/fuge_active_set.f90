@@ -10,6 +10,7 @@
 module fuge_active_set
   use fuge_contact_factor, only: contact_factor
   use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_set_answer, only: solve_set, refine, add_deflection, violations, terms_of, largest_term, &
     motion_at_shallowest
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
@@ -36,13 +37,15 @@ contains
   !> `alpha` (at least n rows, n columns), `gap` (n), `load` > 0, `datum` the coefficient
   !> of alpha nearest to zero; `contact` (n) the guess, then the set, never empty;
   !> `factor` is that of the set on return; out: `force` (n), `gap_out` (n), `approach`.
-  !> `iterations` counts the sets tried.
-  !> Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT.
-  subroutine run_active_set(alpha, datum, gap, load, limit, factor, contact, force, gap_out, approach, &
+  !> `iterations` counts the sets tried; `monitor` hears of each.
+  !> Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT,
+  !> FUGE_ERR_CANCELLED.
+  subroutine run_active_set(alpha, datum, gap, load, limit, monitor, factor, contact, force, gap_out, approach, &
                             iterations, status)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, gap(:), load
     integer, intent(in) :: limit
+    class(fuge_monitor), intent(inout) :: monitor
     type(contact_factor), intent(inout) :: factor
     logical, intent(inout) :: contact(:)
     real(dp), intent(out) :: force(:), gap_out(:), approach
@@ -62,8 +65,6 @@ contains
       call factor%set(alpha, contact, status)
       if (status /= FUGE_DONE) return
       call solve_set(factor, datum, shape, load, force, motion)
-      if (fresh) iterations = iterations + 1
-      fresh = .false.
       careful = careful .or. factor%spread > ILL_CONDITIONED .or. factor%ridge > 0.0_dp
       if (careful) then
         ! Gaps are counted from where the bodies meet: one point far below the others
@@ -81,6 +82,12 @@ contains
         terms = largest_term(alpha, datum, force)
       end if
       violation = violations(shape - motion, terms, contact, force, gap_out)
+      if (fresh) then
+        iterations = iterations + 1
+        call tell_monitor(monitor, iterations, maxval(violation), count(contact), status)
+        if (status /= FUGE_DONE) return
+        fresh = .false.
+      end if
       wrong = violation > SIGN_TOLERANCE
       if (.not. any(wrong)) then
         if (careful) exit
@@ -99,7 +106,7 @@ contains
       fewest = min(fewest, count(wrong))
       careful = patience_left < PATIENCE
       if (patience_left < 0) then
-        call descend(alpha, datum, shape, load, limit, factor, contact, force, iterations, status)
+        call descend(alpha, datum, shape, load, limit, monitor, factor, contact, force, iterations, status)
         if (status /= FUGE_DONE) return
       else
         contact = contact .neqv. wrong
@@ -119,16 +126,17 @@ contains
   !> Down the energy: from pushing forces towards the answer of their set as far as no
   !> force pulls, then the point with the most negative gap joins, until none has one.
   !> `force` (n) in: where to start; `contact` and `factor` out.
-  subroutine descend(alpha, datum, shape, load, limit, factor, contact, force, iterations, status)
+  subroutine descend(alpha, datum, shape, load, limit, monitor, factor, contact, force, iterations, status)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, shape(:), load
     integer, intent(in) :: limit
+    class(fuge_monitor), intent(inout) :: monitor
     type(contact_factor), intent(inout) :: factor
     logical, intent(inout) :: contact(:)
     real(dp), intent(inout) :: force(:)
     integer, intent(inout) :: iterations
     integer, intent(out) :: status
-    real(dp) :: wanted(size(shape)), gap_out(size(shape)), terms(size(shape)), motion
+    real(dp) :: wanted(size(shape)), gap_out(size(shape)), terms(size(shape)), violation(size(shape)), motion
     logical :: barred(size(shape)), wrong(size(shape))
     integer :: newest
 
@@ -144,6 +152,9 @@ contains
       call refine(alpha, datum, shape, load, factor, factor%ridge, contact, wanted, motion)
       iterations = iterations + 1
       if (any(contact .and. wanted <= 0.0_dp)) then
+        call tell_monitor(monitor, iterations, maxval(max(-wanted, 0.0_dp))/maxval(abs(wanted)), count(contact), &
+                          status)
+        if (status /= FUGE_DONE) return
         call step_back(wanted, contact, force, newest, barred)
       else
         force = wanted
@@ -151,7 +162,10 @@ contains
         gap_out = shape - motion
         call add_deflection(alpha, datum, contact, force, gap_out)
         terms = terms_of(alpha, datum, contact, force)
-        wrong = violations(shape - motion, terms, contact, force, gap_out) > SIGN_TOLERANCE .and. .not. barred
+        violation = violations(shape - motion, terms, contact, force, gap_out)
+        call tell_monitor(monitor, iterations, maxval(violation), count(contact), status)
+        if (status /= FUGE_DONE) return
+        wrong = violation > SIGN_TOLERANCE .and. .not. barred
         if (.not. any(wrong)) return
         newest = minloc(gap_out, dim=1, mask=wrong)
         contact(newest) = .true.

@@ -1,14 +1,18 @@
 !> The independent certificate: how far an answer is from the contact problem.
-!> Shares no code with any engine and sees only the caller's data.
+!> Shares no code with any engine, but for the one call of the operator, and sees only
+!> the caller's data.
 module fuge_certificate
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_products, only: multiply
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_text, only: text
   implicit none
   private
 
-  public :: fuge_residual
+  public :: fuge_residual, find_violation
 
   !> Violations, each relative to the data; no unit. Not yet known, they are huge.
   type, public :: fuge_violation
@@ -48,25 +52,45 @@ contains
   !> and the terms that make it; elsewhere the error less that one is compared with
   !> the length, beyond the rounding of the caller's own numbers. Forces are compared
   !> with the largest one. One product A f. `status` is 0, FUGE_ERR_SIZE if an array is
-  !> missing or of the wrong length, FUGE_ERR_MEMORY, or what the operator returned.
+  !> missing or of the wrong length, FUGE_ERR_MEMORY, or that of a product that fails:
+  !> FUGE_ERR_CALLBACK also for one that is not finite.
   subroutine fuge_residual(operator, problem, solution, violation, status)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     type(fuge_violation), intent(out) :: violation
     integer, intent(out) :: status
+    type(fuge_info) :: info
+
+    call find_violation(operator, problem, solution, violation, info)
+    status = info%status
+  end subroutine fuge_residual
+
+  !> The same with words for what goes wrong, and the product counted, in `info`.
+  subroutine find_violation(operator, problem, solution, violation, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(fuge_violation), intent(out) :: violation
+    type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: error(:), length(:)
     real(dp) :: rigid, largest
     integer :: n, stat
 
-    status = FUGE_ERR_SIZE
-    if (.not. fits(operator, problem, solution)) return
+    if (.not. fits(operator, problem, solution)) then
+      call report(info, FUGE_ERR_SIZE, 'certificate: an array is missing or not as long as the operator has points')
+      return
+    end if
+    ! NaN violates all that there is: nothing is gained by multiplying it.
+    if (.not. all(ieee_is_finite(solution%force))) return
     n = operator%points()
     allocate (error(n), length(n), stat=stat)
-    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
-    if (stat /= 0) return
-    call operator%apply(solution%force, error, status)
-    if (status /= FUGE_DONE) return
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
+      return
+    end if
+    call multiply(operator, solution%force, error, info)
+    if (info%failed()) return
 
     rigid = operator%datum()*sum(solution%force)
     call operator%magnitude(solution%force, error, length)
@@ -80,7 +104,7 @@ contains
                                            relative(abs(solution%gap), length)))
     violation%equilibrium = relative(abs(sum(solution%force) - problem%resultant(1)), &
                                      max(sum(abs(solution%force)), problem%resultant(1)))
-  end subroutine fuge_residual
+  end subroutine find_violation
 
   !> The error of equation (9), apart for what all points share and for the rest.
   pure function gap_violation(error, length, force, gap, datum) result(violation)

@@ -6,6 +6,7 @@ module fuge_dense_engines
   use fuge_definiteness, only: check_definite
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor
   use fuge_options_type, only: fuge_options
   use fuge_presolve, only: guess_contact_set
   use fuge_problem_type, only: fuge_problem, fuge_solution
@@ -30,11 +31,12 @@ contains
   !>
   !> `alpha` (at least n rows, n columns), `datum` its coefficient nearest to zero, `problem`
   !> checked, load > 0; `contact` (n) and `factor` belong to the answer on return.
-  subroutine solve_by_tableau(alpha, datum, problem, options, history, contact, factor, answer, info)
+  subroutine solve_by_tableau(alpha, datum, problem, options, monitor, history, contact, factor, answer, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
     type(fuge_history), intent(inout) :: history
     logical, intent(out) :: contact(:)
     type(contact_factor), intent(inout) :: factor
@@ -47,26 +49,27 @@ contains
       call check_solvable(alpha, load, info)
       if (info%failed()) return
       limit = limit_of(options, size(gap))
-      call run_phase_one(alpha, gap, load, options%pivot_rule, limit, options%keep_history, history, contact, &
-                         info%iterations, status)
+      call run_phase_one(alpha, gap, load, options%pivot_rule, limit, options%keep_history, monitor, history, &
+                         contact, info%iterations, status)
       ! Only a limit that was asked for ends the solve; otherwise the set so far will do.
       if (status == FUGE_ERR_ITERATION_LIMIT .and. options%max_iterations == 0) status = FUGE_DONE
       if (status /= FUGE_DONE) then
         call explain(status, limit, count(contact), info)
       else
-        call solve_from(alpha, datum, problem, limit_of(fuge_options(), size(gap)), contact, factor, answer, &
-                        sets, info)
+        call solve_from(alpha, datum, problem, limit_of(fuge_options(), size(gap)), monitor, contact, factor, &
+                        answer, sets, info)
       end if
     end associate
   end subroutine solve_by_tableau
 
   !> Block principal pivoting. `contact` (n): on entry a guess, or none to have one
   !> made; on return the contact set, with its `factor`.
-  subroutine solve_by_active_set(alpha, datum, problem, options, contact, factor, answer, info)
+  subroutine solve_by_active_set(alpha, datum, problem, options, monitor, contact, factor, answer, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
     logical, intent(inout) :: contact(:)
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
@@ -77,18 +80,20 @@ contains
       call check_scene(alpha, load, info)
       if (info%failed()) return
       if (.not. any(contact)) call guess_contact_set(alpha, gap, load, contact, info%products)
-      call solve_from(alpha, datum, problem, limit_of(options, size(gap)), contact, factor, answer, sets, info)
+      call solve_from(alpha, datum, problem, limit_of(options, size(gap)), monitor, contact, factor, answer, sets, &
+                      info)
       info%iterations = sets
     end associate
   end subroutine solve_by_active_set
 
   !> From a contact set, found or guessed, to the answer and its words. `sets` counts
   !> those tried.
-  subroutine solve_from(alpha, datum, problem, limit, contact, factor, answer, sets, info)
+  subroutine solve_from(alpha, datum, problem, limit, monitor, contact, factor, answer, sets, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: limit
+    class(fuge_monitor), intent(inout) :: monitor
     logical, intent(inout) :: contact(:)
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
@@ -97,12 +102,12 @@ contains
     integer :: more, status
 
     associate (gap => problem%gap, load => problem%resultant(1))
-      call run_active_set(alpha, datum, gap, load, limit, factor, contact, answer%force, answer%gap, &
+      call run_active_set(alpha, datum, gap, load, limit, monitor, factor, contact, answer%force, answer%gap, &
                           answer%rigid(1), sets, status)
       if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
         ! A set tried on the way was singular; the last one need not be.
         factor = contact_factor()
-        call run_active_set(alpha, datum, gap, load, limit, factor, contact, answer%force, answer%gap, &
+        call run_active_set(alpha, datum, gap, load, limit, monitor, factor, contact, answer%force, answer%gap, &
                             answer%rigid(1), more, status)
         sets = sets + more
       end if

@@ -34,8 +34,9 @@ module fuge_operator_type
       integer :: n
     end function count_points
 
-    !> `force` (n), force; `displacement` (n), length; `status` is 0, or a code
-    !> of `fuge_status` that ends the solve.
+    !> `force` (n), force; `displacement` (n), length; `status` is 0, or ends the solve:
+    !> an error of `fuge_status` with its meaning, any other as FUGE_ERR_CALLBACK with the
+    !> number in the message. NaN and infinity need no status, they are found.
     subroutine multiply(self, force, displacement, status)
       import :: fuge_operator, dp
       class(fuge_operator), intent(in) :: self

@@ -1,18 +1,19 @@
 !> From a problem to a certified answer: checks, choice of engine, certificate.
 module fuge_solver_type
-  use fuge_certificate, only: fuge_residual, fuge_violation
+  use fuge_certificate, only: find_violation, fuge_violation
   use fuge_check, only: check_finite
   use fuge_contact_factor, only: contact_factor
   use fuge_dense, only: fuge_dense_operator
   use fuge_dense_engines, only: solve_by_tableau, solve_by_active_set
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor, monitor_relay
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
   use fuge_set_answer, only: solve_set, add_deflection
-  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, &
-    FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
+    FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED
   use fuge_text, only: text
   implicit none
   private
@@ -37,23 +38,28 @@ contains
   !> Solve the contact problem (paper, equations 9 to 11) and certify the answer.
   !>
   !> `operator` displacements per force, `problem` gaps and load, `options` as in
-  !> `fuge_options` (defaults when absent). On return info%status is FUGE_DONE,
+  !> `fuge_options` (defaults when absent), `monitor` hears of each iteration and may
+  !> cancel; there is none without a load. On return info%status is FUGE_DONE,
   !> FUGE_WARN_RESIDUAL with the residual in the message, FUGE_WARN_NOT_UNIQUE where
   !> alpha is singular on the contact, or an error that leaves `solution` untouched:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM,
   !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED,
-  !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
-  subroutine solve(self, operator, problem, solution, info, options)
+  !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
+  !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.
+  subroutine solve(self, operator, problem, solution, info, options, monitor)
     class(fuge_solver), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(out) :: info
     type(fuge_options), intent(in), optional :: options
+    class(fuge_monitor), intent(inout), optional, target :: monitor
     type(fuge_options) :: chosen
     type(fuge_solution) :: answer
+    type(monitor_relay) :: relay
 
     if (present(options)) chosen = options
+    if (present(monitor)) relay%listener => monitor
     self%history = fuge_history()
     self%factor = contact_factor()
     call check_options(chosen, info)
@@ -68,14 +74,19 @@ contains
     if (info%failed()) return
 
     if (problem%resultant(1) > 0.0_dp) then
-      call run_engine(self, operator, problem, chosen, answer, info)
+      call run_engine(self, operator, problem, chosen, relay, answer, info)
+      if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
+                                                         //text(relay%told)//' by the progress monitor')
     else
       call rest_without_load(problem, answer)
     end if
-    if (info%failed()) return
-    call certify(operator, problem, answer, chosen%tolerance, info)
-    if (info%failed()) return
-    call take(answer, solution)
+    if (.not. info%failed()) call certify(operator, problem, answer, chosen%tolerance, info)
+    if (info%failed()) then
+      ! It is of no answer: a derivative must not use it.
+      self%factor = contact_factor()
+    else
+      call take(answer, solution)
+    end if
   end subroutine solve
 
   !> Forget the last contact set and the history: the next solve starts from scratch.
@@ -164,11 +175,12 @@ contains
 
   !> Choice of engine. FUGE_AUTO is the active set, but for a history, which only the
   !> tableau has.
-  subroutine run_engine(self, operator, problem, options, answer, info)
+  subroutine run_engine(self, operator, problem, options, monitor, answer, info)
     class(fuge_solver), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
     logical :: contact(size(problem%gap))
@@ -179,10 +191,10 @@ contains
     select type (operator)
     class is (fuge_dense_operator)
       if (method == FUGE_TABLEAU) then
-        call solve_by_tableau(operator%alpha, operator%datum(), problem, options, self%history, contact, &
-                              self%factor, answer, info)
+        call solve_by_tableau(operator%alpha, operator%datum(), problem, options, monitor, self%history, &
+                              contact, self%factor, answer, info)
       else
-        call solve_warm(self, operator%alpha, operator%datum(), problem, options, contact, answer, info)
+        call solve_warm(self, operator%alpha, operator%datum(), problem, options, monitor, contact, answer, info)
       end if
       if (.not. info%failed()) call remember(self, contact)
     class default
@@ -203,12 +215,13 @@ contains
 
   !> The active set from the last contact set; from scratch if there is none, or if
   !> it leads nowhere.
-  subroutine solve_warm(self, alpha, datum, problem, options, contact, answer, info)
+  subroutine solve_warm(self, alpha, datum, problem, options, monitor, contact, answer, info)
     class(fuge_solver), intent(inout) :: self
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
     logical, intent(out) :: contact(:)
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
@@ -218,11 +231,11 @@ contains
     if (allocated(self%contact)) warm = size(self%contact) == size(contact)
     contact = .false.
     if (warm) contact = self%contact
-    call solve_by_active_set(alpha, datum, problem, options, contact, self%factor, answer, info)
-    if (warm .and. info%failed()) then
+    call solve_by_active_set(alpha, datum, problem, options, monitor, contact, self%factor, answer, info)
+    if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
       info = fuge_info()
       contact = .false.
-      call solve_by_active_set(alpha, datum, problem, options, contact, self%factor, answer, info)
+      call solve_by_active_set(alpha, datum, problem, options, monitor, contact, self%factor, answer, info)
     end if
   end subroutine solve_warm
 
@@ -234,14 +247,9 @@ contains
     real(dp), intent(in) :: tolerance
     type(fuge_info), intent(inout) :: info
     type(fuge_violation) :: violation
-    integer :: status
 
-    call fuge_residual(operator, problem, answer, violation, status)
-    if (status /= FUGE_DONE) then
-      call report(info, status, 'certificate: '//fuge_status_text(status))
-      return
-    end if
-    info%products = info%products + 1
+    call find_violation(operator, problem, answer, violation, info)
+    if (info%failed()) return
     info%contacts = count(answer%force > 0.0_dp)
     info%residual = violation%worst()
     if (info%residual > tolerance) then

@@ -10,6 +10,7 @@
 module fuge_tableau
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_numbering, only: artificial_column, force_column, gap_column, rigid_column, is_artificial, is_force
   use fuge_pivot_rule, only: select_pivot
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT
@@ -35,6 +36,7 @@ module fuge_tableau
     procedure :: finished
     procedure :: contact_set
     procedure :: z
+    procedure :: remaining
     procedure :: entry_at
   end type paper_tableau
 
@@ -176,6 +178,16 @@ contains
     z = 0.0_dp - self%entry_at(size(self%table, 1), size(self%table, 2))
   end function z
 
+  !> The same as z scaled, >= 0: forces and lengths weigh alike in it.
+  pure function remaining(self)
+    class(paper_tableau), intent(in) :: self
+    real(dp) :: remaining
+
+    associate (n => size(self%basis) - 1)
+      remaining = 0.0_dp - self%table(n + 2, 2*n + 2)
+    end associate
+  end function remaining
+
   !> An entry in the caller's units, as the paper prints it; row n+2 is the z row,
   !> column 2n+2 the right-hand side.
   pure function entry_at(self, row, column) result(value)
@@ -227,23 +239,30 @@ contains
   !> `contact` (n) marks the points whose force ends in the basis; `pivots` counts.
   !> The history is started and filled if `keep_history`. Rounding can leave an
   !> artificial without an admissible column: the set found so far is then returned,
-  !> as it is with FUGE_ERR_ITERATION_LIMIT. Other error: FUGE_ERR_MEMORY.
-  subroutine run_phase_one(alpha, gap, load, rule, max_pivots, keep_history, history, contact, pivots, status)
+  !> as it is with FUGE_ERR_ITERATION_LIMIT. Other errors: FUGE_ERR_MEMORY,
+  !> FUGE_ERR_CANCELLED by `monitor`, which hears of each pivot.
+  subroutine run_phase_one(alpha, gap, load, rule, max_pivots, keep_history, monitor, history, contact, pivots, status)
     real(dp), intent(in) :: alpha(:, :), gap(:), load
     integer, intent(in) :: rule, max_pivots
     logical, intent(in) :: keep_history
+    class(fuge_monitor), intent(inout) :: monitor
     type(fuge_history), intent(inout) :: history
     logical, intent(out) :: contact(:)
     integer, intent(out) :: pivots, status
     type(paper_tableau) :: tableau
+    real(dp) :: start
     integer :: column, row
 
     pivots = 0
+    start = 1.0_dp
     contact = .false.
     call tableau%start(alpha, gap, load, status)
     if (status == FUGE_DONE .and. keep_history) call history%start(size(gap) + 1, status)
     do while (status == FUGE_DONE)
       if (keep_history) call history%record(tableau%basis, tableau%z(), status)
+      if (pivots == 0) start = tableau%remaining()
+      if (pivots > 0 .and. status == FUGE_DONE) call tell_monitor(monitor, pivots, tableau%remaining()/start, &
+                                                                  count(is_force(size(gap), tableau%basis)), status)
       if (tableau%finished() .or. status /= FUGE_DONE) exit
       call tableau%choose(rule, column, row)
       if (column == 0) exit

@@ -3,12 +3,13 @@ module fuge_c_operator
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_loc, c_associated, c_f_pointer
   use fuge_c_types, only: operator_handle
   use fuge_dense, only: fuge_dense_operator
+  use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY
   use fuge_text, only: text
   implicit none
   private
 
-  public :: take_matrix
+  public :: take_matrix, hand_over
 
 contains
 
@@ -17,16 +18,24 @@ contains
     type(c_ptr), intent(in), value :: alpha, destination
     integer(c_int) :: status
     type(fuge_dense_operator) :: operator
-    type(operator_handle), pointer :: handle
-    type(c_ptr), pointer :: slot
     type(fuge_info) :: info
-    integer :: stat
 
     status = FUGE_ERR_POINTER
     if (.not. c_associated(destination)) return
     call take_matrix(n, alpha, lda, operator, info)
     status = int(info%status, c_int)
-    if (info%failed()) return
+    if (.not. info%failed()) status = hand_over(operator, destination)
+  end function c_operator_dense
+
+  !> A copy of `operator` behind a handle at `destination`; FUGE_ERR_MEMORY.
+  function hand_over(operator, destination) result(status)
+    class(fuge_operator), intent(in) :: operator
+    type(c_ptr), intent(in) :: destination
+    integer(c_int) :: status
+    type(operator_handle), pointer :: handle
+    type(c_ptr), pointer :: slot
+    integer :: stat
+
     status = FUGE_ERR_MEMORY
     allocate (handle, stat=stat)
     if (stat /= 0) return
@@ -38,7 +47,7 @@ contains
     call c_f_pointer(destination, slot)
     slot = c_loc(handle)
     status = FUGE_DONE
-  end function c_operator_dense
+  end function hand_over
 
   !> Point an operator to a C matrix, with all checks and their messages.
   subroutine take_matrix(n, alpha, lda, operator, info)
@@ -70,6 +79,8 @@ contains
     call c_f_pointer(source, slot)
     if (.not. c_associated(slot)) return
     call c_f_pointer(slot, handle)
+    ! Apart, because flang 22 would leak what an extension of fuge_operator has allocated.
+    deallocate (handle%operator)
     deallocate (handle)
     slot = c_null_ptr
   end subroutine c_operator_free

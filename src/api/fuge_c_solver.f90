@@ -1,6 +1,7 @@
 !> C bindings, section "solver": life cycle, data, solve.
 module fuge_c_solver
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_loc, c_associated, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_funptr, c_loc, c_associated, &
+    c_f_pointer
   use fuge_c_types, only: c_options, operator_handle, solver_handle, from_c
   use fuge_check, only: check_finite
   use fuge_options_type, only: fuge_options, check_options
@@ -108,6 +109,18 @@ contains
     status = answer(handle, info)
   end function c_set_load
 
+  function c_set_progress(solver, progress, user) bind(c, name='fuge_set_progress') result(status)
+    type(c_ptr), intent(in), value :: solver, user
+    type(c_funptr), intent(in), value :: progress
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) call handle%monitor%set(progress, user)
+    status = answer(handle, info)
+  end function c_set_progress
+
   function c_solve(solver) bind(c, name='fuge_solve') result(status)
     type(c_ptr), intent(in), value :: solver
     integer(c_int) :: status
@@ -123,7 +136,8 @@ contains
       end if
     end if
     if (.not. info%failed()) then
-      call handle%solver%solve(handle%operator%operator, handle%problem, handle%solution, info, handle%options)
+      call handle%solver%solve(handle%operator%operator, handle%problem, handle%solution, info, handle%options, &
+                               handle%monitor)
       handle%solved = .not. info%failed()
     end if
     if (associated(handle)) then

@@ -2,6 +2,7 @@
 module fuge_c_types
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_null_char, c_ptr, c_size_t, &
     c_associated, c_f_pointer
+  use fuge_c_monitor, only: c_monitor
   use fuge_history_type, only: fuge_history
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
@@ -41,6 +42,7 @@ module fuge_c_types
     type(fuge_problem) :: problem
     type(fuge_solver) :: solver
     type(fuge_solution) :: solution
+    type(c_monitor) :: monitor
     !> Report of the last solve.
     type(fuge_info) :: info
     !> Of the last call that had something to say.
