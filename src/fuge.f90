@@ -3,6 +3,7 @@ module fuge
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_dense, only: fuge_dense_operator
   use fuge_halfplane, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
+  use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor

@@ -1,8 +1,9 @@
 !> C bindings, section "operators".
 module fuge_c_operator
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_loc, c_associated, c_f_pointer
-  use fuge_c_types, only: operator_handle
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_null_ptr, c_loc, c_associated, c_f_pointer
+  use fuge_c_types, only: operator_handle, copy_string
   use fuge_dense, only: fuge_dense_operator
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY
   use fuge_text, only: text
   implicit none
@@ -39,6 +40,67 @@ contains
     slot = c_loc(handle)
     status = FUGE_DONE
   end function c_operator_dense
+
+  function c_operator_halfplane(n, spacing, e_star, element, boundary, destination) &
+    bind(c, name='fuge_operator_halfplane') result(status)
+    integer(c_int), intent(in), value :: n, element, boundary
+    real(c_double), intent(in), value :: spacing, e_star
+    type(c_ptr), intent(in), value :: destination
+    integer(c_int) :: status
+    type(operator_handle), pointer :: handle
+    type(c_ptr), pointer :: slot
+    type(fuge_info) :: info
+
+    status = FUGE_ERR_POINTER
+    if (.not. c_associated(destination)) return
+    call make_halfplane(n, spacing, e_star, element, boundary, handle, info)
+    status = int(info%status, c_int)
+    if (info%failed()) return
+    call c_f_pointer(destination, slot)
+    slot = c_loc(handle)
+  end function c_operator_halfplane
+
+  !> The same without the operator, and with the message it has no place for.
+  function c_check_operator_halfplane(n, spacing, e_star, element, boundary, message, length) &
+    bind(c, name='fuge_check_operator_halfplane') result(status)
+    integer(c_int), intent(in), value :: n, element, boundary
+    real(c_double), intent(in), value :: spacing, e_star
+    type(c_ptr), intent(in), value :: message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(operator_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call make_halfplane(n, spacing, e_star, element, boundary, handle, info)
+    if (associated(handle)) deallocate (handle)
+    call copy_string(info%message, message, length)
+    status = int(info%status, c_int)
+  end function c_check_operator_halfplane
+
+  !> `handle` is null after a failure.
+  subroutine make_halfplane(n, spacing, e_star, element, boundary, handle, info)
+    integer(c_int), intent(in) :: n, element, boundary
+    real(c_double), intent(in) :: spacing, e_star
+    type(operator_handle), pointer, intent(out) :: handle
+    type(fuge_info), intent(out) :: info
+    type(fuge_halfplane_operator), allocatable :: operator
+    integer :: stat
+
+    nullify (handle)
+    allocate (operator, stat=stat)
+    if (stat == 0) allocate (handle, stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'out of memory')
+      return
+    end if
+    call operator%set(int(n), spacing, e_star, info, int(element), int(boundary))
+    if (info%failed()) then
+      deallocate (handle)
+      nullify (handle)
+    else
+      call move_alloc(operator, handle%operator)
+    end if
+  end subroutine make_halfplane
 
   !> Point an operator to a C matrix, with all checks and their messages.
   subroutine take_matrix(n, alpha, lda, operator, info)
