@@ -177,8 +177,8 @@ enum {                          /* boundary: what lies beyond the cells */
  *   element   in   FUGE_CENTRE, FUGE_MEAN or FUGE_HAT (the last two are the same here)
  *   boundary  in   FUGE_FREE: the matrix of fuge_halfplane_matrix;
  *                  FUGE_PERIODIC: displacements count from the mean of the surface
- * *op is set on success only.  n is limited by memory (about 130 n bytes while it is made,
- * 48 n during a product), and for FUGE_FREE to 2^30 by FFTW. */
+ * *op is set on success only.  n is limited by memory (FUGE_FREE: 64 n bytes while it is made,
+ * 32 n in a product; FUGE_PERIODIC half of it), and for FUGE_FREE to nearly 2^30 by FFTW. */
 int fuge_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
                             fuge_operator **op);
 
