@@ -42,6 +42,7 @@ module fuge_fft
     procedure :: transform_even
     procedure :: filter
     procedure, private :: owner
+    procedure, private :: settle
     procedure, private :: copy
     generic :: assignment(=) => copy
     final :: finish
@@ -162,7 +163,7 @@ contains
   end subroutine set
 
   subroutine make_plans(plan, info)
-    type(fft_plan), intent(inout), target :: plan
+    type(fft_plan), intent(inout) :: plan
     type(fuge_info), intent(inout) :: info
     type(c_ptr) :: buffer
     integer(c_int) :: flags
@@ -186,7 +187,7 @@ contains
     end if
     if (plan%threads > 1) call fftw_plan_with_nthreads(1_c_int)
     if (c_associated(plan%forward) .and. c_associated(plan%backward)) then
-      plan%home = c_loc(plan%length)
+      call plan%settle()
     else
       call destroy(plan%forward, plan%backward)
       call report(info, FUGE_ERR_MEMORY, 'out of memory: a transform of '//text(plan%length)//' values needs ' &
@@ -235,9 +236,16 @@ contains
     call self%free()
   end subroutine finish
 
+  !> Own the plans. Only the address counts, nothing is read through it.
+  subroutine settle(self)
+    class(fft_plan), intent(inout), target :: self
+
+    self%home = c_loc(self%length)
+  end subroutine settle
+
   !> Take the plans of `source`, which is then not set.
   subroutine take(self, source)
-    class(fft_plan), intent(inout), target :: self
+    class(fft_plan), intent(inout) :: self
     class(fft_plan), intent(inout) :: source
 
     call self%free()
@@ -247,7 +255,7 @@ contains
     self%length = source%length
     self%forward = source%forward
     self%backward = source%backward
-    self%home = c_loc(self%length)
+    call self%settle()
     source%home = c_null_ptr
     call source%free()
   end subroutine take

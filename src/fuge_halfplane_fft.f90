@@ -156,7 +156,7 @@ contains
     if (operator%boundary == FUGE_PERIODIC) then
       length = operator%count
     else if (operator%count - 1 <= (huge(length) - 1)/2) then
-      length = good_length(2*operator%count - 1)
+      length = good_length(2*(operator%count - 1) + 1)
     end if
   end function circle
 
@@ -200,7 +200,8 @@ contains
 
     sine = sin(PI*fraction)
     if (element == FUGE_CENTRE) then
-      eigenvalue = 0.5_dp*sine/PI**2*(hurwitz_zeta(2, 0.5_dp - 0.5_dp*fraction) - hurwitz_zeta(2, 1.0_dp - 0.5_dp*fraction))
+      eigenvalue = 0.5_dp*sine/PI**2 &
+                   *(hurwitz_zeta(2, 0.5_dp - 0.5_dp*fraction) - hurwitz_zeta(2, 1.0_dp - 0.5_dp*fraction))
     else
       eigenvalue = 2.0_dp*sine**2/PI**3*hurwitz_zeta(3, 1.0_dp - fraction)
     end if
