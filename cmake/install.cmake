@@ -24,11 +24,14 @@ configure_package_config_file(cmake/fuge-config.cmake.in fuge-config.cmake
 write_basic_package_version_file(fuge-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/fuge-config.cmake" "${PROJECT_BINARY_DIR}/fuge-config-version.cmake"
   DESTINATION "${package_dir}")
+if(library_type STREQUAL "STATIC_LIBRARY")
+  install(FILES cmake/FindFFTW.cmake DESTINATION "${package_dir}")
+endif()
 
 # A static library has no record of what it needs: then these are needed always.
 set(pc_libs -lfuge)
 if(library_type STREQUAL "STATIC_LIBRARY")
-  set(pc_libraries ${LAPACK_LIBRARIES} ${fortran_runtime})
+  set(pc_libraries ${LAPACK_LIBRARIES} ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY} ${fortran_runtime})
   list(TRANSFORM pc_libraries PREPEND "-l" REGEX "^[^-/]")
   # Directories that the C compiler does not search by itself.
   set(pc_dirs ${fortran_runtime_dirs})

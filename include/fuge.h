@@ -278,6 +278,27 @@ int fuge_operator_set_filter(fuge_operator *op, fuge_apply filter);
 /* The filter 1/alpha_kk.  diagonal: n coefficients alpha_kk > 0, copied; length per force.
  * FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_DEFINITE for one <= 0. */
 int fuge_operator_set_diagonal(fuge_operator *op, const double *diagonal);
+enum {                          /* boundary: what lies beyond the cells */
+  FUGE_FREE = 0,                /* nothing: a free surface */
+  FUGE_PERIODIC = 1             /* the same again and again, with the period n*spacing */
+};
+
+/* An elastic half-plane of n equal cells side by side, by FFT: products in O(n log n)
+ * operations, O(n) memory.
+ *   spacing   in   width of a cell; length
+ *   e_star    in   as in fuge_halfplane_matrix
+ *   element   in   FUGE_CENTRE, FUGE_MEAN or FUGE_HAT (the last two are the same here)
+ *   boundary  in   FUGE_FREE: the matrix of fuge_halfplane_matrix;
+ *                  FUGE_PERIODIC: displacements count from the mean of the surface
+ * *op is set on success only.  n is limited by memory (FUGE_FREE: 64 n bytes while it is made,
+ * 32 n in a product; FUGE_PERIODIC half of it), and for FUGE_FREE to nearly 2^30 by FFTW. */
+int fuge_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
+                            fuge_operator **op);
+
+/* The status that fuge_operator_halfplane returns for these data, with its message, as
+ * fuge_check_dense.  Makes the operator to find out. */
+int fuge_check_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
+                                  char *message, size_t len);
 
 /* Free and set *op to NULL; NULL and *op == NULL are fine.  Free its solvers first. */
 void fuge_operator_free(fuge_operator **op);

@@ -46,16 +46,19 @@ contains
     type(c_funptr), intent(in), value :: product
     type(c_ptr), intent(in), value :: user, destination
     integer(c_int) :: status
-    type(callback_operator) :: operator
+    type(callback_operator), allocatable :: callback
+    class(fuge_operator), allocatable :: operator
 
     if (n < 1) then
       status = FUGE_ERR_SIZE
     else if (.not. (c_associated(product) .and. c_associated(destination))) then
       status = FUGE_ERR_POINTER
     else
-      operator%n = int(n)
-      operator%product => procedure_at(product)
-      operator%user = user
+      allocate (callback)
+      callback%n = int(n)
+      callback%product => procedure_at(product)
+      callback%user = user
+      call move_alloc(callback, operator)
       status = hand_over(operator, destination)
     end if
   end function c_operator_callback

@@ -1,0 +1,28 @@
+# FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads.
+# FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a strange place.
+find_package(PkgConfig QUIET)
+if(PkgConfig_FOUND)
+  pkg_check_modules(PC_FFTW QUIET fftw3)
+endif()
+find_library(FFTW_LIBRARY NAMES fftw3 libfftw3-3 HINTS ${PC_FFTW_LIBRARY_DIRS})
+find_library(FFTW_THREADS_LIBRARY NAMES fftw3_threads HINTS ${PC_FFTW_LIBRARY_DIRS})
+mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY)
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(FFTW REQUIRED_VARS FFTW_LIBRARY FFTW_THREADS_LIBRARY
+  REASON_FAILURE_MESSAGE "install FFTW 3.3.5 or newer with threads (Debian: libfftw3-dev)")
+
+if(FFTW_FOUND AND NOT TARGET FFTW::threads)
+  # A static copy does not say what it needs itself.
+  set(fftw_needs)
+  if(UNIX)
+    set(fftw_needs pthread m)
+  endif()
+  add_library(FFTW::fftw UNKNOWN IMPORTED)
+  set_target_properties(FFTW::fftw PROPERTIES
+    IMPORTED_LOCATION "${FFTW_LIBRARY}" INTERFACE_LINK_LIBRARIES "${fftw_needs}")
+  add_library(FFTW::threads UNKNOWN IMPORTED)
+  set_target_properties(FFTW::threads PROPERTIES
+    IMPORTED_LOCATION "${FFTW_THREADS_LIBRARY}" INTERFACE_LINK_LIBRARIES FFTW::fftw)
+  unset(fftw_needs)
+endif()
