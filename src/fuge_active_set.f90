@@ -13,6 +13,7 @@ module fuge_active_set
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_set_answer, only: solve_set, refine, add_deflection, violations, terms_of, largest_term, &
     motion_at_shallowest
+  use fuge_step_back, only: step_back
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
   implicit none
   private
@@ -176,33 +177,6 @@ contains
       end if
     end do
   end subroutine descend
-
-  !> Go towards the wanted forces until the first becomes zero; that point leaves. A point
-  !> that was to join but would pull at once did so by rounding: it is barred until the
-  !> forces have moved.
-  pure subroutine step_back(wanted, contact, force, newest, barred)
-    real(dp), intent(in) :: wanted(:)
-    logical, intent(inout) :: contact(:), barred(:)
-    real(dp), intent(inout) :: force(:)
-    integer, intent(in) :: newest
-    real(dp) :: way(size(force))
-    integer :: k
-
-    k = 0
-    if (newest > 0) then
-      if (contact(newest) .and. wanted(newest) <= 0.0_dp) k = newest
-    end if
-    if (k > 0) then
-      barred(k) = .true.
-    else
-      way = huge(way)
-      where (contact .and. wanted <= 0.0_dp) way = force/max(force - wanted, tiny(way))
-      k = minloc(way, dim=1)
-      where (contact) force = max(force + min(way(k), 1.0_dp)*(wanted - force), 0.0_dp)
-    end if
-    force(k) = 0.0_dp
-    contact(k) = .false.
-  end subroutine step_back
 
   !> Only the true element of least index stays true.
   pure subroutine keep_first(mask)

@@ -6,10 +6,11 @@ module fuge_solver_type
   use fuge_dense, only: fuge_dense_operator
   use fuge_dense_engines, only: solve_by_tableau, solve_by_active_set
   use fuge_history_type, only: fuge_history
+  use fuge_iterative_engine, only: solve_by_iteration
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, monitor_relay
   use fuge_operator_type, only: fuge_operator
-  use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET
+  use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
   use fuge_set_answer, only: solve_set, add_deflection
   use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
@@ -20,6 +21,9 @@ module fuge_solver_type
 
   public :: fuge_solve_dense
 
+  !> Relative change of the load up to which the last forces are the better start.
+  real(dp), parameter :: WARM_RANGE = 0.25_dp
+
   !> What stays between solves. One solver for each thread.
   type, public :: fuge_solver
     !> Basis and z of each pivot of the last tableau solve, if it was asked for.
@@ -27,6 +31,9 @@ module fuge_solver_type
     !> Contact set of the last solve, where the next one starts, and its factor.
     logical, allocatable, private :: contact(:)
     type(contact_factor), private :: factor
+    !> Forces of the last solve by products only, as parts of its load, and that load.
+    real(dp), allocatable, private :: part(:)
+    real(dp), private :: last_load = 0.0_dp
   contains
     procedure :: solve
     procedure :: reset
@@ -97,6 +104,7 @@ contains
     self%history = fuge_history()
     self%factor = contact_factor()
     if (allocated(self%contact)) deallocate (self%contact)
+    if (allocated(self%part)) deallocate (self%part)
   end subroutine reset
 
   !> How the last solution changes with gaps and load, to first order and exactly so as
@@ -173,8 +181,8 @@ contains
     answer%gap = problem%gap - answer%rigid(1)
   end subroutine rest_without_load
 
-  !> Choice of engine. FUGE_AUTO is the active set, but for a history, which only the
-  !> tableau has.
+  !> Choice of engine. FUGE_AUTO is the active set for a matrix, but the tableau for a
+  !> history, which only that has; for any other operator the iteration.
   subroutine run_engine(self, operator, problem, options, monitor, answer, info)
     class(fuge_solver), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
@@ -183,24 +191,68 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
-    logical :: contact(size(problem%gap))
-    integer :: method
 
-    method = options%method
-    if (method == FUGE_AUTO) method = merge(FUGE_TABLEAU, FUGE_ACTIVE_SET, options%keep_history)
+    if (options%method == FUGE_ITERATIVE) then
+      call iterate_warm(self, operator, problem, options, monitor, answer, info)
+      return
+    end if
     select type (operator)
     class is (fuge_dense_operator)
-      if (method == FUGE_TABLEAU) then
-        call solve_by_tableau(operator%alpha, operator%datum(), problem, options, monitor, self%history, &
-                              contact, self%factor, answer, info)
-      else
-        call solve_warm(self, operator%alpha, operator%datum(), problem, options, monitor, contact, answer, info)
-      end if
-      if (.not. info%failed()) call remember(self, contact)
+      call run_dense_engine(self, operator, problem, options, monitor, answer, info)
     class default
-      call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a fuge_dense_operator')
+      if (options%method == FUGE_AUTO) then
+        call iterate_warm(self, operator, problem, options, monitor, answer, info)
+      else
+        call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a fuge_dense_operator: use ' &
+                    //'FUGE_ITERATIVE for other operators')
+      end if
     end select
   end subroutine run_engine
+
+  subroutine run_dense_engine(self, operator, problem, options, monitor, answer, info)
+    class(fuge_solver), intent(inout) :: self
+    class(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_solution), intent(inout) :: answer
+    type(fuge_info), intent(inout) :: info
+    logical :: contact(size(problem%gap))
+
+    if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
+      call solve_by_tableau(operator%alpha, operator%datum(), problem, options, monitor, self%history, &
+                            contact, self%factor, answer, info)
+    else
+      call solve_warm(self, operator%alpha, operator%datum(), problem, options, monitor, contact, answer, info)
+    end if
+    if (.not. info%failed()) call remember(self, contact)
+  end subroutine run_dense_engine
+
+  !> The iteration from the last forces if the load is about the same, else from coarser
+  !> grids; from scratch if the last forces lead nowhere.
+  subroutine iterate_warm(self, operator, problem, options, monitor, answer, info)
+    class(fuge_solver), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_solution), intent(inout) :: answer
+    type(fuge_info), intent(inout) :: info
+    logical :: warm
+
+    warm = .false.
+    if (allocated(self%part)) then
+      warm = size(self%part) == size(problem%gap) .and. abs(problem%resultant(1)/self%last_load - 1.0_dp) <= WARM_RANGE
+      if (.not. warm) deallocate (self%part)
+    end if
+    call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
+    if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
+      info = fuge_info()
+      if (allocated(self%part)) deallocate (self%part)
+      call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
+    end if
+    self%last_load = problem%resultant(1)
+  end subroutine iterate_warm
 
   !> Keep the contact set for the next solve; without memory that starts from scratch.
   pure subroutine remember(self, contact)
@@ -254,7 +306,7 @@ contains
     info%residual = violation%worst()
     if (info%residual > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the tolerance ' &
-                  //text(tolerance)//': alpha may be too badly conditioned for double precision')
+                  //text(tolerance)//': the operator may be too badly conditioned for double precision')
     end if
   end subroutine certify
 
