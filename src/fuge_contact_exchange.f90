@@ -12,6 +12,9 @@ module fuge_contact_exchange
 
   public :: exchange, exchange_in_row
 
+  !> A run of so many cells is known well enough.
+  integer, parameter :: LONG_RUN = 8
+
 contains
 
   !> Every point that pulls leaves, every one that penetrates joins. All (n).
@@ -63,8 +66,8 @@ contains
     end do
   end subroutine next_run
 
-  !> A run that pulls at one end of a stretch takes as many cells with it, but for the
-  !> two that the grid may make it too long by.
+  !> A run that pulls at one end of a stretch takes as many cells with it; a short one
+  !> two fewer, because the grid may make it too long by those.
   pure subroutine release_more(first, last, pulls, contact)
     integer, intent(in) :: first, last
     logical, intent(in) :: pulls(:)
@@ -72,7 +75,8 @@ contains
     integer :: more, k
     logical :: touches_before, touches_after
 
-    more = (last - first + 1) - 2
+    more = last - first + 1
+    if (more < LONG_RUN) more = more - 2
     if (more < 1) return
     touches_before = .false.
     touches_after = .false.

@@ -30,7 +30,7 @@ module fuge_iterative_engine
   real(dp), parameter :: COARSE_TOLERANCE = 1.0e-4_dp
   !> The engine aims below the tolerance by this factor, because the certificate
   !> counts more than the equations of the set.
-  real(dp), parameter :: MARGIN = 0.2_dp
+  real(dp), parameter :: MARGIN = 0.4_dp
   !> Block changes without fewer wrong points before single ones; the foresight ends
   !> when half of them are used.
   integer, parameter :: PATIENCE = 10
@@ -245,7 +245,8 @@ contains
           ! Displacements by recurrence have drifted.
           call push(operator, state, info)
           if (info%failed()) exit
-          call measure(shape, state)
+          call measure(shape, state, info)
+          if (info%failed()) exit
           if (state%residual <= state%target .or. .not. state%residual < 0.5_dp*before) exit
           before = state%residual
         end if
@@ -360,7 +361,7 @@ contains
       call push(operator, state, info)
     end do
     if (.not. info%failed()) call push(operator, state, info)
-    if (.not. info%failed()) call measure(shape, state)
+    if (.not. info%failed()) call measure(shape, state, info)
   end subroutine descend
 
   !> The point that penetrates most, of those not barred; 0 if there is none.

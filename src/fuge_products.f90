@@ -1,8 +1,7 @@
 !> Products with an operator and with its filter, counted and checked. All that need
 !> nothing but products make them here, so that a failure always ends in the same words.
 module fuge_products
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge_check, only: check_finite
+  use fuge_check, only: check_finite, is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_OVERFLOW, &
@@ -24,7 +23,7 @@ contains
   subroutine multiply(operator, force, displacement, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: force(:)
-    real(dp), intent(out) :: displacement(:)
+    real(dp), intent(out), contiguous :: displacement(:)
     type(fuge_info), intent(inout) :: info
     integer :: status
 
@@ -32,7 +31,7 @@ contains
     info%products = info%products + 1
     if (status /= FUGE_DONE) then
       call report_status(status, 'product', info%products, info)
-    else if (.not. all(ieee_is_finite(displacement))) then
+    else if (.not. is_finite_everywhere(displacement)) then
       call report_not_finite(force, 'force', displacement, 'displacement', 'product', info%products, info)
     end if
   end subroutine multiply
@@ -44,7 +43,7 @@ contains
   subroutine precondition(operator, length, force, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: length(:)
-    real(dp), intent(out) :: force(:)
+    real(dp), intent(out), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
     integer :: status
 
@@ -52,7 +51,7 @@ contains
     info%filters = info%filters + 1
     if (status /= FUGE_DONE) then
       call report_status(status, 'filter', info%filters, info)
-    else if (.not. all(ieee_is_finite(force))) then
+    else if (.not. is_finite_everywhere(force)) then
       call report_not_finite(length, 'length', force, 'force', 'filter', info%filters, info)
     end if
   end subroutine precondition

@@ -7,6 +7,7 @@ module fuge_set_gradients
   use fuge_operator_type, only: fuge_operator
   use fuge_products, only: multiply
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_stretches, only: stretches, total, inner, largest
   use fuge_text, only: text
   implicit none
   private
@@ -36,7 +37,10 @@ module fuge_set_gradients
     real(dp) :: residual = huge(1.0_dp)
     !> Residual that is asked for.
     real(dp) :: target = 0.0_dp
-    !> Work space, (n).
+    !> The stretches of the set, made by `relax` and `measure`.
+    type(stretches) :: over
+    !> Work space, (n); of `remainder` and `correction` only the contact counts, elsewhere
+    !> `direction` is zero.
     real(dp), allocatable, private :: remainder(:), correction(:), direction(:), image(:)
   end type iterate
 
@@ -59,8 +63,9 @@ contains
   !> `shape` (n) gaps per load; `state` forces, displacements and set, new forces and
   !> displacements on return (the latter by recurrence). Ends when the residual is at
   !> most `tolerance` times the least length of a contact point (as in the certificate:
-  !> its depth and the terms of its displacement) or, unless `thorough`, when it is small enough to tell which points
-  !> pull and which penetrate. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE.
+  !> its depth and the terms of its displacement) or, unless `thorough`, when it is
+  !> small enough to tell which points pull and which penetrate. Errors: those of the
+  !> operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY.
   subroutine relax(operator, family, grid, filter, shape, tolerance, thorough, state, info)
     class(fuge_operator), intent(in) :: operator
     type(grid_family), intent(in) :: family
@@ -71,14 +76,14 @@ contains
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
     real(dp) :: drift, tension, penetration, product, previous, curvature, step
-    integer :: points, iteration, limit
+    integer :: iteration, limit
     logical :: judges_forces, filtered
 
     filtered = operator%has_filter()
     judges_forces = filtered .and. .not. thorough
-    points = count(state%contact)
-    limit = min(points + SPARE_ITERATIONS, MOST_ITERATIONS)
-    call start(shape, points, state, penetration)
+    call start(shape, state, penetration, info)
+    if (info%failed()) return
+    limit = min(state%over%points + SPARE_ITERATIONS, MOST_ITERATIONS)
     call operator%magnitude(state%force, state%displacement, state%image)
     state%target = tolerance*minval(abs(shape - state%motion) + state%image, mask=state%contact)
     state%direction = 0.0_dp
@@ -86,123 +91,166 @@ contains
     do iteration = 0, limit
       if (state%residual <= state%target .or. iteration == limit) return
       if (iteration > 0 .and. .not. thorough .and. state%residual <= ENOUGH*penetration) return
-      call filter%apply(operator, family, grid, state%remainder, state%correction, info)
+      call filter%apply(operator, family, grid, state%over, state%remainder, state%correction, info)
       if (info%failed()) return
       if (iteration > 0 .and. judges_forces) then
         call estimate(state, drift, tension)
         if (drift <= ENOUGH*tension) return
       end if
-      product = dot_product(state%remainder, state%correction)
+      product = inner(state%over, state%remainder, state%correction)
       ! Nothing is left but rounding.
       if (.not. product > 0.0_dp) return
-      state%direction = state%correction + (product/previous)*state%direction
+      call turn(state%over, product/previous, state%correction, state%direction)
       previous = product
       call multiply(operator, state%direction, state%image, info)
       if (info%failed()) return
-      curvature = dot_product(state%direction, state%image)
+      curvature = inner(state%over, state%direction, state%image)
       if (.not. curvature > 0.0_dp) then
         call explain(state, curvature, info)
         return
       end if
       step = product/curvature
-      call advance(shape, points, step, state, penetration)
+      call advance(shape, step, state, penetration)
       if (.not. (thorough .or. filtered)) then
         ! Without a filter the last step stands for the error of the forces.
-        drift = step*maxval(abs(state%direction))
+        drift = step*largest(state%over, state%direction)
         tension = -minval(state%force)
         if (drift <= ENOUGH*tension) return
       end if
     end do
   end subroutine relax
 
-  !> Motion and residual of the present forces and displacements.
-  pure subroutine measure(shape, state)
+  !> Motion and residual of the present forces and displacements. Error: FUGE_ERR_MEMORY.
+  pure subroutine measure(shape, state, info)
     real(dp), intent(in) :: shape(:)
     type(iterate), intent(inout) :: state
+    type(fuge_info), intent(inout) :: info
     real(dp) :: penetration
 
-    call start(shape, count(state%contact), state, penetration)
+    call start(shape, state, penetration, info)
   end subroutine measure
 
   !> What lengths differ by on the contact set, and the worst penetration off it.
-  pure subroutine start(shape, points, state, penetration)
+  pure subroutine start(shape, state, penetration, info)
     real(dp), intent(in) :: shape(:)
-    integer, intent(in) :: points
     type(iterate), intent(inout) :: state
     real(dp), intent(out) :: penetration
-    integer :: k
+    type(fuge_info), intent(inout) :: info
 
+    penetration = 0.0_dp
+    call state%over%find(state%contact, info)
+    if (info%failed()) return
+    state%remainder = shape + state%displacement
     state%motion = 0.0_dp
-    do k = 1, size(shape)
-      state%remainder(k) = 0.0_dp
-      if (state%contact(k)) state%remainder(k) = shape(k) + state%displacement(k)
-    end do
-    state%motion = sum(state%remainder)/real(points, dp)
-    where (state%contact) state%remainder = state%remainder - state%motion
-    call centre(shape, points, sum(state%remainder), state, penetration)
+    call centre(state)
+    ! The mean of large numbers is not exact: once more for what is left of it.
+    call centre(state)
+    penetration = worst_penetration(shape, state)
   end subroutine start
 
+  !> direction = correction + factor*direction on the contact.
+  pure subroutine turn(over, factor, correction, direction)
+    type(stretches), intent(in) :: over
+    real(dp), intent(in) :: factor
+    real(dp), intent(in), contiguous :: correction(:)
+    real(dp), intent(inout), contiguous :: direction(:)
+    integer :: i, k
+
+    do i = 1, size(over%first)
+      do k = over%first(i), over%last(i)
+        direction(k) = correction(k) + factor*direction(k)
+      end do
+    end do
+  end subroutine turn
+
   !> One step along the direction.
-  pure subroutine advance(shape, points, step, state, penetration)
+  pure subroutine advance(shape, step, state, penetration)
     real(dp), intent(in) :: shape(:), step
-    integer, intent(in) :: points
     type(iterate), intent(inout) :: state
     real(dp), intent(out) :: penetration
-    real(dp) :: mean, total
-    integer :: k
+    real(dp) :: mean
 
-    mean = 0.0_dp
-    do k = 1, size(shape)
-      if (state%contact(k)) mean = mean + state%image(k)
-    end do
-    mean = mean/real(points, dp)
-    total = 0.0_dp
-    do k = 1, size(shape)
-      state%displacement(k) = state%displacement(k) - step*state%image(k)
-      if (.not. state%contact(k)) cycle
-      state%force(k) = state%force(k) - step*state%direction(k)
-      state%remainder(k) = state%remainder(k) - step*(state%image(k) - mean)
-      total = total + state%remainder(k)
-    end do
+    mean = total(state%over, state%image)/real(state%over%points, dp)
+    state%displacement = state%displacement - step*state%image
+    call move(state%over, step, mean, state%direction, state%image, state%force, state%remainder)
     state%motion = state%motion - step*mean
-    call centre(shape, points, total, state, penetration)
+    call centre(state)
+    penetration = worst_penetration(shape, state)
   end subroutine advance
 
+  pure subroutine move(over, step, mean, direction, image, force, remainder)
+    type(stretches), intent(in) :: over
+    real(dp), intent(in) :: step, mean
+    real(dp), intent(in), contiguous :: direction(:), image(:)
+    real(dp), intent(inout), contiguous :: force(:), remainder(:)
+    integer :: i, k
+
+    do i = 1, size(over%first)
+      do k = over%first(i), over%last(i)
+        force(k) = force(k) - step*direction(k)
+        remainder(k) = remainder(k) - step*(image(k) - mean)
+      end do
+    end do
+  end subroutine move
+
   !> Keep the mean of the remainder zero: its rounding would grow and drown the rest.
-  pure subroutine centre(shape, points, total, state, penetration)
-    real(dp), intent(in) :: shape(:), total
-    integer, intent(in) :: points
+  pure subroutine centre(state)
     type(iterate), intent(inout) :: state
-    real(dp), intent(out) :: penetration
-    real(dp) :: mean, deepest
+    real(dp) :: mean
+    integer :: i
+
+    mean = total(state%over, state%remainder)/real(state%over%points, dp)
+    associate (over => state%over)
+      do i = 1, size(over%first)
+        state%remainder(over%first(i):over%last(i)) = state%remainder(over%first(i):over%last(i)) - mean
+      end do
+    end associate
+    state%motion = state%motion + mean
+    state%residual = largest(state%over, state%remainder)
+  end subroutine centre
+
+  !> The deepest that an open point is pressed in, 0 if none is.
+  pure function worst_penetration(shape, state) result(depth)
+    real(dp), intent(in) :: shape(:)
+    type(iterate), intent(in) :: state
+    real(dp) :: depth
+    integer :: i, first, last
+
+    depth = 0.0_dp
+    do i = 0, size(state%over%first)
+      first = 1
+      last = size(shape)
+      if (i > 0) first = state%over%last(i) + 1
+      if (i < size(state%over%first)) last = state%over%first(i + 1) - 1
+      if (first <= last) depth = max(depth, depth_between(shape(first:last), state%displacement(first:last), state%motion))
+    end do
+  end function worst_penetration
+
+  pure function depth_between(shape, displacement, motion) result(depth)
+    real(dp), intent(in), contiguous :: shape(:), displacement(:)
+    real(dp), intent(in) :: motion
+    real(dp) :: depth
     integer :: k
 
-    mean = total/real(points, dp)
-    state%motion = state%motion + mean
-    state%residual = 0.0_dp
-    deepest = 0.0_dp
+    depth = 0.0_dp
     do k = 1, size(shape)
-      if (state%contact(k)) then
-        state%remainder(k) = state%remainder(k) - mean
-        state%residual = max(state%residual, abs(state%remainder(k)))
-      else
-        deepest = min(deepest, shape(k) + state%displacement(k) - state%motion)
-      end if
+      depth = max(depth, -open_gap(shape(k), displacement(k), motion))
     end do
-    penetration = -deepest
-  end subroutine centre
+  end function depth_between
 
   !> How far the forces still are from those wanted, and how strongly those pull.
   pure subroutine estimate(state, drift, tension)
     type(iterate), intent(in) :: state
     real(dp), intent(out) :: drift, tension
-    integer :: k
+    integer :: i, k
 
     drift = 0.0_dp
     tension = 0.0_dp
-    do k = 1, size(state%force)
-      drift = max(drift, abs(state%correction(k)))
-      tension = max(tension, state%correction(k) - state%force(k))
+    do i = 1, size(state%over%first)
+      do k = state%over%first(i), state%over%last(i)
+        drift = max(drift, abs(state%correction(k)))
+        tension = max(tension, state%correction(k) - state%force(k))
+      end do
     end do
   end subroutine estimate
 
@@ -220,7 +268,7 @@ contains
     real(dp), intent(in) :: curvature
     type(fuge_info), intent(inout) :: info
 
-    if (curvature >= -ROUNDING*dot_product(abs(state%direction), abs(state%image))) return
+    if (curvature >= -ROUNDING*inner(state%over, abs(state%direction), abs(state%image))) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces with zero sum store the ' &
                 //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
   end subroutine explain
