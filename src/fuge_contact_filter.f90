@@ -68,7 +68,9 @@ contains
     type(stretches) :: over
 
     if (.not. operator%has_filter()) then
-      self%stiffness = 1.0_dp/softness
+      ! Only to stay in range: conjugate gradients do not depend on it.
+      self%stiffness = 1.0_dp
+      if (softness > 0.0_dp) self%stiffness = 1.0_dp/softness
       return
     end if
     if (self%depth > 0) then

@@ -97,6 +97,8 @@ contains
       if (info%failed()) return
       info%products = info%products + ceiling(context%coarse_products)
       info%filters = info%filters + ceiling(context%coarse_filters)
+      ! What is left of a force that should have become zero.
+      where (state%force <= 4.0_dp*epsilon(1.0_dp)*maxval(state%force)) state%force = 0.0_dp
       answer%force = load*state%force
       answer%gap = load*max(open_gap(shape, state%displacement, state%motion), 0.0_dp)
       where (state%contact) answer%gap = 0.0_dp
