@@ -11,7 +11,8 @@ module fuge_active_set
   use fuge_contact_factor, only: contact_factor
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
-  use fuge_set_answer, only: solve_set, refine, add_deflection, violations, terms_of, largest_term, &
+  use fuge_scene, only: contact_scene
+  use fuge_set_answer, only: solve_set, displaced, refine, add_deflection, violations, terms_of, largest_term, &
     motion_at_shallowest
   use fuge_step_back, only: step_back
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
@@ -35,60 +36,67 @@ contains
 
   !> From a guess to the contact set, its forces and gaps.
   !>
-  !> `alpha` (at least n rows, n columns), `gap` (n), `load` > 0, `datum` the coefficient
-  !> of alpha nearest to zero; `contact` (n) the guess, then the set, never empty;
-  !> `factor` is that of the set on return; out: `force` (n), `gap_out` (n), `approach`.
-  !> `iterations` counts the sets tried; `monitor` hears of each.
+  !> `alpha` (at least n rows, n columns); `datum` its coefficient nearest to zero, or 0
+  !> unless the scene has a translation; `scene` the rest of the problem; `side` (n) the
+  !> guess, then the answer: 1 at the lower stop, -1 at the upper one, 0 between; `factor`
+  !> is that of the set on return; out: `force` (n), `gap_out` (n), `motion` (m).
+  !> `iterations` counts the sets tried, `monitor` hears of each, with its worst violation.
   !> Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT,
   !> FUGE_ERR_CANCELLED.
-  subroutine run_active_set(alpha, datum, gap, load, limit, monitor, factor, contact, force, gap_out, approach, &
-                            iterations, status)
+  subroutine run_active_set(alpha, datum, scene, limit, monitor, factor, side, force, gap_out, motion, iterations, &
+                            status)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, gap(:), load
+    real(dp), intent(in) :: datum
+    type(contact_scene), intent(in) :: scene
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_factor), intent(inout) :: factor
-    logical, intent(inout) :: contact(:)
-    real(dp), intent(out) :: force(:), gap_out(:), approach
+    integer, intent(inout) :: side(:)
+    real(dp), intent(out) :: force(:), gap_out(:), motion(:)
     integer, intent(out) :: iterations, status
-    real(dp) :: shape(size(gap)), terms(size(gap)), violation(size(gap)), motion, base
-    logical :: wrong(size(gap)), careful, fresh
+    real(dp) :: shape(size(side)), terms(size(side)), violation(size(side)), distance(size(side)), base
+    logical :: wrong(size(side)), careful, fresh
     integer :: fewest, patience_left
 
-    base = minval(gap)
-    shape = gap - base
+    base = 0.0_dp
+    if (scene%constant) base = minval(scene%gap)
+    shape = scene%gap - base
+    where (scene%excluded) side = 0
+    where (scene%upper <= 0.0_dp .and. .not. scene%excluded) side = 1
     fewest = huge(fewest)
     patience_left = PATIENCE
     iterations = 0
     careful = .false.
     fresh = .true.
     do
-      call factor%set(alpha, contact, status)
+      call factor%set(alpha, scene%modes, scene%constant, side /= 0, status)
       if (status /= FUGE_DONE) return
-      call solve_set(factor, datum, shape, load, force, motion)
+      call solve_set(factor, datum, at_stops(shape, scene%upper, side), scene%load, force, motion)
+      if (fresh) iterations = iterations + 1
       careful = careful .or. factor%spread > ILL_CONDITIONED .or. factor%ridge > 0.0_dp
       if (careful) then
-        ! Gaps are counted from where the bodies meet: one point far below the others
-        ! would cost them digits.
-        base = gap(minloc(abs(shape - motion), dim=1))
-        shape = gap - base
-        call solve_set(factor, datum, shape, load, force, motion)
-        call refine(alpha, datum, shape, load, factor, factor%ridge, contact, force, motion)
+        if (scene%constant) then
+          ! Gaps are counted from where the bodies meet: one point far below the others
+          ! would cost them digits.
+          base = scene%gap(minloc(abs(shape - displaced(scene%modes, motion)), dim=1))
+          shape = scene%gap - base
+          call solve_set(factor, datum, at_stops(shape, scene%upper, side), scene%load, force, motion)
+        end if
+        call refine(alpha, datum, scene%modes, at_stops(shape, scene%upper, side), scene%load, factor, factor%ridge, &
+                    side /= 0, force, motion)
       end if
-      gap_out = shape - motion
-      call add_deflection(alpha, datum, contact, force, gap_out)
+      distance = shape - displaced(scene%modes, motion)
+      gap_out = distance
+      call add_deflection(alpha, datum, side /= 0, force, gap_out)
       if (careful) then
-        terms = terms_of(alpha, datum, contact, force)
+        terms = terms_of(alpha, datum, side /= 0, force)
       else
         terms = largest_term(alpha, datum, force)
       end if
-      violation = violations(shape - motion, terms, contact, force, gap_out)
-      if (fresh) then
-        iterations = iterations + 1
-        call tell_monitor(monitor, iterations, maxval(violation), count(contact), status)
-        if (status /= FUGE_DONE) return
-        fresh = .false.
-      end if
+      violation = violations(distance, terms, side, scene%upper, scene%excluded, force, gap_out)
+      if (fresh) call tell_monitor(monitor, iterations, maxval(violation), count(side /= 0), status)
+      if (status /= FUGE_DONE) return
+      fresh = .false.
       wrong = violation > SIGN_TOLERANCE
       if (.not. any(wrong)) then
         if (careful) exit
@@ -107,69 +115,93 @@ contains
       fewest = min(fewest, count(wrong))
       careful = patience_left < PATIENCE
       if (patience_left < 0) then
-        call descend(alpha, datum, shape, load, limit, monitor, factor, contact, force, iterations, status)
+        call descend(alpha, datum, scene, shape, limit, monitor, factor, side, force, iterations, status)
         if (status /= FUGE_DONE) return
       else
-        contact = contact .neqv. wrong
+        side = changed(side, wrong, gap_out, scene%upper)
         fresh = .true.
       end if
     end do
-    if (factor%ridge > 0.0_dp) call refine(alpha, datum, shape, load, factor, 0.0_dp, contact, force, motion)
-    force = max(force, 0.0_dp)
-    motion = motion_at_shallowest(alpha, datum, shape, contact, force, motion)
-    gap_out = shape - motion
-    call add_deflection(alpha, datum, contact, force, gap_out)
-    gap_out = max(gap_out, 0.0_dp)
-    where (contact) gap_out = 0.0_dp
-    approach = (motion + datum*load) + base
+    if (factor%ridge > 0.0_dp) call refine(alpha, datum, scene%modes, at_stops(shape, scene%upper, side), scene%load, &
+                                           factor, 0.0_dp, side /= 0, force, motion)
+    where (scene%upper > 0.0_dp) force = real(side, dp)*max(side*force, 0.0_dp)
+    if (scene%plain) motion(1) = motion_at_shallowest(alpha, datum, shape, side /= 0, force, motion(1))
+    gap_out = shape - displaced(scene%modes, motion)
+    call add_deflection(alpha, datum, side /= 0, force, gap_out)
+    where (.not. scene%excluded) gap_out = min(max(gap_out, 0.0_dp), scene%upper)
+    gap_out = merge(merge(0.0_dp, scene%upper, side > 0), gap_out, side /= 0)
+    if (scene%constant) motion(1) = motion(1) + base + datum*scene%load(1)
   end subroutine run_active_set
 
-  !> Down the energy: from pushing forces towards the answer of their set as far as no
-  !> force pulls, then the point with the most negative gap joins, until none has one.
-  !> `force` (n) in: where to start; `contact` and `factor` out.
-  subroutine descend(alpha, datum, shape, load, limit, monitor, factor, contact, force, iterations, status)
+  !> Gaps less those that the stops leave open.
+  pure function at_stops(shape, upper, side) result(rest)
+    real(dp), intent(in) :: shape(:), upper(:)
+    integer, intent(in) :: side(:)
+    real(dp) :: rest(size(shape))
+
+    rest = shape
+    where (side < 0) rest = shape - upper
+  end function at_stops
+
+  !> A point in contact that pulls leaves; an open one beyond a stop comes to it.
+  pure function changed(side, wrong, gap_out, upper) result(anew)
+    integer, intent(in) :: side(:)
+    logical, intent(in) :: wrong(:)
+    real(dp), intent(in) :: gap_out(:), upper(:)
+    integer :: anew(size(side))
+
+    anew = side
+    where (wrong .and. side /= 0) anew = 0
+    where (wrong .and. side == 0) anew = merge(1, -1, gap_out < 0.5_dp*upper)
+  end function changed
+
+  !> Down the energy: from forces that push at their stops towards the answer of their
+  !> set as far as none pulls, then the point furthest beyond a stop joins, until none is.
+  !> `force` (n) in: where to start; `side` and `factor` out.
+  subroutine descend(alpha, datum, scene, shape, limit, monitor, factor, side, force, iterations, status)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, shape(:), load
+    real(dp), intent(in) :: datum, shape(:)
+    type(contact_scene), intent(in) :: scene
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_factor), intent(inout) :: factor
-    logical, intent(inout) :: contact(:)
+    integer, intent(inout) :: side(:)
     real(dp), intent(inout) :: force(:)
     integer, intent(inout) :: iterations
     integer, intent(out) :: status
-    real(dp) :: wanted(size(shape)), gap_out(size(shape)), terms(size(shape)), violation(size(shape)), motion
-    logical :: barred(size(shape)), wrong(size(shape))
+    real(dp) :: wanted(size(shape)), gap_out(size(shape)), terms(size(shape)), distance(size(shape))
+    real(dp) :: motion(size(scene%load)), beyond(size(shape)), violation(size(shape))
+    logical :: barred(size(shape)), wrong(size(shape)), tied(size(shape))
     integer :: newest
 
-    force = max(force, 0.0_dp)
-    force = force*(load/sum(force))
-    contact = force > 0.0_dp
+    tied = scene%upper <= 0.0_dp .and. .not. scene%excluded
+    call start_pushing(scene, side, force)
     barred = .false.
     newest = 0
     do
-      call factor%set(alpha, contact, status)
+      call factor%set(alpha, scene%modes, scene%constant, side /= 0, status)
       if (status /= FUGE_DONE) return
-      call solve_set(factor, datum, shape, load, wanted, motion)
-      call refine(alpha, datum, shape, load, factor, factor%ridge, contact, wanted, motion)
+      call solve_set(factor, datum, at_stops(shape, scene%upper, side), scene%load, wanted, motion)
+      call refine(alpha, datum, scene%modes, at_stops(shape, scene%upper, side), scene%load, factor, factor%ridge, &
+                  side /= 0, wanted, motion)
       iterations = iterations + 1
-      if (any(contact .and. wanted <= 0.0_dp)) then
-        call tell_monitor(monitor, iterations, maxval(max(-wanted, 0.0_dp))/maxval(abs(wanted)), count(contact), &
-                          status)
-        if (status /= FUGE_DONE) return
-        call step_back(wanted, contact, force, newest, barred)
+      distance = shape - displaced(scene%modes, motion)
+      gap_out = distance
+      call add_deflection(alpha, datum, side /= 0, wanted, gap_out)
+      terms = terms_of(alpha, datum, side /= 0, wanted)
+      violation = violations(distance, terms, side, scene%upper, scene%excluded, wanted, gap_out)
+      call tell_monitor(monitor, iterations, maxval(violation), count(side /= 0), status)
+      if (status /= FUGE_DONE) return
+      if (any(side /= 0 .and. wanted*side <= 0.0_dp .and. .not. tied)) then
+        call step_back(wanted, tied, side, force, newest, barred)
       else
         force = wanted
         if (newest > 0) barred = barred .and. barred(newest)
-        gap_out = shape - motion
-        call add_deflection(alpha, datum, contact, force, gap_out)
-        terms = terms_of(alpha, datum, contact, force)
-        violation = violations(shape - motion, terms, contact, force, gap_out)
-        call tell_monitor(monitor, iterations, maxval(violation), count(contact), status)
-        if (status /= FUGE_DONE) return
-        wrong = violation > SIGN_TOLERANCE .and. .not. barred
+        wrong = side == 0 .and. violation > SIGN_TOLERANCE .and. .not. barred
         if (.not. any(wrong)) return
-        newest = minloc(gap_out, dim=1, mask=wrong)
-        contact(newest) = .true.
+        beyond = max(-gap_out, gap_out - scene%upper)
+        newest = maxloc(beyond, dim=1, mask=wrong)
+        side(newest) = merge(1, -1, gap_out(newest) < 0.5_dp*scene%upper(newest))
       end if
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
@@ -177,6 +209,25 @@ contains
       end if
     end do
   end subroutine descend
+
+  !> Forces in equilibrium that push at their stops: for the plain problem those there
+  !> are, as far as they push, else those that the scene knows.
+  pure subroutine start_pushing(scene, side, force)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(inout) :: side(:)
+    real(dp), intent(inout) :: force(:)
+
+    if (scene%plain) then
+      force = max(force, 0.0_dp)
+      force = force*(scene%load(1)/sum(force))
+    else
+      force = scene%start
+    end if
+    side = 0
+    where (force > 0.0_dp) side = 1
+    where (force < 0.0_dp) side = -1
+    where (scene%upper <= 0.0_dp .and. .not. scene%excluded) side = 1
+  end subroutine start_pushing
 
   !> Only the true element of least index stays true.
   pure subroutine keep_first(mask)

@@ -10,8 +10,9 @@ module fuge_dense_engines
   use fuge_options_type, only: fuge_options
   use fuge_presolve, only: guess_contact_set
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_scene, only: contact_scene
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, &
-    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_OVERFLOW
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_OVERFLOW, FUGE_ERR_UNSUPPORTED
   use fuge_tableau, only: run_phase_one
   use fuge_text, only: text
   implicit none
@@ -30,89 +31,111 @@ contains
   !> anew on it, which also mends points that the rounding of the pivots misjudged.
   !>
   !> `alpha` (at least n rows, n columns), `datum` its coefficient nearest to zero, `problem`
-  !> checked, load > 0; `contact` (n) and `factor` belong to the answer on return.
-  subroutine solve_by_tableau(alpha, datum, problem, options, monitor, history, contact, factor, answer, info)
+  !> checked and its `scene`; `side` (n) and `factor` belong to the answer on return.
+  subroutine solve_by_tableau(alpha, datum, problem, scene, options, monitor, history, side, factor, answer, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
     type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_history), intent(inout) :: history
-    logical, intent(out) :: contact(:)
+    integer, intent(out) :: side(:)
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
+    logical :: contact(size(side))
     integer :: limit, sets, status
 
+    side = 0
+    if (.not. scene%plain) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the tableau solves one-sided contact under one load: use FUGE_ACTIVE_SET')
+      return
+    end if
     associate (gap => problem%gap, load => problem%resultant(1))
-      contact = .false.
       call check_solvable(alpha, load, info)
       if (info%failed()) return
       limit = limit_of(options, size(gap))
       call run_phase_one(alpha, gap, load, options%pivot_rule, limit, options%keep_history, monitor, history, &
                          contact, info%iterations, status)
+      side = merge(1, 0, contact)
       ! Only a limit that was asked for ends the solve; otherwise the set so far will do.
       if (status == FUGE_ERR_ITERATION_LIMIT .and. options%max_iterations == 0) status = FUGE_DONE
       if (status /= FUGE_DONE) then
         call explain(status, limit, count(contact), info)
       else
-        call solve_from(alpha, datum, problem, limit_of(fuge_options(), size(gap)), monitor, contact, factor, &
-                        answer, sets, info)
+        call solve_from(alpha, datum, scene, limit_of(fuge_options(), size(gap)), monitor, side, factor, answer, &
+                        sets, info)
       end if
     end associate
   end subroutine solve_by_tableau
 
-  !> Block principal pivoting. `contact` (n): on entry a guess, or none to have one
-  !> made; on return the contact set, with its `factor`.
-  subroutine solve_by_active_set(alpha, datum, problem, options, monitor, contact, factor, answer, info)
+  !> Block principal pivoting. `side` (n): on entry a guess, or none to have one made; on
+  !> return the contact set, with its `factor`. `answer%rigid` are the motions of the scene.
+  subroutine solve_by_active_set(alpha, datum, scene, options, monitor, side, factor, answer, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
-    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
-    logical, intent(inout) :: contact(:)
+    integer, intent(inout) :: side(:)
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
+    logical :: contact(size(side))
     integer :: sets
 
-    associate (gap => problem%gap, load => problem%resultant(1))
-      call check_scene(alpha, load, info)
-      if (info%failed()) return
-      if (.not. any(contact)) call guess_contact_set(alpha, gap, load, contact, info%products)
-      call solve_from(alpha, datum, problem, limit_of(options, size(gap)), monitor, contact, factor, answer, sets, &
-                      info)
-      info%iterations = sets
-    end associate
+    call check_scene(alpha, largest_load(scene), info)
+    if (info%failed()) return
+    if (.not. any(side /= 0)) then
+      if (scene%plain) then
+        call guess_contact_set(alpha, scene%gap, scene%load(1), contact, info%products)
+      else
+        contact = abs(scene%start) > 0.0_dp .or. scene%gap < 0.0_dp
+      end if
+      side = merge(1, 0, contact)
+    end if
+    call solve_from(alpha, datum, scene, limit_of(options, size(side)), monitor, side, factor, answer, sets, info)
+    info%iterations = sets
   end subroutine solve_by_active_set
+
+  !> The size of the resultants, which decides what products with alpha can reach.
+  pure function largest_load(scene) result(load)
+    type(contact_scene), intent(in) :: scene
+    real(dp) :: load
+
+    load = 0.0_dp
+    if (size(scene%load) > 0) load = maxval(abs(scene%load))
+  end function largest_load
 
   !> From a contact set, found or guessed, to the answer and its words. `sets` counts
   !> those tried.
-  subroutine solve_from(alpha, datum, problem, limit, monitor, contact, factor, answer, sets, info)
+  subroutine solve_from(alpha, datum, scene, limit, monitor, side, factor, answer, sets, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
-    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
-    logical, intent(inout) :: contact(:)
+    integer, intent(inout) :: side(:)
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
     integer, intent(out) :: sets
     type(fuge_info), intent(inout) :: info
+    real(dp) :: constant
     integer :: more, status
 
-    associate (gap => problem%gap, load => problem%resultant(1))
-      call run_active_set(alpha, datum, gap, load, limit, monitor, factor, contact, answer%force, answer%gap, &
-                          answer%rigid(1), sets, status)
-      if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
-        ! A set tried on the way was singular; the last one need not be.
-        factor = contact_factor()
-        call run_active_set(alpha, datum, gap, load, limit, monitor, factor, contact, answer%force, answer%gap, &
-                            answer%rigid(1), more, status)
-        sets = sets + more
-      end if
-    end associate
-    call explain(status, limit, count(contact), info)
+    ! Without a translation nothing takes up a constant taken out of alpha.
+    constant = merge(datum, 0.0_dp, scene%constant)
+    call run_active_set(alpha, constant, scene, limit, monitor, factor, side, answer%force, answer%gap, &
+                        answer%rigid, sets, status)
+    if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
+      ! A set tried on the way was singular; the last one need not be.
+      factor = contact_factor()
+      call run_active_set(alpha, constant, scene, limit, monitor, factor, side, answer%force, answer%gap, &
+                          answer%rigid, more, status)
+      sets = sets + more
+    end if
+    call explain(status, limit, count(side /= 0), info)
     if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
       call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
                   //'the forces are not; those given are near the least squares')

@@ -334,16 +334,18 @@ contains
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: reached(:)
-    logical, allocatable :: barred(:)
+    logical, allocatable :: barred(:), tied(:)
+    integer, allocatable :: side(:)
     integer :: newest, n, stat
 
     n = size(shape)
-    allocate (reached(n), barred(n), stat=stat)
+    allocate (reached(n), barred(n), tied(n), side(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the way down the energy of '//text(n)//' points')
       return
     end if
     barred = .false.
+    tied = .false.
     newest = 0
     call push(operator, state, info)
     state%contact = state%force > 0.0_dp
@@ -352,7 +354,9 @@ contains
       call settle(operator, context, grid, filter, shape, .true., monitor, state, info)
       if (info%failed()) exit
       if (any(state%contact .and. state%force <= 0.0_dp)) then
-        call step_back(state%force, state%contact, reached, newest, barred)
+        side = merge(1, 0, state%contact)
+        call step_back(state%force, tied, side, reached, newest, barred)
+        state%contact = side /= 0
         state%force = reached
       else
         if (newest > 0) barred = barred .and. barred(newest)

@@ -4,9 +4,46 @@ module fuge_lapack
   implicit none
   private
 
-  public :: dgemv, dpotrf, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
+  public :: dgelsy, dgemv, dgeqp3, dgesv, dorgqr, dpotrf, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
 
   interface
+    !> Least squares, or the shortest of several solutions, by pivoted orthogonal factors.
+    subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
+      import :: dp
+      integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+      real(dp), intent(in) :: rcond
+      real(dp), intent(inout) :: a(lda, *), b(ldb, *), work(*)
+      integer, intent(inout) :: jpvt(*)
+      integer, intent(out) :: rank, info
+    end subroutine dgelsy
+
+    !> A P = Q R, the columns of largest remainder first.
+    subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
+      import :: dp
+      integer, intent(in) :: m, n, lda, lwork
+      real(dp), intent(inout) :: a(lda, *), work(*)
+      integer, intent(inout) :: jpvt(*)
+      real(dp), intent(out) :: tau(*)
+      integer, intent(out) :: info
+    end subroutine dgeqp3
+
+    !> Solve A X = B by elimination.
+    subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+      import :: dp
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(dp), intent(inout) :: a(lda, *), b(ldb, *)
+      integer, intent(out) :: ipiv(*), info
+    end subroutine dgesv
+
+    !> The first columns of Q from its reflections.
+    subroutine dorgqr(m, n, k, a, lda, tau, work, lwork, info)
+      import :: dp
+      integer, intent(in) :: m, n, k, lda, lwork
+      real(dp), intent(in) :: tau(*)
+      real(dp), intent(inout) :: a(lda, *), work(*)
+      integer, intent(out) :: info
+    end subroutine dorgqr
+
     !> y := alpha A x + beta y.
     subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
       import :: dp

@@ -172,20 +172,21 @@ contains
     type(position), intent(inout) :: here
     integer, intent(out) :: status
     logical :: wrong(size(here%gap))
-    real(dp) :: none(size(here%gap)), motion
+    real(dp) :: none(size(here%gap)), ones(size(here%gap), 1), motion(1)
     integer :: trial, fewest, patience_left
 
     none = 0.0_dp
+    ones = 1.0_dp
     here%contact = here%contact .or. here%undecided
     fewest = huge(fewest)
     patience_left = PATIENCE
     do trial = 1, ITERATIONS_PER_ROW*(count(here%undecided) + 1)
-      call factor%set(alpha, here%contact, status)
+      call factor%set(alpha, ones, .true., here%contact, status)
       if (status /= FUGE_DONE) return
-      call factor%solve(none, 1.0_dp, here%force_rate, motion)
-      here%gap_rate = -motion
+      call factor%solve(none, [1.0_dp], here%force_rate, motion)
+      here%gap_rate = -motion(1)
       call add_deflection(alpha, factor%datum, here%contact, here%force_rate, here%gap_rate)
-      here%approach_rate = motion + factor%datum
+      here%approach_rate = motion(1) + factor%datum
       wrong = here%undecided .and. merge(is_falling(here%force_rate), is_falling(here%gap_rate), here%contact)
       if (.not. any(wrong)) return
       patience_left = patience_left - 1
@@ -226,12 +227,12 @@ contains
     type(contact_factor), intent(in) :: factor
     real(dp), intent(in) :: shape(:)
     type(position), intent(inout) :: here
-    real(dp) :: motion
+    real(dp) :: motion(1)
 
-    call factor%solve(shape, here%load, here%force, motion)
-    here%gap = shape - motion
+    call factor%solve(shape, [here%load], here%force, motion)
+    here%gap = shape - motion(1)
     call add_deflection(alpha, factor%datum, here%contact, here%force, here%gap)
-    here%approach = motion + factor%datum*here%load
+    here%approach = motion(1) + factor%datum*here%load
   end subroutine values_at
 
   !> Write an entry for each point that has changed sides.

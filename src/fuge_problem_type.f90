@@ -1,14 +1,17 @@
 !> The contact problem without its operator, and the check of its data.
 !>
-!>     c = gap + A f - R q     c >= 0, f >= 0, f.c = 0     R^T f = resultant
+!>     c = gap + A f - R q      R^T f = w
+!>     one-sided:  c >= 0, f >= 0, f c = 0
+!>     with play d:  0 <= c <= d;  f >= 0 where c = 0, f <= 0 where c = d, f = 0 between
 !>
-!> (paper, equations 9 to 11; R is the column of ones, q is the approach v_0).
+!> (paper, equations 9 to 11: R is the column of ones, q the approach v_0, w the load
+!> F_0). A play of zero ties a point: its gap stays zero, its force has either sign.
 module fuge_problem_type
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
   use fuge_check, only: check_finite, LARGEST_EXPONENT
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
-    FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+    FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP
   use fuge_text, only: text
   implicit none
   private
@@ -16,25 +19,69 @@ module fuge_problem_type
   public :: set_problem, check_problem, check_load
 
   !> The data beside the operator, in the operator's units. Components may be added:
-  !> set them by name.
+  !> set them by name; those not allocated have the meaning given.
   type, public :: fuge_problem
     !> Initial gap a + b with the external load included, (n), length; any datum.
     real(dp), allocatable :: gap(:)
-    !> Resultant of the contact forces in each rigid motion, (m), force; m = 1: the load F_0.
+    !> Play d >= 0 between the two stops, (n), length; infinity is one-sided, 0 ties the
+    !> point. Not allocated: one-sided everywhere.
+    real(dp), allocatable :: gap_upper(:)
+    !> Points that take no part, (n): no force, any gap. Not allocated: none.
+    logical, allocatable :: excluded(:)
+    !> Rigid motions R, (n, m): how each moves the points apart (-) or together (+), per
+    !> unit of the motion. Not allocated: one translation, a column of ones.
+    real(dp), allocatable :: modes(:, :)
+    !> Resultant w of the contact forces in each motion, (m), force, or force times the
+    !> unit of the mode; the load F_0 for the translation. Not read where prescribed.
     real(dp), allocatable :: resultant(:)
+    !> Motions that are given instead of their resultants, (m). Not allocated: none.
+    logical, allocatable :: prescribed(:)
+    !> The given motions, (m), read where prescribed.
+    real(dp), allocatable :: motion(:)
+  contains
+    procedure :: points
+    procedure :: motions
+    procedure :: is_plain
   end type fuge_problem
 
   !> The answer, in the same units.
   type, public :: fuge_solution
-    !> Contact forces F, (n), force, none negative.
+    !> Contact forces F, (n), force; negative only at the upper stop of a play.
     real(dp), allocatable :: force(:)
-    !> Gaps c, (n), length, none negative.
+    !> Gaps c, (n), length; negative only where excluded.
     real(dp), allocatable :: gap(:)
-    !> Rigid motions q, (m), length; m = 1: the approach v_0.
+    !> Rigid motions q, (m), length for m = 1: the approach v_0; prescribed ones included.
     real(dp), allocatable :: rigid(:)
   end type fuge_solution
 
 contains
+
+  !> Number of points.
+  pure function points(self) result(n)
+    class(fuge_problem), intent(in) :: self
+    integer :: n
+
+    n = 0
+    if (allocated(self%gap)) n = size(self%gap)
+  end function points
+
+  !> Number of motions m.
+  pure function motions(self) result(m)
+    class(fuge_problem), intent(in) :: self
+    integer :: m
+
+    m = 1
+    if (allocated(self%modes)) m = size(self%modes, 2)
+  end function motions
+
+  !> The paper's problem: one free translation, one-sided, all points.
+  pure function is_plain(self) result(plain)
+    class(fuge_problem), intent(in) :: self
+    logical :: plain
+
+    plain = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded) &
+                   .or. allocated(self%prescribed))
+  end function is_plain
 
   !> A problem with one load. Error: FUGE_ERR_MEMORY.
   pure subroutine set_problem(gap, load, problem, info)
@@ -53,27 +100,87 @@ contains
   end subroutine set_problem
 
   !> Refuse data that no engine can use: wrong sizes (FUGE_ERR_SIZE), NaN or
-  !> infinity (FUGE_ERR_NOT_FINITE), gaps near overflow (FUGE_ERR_OVERFLOW), a pulling
-  !> load (FUGE_ERR_NO_EQUILIBRIUM).
+  !> infinity (FUGE_ERR_NOT_FINITE), numbers near overflow (FUGE_ERR_OVERFLOW), a negative
+  !> play (FUGE_ERR_GAP), a load that pulls on a plain problem (FUGE_ERR_NO_EQUILIBRIUM).
   pure subroutine check_problem(problem, n, info)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
     type(fuge_info), intent(inout) :: info
-    integer :: length
 
     call check_length(problem%gap, n, 'gap', info)
-    if (info%failed()) return
-    call check_length(problem%resultant, 1, 'resultant', info)
-    if (info%failed()) return
-    call check_finite(problem%gap, 'gap', info)
-    if (info%failed()) return
-    length = exponent(maxval(abs(problem%gap)))
-    if (length > LARGEST_EXPONENT) then
-      call report(info, FUGE_ERR_OVERFLOW, 'gaps reach 2**'//text(length)//': choose units in which they are smaller')
-      return
-    end if
-    call check_load(problem%resultant(1), info)
+    if (.not. info%failed()) call check_values(problem%gap, 'gap', info)
+    if (.not. info%failed()) call check_points(problem, n, info)
+    if (.not. info%failed()) call check_motions(problem, n, info)
   end subroutine check_problem
+
+  !> Play and exclusions.
+  pure subroutine check_points(problem, n, info)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: n
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    if (allocated(problem%gap_upper)) then
+      call check_length(problem%gap_upper, n, 'gap_upper', info)
+      if (info%failed()) return
+      do k = 1, n
+        if (ieee_is_nan(problem%gap_upper(k))) then
+          call report(info, FUGE_ERR_NOT_FINITE, 'gap_upper('//text(k)//') is NaN: use infinity for one-sided contact')
+        else if (problem%gap_upper(k) < 0.0_dp) then
+          call report(info, FUGE_ERR_GAP, 'gap_upper('//text(k)//') = '//text(problem%gap_upper(k))//' is negative: the upper ' &
+                      //'stop would lie below the lower one; 0 ties the point')
+        end if
+        if (info%failed()) return
+      end do
+    end if
+    if (allocated(problem%excluded)) then
+      if (size(problem%excluded) /= n) call report(info, FUGE_ERR_SIZE, 'excluded has '//text(size(problem%excluded)) &
+                                                   //' value(s): it needs '//text(n))
+    end if
+  end subroutine check_points
+
+  !> Modes, resultants and prescribed motions.
+  pure subroutine check_motions(problem, n, info)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: n
+    type(fuge_info), intent(inout) :: info
+    logical :: free(problem%motions())
+    integer :: j, m
+
+    m = problem%motions()
+    free = .true.
+    if (allocated(problem%modes)) then
+      if (size(problem%modes, 1) /= n) then
+        call report(info, FUGE_ERR_SIZE, 'modes has '//text(size(problem%modes, 1))//' rows: it needs one for each of ' &
+                    //text(n)//' points')
+        return
+      end if
+      do j = 1, m
+        call check_values(problem%modes(:, j), 'mode '//text(j)//' ', info)
+        if (info%failed()) return
+      end do
+    end if
+    if (allocated(problem%prescribed)) then
+      if (size(problem%prescribed) /= m) then
+        call report(info, FUGE_ERR_SIZE, 'prescribed has '//text(size(problem%prescribed))//' value(s): it needs ' &
+                    //text(m))
+        return
+      end if
+      free = .not. problem%prescribed
+      call check_length(problem%motion, m, 'motion', info)
+      if (info%failed()) return
+      call check_values(pack(problem%motion, problem%prescribed), 'prescribed motion', info)
+      if (info%failed()) return
+    end if
+    if (.not. any(free)) return
+    call check_length(problem%resultant, m, 'resultant', info)
+    if (info%failed()) return
+    if (problem%is_plain()) then
+      call check_load(problem%resultant(1), info)
+    else
+      call check_values(pack(problem%resultant, free), 'resultant', info)
+    end if
+  end subroutine check_motions
 
   !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE) or pulls
   !> (FUGE_ERR_NO_EQUILIBRIUM).
@@ -88,6 +195,21 @@ contains
                   //' is negative: contact forces can only push, so F_0 must be >= 0')
     end if
   end subroutine check_load
+
+  !> Finite, and far enough from overflow for sums.
+  pure subroutine check_values(values, name, info)
+    real(dp), intent(in) :: values(:)
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+    integer :: power
+
+    if (size(values) < 1) return
+    call check_finite(values, name, info)
+    if (info%failed()) return
+    power = exponent(maxval(abs(values)))
+    if (power > LARGEST_EXPONENT) call report(info, FUGE_ERR_OVERFLOW, name//' reaches 2**'//text(power) &
+                                              //': choose units in which it is smaller')
+  end subroutine check_values
 
   pure subroutine check_length(values, expected, name, info)
     real(dp), intent(in), allocatable :: values(:)

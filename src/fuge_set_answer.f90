@@ -9,7 +9,7 @@ module fuge_set_answer
   implicit none
   private
 
-  public :: solve_set, refine, add_deflection, violations, terms_of, largest_term, motion_at_shallowest
+  public :: solve_set, displaced, refine, add_deflection, violations, terms_of, largest_term, motion_at_shallowest
 
   !> A correction above this part of the forces calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
@@ -19,16 +19,38 @@ module fuge_set_answer
 
 contains
 
-  !> Forces (n) and motion with shape + (alpha - datum) F - motion = 0 on the contact set
-  !> of `factor` and sum F = load, not refined. `shape` (n), length.
+  !> Forces (n) and motions (m) with shape + (alpha - datum) F - R q = 0 on the contact
+  !> set of `factor` and R^T F = load, not refined. `shape` (n), length; `load` (m);
+  !> `datum` is zero unless the first motion is a translation.
   subroutine solve_set(factor, datum, shape, load, force, motion)
     type(contact_factor), intent(in) :: factor
-    real(dp), intent(in) :: datum, shape(:), load
-    real(dp), intent(out) :: force(:), motion
+    real(dp), intent(in) :: datum, shape(:), load(:)
+    real(dp), intent(out) :: force(:), motion(:)
 
     call factor%solve(shape, load, force, motion)
-    motion = motion + (factor%datum - datum)*load
+    call change_datum(factor%datum - datum, load, motion)
   end subroutine solve_set
+
+  !> Another constant taken out of alpha moves the translation.
+  pure subroutine change_datum(difference, load, motion)
+    real(dp), intent(in) :: difference, load(:)
+    real(dp), intent(inout) :: motion(:)
+
+    if (abs(difference) > 0.0_dp) motion(1) = motion(1) + difference*load(1)
+  end subroutine change_datum
+
+  !> R q at each point, (n).
+  pure function displaced(modes, motion) result(length)
+    real(dp), intent(in), contiguous :: modes(:, :)
+    real(dp), intent(in) :: motion(:)
+    real(dp) :: length(size(modes, 1))
+    integer :: j
+
+    length = 0.0_dp
+    do j = 1, size(motion)
+      length = length + modes(:, j)*motion(j)
+    end do
+  end function displaced
 
   !> u := u + (alpha - datum) F, with the columns of the contact only.
   !>
@@ -46,25 +68,30 @@ contains
     end do
   end subroutine add_deflection
 
-  !> Pulling forces on the contact set as parts of the largest force, negative gaps off
-  !> it as parts of a length.
+  !> Forces of the wrong sign on the contact set as parts of the largest force, gaps
+  !> beyond a stop off it as parts of a length.
   !>
   !> `distance` (n) is the gap less the motion: what the displacement has to make up
-  !> for at a point in contact. `terms` (n) is what the displacement is made of.
-  pure function violations(distance, terms, contact, force, gap_out) result(violation)
-    real(dp), intent(in) :: distance(:), terms(:), force(:), gap_out(:)
-    logical, intent(in) :: contact(:)
-    real(dp) :: violation(size(contact))
-    real(dp) :: largest
+  !> for at a point in contact. `terms` (n) is what the displacement is made of. `side`
+  !> (n) is 1 at the lower stop, -1 at the upper one, 0 between; `upper` (n) the play;
+  !> tied points (play 0) and `excluded` ones cannot be wrong.
+  pure function violations(distance, terms, side, upper, excluded, force, gap_out) result(violation)
+    real(dp), intent(in) :: distance(:), terms(:), upper(:), force(:), gap_out(:)
+    integer, intent(in) :: side(:)
+    logical, intent(in) :: excluded(:)
+    real(dp) :: violation(size(side))
+    real(dp) :: largest, beyond
     integer :: j
 
     largest = maxval(abs(force))
     violation = 0.0_dp
-    do j = 1, size(contact)
-      if (contact(j)) then
-        if (force(j) < 0.0_dp) violation(j) = -force(j)/largest
-      else if (gap_out(j) < 0.0_dp) then
-        violation(j) = -gap_out(j)/max(abs(distance(j)) + terms(j), -gap_out(j))
+    do j = 1, size(side)
+      if (excluded(j) .or. .not. upper(j) > 0.0_dp) cycle
+      if (side(j) /= 0) then
+        if (force(j)*side(j) < 0.0_dp) violation(j) = abs(force(j))/largest
+      else
+        beyond = max(-gap_out(j), gap_out(j) - upper(j))
+        if (beyond > 0.0_dp) violation(j) = beyond/max(abs(distance(j)) + terms(j), beyond)
       end if
     end do
   end function violations
@@ -96,6 +123,7 @@ contains
 
   !> The motion anew from the contact point where the least lengths make it, so that one
   !> that is exactly zero comes out as zero.
+  !> For one translation, one-sided.
   pure function motion_at_shallowest(alpha, datum, shape, contact, force, motion) result(anew)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, shape(:), force(:), motion
@@ -118,21 +146,21 @@ contains
   !> in double precision does; otherwise residuals are in extended precision, which
   !> sees errors of the forces that double precision cannot. With the ridge of the
   !> factor the system solved is that of alpha and the ridge, with 0 that of alpha.
-  subroutine refine(alpha, datum, shape, load, factor, ridge, contact, force, motion)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, shape(:), load, ridge
+  subroutine refine(alpha, datum, modes, shape, load, factor, ridge, contact, force, motion)
+    real(dp), intent(in), contiguous :: alpha(:, :), modes(:, :)
+    real(dp), intent(in) :: datum, shape(:), load(:), ridge
     type(contact_factor), intent(in) :: factor
     logical, intent(in) :: contact(:)
-    real(dp), intent(inout) :: force(:), motion
-    real(dp) :: residual(size(shape)), correction(size(shape)), missing, shift, change, last
+    real(dp), intent(inout) :: force(:), motion(:)
+    real(dp) :: residual(size(shape)), correction(size(shape)), missing(size(load)), shift(size(load)), change, last
     integer :: step
 
     if (factor%spread < WELL_CONDITIONED .and. .not. factor%ridge > 0.0_dp) then
-      residual = shape - motion
+      residual = shape - displaced(modes, motion)
       call add_deflection(alpha, datum, contact, force, residual)
-      missing = load - sum(force)
+      missing = load - matmul(force, modes)
     else
-      call extended_residual(alpha, shape, load, datum, ridge, contact, force, motion, residual, missing)
+      call extended_residual(alpha, modes, shape, load, datum, ridge, contact, force, motion, residual, missing)
     end if
     last = huge(last)
     do step = 1, REFINEMENTS
@@ -140,32 +168,33 @@ contains
       change = maxval(abs(correction))
       if (.not. change < 0.5_dp*last) exit
       force = force + correction
-      motion = motion + (shift + (factor%datum - datum)*missing)
+      call change_datum(factor%datum - datum, missing, shift)
+      motion = motion + shift
       if (change <= EXACT_ENOUGH*maxval(abs(force))) exit
       last = change
-      call extended_residual(alpha, shape, load, datum, ridge, contact, force, motion, residual, missing)
+      call extended_residual(alpha, modes, shape, load, datum, ridge, contact, force, motion, residual, missing)
     end do
   end subroutine refine
 
   !> The residual of gaps and equilibrium on the contact set.
-  pure subroutine extended_residual(alpha, shape, load, datum, ridge, contact, force, motion, residual, missing)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: shape(:), load, datum, ridge, force(:), motion
+  pure subroutine extended_residual(alpha, modes, shape, load, datum, ridge, contact, force, motion, residual, missing)
+    real(dp), intent(in), contiguous :: alpha(:, :), modes(:, :)
+    real(dp), intent(in) :: shape(:), load(:), datum, ridge, force(:), motion(:)
     logical, intent(in) :: contact(:)
-    real(dp), intent(out) :: residual(:), missing
-    real(xp) :: sums(size(shape)), total
+    real(dp), intent(out) :: residual(:), missing(:)
+    real(xp) :: sums(size(shape))
     integer :: j, n
 
     n = size(shape)
-    sums = real(shape, xp) - real(motion, xp) + real(ridge, xp)*real(force, xp)
-    total = real(load, xp)
+    sums = real(shape, xp) + real(ridge, xp)*real(force, xp)
     do j = 1, n
-      if (.not. contact(j)) cycle
-      sums = sums + (real(alpha(:n, j), xp) - real(datum, xp))*real(force(j), xp)
-      total = total - real(force(j), xp)
+      if (contact(j)) sums = sums + (real(alpha(:n, j), xp) - real(datum, xp))*real(force(j), xp)
+    end do
+    do j = 1, size(load)
+      sums = sums - real(modes(:, j), xp)*real(motion(j), xp)
+      missing(j) = real(real(load(j), xp) - sum(real(modes(:, j), xp)*real(force, xp)), dp)
     end do
     residual = real(sums, dp)
-    missing = real(total, dp)
   end subroutine extended_residual
 
 end module fuge_set_answer

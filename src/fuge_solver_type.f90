@@ -12,7 +12,8 @@ module fuge_solver_type
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
-  use fuge_set_answer, only: solve_set, add_deflection
+  use fuge_scene, only: contact_scene, make_scene
+  use fuge_set_answer, only: solve_set, displaced, add_deflection
   use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED
   use fuge_text, only: text
@@ -28,9 +29,11 @@ module fuge_solver_type
   type, public :: fuge_solver
     !> Basis and z of each pivot of the last tableau solve, if it was asked for.
     type(fuge_history) :: history
-    !> Contact set of the last solve, where the next one starts, and its factor.
-    logical, allocatable, private :: contact(:)
+    !> Contact set of the last solve, where the next one starts (1 at the lower stop, -1
+    !> at the upper one, 0 open), its factor, and what the problem looked like.
+    integer, allocatable, private :: side(:)
     type(contact_factor), private :: factor
+    type(contact_scene), private :: scene
     !> Forces of the last solve by products only, as parts of its load, and that load.
     real(dp), allocatable, private :: part(:)
     real(dp), private :: last_load = 0.0_dp
@@ -38,6 +41,7 @@ module fuge_solver_type
     procedure :: solve
     procedure :: reset
     procedure :: derivative
+    procedure :: general_derivative
   end type fuge_solver
 
 contains
@@ -77,10 +81,10 @@ contains
     end if
     call check_problem(problem, operator%points(), info)
     if (info%failed()) return
-    call allocate_answer(answer, operator%points(), info)
+    call allocate_answer(answer, operator%points(), problem%motions(), info)
     if (info%failed()) return
 
-    if (problem%resultant(1) > 0.0_dp) then
+    if (.not. rests(problem)) then
       call run_engine(self, operator, problem, chosen, relay, answer, info)
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
                                                          //text(relay%told)//' by the progress monitor')
@@ -103,12 +107,12 @@ contains
 
     self%history = fuge_history()
     self%factor = contact_factor()
-    if (allocated(self%contact)) deallocate (self%contact)
+    if (allocated(self%side)) deallocate (self%side)
     if (allocated(self%part)) deallocate (self%part)
   end subroutine reset
 
   !> How the last solution changes with gaps and load, to first order and exactly so as
-  !> long as the contact set stays: dF, dc and dv_0, by two triangular solves.
+  !> long as the contact set stays: dF, dc and dq, by two triangular solves.
   !>
   !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force;
   !> `change` the changes in the order of `fuge_solution`. The contact stiffness
@@ -123,34 +127,54 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(out) :: info
+
+    call general_derivative(self, operator, gap_change, [load_change], change, info)
+  end subroutine derivative
+
+  !> The same for changes of all resultants, `load_change` (m); those of prescribed
+  !> motions are changes of the motion.
+  subroutine general_derivative(self, operator, gap_change, load_change, change, info)
+    class(fuge_solver), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(out) :: info
     type(fuge_solution) :: found
-    real(dp) :: motion
+    real(dp) :: datum
+    real(dp), allocatable :: shape(:), load(:), motion(:)
     integer :: n
 
     n = operator%points()
-    if (.not. (self%factor%is_set() .and. allocated(self%contact))) then
+    if (.not. (self%factor%is_set() .and. allocated(self%side))) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
-    else if (size(gap_change) /= n .or. size(self%contact) /= n) then
+    else if (size(gap_change) /= n .or. size(self%side) /= n) then
       call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
-                  //text(n)//' points and the last solution '//text(size(self%contact)))
+                  //text(n)//' points and the last solution '//text(size(self%side)))
+    else if (size(load_change) /= self%scene%motions()) then
+      call report(info, FUGE_ERR_SIZE, 'load_change has '//text(size(load_change))//' value(s), the last problem ' &
+                  //text(self%scene%motions())//' motion(s)')
     else
       call check_finite(gap_change, 'gap_change', info)
-      if (.not. info%failed()) call check_finite([load_change], 'load_change', info)
-      if (.not. info%failed()) call allocate_answer(found, n, info)
+      if (.not. info%failed()) call check_finite(load_change, 'load_change', info)
+      if (.not. info%failed()) call allocate_answer(found, n, size(load_change), info)
     end if
     if (info%failed()) return
     select type (operator)
     class is (fuge_dense_operator)
-      call solve_set(self%factor, operator%datum(), gap_change, load_change, found%force, motion)
-      found%gap = gap_change - motion
-      call add_deflection(operator%alpha, operator%datum(), self%contact, found%force, found%gap)
-      where (self%contact) found%gap = 0.0_dp
-      found%rigid = motion + operator%datum()*load_change
+      datum = merge(operator%datum(), 0.0_dp, self%scene%constant)
+      call self%scene%change_of(gap_change, load_change, shape, load)
+      allocate (motion(size(load)))
+      call solve_set(self%factor, datum, shape, load, found%force, motion)
+      found%gap = shape - displaced(self%scene%modes, motion)
+      call add_deflection(operator%alpha, datum, self%side /= 0, found%force, found%gap)
+      where (self%side /= 0) found%gap = 0.0_dp
+      if (self%scene%constant) motion(1) = motion(1) + datum*load(1)
+      call self%scene%motions_of(load_change, motion, found%rigid)
       call take(found, change)
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a fuge_dense_operator')
     end select
-  end subroutine derivative
+  end subroutine general_derivative
 
   pure subroutine take(answer, solution)
     type(fuge_solution), intent(inout) :: answer, solution
@@ -160,16 +184,25 @@ contains
     call move_alloc(answer%rigid, solution%rigid)
   end subroutine take
 
-  pure subroutine allocate_answer(answer, n, info)
+  pure subroutine allocate_answer(answer, n, m, info)
     type(fuge_solution), intent(inout) :: answer
-    integer, intent(in) :: n
+    integer, intent(in) :: n, m
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    allocate (answer%force(n), answer%gap(n), answer%rigid(1), stat=stat)
+    allocate (answer%force(n), answer%gap(n), answer%rigid(m), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of ' &
                                //text(n)//' points')
   end subroutine allocate_answer
+
+  !> The plain problem without a load has no unique approach.
+  pure function rests(problem)
+    type(fuge_problem), intent(in) :: problem
+    logical :: rests
+
+    rests = problem%is_plain()
+    if (rests) rests = .not. problem%resultant(1) > 0.0_dp
+  end function rests
 
   !> The limit of a vanishing load: the bodies just touch at the smallest gap.
   pure subroutine rest_without_load(problem, answer)
@@ -217,16 +250,33 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
-    logical :: contact(size(problem%gap))
+    type(fuge_solution) :: found
+    integer :: side(size(problem%gap))
 
+    call make_scene(problem, self%scene, info)
+    if (.not. info%failed()) call allocate_answer(found, size(side), size(self%scene%load), info)
+    if (info%failed()) return
     if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
-      call solve_by_tableau(operator%alpha, operator%datum(), problem, options, monitor, self%history, &
-                            contact, self%factor, answer, info)
+      call solve_by_tableau(operator%alpha, operator%datum(), problem, self%scene, options, monitor, self%history, &
+                            side, self%factor, found, info)
     else
-      call solve_warm(self, operator%alpha, operator%datum(), problem, options, monitor, contact, answer, info)
+      call solve_warm(self, operator%alpha, operator%datum(), options, monitor, side, found, info)
     end if
-    if (.not. info%failed()) call remember(self, contact)
+    if (info%failed()) return
+    call remember(self, side)
+    call self%scene%motions_of(prescribed_values(problem), found%rigid, answer%rigid)
+    call move_alloc(found%force, answer%force)
+    call move_alloc(found%gap, answer%gap)
   end subroutine run_dense_engine
+
+  !> The prescribed motions, zero where free, (m).
+  pure function prescribed_values(problem) result(values)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: values(problem%motions())
+
+    values = 0.0_dp
+    if (allocated(problem%prescribed)) where (problem%prescribed) values = problem%motion
+  end function prescribed_values
 
   !> The iteration from the last forces if the load is about the same, else from coarser
   !> grids; from scratch if the last forces lead nowhere.
@@ -240,6 +290,11 @@ contains
     type(fuge_info), intent(inout) :: info
     logical :: warm
 
+    if (.not. problem%is_plain()) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the iterative engine solves one-sided contact under one load: use ' &
+                  //'FUGE_ACTIVE_SET with a fuge_dense_operator')
+      return
+    end if
     warm = .false.
     if (allocated(self%part)) then
       warm = size(self%part) == size(problem%gap) .and. abs(problem%resultant(1)/self%last_load - 1.0_dp) <= WARM_RANGE
@@ -255,39 +310,38 @@ contains
   end subroutine iterate_warm
 
   !> Keep the contact set for the next solve; without memory that starts from scratch.
-  pure subroutine remember(self, contact)
+  pure subroutine remember(self, side)
     class(fuge_solver), intent(inout) :: self
-    logical, intent(in) :: contact(:)
+    integer, intent(in) :: side(:)
     integer :: stat
 
-    if (allocated(self%contact)) deallocate (self%contact)
-    allocate (self%contact(size(contact)), stat=stat)
-    if (stat == 0) self%contact = contact
+    if (allocated(self%side)) deallocate (self%side)
+    allocate (self%side(size(side)), stat=stat)
+    if (stat == 0) self%side = side
   end subroutine remember
 
   !> The active set from the last contact set; from scratch if there is none, or if
   !> it leads nowhere.
-  subroutine solve_warm(self, alpha, datum, problem, options, monitor, contact, answer, info)
+  subroutine solve_warm(self, alpha, datum, options, monitor, side, answer, info)
     class(fuge_solver), intent(inout) :: self
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
-    type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
-    logical, intent(out) :: contact(:)
+    integer, intent(out) :: side(:)
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
     logical :: warm
 
     warm = .false.
-    if (allocated(self%contact)) warm = size(self%contact) == size(contact)
-    contact = .false.
-    if (warm) contact = self%contact
-    call solve_by_active_set(alpha, datum, problem, options, monitor, contact, self%factor, answer, info)
+    if (allocated(self%side)) warm = size(self%side) == size(side)
+    side = 0
+    if (warm) side = self%side
+    call solve_by_active_set(alpha, datum, self%scene, options, monitor, side, self%factor, answer, info)
     if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
       info = fuge_info()
-      contact = .false.
-      call solve_by_active_set(alpha, datum, problem, options, monitor, contact, self%factor, answer, info)
+      side = 0
+      call solve_by_active_set(alpha, datum, self%scene, options, monitor, side, self%factor, answer, info)
     end if
   end subroutine solve_warm
 

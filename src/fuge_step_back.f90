@@ -11,29 +11,48 @@ contains
 
   !> Go towards the wanted forces until the first becomes zero; that point leaves. A point
   !> that was to join but would pull at once did so by rounding: it is barred until the
-  !> forces have moved.
-  pure subroutine step_back(wanted, contact, force, newest, barred)
+  !> forces have moved. All (n); `side` 1 at the lower stop, -1 at the upper one, 0 open;
+  !> `tied` points may pull.
+  pure subroutine step_back(wanted, tied, side, force, newest, barred)
     real(dp), intent(in) :: wanted(:)
-    logical, intent(inout) :: contact(:), barred(:)
+    logical, intent(in) :: tied(:)
+    integer, intent(inout) :: side(:)
+    logical, intent(inout) :: barred(:)
     real(dp), intent(inout) :: force(:)
     integer, intent(in) :: newest
-    real(dp) :: way(size(force))
-    integer :: k
+    real(dp) :: way, least
+    integer :: j, k
 
     k = 0
     if (newest > 0) then
-      if (contact(newest) .and. wanted(newest) <= 0.0_dp) k = newest
+      if (pulls(wanted(newest), side(newest), tied(newest))) k = newest
     end if
     if (k > 0) then
       barred(k) = .true.
     else
-      way = huge(way)
-      where (contact .and. wanted <= 0.0_dp) way = force/max(force - wanted, tiny(way))
-      k = minloc(way, dim=1)
-      where (contact) force = max(force + min(way(k), 1.0_dp)*(wanted - force), 0.0_dp)
+      least = huge(least)
+      do j = 1, size(force)
+        if (.not. pulls(wanted(j), side(j), tied(j))) cycle
+        way = abs(force(j))/max(abs(force(j) - wanted(j)), tiny(way))
+        if (way >= least) cycle
+        least = way
+        k = j
+      end do
+      least = min(least, 1.0_dp)
+      where (side /= 0) force = force + least*(wanted - force)
+      where (.not. tied) force = real(side, dp)*max(side*force, 0.0_dp)
     end if
     force(k) = 0.0_dp
-    contact(k) = .false.
+    side(k) = 0
   end subroutine step_back
+
+  elemental function pulls(wanted, side, tied)
+    real(dp), intent(in) :: wanted
+    integer, intent(in) :: side
+    logical, intent(in) :: tied
+    logical :: pulls
+
+    pulls = side /= 0 .and. .not. tied .and. wanted*side <= 0.0_dp
+  end function pulls
 
 end module fuge_step_back

@@ -1,0 +1,296 @@
+!> A contact problem as the engines see it: prescribed motions moved into the gaps, free
+!> ones made orthogonal, so that neither their units nor a far-away point of reference
+!> costs digits; and whether there can be equilibrium.
+module fuge_scene
+  use fuge_equilibrium, only: find_equilibrium
+  use fuge_kinds, only: dp
+  use fuge_lapack, only: dgeqp3, dgesv, dorgqr
+  use fuge_problem_type, only: fuge_problem
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: make_scene
+
+  !> A motion is no other than the rest if less than this part of it remains.
+  real(dp), parameter :: DEPENDENT = 1.0e-12_dp
+  !> A constant is made of the motions if less than this part of it remains.
+  real(dp), parameter :: CONSTANT_TOLERANCE = 1.0e-13_dp
+
+  type, public :: contact_scene
+    !> Gaps less the prescribed motions, (n), length.
+    real(dp), allocatable :: gap(:)
+    !> Play, (n), length; huge where one-sided.
+    real(dp), allocatable :: upper(:)
+    !> Points that take no part, (n).
+    logical, allocatable :: excluded(:)
+    !> Free motions made orthogonal, (n, m), of size about 1, and the resultants in them.
+    real(dp), allocatable :: modes(:, :), load(:)
+    !> modes(:, 1) is 1: a constant in gaps or displacements moves only that motion.
+    logical :: constant = .false.
+    !> Forces at few points in equilibrium with the load, (n); not made if plain.
+    real(dp), allocatable :: start(:)
+    !> The paper's problem.
+    logical :: plain = .false.
+    !> Places of the free motions among all, and R = modes*mixing for them.
+    integer, allocatable, private :: free(:)
+    real(dp), allocatable, private :: mixing(:, :)
+    !> Prescribed motions R, (n, m), zero where free; not allocated if none is prescribed.
+    real(dp), allocatable, private :: given(:, :)
+    logical, allocatable, private :: prescribed(:)
+  contains
+    procedure :: motions
+    procedure :: motions_of
+    procedure :: change_of
+  end type contact_scene
+
+contains
+
+  !> The scene of a checked problem. Errors: FUGE_ERR_MEMORY, FUGE_ERR_MODES for motions
+  !> that depend on each other, FUGE_ERR_NO_EQUILIBRIUM.
+  subroutine make_scene(problem, scene, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(out) :: scene
+    type(fuge_info), intent(inout) :: info
+    integer :: j, n, m, stat
+
+    n = problem%points()
+    scene%plain = problem%is_plain()
+    allocate (scene%gap(n), scene%upper(n), scene%excluded(n), stat=stat)
+    if (stat == 0) then
+      scene%gap = problem%gap
+      scene%upper = huge(1.0_dp)
+      scene%excluded = .false.
+      if (allocated(problem%gap_upper)) scene%upper = min(problem%gap_upper, huge(1.0_dp))
+      if (allocated(problem%excluded)) scene%excluded = problem%excluded
+      scene%free = [(j, j=1, problem%motions())]
+      if (allocated(problem%prescribed)) scene%free = pack(scene%free, .not. problem%prescribed)
+      m = size(scene%free)
+      allocate (scene%modes(n, m), scene%load(m), scene%mixing(m, m), stat=stat)
+    end if
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+      return
+    end if
+    call take_prescribed(problem, scene)
+    if (.not. allocated(problem%modes)) then
+      scene%constant = m == 1
+      scene%modes = 1.0_dp
+      scene%mixing = 1.0_dp
+      if (m == 1) scene%load = problem%resultant
+    else if (m > 0) then
+      call orthogonalise(problem%modes(:, scene%free), problem%resultant(scene%free), scene, info)
+    end if
+    if (.not. (info%failed() .or. scene%plain)) call require_equilibrium(problem, scene, info)
+  end subroutine make_scene
+
+  !> Prescribed motions change the gaps.
+  pure subroutine take_prescribed(problem, scene)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(inout) :: scene
+    integer :: j
+
+    allocate (scene%prescribed(problem%motions()))
+    scene%prescribed = .false.
+    if (.not. allocated(problem%prescribed)) return
+    scene%prescribed = problem%prescribed
+    allocate (scene%given(problem%points(), problem%motions()))
+    scene%given = 0.0_dp
+    do j = 1, problem%motions()
+      if (.not. problem%prescribed(j)) cycle
+      scene%given(:, j) = 1.0_dp
+      if (allocated(problem%modes)) scene%given(:, j) = problem%modes(:, j)
+      scene%gap = scene%gap - problem%motion(j)*scene%given(:, j)
+    end do
+  end subroutine take_prescribed
+
+  !> Modes of equal size, orthogonal at the points that take part; the first is 1 if that
+  !> is made of the given ones.
+  subroutine orthogonalise(given, resultant, scene, info)
+    real(dp), intent(in) :: given(:, :), resultant(:)
+    type(contact_scene), intent(inout) :: scene
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: scales(size(given, 2)), part(size(given, 1), size(given, 2))
+    integer :: order(size(given, 2)), m, rank, replaced
+
+    m = size(given, 2)
+    part = given
+    where (spread(scene%excluded, 2, m)) part = 0.0_dp
+    scales = maxval(abs(part), dim=1)
+    if (any(.not. scales > 0.0_dp)) then
+      call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(minloc(scales, dim=1)))//' moves no point')
+      return
+    end if
+    part = part/spread(scales, 1, size(part, 1))
+    call triangular(part, .true., order, rank)
+    if (rank < m) then
+      call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(order(rank + 1)))//' is made of the other modes: leave ' &
+                  //'it out')
+      return
+    end if
+    ! `part` is now an orthonormal base.
+    call replace_by_constant(part, scene%excluded, replaced)
+    scene%constant = replaced > 0
+    if (scene%constant) then
+      part = cshift(part, replaced - 1, dim=2)
+      call triangular(part, .false., order, rank)
+      part(:, 1) = merge(0.0_dp, 1.0_dp/sqrt(real(count(.not. scene%excluded), dp)), scene%excluded)
+    end if
+    part = part*sqrt(real(count(.not. scene%excluded), dp))
+    if (scene%constant) where (.not. scene%excluded) part(:, 1) = 1.0_dp
+    scene%modes = part
+    scene%mixing = matmul(transpose(part), given)/real(count(.not. scene%excluded), dp)
+    call solve_small(transpose(scene%mixing), resultant, scene%load)
+  end subroutine orthogonalise
+
+  !> Overwrite a matrix by an orthonormal base of its columns, in order of size if
+  !> `pivoted`; `rank` counts those that are not rounding.
+  subroutine triangular(matrix, pivoted, order, rank)
+    real(dp), intent(inout), contiguous :: matrix(:, :)
+    logical, intent(in) :: pivoted
+    integer, intent(out) :: order(:), rank
+    real(dp) :: tau(size(matrix, 2)), work(64*(size(matrix, 2) + 1) + 2*size(matrix, 2))
+    integer :: j, info
+
+    order = 1
+    if (pivoted) order = 0
+    rank = 0
+    if (size(matrix, 1) < size(matrix, 2)) then
+      call rank_of_wide(matrix, order, rank)
+      return
+    end if
+    call dgeqp3(size(matrix, 1), size(matrix, 2), matrix, size(matrix, 1), order, tau, work, size(work), info)
+    do j = 1, size(matrix, 2)
+      if (abs(matrix(j, j)) > DEPENDENT*abs(matrix(1, 1))) rank = j
+    end do
+    call dorgqr(size(matrix, 1), size(matrix, 2), size(matrix, 2), matrix, size(matrix, 1), tau, work, size(work), info)
+  end subroutine triangular
+
+  !> More motions than points: some must depend on the others.
+  pure subroutine rank_of_wide(matrix, order, rank)
+    real(dp), intent(in) :: matrix(:, :)
+    integer, intent(out) :: order(:), rank
+    integer :: j
+
+    order = [(j, j=1, size(matrix, 2))]
+    rank = size(matrix, 1)
+  end subroutine rank_of_wide
+
+  !> Put the constant in the place of a column of an orthonormal base if it lies in its
+  !> span; `column` is 0 if it does not.
+  pure subroutine replace_by_constant(base, excluded, column)
+    real(dp), intent(inout) :: base(:, :)
+    logical, intent(in) :: excluded(:)
+    integer, intent(out) :: column
+    real(dp) :: ones(size(base, 1)), parts(size(base, 2))
+
+    ones = merge(0.0_dp, 1.0_dp, excluded)
+    parts = matmul(ones, base)
+    column = 0
+    if (maxval(abs(ones - matmul(base, parts))) > CONSTANT_TOLERANCE*real(size(base, 1), dp)) return
+    column = maxloc(abs(parts), dim=1)
+    base(:, column) = ones/sqrt(sum(ones))
+  end subroutine replace_by_constant
+
+  subroutine solve_small(matrix, right, solution)
+    real(dp), intent(in) :: matrix(:, :), right(:)
+    real(dp), intent(out) :: solution(:)
+    real(dp) :: copy(size(matrix, 1), size(matrix, 2))
+    integer :: pivots(size(right)), info
+
+    copy = matrix
+    solution = right
+    call dgesv(size(right), 1, copy, size(right), pivots, solution, size(right), info)
+  end subroutine solve_small
+
+  !> Number of motions, prescribed ones included.
+  pure function motions(self) result(m)
+    class(contact_scene), intent(in) :: self
+    integer :: m
+
+    m = 0
+    if (allocated(self%prescribed)) m = size(self%prescribed)
+  end function motions
+
+  !> All motions in the caller's order: the free ones from what an engine found in the
+  !> orthogonal modes, the prescribed ones from `given` (m).
+  subroutine motions_of(self, given, found, rigid)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: given(:), found(:)
+    real(dp), intent(out) :: rigid(:)
+    real(dp) :: free(size(found))
+
+    rigid = merge(given, 0.0_dp, self%prescribed)
+    if (size(found) < 1) return
+    call solve_small(self%mixing, found, free)
+    rigid(self%free) = free
+  end subroutine motions_of
+
+  !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the
+  !> scene's gaps and loads.
+  subroutine change_of(self, gap_change, load_change, shape, load)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    real(dp), allocatable, intent(out) :: shape(:), load(:)
+
+    shape = gap_change
+    if (allocated(self%given)) shape = shape - matmul(self%given, merge(load_change, 0.0_dp, self%prescribed))
+    allocate (load(size(self%free)))
+    if (size(load) > 0) call solve_small(transpose(self%mixing), load_change(self%free), load)
+  end subroutine change_of
+
+  !> Forces to start with, or the reason why there are none.
+  subroutine require_equilibrium(problem, scene, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(inout) :: scene
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: remainder(size(scene%load))
+    integer :: stat
+
+    allocate (scene%start(size(scene%gap)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium')
+      return
+    end if
+    scene%start = 0.0_dp
+    if (size(scene%load) < 1) return
+    call find_equilibrium(scene%modes, scene%load, .not. scene%excluded, &
+                          scene%upper < huge(1.0_dp) .and. .not. scene%excluded, scene%start, remainder)
+    if (any(abs(remainder) > 0.0_dp)) call explain_missing(problem, scene, remainder, info)
+  end subroutine require_equilibrium
+
+  !> Name the resultant that nothing can carry.
+  subroutine explain_missing(problem, scene, remainder, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: remainder(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: motion(size(remainder)), x(size(scene%gap))
+    integer :: worst
+
+    if (.not. allocated(problem%modes)) then
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'resultant '//text(problem%resultant(1))//' is negative: contact ' &
+                  //'forces can only push, so it must be >= 0')
+      return
+    end if
+    associate (w => problem%resultant(scene%free), r => problem%modes(:, scene%free))
+      if (size(w) == 2) then
+        if (minval(r(:, 1)) > 0.0_dp .and. maxval(r(:, 1)) <= minval(r(:, 1)) .and. w(1) > 0.0_dp) then
+          x = r(:, 2)/r(:, 1)
+          call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(2)/w(1)) &
+                      //', but the points reach from ' &
+                      //text(minval(x, mask=.not. scene%excluded))//' to '//text(maxval(x, mask=.not. scene%excluded)) &
+                      //' only: move the load between them')
+          return
+        end if
+      end if
+      call solve_small(scene%mixing, remainder, motion)
+      worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
+                  //' in motion '//text(scene%free(worst))//' together with the others: moving along it by ' &
+                  //text(motion(worst))//' closes no contact, but the resultants do work')
+    end associate
+  end subroutine explain_missing
+
+end module fuge_scene
