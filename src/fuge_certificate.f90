@@ -16,13 +16,14 @@ module fuge_certificate
 
   !> Violations, each relative to the data; no unit. Not yet known, they are huge.
   type, public :: fuge_violation
-    !> c - (gap + A f - v_0), equation (9).
+    !> c - (gap + A f - R q), equation (9).
     real(dp) :: gap_equation = huge(1.0_dp)
-    !> Negative forces or gaps, equation (10).
+    !> Negative forces or gaps, gaps beyond the upper stop, equation (10).
     real(dp) :: sign = huge(1.0_dp)
-    !> The smaller of force and gap where both are not zero, equation (10).
+    !> The smaller of force and distance from its stop where both are not zero,
+    !> equation (10).
     real(dp) :: complementarity = huge(1.0_dp)
-    !> sum f - F_0, equation (11).
+    !> R^T f - w, equation (11); motions that are not as prescribed.
     real(dp) :: equilibrium = huge(1.0_dp)
   contains
     procedure :: worst
@@ -51,7 +52,8 @@ contains
   !> contact with the least length tells how exact v_0 is and is compared with v_0
   !> and the terms that make it; elsewhere the error less that one is compared with
   !> the length, beyond the rounding of the caller's own numbers. Forces are compared
-  !> with the largest one. One product A f. `status` is 0, FUGE_ERR_SIZE if an array is
+  !> with the largest one. With several motions the whole error is compared with the
+  !> length, beyond the rounding of R q as well. One product A f. `status` is 0, FUGE_ERR_SIZE if an array is
   !> missing or of the wrong length, FUGE_ERR_MEMORY, or that of a product that fails:
   !> FUGE_ERR_CALLBACK also for one that is not finite.
   subroutine fuge_residual(operator, problem, solution, violation, status)
@@ -73,8 +75,8 @@ contains
     type(fuge_solution), intent(in) :: solution
     type(fuge_violation), intent(out) :: violation
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: error(:), length(:)
-    real(dp) :: rigid, largest
+    real(dp), allocatable :: error(:), length(:), moved(:), terms(:)
+    logical, allocatable :: counts(:)
     integer :: n, stat
 
     if (.not. fits(operator, problem, solution)) then
@@ -84,7 +86,7 @@ contains
     ! NaN violates all that there is: nothing is gained by multiplying it.
     if (.not. all(ieee_is_finite(solution%force))) return
     n = operator%points()
-    allocate (error(n), length(n), stat=stat)
+    allocate (error(n), length(n), moved(n), terms(n), counts(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
       return
@@ -92,41 +94,135 @@ contains
     call multiply(operator, solution%force, error, info)
     if (info%failed()) return
 
-    rigid = operator%datum()*sum(solution%force)
+    counts = .true.
+    if (allocated(problem%excluded)) counts = .not. problem%excluded
+    call rigid_displacement(problem, solution, operator%datum()*sum(solution%force), moved, terms)
     call operator%magnitude(solution%force, error, length)
-    error = (problem%gap - (solution%rigid(1) - rigid)) + error - solution%gap
-    length = abs(problem%gap - (solution%rigid(1) - rigid)) + length
-    largest = maxval(abs(solution%force))
-    violation%gap_equation = gap_violation(error, length, solution%force, problem%gap, &
-                                           abs(rigid) + abs(solution%rigid(1)))
-    violation%sign = max(maxval(relative(-solution%force, largest)), maxval(relative(-solution%gap, length)), 0.0_dp)
-    violation%complementarity = maxval(min(relative(abs(solution%force), largest), &
-                                           relative(abs(solution%gap), length)))
-    violation%equilibrium = relative(abs(sum(solution%force) - problem%resultant(1)), &
-                                     max(sum(abs(solution%force)), problem%resultant(1)))
+    error = (problem%gap - moved) + error - solution%gap
+    length = abs(problem%gap - moved) + length
+    violation%gap_equation = gap_violation(error, length, solution%force, problem%gap, terms, counts, &
+                                           .not. allocated(problem%modes))
+    call contact_violations(problem, solution, length, counts, violation)
+    violation%equilibrium = equilibrium_violation(problem, solution)
   end subroutine find_violation
 
-  !> The error of equation (9), apart for what all points share and for the rest.
-  pure function gap_violation(error, length, force, gap, datum) result(violation)
-    real(dp), intent(in) :: error(:), length(:), force(:), gap(:), datum
-    real(dp) :: violation
-    real(dp) :: rounding(size(error)), shared
-    integer :: reference
+  !> R q - datum (n), and what it is made of. `datum` what the operator left out.
+  pure subroutine rigid_displacement(problem, solution, datum, moved, terms)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: datum
+    real(dp), intent(out) :: moved(:), terms(:)
+    integer :: j
 
-    if (any(abs(force) > 0.0_dp)) then
-      ! A force that may be rounding is no contact.
-      reference = minloc(length, dim=1, mask=abs(force) > sqrt(epsilon(datum))*maxval(abs(force)))
+    terms = abs(datum)
+    if (allocated(problem%modes)) then
+      moved = -datum
+      do j = 1, size(solution%rigid)
+        moved = moved + problem%modes(:, j)*solution%rigid(j)
+        terms = terms + abs(problem%modes(:, j)*solution%rigid(j))
+      end do
     else
-      reference = minloc(gap, dim=1)
+      moved = solution%rigid(1) - datum
+      terms = terms + abs(solution%rigid(1))
     end if
-    shared = error(reference)
-    ! Half a unit in the last place of the gap and of v_0, and as much for their sum.
-    rounding = 2.0_dp*epsilon(datum)*(abs(gap) + abs(gap(reference)) + datum)
-    violation = max(maxval(relative(max(abs(error - shared) - rounding, 0.0_dp), length + length(reference))), &
-                    relative(abs(shared), max(datum, abs(gap(reference)), length(reference))))
-    ! A maximum may drop a NaN, which must not pass for small.
-    if (.not. all(abs(error) <= huge(violation))) violation = huge(violation)
+  end subroutine rigid_displacement
+
+  !> The error of equation (9), for one translation apart for what all points share and
+  !> for the rest.
+  pure function gap_violation(error, length, force, gap, terms, counts, translation) result(violation)
+    real(dp), intent(in) :: error(:), length(:), force(:), gap(:), terms(:)
+    logical, intent(in) :: counts(:), translation
+    real(dp) :: violation
+    real(dp) :: shared, rounding, excess
+    integer :: k, reference
+
+    violation = 0.0_dp
+    if (.not. any(counts)) return
+    reference = minloc(gap, dim=1, mask=counts)
+    ! A force that may be rounding is no contact.
+    if (any(abs(force) > 0.0_dp)) reference = minloc(length, dim=1, mask=counts .and. &
+                                                     abs(force) > sqrt(epsilon(shared))*maxval(abs(force)))
+    shared = 0.0_dp
+    if (translation) shared = error(reference)
+    do k = 1, size(error)
+      if (.not. counts(k)) cycle
+      ! A maximum may drop a NaN, which must not pass for small.
+      if (.not. abs(error(k)) <= huge(violation)) violation = huge(violation)
+      ! Half a unit in the last place of the gap and of the motions, and as much for their sum.
+      rounding = abs(gap(k)) + abs(gap(reference)) + terms(k)
+      if (.not. translation) rounding = rounding + terms(reference)
+      excess = max(abs(error(k) - shared) - 2.0_dp*epsilon(shared)*rounding, 0.0_dp)
+      violation = max(violation, relative(excess, length(k) + length(reference)))
+    end do
+    if (translation) violation = max(violation, relative(abs(shared), max(terms(reference), abs(gap(reference)), &
+                                                                           length(reference))))
   end function gap_violation
+
+  !> Signs and complementarity, equation (10) at both stops.
+  pure subroutine contact_violations(problem, solution, length, counts, violation)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: length(:)
+    logical, intent(in) :: counts(:)
+    type(fuge_violation), intent(inout) :: violation
+    real(dp) :: largest, upper, stop_distance
+    integer :: k
+
+    violation%sign = 0.0_dp
+    violation%complementarity = 0.0_dp
+    largest = maxval(abs(solution%force))
+    upper = huge(upper)
+    do k = 1, size(length)
+      associate (f => solution%force(k), c => solution%gap(k))
+        if (.not. counts(k)) then
+          violation%sign = max(violation%sign, relative(abs(f), largest))
+          cycle
+        end if
+        if (allocated(problem%gap_upper)) upper = min(problem%gap_upper(k), huge(upper))
+        violation%sign = max(violation%sign, relative(-c, length(k)))
+        if (upper < huge(upper)) then
+          violation%sign = max(violation%sign, relative(c - upper, length(k)))
+        else
+          violation%sign = max(violation%sign, relative(-f, largest))
+        end if
+        stop_distance = c
+        if (f < 0.0_dp .and. upper < huge(upper)) stop_distance = c - upper
+        violation%complementarity = max(violation%complementarity, &
+                                        min(relative(abs(f), largest), relative(abs(stop_distance), length(k))))
+      end associate
+    end do
+  end subroutine contact_violations
+
+  !> Equation (11) for the free motions; the others must be as prescribed.
+  pure function equilibrium_violation(problem, solution) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp) :: violation
+    integer :: j
+
+    violation = 0.0_dp
+    do j = 1, problem%motions()
+      if (is_prescribed(problem, j)) then
+        violation = max(violation, relative(abs(solution%rigid(j) - problem%motion(j)), abs(problem%motion(j))))
+      else if (allocated(problem%modes)) then
+        violation = max(violation, relative(abs(sum(problem%modes(:, j)*solution%force) - problem%resultant(j)), &
+                                            max(sum(abs(problem%modes(:, j)*solution%force)), &
+                                                abs(problem%resultant(j)))))
+      else
+        violation = max(violation, relative(abs(sum(solution%force) - problem%resultant(1)), &
+                                            max(sum(abs(solution%force)), abs(problem%resultant(1)))))
+      end if
+    end do
+  end function equilibrium_violation
+
+  pure function is_prescribed(problem, motion) result(prescribed)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: motion
+    logical :: prescribed
+
+    prescribed = .false.
+    if (allocated(problem%prescribed)) prescribed = problem%prescribed(motion)
+  end function is_prescribed
 
   !> Is everything there, and as long as the operator has points?
   pure function fits(operator, problem, solution)
@@ -134,10 +230,21 @@ contains
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     logical :: fits
+    integer :: m
 
+    m = problem%motions()
     fits = operator%points() > 0 .and. length_of(problem%gap) == operator%points() &
-      .and. length_of(problem%resultant) == 1 .and. length_of(solution%force) == operator%points() &
-      .and. length_of(solution%gap) == operator%points() .and. length_of(solution%rigid) == 1
+      .and. length_of(solution%force) == operator%points() &
+      .and. length_of(solution%gap) == operator%points() .and. length_of(solution%rigid) == m
+    if (allocated(problem%modes)) fits = fits .and. size(problem%modes, 1) == operator%points()
+    if (allocated(problem%gap_upper)) fits = fits .and. size(problem%gap_upper) == operator%points()
+    if (allocated(problem%excluded)) fits = fits .and. size(problem%excluded) == operator%points()
+    if (allocated(problem%prescribed)) then
+      fits = fits .and. size(problem%prescribed) == m .and. length_of(problem%motion) == m
+      if (.not. all(problem%prescribed)) fits = fits .and. length_of(problem%resultant) == m
+    else
+      fits = fits .and. length_of(problem%resultant) == m
+    end if
   end function fits
 
   pure function length_of(values) result(length)
