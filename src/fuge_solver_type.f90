@@ -13,7 +13,7 @@ module fuge_solver_type
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
   use fuge_set_answer, only: solve_set, add_deflection
-  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
     FUGE_ERR_OVERFLOW
   use fuge_text, only: text
@@ -249,11 +249,12 @@ contains
     call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
     ! What the operator or the monitor ends is not for us to try again.
     if (warm .and. any(info%status == [FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW])) then
-      info = fuge_info()
+      ! The counts stay.
+      call report(info, FUGE_DONE, '')
       if (allocated(self%part)) deallocate (self%part)
       call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
     end if
-    self%last_load = problem%resultant(1)
+    if (.not. info%failed()) self%last_load = problem%resultant(1)
   end subroutine iterate_warm
 
   !> Keep the contact set for the next solve; without memory that starts from scratch.

@@ -22,7 +22,7 @@ contains
 
     k = 0
     if (newest > 0) then
-      if (contact(newest) .and. wanted(newest) <= 0.0_dp) k = newest
+      if (contact(newest) .and. wanted(newest) <= 0.0_dp .and. .not. force(newest) > 0.0_dp) k = newest
     end if
     if (k > 0) then
       barred(k) = .true.
