@@ -83,7 +83,7 @@ contains
     type(fuge_solver) :: solver
     type(fuge_solution) :: solution
     type(fuge_info) :: info
-    type(ticker) :: monitor
+    type(ticker), target :: monitor
     real(dp) :: pressure, seconds
     integer :: file, k
 
