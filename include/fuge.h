@@ -23,7 +23,8 @@
  * allowed gives FUGE_ERR_POINTER.
  *
  * CALL ORDER.  Either fuge_solve_dense alone, or
- *     fuge_operator_dense -> fuge_solver_new -> fuge_set_gap, fuge_set_load
+ *     fuge_operator_dense, _halfplane or _callback
+ *     -> fuge_solver_new -> fuge_set_gap, fuge_set_load
  *     -> fuge_solve -> fuge_get_... -> (set, solve, get again)
  *     -> fuge_solver_free -> fuge_operator_free
  */
@@ -78,7 +79,8 @@ const char *fuge_version(void);
 /* ---- options and report ------------------------------------------------- */
 
 enum {                          /* fuge_options.method */
-  FUGE_AUTO = 0,                /* the active set; the tableau if the history is kept */
+  FUGE_AUTO = 0,                /* for a matrix the active set, or the tableau if the history
+                                   is kept; for any other operator the iteration */
   FUGE_TABLEAU = 1,             /* the paper's tableau, Phase I of the simplex method */
   FUGE_ACTIVE_SET = 2,          /* block principal pivoting: the fast one for a matrix */
   FUGE_ITERATIVE = 3            /* products only: the fast one for many points */
@@ -93,7 +95,7 @@ enum {                          /* fuge_options.pivot_rule, of the tableau */
 typedef struct fuge_options {
   int method;
   int pivot_rule;
-  int max_iterations;           /* most pivots or contact sets; 0: 50 for each row */
+  int max_iterations;           /* most pivots or contact sets, on all grids; 0: 50 for each row */
   int keep_history;             /* nonzero: fuge_get_history will have all steps */
   int reserved_int[4];
   double tolerance;             /* largest relative residual that counts as done */
@@ -102,10 +104,11 @@ typedef struct fuge_options {
 
 typedef struct fuge_info {
   int status;                   /* what fuge_solve returned */
-  int iterations;               /* pivots of the tableau, contact sets of the active set */
+  int iterations;               /* pivots of the tableau, else contact sets, on all grids */
   int contacts;                 /* points with a positive force */
-  int products;                 /* products alpha f by the operator */
-  int filters;                  /* preconditioner applications */
+  int products;                 /* products alpha f by the operator, those on coarser grids
+                                   by their share, rounded up */
+  int filters;                  /* preconditioner applications, likewise */
   int reserved_int[3];
   double residual;              /* certificate: largest scaled violation of the problem */
   double reserved[7];
@@ -337,7 +340,8 @@ typedef int (*fuge_progress)(int iteration, double residual, int contacts, void 
 int fuge_set_progress(fuge_solver *s, fuge_progress progress, void *user);
 
 /* Solve; FUGE_ERR_CALL_ORDER before gaps and load are set.  The active set starts from
- * the contact set of the last solve. */
+ * the contact set of the last solve, the iteration from its forces if the load is within
+ * a quarter of the last one. */
 int fuge_solve(fuge_solver *s);
 
 /* Forget results, contact set and history: the next fuge_solve starts from scratch.

@@ -2,7 +2,7 @@
 !> points are cells in a row.
 !>
 !> Pressed together as far as x = b, bodies that want to touch as far as a < b pull
-!> beyond (a + b)/2, where the pressure (x^2 - (a^2 + b^2)/2)/sqrt(b^2 - x^2) changes its
+!> beyond (a + b)/2, where the pressure ((a^2 + b^2)/2 - x^2)/sqrt(b^2 - x^2) changes its
 !> sign: twice as many cells must leave as pull. For a > b the gap beyond b goes on
 !> falling for half the way and is closed for one and a half: two cells in three that
 !> penetrate must join.
@@ -26,7 +26,7 @@ contains
   end subroutine exchange
 
   !> The same with the foresight of the theory above, at the ends of each stretch of
-  !> contact; without it if nothing would be left.
+  !> contact, of which one cell at least stays.
   pure subroutine exchange_in_row(pulls, penetrates, contact)
     logical, intent(in) :: pulls(:), penetrates(:)
     logical, intent(inout) :: contact(:)
@@ -37,7 +37,7 @@ contains
     do
       call next_run(pulls, first, last)
       if (first > size(pulls)) exit
-      call release_more(first, last, pulls, contact)
+      call release_more(first, last, contact)
       first = last + 1
     end do
     first = 1
@@ -68,9 +68,8 @@ contains
 
   !> A run that pulls at one end of a stretch takes as many cells with it; a short one
   !> two fewer, because the grid may make it too long by those.
-  pure subroutine release_more(first, last, pulls, contact)
+  pure subroutine release_more(first, last, contact)
     integer, intent(in) :: first, last
-    logical, intent(in) :: pulls(:)
     logical, intent(inout) :: contact(:)
     integer :: more, k
     logical :: touches_before, touches_after
@@ -87,11 +86,11 @@ contains
       if (touches_after) then
         if (last + k + 1 > size(contact)) exit
         ! The last cell of a stretch stays.
-        if (.not. contact(last + k + 1) .or. pulls(last + k + 1)) exit
+        if (.not. contact(last + k + 1)) exit
         contact(last + k) = .false.
       else
         if (first - k - 1 < 1) exit
-        if (.not. contact(first - k - 1) .or. pulls(first - k - 1)) exit
+        if (.not. contact(first - k - 1)) exit
         contact(first - k) = .false.
       end if
     end do

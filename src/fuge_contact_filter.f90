@@ -6,10 +6,9 @@
 !> stretch but little within each: seen from afar these are a smooth load that sinks much
 !> deeper than the filter believes. Then the cells are taken together, sixteen by
 !> sixteen, and again: each grid's own filter sees what varies within sixteen cells of
-!> it, the next one sees the means (a decomposition orthogonal in the number of points
-!> in contact, so that the sum of the parts stays symmetric and positive definite).
+!> it, the next one sees the means. doc/theory.md shows that the sum of these parts is
+!> symmetric and positive definite.
 module fuge_contact_filter
-  use fuge_grids, only: grid_family
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_products, only: precondition
@@ -22,24 +21,36 @@ module fuge_contact_filter
   !> So many doublings of the cells lie between one level and the next.
   integer, parameter :: DOUBLINGS = 4
   integer, parameter :: CELLS = 2**DOUBLINGS
-  !> Fewer stretches of contact than this need one level only.
+  !> Fewer stretches of contact than this need one level only: each of them adds one
+  !> direction or two that conjugate gradients have to find.
   integer, parameter :: MANY_STRETCHES = 16
+  !> More levels than any grid has.
+  integer, parameter :: MOST_LEVELS = 8
 
   type :: filter_level
-    !> Points in contact in each cell; 1 where there are any, else 0 (of the finest level
-    !> that is the weight).
-    real(dp), allocatable :: weight(:), present(:)
-    !> Work space: a length, and on coarser levels the force that it asks for.
-    real(dp), allocatable :: length(:), force(:)
+    !> Not allocated on the finest level, where the caller has it.
+    class(fuge_operator), allocatable :: operator
+    !> Points in contact in each cell: how often it counts.
+    real(dp), allocatable :: weight(:)
+    !> 1 where a cell has points in contact, else 0. On the finest level the weight is that.
+    real(dp), allocatable :: present(:)
+    !> A length, zero off the contact: work space.
+    real(dp), allocatable :: length(:)
   end type filter_level
+
+  !> Forces on the cells of a level, apart from it because they are what it makes.
+  type :: level_force
+    real(dp), allocatable :: values(:)
+  end type level_force
 
   type, public :: contact_filter
     type(filter_level), allocatable, private :: levels(:)
+    type(level_force), allocatable, private :: forces(:)
     !> Levels in use for the present set; 0 without a filter.
     integer, private :: depth = 0
     !> Forces that sink all contact points alike, nearly, and their sum.
     real(dp), allocatable, private :: even(:)
-    real(dp), private :: total = 1.0_dp
+    real(dp), private :: sum_of_even = 1.0_dp
     !> Stands for the filter where the operator has none; force per length.
     real(dp), private :: stiffness = 1.0_dp
     !> Filter applications on coarser grids, as parts of one on this grid.
@@ -53,15 +64,12 @@ contains
 
   !> Make ready for a contact set.
   !>
-  !> `operator` that of grid `grid` of `family`, 0 for the finest; `contact` (n), not
-  !> empty; `softness` a typical length per force, used where the operator has no filter.
-  !> Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE for a filter that is not positive
-  !> definite, those of the filter.
-  subroutine set(self, operator, family, grid, contact, softness, info)
+  !> `contact` (n), not empty; `softness` a typical length per force, used where the
+  !> operator has no filter. Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE for a filter
+  !> that is not positive definite, those of the filter.
+  subroutine set(self, operator, contact, softness, info)
     class(contact_filter), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
-    type(grid_family), intent(in) :: family
-    integer, intent(in) :: grid
     logical, intent(in) :: contact(:)
     real(dp), intent(in) :: softness
     type(fuge_info), intent(inout) :: info
@@ -70,37 +78,33 @@ contains
     if (.not. operator%has_filter()) then
       ! Only to stay in range: conjugate gradients do not depend on it.
       self%stiffness = 1.0_dp
-      if (softness > 0.0_dp) self%stiffness = 1.0_dp/softness
+      if (softness >= tiny(softness)) self%stiffness = 1.0_dp/softness
       return
     end if
     if (self%depth > 0) then
       if (all(contact .eqv. self%levels(1)%weight > 0.0_dp)) return
     end if
-    if (.not. allocated(self%levels)) call make_room(self, family, grid, size(contact), info)
-    if (.not. info%failed()) call over%find(contact, info)
+    call over%find(contact, info)
+    if (.not. info%failed()) call make_levels(self, operator, size(over%first) >= MANY_STRETCHES, info)
     if (info%failed()) return
-    self%depth = 1
-    if (size(over%first) >= MANY_STRETCHES) self%depth = size(self%levels)
-    call weigh(self, contact)
+    call weigh(self%levels(:self%depth), contact)
     self%levels(1)%length = self%levels(1)%weight
-    call filter_from(self, operator, family, grid, 1, self%even, info)
+    call filter_from(self%levels(:self%depth), self%forces, operator, self%even, self%coarse_share, info)
     if (info%failed()) return
-    self%total = total(over, self%even)
-    if (.not. self%total > 0.0_dp) then
+    self%sum_of_even = total(over, self%even)
+    if (.not. self%sum_of_even > 0.0_dp) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'the filter of the operator is not positive definite: equal lengths ' &
-                  //'on the contact set have the energy '//text(self%total))
+                  //'on the contact set have the energy '//text(self%sum_of_even))
     end if
   end subroutine set
 
   !> Forces with zero sum on the contact set, near those that take `length` away.
   !>
-  !> `operator`, `family`, `grid` as for `set`; `over` the stretches of its set; `length`
-  !> (n) and `force` (n) on them, elsewhere they may be anything. Errors: those of the filter.
-  subroutine apply(self, operator, family, grid, over, length, force, info)
+  !> `over` the stretches of its set; `length` (n) and `force` (n) on them, elsewhere they
+  !> may be anything. Errors: those of the filter.
+  subroutine apply(self, operator, over, length, force, info)
     class(contact_filter), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
-    type(grid_family), intent(in) :: family
-    integer, intent(in) :: grid
     type(stretches), intent(in) :: over
     real(dp), intent(in), contiguous :: length(:)
     real(dp), intent(inout), contiguous :: force(:)
@@ -113,9 +117,9 @@ contains
       do i = 1, size(over%first)
         self%levels(1)%length(over%first(i):over%last(i)) = length(over%first(i):over%last(i))
       end do
-      call filter_from(self, operator, family, grid, 1, force, info)
+      call filter_from(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
       if (info%failed()) return
-      excess = total(over, force)/self%total
+      excess = total(over, force)/self%sum_of_even
     end if
     do i = 1, size(over%first)
       associate (a => over%first(i), b => over%last(i))
@@ -128,81 +132,116 @@ contains
     end do
   end subroutine apply
 
-  !> Arrays for this grid and for every sixteenth of the coarser ones.
-  subroutine make_room(self, family, grid, n, info)
+  !> Room for the first level, and for all others once they are wanted.
+  subroutine make_levels(self, operator, many, info)
     class(contact_filter), intent(inout) :: self
-    type(grid_family), intent(in) :: family
-    integer, intent(in) :: grid, n
+    class(fuge_operator), intent(in) :: operator
+    logical, intent(in) :: many
     type(fuge_info), intent(inout) :: info
-    integer :: cells, l, stat
+    class(fuge_operator), allocatable :: coarse
+    integer :: l, n, stat
 
-    cells = n
-    allocate (self%levels(1 + (size(family%coarse) - grid)/DOUBLINGS), self%even(n), stat=stat)
-    if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%length(n), stat=stat)
-    do l = 2, size(self%levels)
+    n = operator%points()
+    stat = 0
+    if (.not. allocated(self%levels)) then
+      allocate (self%levels(MOST_LEVELS), self%forces(MOST_LEVELS), self%even(n), stat=stat)
+      if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%length(n), stat=stat)
+    end if
+    self%depth = 1
+    do l = 2, merge(MOST_LEVELS, 1, many)
       if (stat /= 0) exit
-      cells = family%coarse(grid + DOUBLINGS*(l - 1))%operator%points()
-      allocate (self%levels(l)%weight(cells), self%levels(l)%present(cells), self%levels(l)%length(cells), &
-                self%levels(l)%force(cells), stat=stat)
+      if (.not. allocated(self%levels(l)%operator)) then
+        call operator%coarsen(DOUBLINGS*(l - 1), coarse)
+        if (.not. is_usable(coarse, (n - 1)/CELLS**(l - 1) + 1)) exit
+        call move_alloc(coarse, self%levels(l)%operator)
+        call make_room(self%levels(l), self%forces(l), stat)
+      end if
+      if (stat == 0) self%depth = l
     end do
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
+  end subroutine make_levels
+
+  !> A coarser grid of the right number of cells with a filter.
+  function is_usable(coarse, cells) result(usable)
+    class(fuge_operator), intent(in), allocatable :: coarse
+    integer, intent(in) :: cells
+    logical :: usable
+
+    usable = allocated(coarse)
+    if (usable) usable = coarse%points() == cells
+    if (usable) usable = coarse%has_filter()
+  end function is_usable
+
+  subroutine make_room(level, force, stat)
+    type(filter_level), intent(inout) :: level
+    type(level_force), intent(inout) :: force
+    integer, intent(out) :: stat
+    integer :: n
+
+    n = level%operator%points()
+    allocate (level%weight(n), level%present(n), level%length(n), force%values(n), stat=stat)
   end subroutine make_room
 
   !> Count the points in contact in the cells of every level.
-  subroutine weigh(self, contact)
-    class(contact_filter), intent(inout) :: self
+  pure subroutine weigh(levels, contact)
+    type(filter_level), intent(inout) :: levels(:)
     logical, intent(in) :: contact(:)
     integer :: k, l
 
-    self%levels(1)%weight = merge(1.0_dp, 0.0_dp, contact)
-    do l = 2, self%depth
-      associate (fine => self%levels(l - 1)%weight, level => self%levels(l))
-        do k = 1, size(level%weight)
-          level%weight(k) = sum(fine((k - 1)*CELLS + 1:min(k*CELLS, size(fine))))
-        end do
-        level%present = min(level%weight, 1.0_dp)
-      end associate
+    levels(1)%weight = merge(1.0_dp, 0.0_dp, contact)
+    do l = 2, size(levels)
+      do k = 1, size(levels(l)%weight)
+        levels(l)%weight(k) = sum(levels(l - 1)%weight((k - 1)*CELLS + 1:min(k*CELLS, size(levels(l - 1)%weight))))
+      end do
+      levels(l)%present = min(levels(l)%weight, 1.0_dp)
     end do
   end subroutine weigh
 
-  !> Force per point by the filters of level `l` and all coarser ones; its length is in
-  !> levels(l)%length, zero off the contact, and is used up. Off the contact the forces
-  !> mean nothing.
-  recursive subroutine filter_from(self, operator, family, grid, l, force, info)
-    class(contact_filter), intent(inout) :: self
+  !> Force on each point by the filters of these levels; the length is in
+  !> levels(1)%length, zero off the contact, and is used up. Off the contact the forces
+  !> mean nothing. `operator` that of the finest grid.
+  recursive subroutine filter_from(levels, forces, operator, force, coarse_share, info)
+    type(filter_level), intent(inout) :: levels(:)
+    type(level_force), intent(inout) :: forces(:)
     class(fuge_operator), intent(in) :: operator
-    type(grid_family), intent(in) :: family
-    integer, intent(in) :: grid, l
     real(dp), intent(inout), contiguous :: force(:)
+    real(dp), intent(inout) :: coarse_share
     type(fuge_info), intent(inout) :: info
-    type(fuge_info) :: counted
 
-    if (l < self%depth) then
-      call mean_of_cells(self%levels(l)%weight, self%levels(l)%length, self%levels(l + 1)%weight, &
-                         self%levels(l + 1)%length)
-      if (l == 1) then
-        call add_to_cells(-1.0_dp, self%levels(2)%length, self%levels(1)%weight, self%levels(1)%length)
+    if (size(levels) > 1) then
+      call mean_of_cells(levels(1)%weight, levels(1)%length, levels(2)%weight, levels(2)%length)
+      if (allocated(levels(1)%present)) then
+        call subtract_cells(levels(2)%length, levels(1)%present, levels(1)%length)
       else
-        call add_to_cells(-1.0_dp, self%levels(l + 1)%length, self%levels(l)%present, self%levels(l)%length)
+        call subtract_cells(levels(2)%length, levels(1)%weight, levels(1)%length)
       end if
     end if
-    if (l == 1) then
-      call precondition(operator, self%levels(1)%length, force, info)
+    if (allocated(levels(1)%operator)) then
+      call filter_coarse(levels(1), operator%points(), force, coarse_share, info)
     else
-      associate (coarse => family%coarse(grid + DOUBLINGS*(l - 1))%operator)
-        call precondition(coarse, self%levels(l)%length, force, counted)
-      end associate
-      self%coarse_share = self%coarse_share + real(size(force), dp)/real(operator%points(), dp)
-      if (counted%failed()) call report(info, counted%status, counted%message)
-      ! The force on a cell is shared by its points in contact.
-      where (self%levels(l)%weight > 0.0_dp) force = force/self%levels(l)%weight
+      call precondition(operator, levels(1)%length, force, info)
     end if
-    if (info%failed() .or. l == self%depth) return
-    call mean_of_cells(self%levels(l)%weight, force, self%levels(l + 1)%weight, self%levels(l + 1)%force)
-    call add_everywhere(-1.0_dp, self%levels(l + 1)%force, force)
-    call filter_from(self, operator, family, grid, l + 1, self%levels(l + 1)%force, info)
-    call add_everywhere(1.0_dp, self%levels(l + 1)%force, force)
+    if (info%failed() .or. size(levels) == 1) return
+    call mean_of_cells(levels(1)%weight, force, levels(2)%weight, forces(2)%values)
+    call add_cells(-1.0_dp, forces(2)%values, force)
+    call filter_from(levels(2:), forces(2:), operator, forces(2)%values, coarse_share, info)
+    call add_cells(1.0_dp, forces(2)%values, force)
   end subroutine filter_from
+
+  !> The filter of a coarser grid; the force on a cell is shared by its points in contact.
+  subroutine filter_coarse(level, points, force, coarse_share, info)
+    type(filter_level), intent(in) :: level
+    integer, intent(in) :: points
+    real(dp), intent(inout), contiguous :: force(:)
+    real(dp), intent(inout) :: coarse_share
+    type(fuge_info), intent(inout) :: info
+    type(fuge_info) :: coarse
+
+    call precondition(level%operator, level%length, force, coarse)
+    coarse_share = coarse_share + real(size(force), dp)/real(points, dp)
+    if (coarse%failed()) call report(info, coarse%status, 'on the grid of '//text(size(force))//' cells: '//coarse%message)
+    where (level%weight > 0.0_dp) force = force/level%weight
+  end subroutine filter_coarse
 
   !> Means over groups of sixteen, each point counted `weight` times; 0 without any.
   pure subroutine mean_of_cells(weight, fine, coarse_weight, coarse)
@@ -219,25 +258,23 @@ contains
     end do
   end subroutine mean_of_cells
 
-  !> Add `factor` times each group's value where `present` is 1.
-  pure subroutine add_to_cells(factor, coarse, present, fine)
-    real(dp), intent(in) :: factor
+  !> Take each group's value off where `present` is 1.
+  pure subroutine subtract_cells(coarse, present, fine)
     real(dp), intent(in), contiguous :: coarse(:), present(:)
     real(dp), intent(inout), contiguous :: fine(:)
-    real(dp) :: value
     integer :: i, k
 
     do k = 1, size(coarse)
-      value = factor*coarse(k)
-      if (.not. abs(value) > 0.0_dp) cycle
+      if (.not. abs(coarse(k)) > 0.0_dp) cycle
       do i = (k - 1)*CELLS + 1, min(k*CELLS, size(fine))
-        fine(i) = fine(i) + value*present(i)
+        fine(i) = fine(i) - coarse(k)*present(i)
       end do
     end do
-  end subroutine add_to_cells
+  end subroutine subtract_cells
 
-  !> The same at all points of groups in contact: for forces, which count there only.
-  pure subroutine add_everywhere(factor, coarse, fine)
+  !> Add `factor` times each group's value to all of it: for forces, which count at the
+  !> contact only.
+  pure subroutine add_cells(factor, coarse, fine)
     real(dp), intent(in) :: factor
     real(dp), intent(in), contiguous :: coarse(:)
     real(dp), intent(inout), contiguous :: fine(:)
@@ -249,6 +286,6 @@ contains
         fine(i) = fine(i) + factor*coarse(k)
       end do
     end do
-  end subroutine add_everywhere
+  end subroutine add_cells
 
 end module fuge_contact_filter

@@ -22,8 +22,7 @@ module fuge_fft
   !> Transforms of one length, forward and back.
   !>
   !> The assignment makes plans of its own. A copy bit by bit, as allocate(source=)
-  !> makes, is not where its plans were made: it neither uses nor destroys them, and
-  !> has to plan for each transform.
+  !> makes, must not be used: it does not own the plans and cannot know how long they live.
   type, public :: fft_plan
     !> Number of values; 0 while not set.
     integer :: length = 0
@@ -74,6 +73,11 @@ module fuge_fft
       import :: c_int
       integer(c_int), intent(in), value :: threads
     end subroutine fftw_plan_with_nthreads
+
+    function fftw_planner_nthreads() bind(c, name='fftw_planner_nthreads') result(threads)
+      import :: c_int
+      integer(c_int) :: threads
+    end function fftw_planner_nthreads
 
     function fftw_plan_r2c(n, in, out, flags) bind(c, name='fftw_plan_dft_r2c_1d') result(plan)
       import :: c_int, c_ptr
@@ -166,16 +170,16 @@ contains
     type(fft_plan), intent(inout) :: plan
     type(fuge_info), intent(inout) :: info
     type(c_ptr) :: buffer
-    integer(c_int) :: flags
+    integer(c_int) :: before, flags
 
-    if (plan%threads > 1) then
-      if (fftw_init_threads() == 0) then
-        call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads, use 1')
-        return
-      end if
-      call fftw_plan_with_nthreads(int(plan%threads, c_int))
+    if (fftw_init_threads() == 0) then
+      call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads at all')
+      return
     end if
     call fftw_make_planner_thread_safe()
+    ! The host program may have a number of its own.
+    before = fftw_planner_nthreads()
+    if (before /= plan%threads) call fftw_plan_with_nthreads(int(plan%threads, c_int))
     ! FFTW aborts where its own tables find no memory: first see whether there is
     ! twice as much again. Nothing is written, so that it costs no time.
     buffer = fftw_malloc(3*buffer_bytes(plan%length))
@@ -185,7 +189,7 @@ contains
       plan%backward = fftw_plan_c2r(int(plan%length, c_int), buffer, buffer, flags)
       call fftw_free(buffer)
     end if
-    if (plan%threads > 1) call fftw_plan_with_nthreads(1_c_int)
+    if (before /= plan%threads) call fftw_plan_with_nthreads(before)
     if (c_associated(plan%forward) .and. c_associated(plan%backward)) then
       call plan%settle()
     else
@@ -304,22 +308,15 @@ contains
   !> length, as if zeros followed; `y` the first values of the product, at most the
   !> length. A plan may be used by several threads at once.
   !> `status`: 0, or with y as it was FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
-  recursive subroutine filter(self, spectrum, x, y, status)
+  subroutine filter(self, spectrum, x, y, status)
     class(fft_plan), intent(in) :: self
     real(dp), intent(in) :: spectrum(:), x(:)
     real(dp), intent(inout) :: y(:)
     integer, intent(out) :: status
     real(c_double), pointer, contiguous :: work(:)
     type(c_ptr) :: buffer
-    type(fft_plan) :: own
     integer :: k
 
-    if (self%length > 0 .and. .not. self%owner()) then
-      own = self
-      status = FUGE_ERR_MEMORY
-      if (own%length > 0) call own%filter(spectrum, x, y, status)
-      return
-    end if
     call take_buffer(self, size(spectrum) == self%length/2 + 1 .and. max(size(x), size(y)) <= self%length, &
                      buffer, work, status)
     if (status /= FUGE_DONE) return

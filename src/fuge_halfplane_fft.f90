@@ -27,9 +27,9 @@ module fuge_halfplane_fft
   !> Larger powers of two could overflow when squared or inverted.
   integer, parameter :: LARGEST_EXPONENT = maxexponent(1.0_dp)/2
   !> Fewer points have no coarser grid: they are solved at once.
-  integer, parameter :: FEWEST_TO_COARSEN = 64
+  integer, parameter :: FEWEST_CELLS = 32
 
-  !> Copy it by assignment: copies by allocate(source=) work, but have to plan for each product.
+  !> Copy it by assignment, never by allocate(source=): it owns plans of FFTW.
   type, extends(fuge_operator), public :: fuge_halfplane_operator
     private
     !> Number of cells n; 0 while not set.
@@ -54,6 +54,7 @@ module fuge_halfplane_fft
     procedure :: datum
     procedure :: has_filter
     procedure :: filter
+    procedure :: in_row
     procedure :: coarsen
     procedure, private :: copy
     generic :: assignment(=) => copy
@@ -357,22 +358,34 @@ contains
     end if
   end subroutine filter
 
-  !> Cells of twice the width, with the same element and boundary. None for fewer than 64
-  !> cells, for an odd number on a periodic surface, or without memory.
-  subroutine coarsen(self, coarse)
+  function in_row(self)
     class(fuge_halfplane_operator), intent(in) :: self
-    class(fuge_operator), allocatable, intent(out) :: coarse
-    type(fuge_halfplane_operator), allocatable :: twice
-    type(fuge_info) :: info
-    integer :: stat
+    logical :: in_row
 
-    if (self%count < FEWEST_TO_COARSEN) return
-    if (self%boundary == FUGE_PERIODIC .and. mod(self%count, 2) /= 0) return
-    allocate (twice, stat=stat)
+    in_row = self%count > 0
+  end function in_row
+
+  !> Wider cells, with the same element and boundary; on a periodic surface of the same
+  !> period, which may make them a little narrower than 2**doublings cells. None of
+  !> fewer than 32 cells, or without memory.
+  subroutine coarsen(self, doublings, coarse)
+    class(fuge_halfplane_operator), intent(in) :: self
+    integer, intent(in) :: doublings
+    class(fuge_operator), allocatable, intent(out) :: coarse
+    type(fuge_halfplane_operator), allocatable :: wider
+    type(fuge_info) :: info
+    real(dp) :: width
+    integer :: cells, stat
+
+    if (doublings < 1 .or. doublings > digits(self%count)) return
+    cells = (self%count - 1)/2**doublings + 1
+    if (cells < FEWEST_CELLS) return
+    width = self%spacing*2.0_dp**doublings
+    if (self%boundary == FUGE_PERIODIC) width = self%spacing*(real(self%count, dp)/real(cells, dp))
+    allocate (wider, stat=stat)
     if (stat /= 0) return
-    call twice%set((self%count + 1)/2, 2.0_dp*self%spacing, self%e_star, info, self%element, self%boundary, &
-                   self%plan%threads, self%plan%measured)
-    if (.not. info%failed()) call move_alloc(twice, coarse)
+    call wider%set(cells, width, self%e_star, info, self%element, self%boundary)
+    if (.not. info%failed()) call move_alloc(wider, coarse)
   end subroutine coarsen
 
 end module fuge_halfplane_fft

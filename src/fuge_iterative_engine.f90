@@ -9,7 +9,6 @@ module fuge_iterative_engine
   use fuge_check, only: LARGEST_EXPONENT
   use fuge_contact_exchange, only: exchange, exchange_in_row
   use fuge_contact_filter, only: contact_filter
-  use fuge_grids, only: grid_family
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_operator_type, only: fuge_operator
@@ -37,16 +36,14 @@ module fuge_iterative_engine
   !> Sets allowed for each point when the caller sets no limit.
   integer, parameter :: SETS_PER_POINT = 50
 
-  !> What one solve works on, and what stays the same on all grids.
-  type :: solve_context
-    type(grid_family) :: family
-    real(dp) :: tolerance = 0.0_dp
+  !> What is asked of one grid.
+  type :: demands
+    real(dp) :: tolerance = COARSE_TOLERANCE
+    !> Contact sets allowed, on all grids together.
     integer :: limit = 0
-    !> Points of the finest grid.
-    integer :: points = 0
-    !> Products and filters on coarser grids, as parts of those on the finest.
-    real(dp) :: coarse_products = 0.0_dp, coarse_filters = 0.0_dp
-  end type solve_context
+    !> A consistent set is enough: its forces only start a finer grid.
+    logical :: only_start = .true.
+  end type demands
 
 contains
 
@@ -64,8 +61,8 @@ contains
     real(dp), allocatable, intent(inout) :: part(:)
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
-    type(solve_context) :: context
     type(iterate) :: state
+    type(demands) :: wanted
     real(dp), allocatable :: shape(:)
     real(dp) :: lowest
     integer :: n, stat
@@ -74,29 +71,28 @@ contains
     call check_magnitude(problem, info)
     if (info%failed()) return
     allocate (shape(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(n)//' points')
-    if (.not. info%failed()) call context%family%make(operator, info)
-    if (info%failed()) return
-    context%points = n
-    context%limit = options%max_iterations
-    if (context%limit == 0) context%limit = int(min(real(SETS_PER_POINT, dp)*(real(n, dp) + 1.0_dp), 1.0e9_dp))
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(n)//' points')
+      return
+    end if
+    wanted%limit = options%max_iterations
+    if (wanted%limit == 0) wanted%limit = int(min(real(SETS_PER_POINT, dp)*(real(n, dp) + 1.0_dp), 1.0e9_dp))
 
     associate (load => problem%resultant(1))
       lowest = minval(problem%gap)
       shape = (problem%gap - lowest)/load
+      if (.not. allocated(part)) call climb(operator, wanted, shape, monitor, part, info)
+      if (.not. info%failed()) call make_iterate(state, n, info)
+      if (info%failed()) return
       if (allocated(part)) then
-        call make_iterate(state, n, info)
-        if (info%failed()) return
         state%force = part
       else
-        call climb_to_finest(context, shape, monitor, state, info)
-        if (info%failed()) return
+        state%force = 1.0_dp/real(n, dp)
       end if
-      context%tolerance = options%tolerance
-      call find_contact(operator, context, 0, shape, monitor, state, info)
+      wanted%tolerance = options%tolerance
+      wanted%only_start = .false.
+      call find_contact(operator, wanted, shape, monitor, state, info)
       if (info%failed()) return
-      info%products = info%products + ceiling(context%coarse_products)
-      info%filters = info%filters + ceiling(context%coarse_filters)
       ! What is left of a force that should have become zero.
       where (state%force <= 4.0_dp*epsilon(1.0_dp)*maxval(state%force)) state%force = 0.0_dp
       answer%force = load*state%force
@@ -121,56 +117,93 @@ contains
   end subroutine check_magnitude
 
   !> Forces to start from on the finest grid: those of the coarsest one, carried from grid
-  !> to grid.
-  subroutine climb_to_finest(context, shape, monitor, state, info)
-    type(solve_context), intent(inout) :: context
+  !> to grid. `start` (n) stays unallocated where there are no coarser grids.
+  subroutine climb(operator, wanted, shape, monitor, start, info)
+    class(fuge_operator), intent(in) :: operator
+    type(demands), intent(in) :: wanted
     real(dp), intent(in) :: shape(:)
     class(fuge_monitor), intent(inout) :: monitor
-    type(iterate), intent(inout) :: state
+    real(dp), allocatable, intent(inout) :: start(:)
     type(fuge_info), intent(inout) :: info
-    type(iterate) :: coarse
-    real(dp), allocatable :: force(:), coarse_shape(:)
-    type(fuge_info) :: counted
-    real(dp) :: share
+    class(fuge_operator), allocatable :: coarse
+    real(dp) :: products, filters
     integer :: k
 
-    context%tolerance = COARSE_TOLERANCE
-    do k = size(context%family%coarse), 1, -1
-      associate (grid => context%family%coarse(k)%operator)
-        call shape_on_grid(shape, 2**k, grid%points(), coarse_shape, info)
-        if (.not. info%failed()) call make_iterate(coarse, grid%points(), info)
-        if (info%failed()) return
-        call set_start(force, coarse%force)
-        counted = fuge_info()
-        counted%iterations = info%iterations
-        call find_contact(grid, context, k, coarse_shape, monitor, coarse, counted)
-        info%iterations = counted%iterations
-        share = real(grid%points(), dp)/real(size(shape), dp)
-        context%coarse_products = context%coarse_products + share*real(counted%products, dp)
-        context%coarse_filters = context%coarse_filters + share*real(counted%filters, dp)
-        if (counted%failed()) then
-          call report(info, counted%status, 'on the grid of '//text(grid%points())//' points: '//counted%message)
-          return
-        end if
-        call move_alloc(coarse%force, force)
-        coarse = iterate()
-      end associate
+    products = 0.0_dp
+    filters = 0.0_dp
+    do k = digits(operator%points()) - 1, 1, -1
+      call operator%coarsen(k, coarse)
+      if (.not. allocated(coarse)) cycle
+      if (coarse%points() /= (operator%points() - 1)/2**k + 1) cycle
+      call climb_onto(coarse, wanted, shape, 2**k, monitor, start, products, filters, info)
+      if (info%failed()) exit
     end do
-    call make_iterate(state, size(shape), info)
-    if (.not. info%failed()) call set_start(force, state%force)
-  end subroutine climb_to_finest
+    if (allocated(start) .and. .not. info%failed()) call refine_grid(size(shape), start, info)
+    info%products = info%products + ceiling(products)
+    info%filters = info%filters + ceiling(filters)
+  end subroutine climb
 
-  !> Forces from the next coarser grid, or even ones.
-  pure subroutine set_start(coarse, force)
-    real(dp), intent(in), allocatable :: coarse(:)
-    real(dp), intent(out) :: force(:)
+  !> Solve on one coarser grid. `start` are the forces of the grid before, then those of
+  !> this one; `products` and `filters` grow by their share of the finest grid's.
+  subroutine climb_onto(coarse, wanted, shape, width, monitor, start, products, filters, info)
+    class(fuge_operator), intent(in) :: coarse
+    type(demands), intent(in) :: wanted
+    real(dp), intent(in) :: shape(:)
+    integer, intent(in) :: width
+    class(fuge_monitor), intent(inout) :: monitor
+    real(dp), allocatable, intent(inout) :: start(:)
+    real(dp), intent(inout) :: products, filters
+    type(fuge_info), intent(inout) :: info
+    type(iterate) :: state
+    type(fuge_info) :: counted
+    real(dp), allocatable :: coarse_shape(:)
+    real(dp) :: share
+    integer :: n
 
-    if (allocated(coarse)) then
-      call interpolate(coarse, force)
+    n = coarse%points()
+    call shape_on_grid(shape, width, n, coarse_shape, info)
+    if (.not. info%failed()) call make_iterate(state, n, info)
+    if (allocated(start) .and. .not. info%failed()) call refine_grid(n, start, info)
+    if (info%failed()) return
+    if (allocated(start)) then
+      state%force = start
     else
-      force = 1.0_dp/real(size(force), dp)
+      state%force = 1.0_dp/real(n, dp)
     end if
-  end subroutine set_start
+    counted%iterations = info%iterations
+    call find_contact(coarse, wanted, coarse_shape, monitor, state, counted)
+    info%iterations = counted%iterations
+    share = real(n, dp)/real(size(shape), dp)
+    products = products + share*real(counted%products, dp)
+    filters = filters + share*real(counted%filters, dp)
+    if (counted%failed()) then
+      call report(info, counted%status, 'on the grid of '//text(n)//' points: '//counted%message)
+    else
+      call move_alloc(state%force, start)
+    end if
+  end subroutine climb_onto
+
+  !> Forces of a grid carried to the next finer one, of n points.
+  pure subroutine refine_grid(n, force, info)
+    integer, intent(in) :: n
+    real(dp), allocatable, intent(inout) :: force(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: fine(:)
+    integer :: stat
+
+    if (size(force) /= (n + 1)/2) then
+      ! A grid in between is missing.
+      deallocate (force)
+      return
+    end if
+    allocate (fine(n), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the start on '//text(n)//' points')
+      return
+    end if
+    call interpolate(force, fine)
+    call move_alloc(fine, force)
+  end subroutine refine_grid
 
   !> Linear between the centres of the coarse cells.
   pure subroutine interpolate(coarse, fine)
@@ -209,11 +242,10 @@ contains
   !>
   !> Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
-  subroutine find_contact(operator, context, grid, shape, monitor, state, info)
+  subroutine find_contact(operator, wanted, shape, monitor, state, info)
     class(fuge_operator), intent(in) :: operator
-    type(solve_context), intent(inout) :: context
-    integer, intent(in) :: grid
-    real(dp), intent(in) :: shape(:)
+    type(demands), intent(in) :: wanted
+    real(dp), intent(in), contiguous :: shape(:)
     class(fuge_monitor), intent(inout) :: monitor
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
@@ -221,36 +253,31 @@ contains
     logical, allocatable :: pulls(:), penetrates(:)
     real(dp) :: before
     integer :: wrong, fewest, patience_left, stat
-    logical :: thorough
+    logical :: thorough, reached, in_row
 
     allocate (pulls(size(shape)), penetrates(size(shape)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(shape))//' points')
       return
     end if
+    in_row = operator%in_row()
     fewest = huge(fewest)
     patience_left = PATIENCE
     before = huge(before)
     thorough = .false.
     state%contact = state%force > 0.0_dp
-    call push(operator, state, info)
+    call restart(operator, state, info)
     do while (.not. info%failed())
-      call settle(operator, context, grid, filter, shape, thorough, monitor, state, info)
+      call settle(operator, wanted, filter, shape, thorough, monitor, state, reached, info)
       if (info%failed()) exit
       pulls = state%contact .and. state%force < 0.0_dp
-      penetrates = .not. state%contact .and. open_gap(shape, state%displacement, state%motion) < -MARGIN*state%target
+      penetrates = .not. state%contact .and. open_gap(shape, state%displacement, state%motion) < -noise_of(wanted, state)
       wrong = count(pulls) + count(penetrates)
       if (wrong == 0) then
-        ! A start for a finer grid is good enough when its set is.
-        if (grid > 0) exit
-        if (thorough .or. state%residual <= state%target) then
-          ! Displacements by recurrence have drifted.
-          call push(operator, state, info)
-          if (info%failed()) exit
-          call measure(shape, state, info)
-          if (info%failed()) exit
-          if (state%residual <= state%target .or. .not. state%residual < 0.5_dp*before) exit
-          before = state%residual
+        if (wanted%only_start) exit
+        if (thorough .or. reached) then
+          call confirm(operator, wanted, shape, before, state, reached, info)
+          if (reached .or. info%failed()) exit
         end if
         thorough = .true.
         cycle
@@ -260,49 +287,81 @@ contains
       if (wrong < fewest) patience_left = PATIENCE
       fewest = min(fewest, wrong)
       if (patience_left < 0) then
-        call descend(operator, context, grid, filter, shape, monitor, state, info)
+        call descend(operator, wanted, filter, shape, monitor, state, info)
         exit
-      else if (2*patience_left > PATIENCE .and. size(context%family%coarse) > 0) then
+      else if (in_row .and. 2*patience_left > PATIENCE) then
         call exchange_in_row(pulls, penetrates, state%contact)
       else
         call exchange(pulls, penetrates, state%contact)
       end if
-      call push(operator, state, info)
+      call restart(operator, state, info)
     end do
-    context%coarse_filters = context%coarse_filters + filter%coarse_share*real(size(shape), dp)/real(context%points, dp)
+    info%filters = info%filters + ceiling(filter%coarse_share)
   end subroutine find_contact
 
-  !> Solve for the forces of the present set; one more iteration.
-  subroutine settle(operator, context, grid, filter, shape, thorough, monitor, state, info)
+  !> Is a set without wrong points solved, judged by a fresh product and not by
+  !> recurrences, which drift? `done` also if the residual does not fall any more, from
+  !> the one `before`: then the certificate has the last word.
+  subroutine confirm(operator, wanted, shape, before, state, done, info)
     class(fuge_operator), intent(in) :: operator
-    type(solve_context), intent(in) :: context
-    integer, intent(in) :: grid
+    type(demands), intent(in) :: wanted
+    real(dp), intent(in), contiguous :: shape(:)
+    real(dp), intent(inout) :: before
+    type(iterate), intent(inout) :: state
+    logical, intent(out) :: done
+    type(fuge_info), intent(inout) :: info
+
+    done = .false.
+    call restart(operator, state, info)
+    if (.not. info%failed()) call measure(operator, shape, state, info)
+    if (info%failed()) return
+    done = state%residual <= MARGIN*wanted%tolerance*state%least_length .or. .not. state%residual < 0.5_dp*before
+    before = state%residual
+  end subroutine confirm
+
+  !> Penetrations below this are rounding.
+  pure function noise_of(wanted, state) result(noise)
+    type(demands), intent(in) :: wanted
+    type(iterate), intent(in) :: state
+    real(dp) :: noise
+
+    noise = MARGIN**2*wanted%tolerance*state%least_length
+  end function noise_of
+
+  !> Solve for the forces of the present set; one more iteration.
+  subroutine settle(operator, wanted, filter, shape, thorough, monitor, state, reached, info)
+    class(fuge_operator), intent(in) :: operator
+    type(demands), intent(in) :: wanted
     type(contact_filter), intent(inout) :: filter
-    real(dp), intent(in) :: shape(:)
+    real(dp), intent(in), contiguous :: shape(:)
     logical, intent(in) :: thorough
     class(fuge_monitor), intent(inout) :: monitor
     type(iterate), intent(inout) :: state
+    logical, intent(out) :: reached
     type(fuge_info), intent(inout) :: info
+    real(dp) :: relative
     integer :: status
 
-    if (info%iterations >= context%limit) then
-      call report(info, FUGE_ERR_ITERATION_LIMIT, text(context%limit)//' contact sets were not enough: raise ' &
+    reached = .false.
+    if (info%iterations >= wanted%limit) then
+      call report(info, FUGE_ERR_ITERATION_LIMIT, text(wanted%limit)//' contact sets were not enough: raise ' &
                   //'max_iterations (0 allows '//text(SETS_PER_POINT)//' for each point)')
       return
     end if
-    call filter%set(operator, context%family, grid, state%contact, maxval(abs(state%displacement)), info)
+    call filter%set(operator, state%contact, maxval(abs(state%displacement)), info)
     if (info%failed()) return
-    call relax(operator, context%family, grid, filter, shape, MARGIN*context%tolerance, thorough, state, info)
+    call relax(operator, filter, shape, MARGIN*wanted%tolerance, thorough, state, reached, info)
     if (info%failed()) return
     info%iterations = info%iterations + 1
-    call tell_monitor(monitor, info%iterations, state%residual*(MARGIN*context%tolerance/state%target), &
-                      count(state%contact), status)
+    relative = 0.0_dp
+    if (state%residual > 0.0_dp) relative = state%residual/max(state%least_length, state%residual)
+    call tell_monitor(monitor, info%iterations, relative, count(state%contact), status)
     if (status /= FUGE_DONE) call report(info, FUGE_ERR_CANCELLED, 'cancelled by the progress callback after ' &
                                          //text(info%iterations)//' contact sets')
   end subroutine settle
 
   !> Forces of the contact set that only push and sum to one, and their displacements.
-  subroutine push(operator, state, info)
+  subroutine restart(operator, state, info)
     class(fuge_operator), intent(in) :: operator
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
@@ -320,26 +379,27 @@ contains
       where (state%contact) state%force = 1.0_dp/real(count(state%contact), dp)
     end if
     call multiply(operator, state%force, state%displacement, info)
-  end subroutine push
+  end subroutine restart
 
   !> Down the energy: from pushing forces towards the answer of their set as far as no
-  !> force pulls, then the point with the most negative gap joins, until none has one.
-  subroutine descend(operator, context, grid, filter, shape, monitor, state, info)
+  !> force pulls, then the point with the most negative gap joins, until none has one or
+  !> sets are not solved well enough any more for that to mean something.
+  subroutine descend(operator, wanted, filter, shape, monitor, state, info)
     class(fuge_operator), intent(in) :: operator
-    type(solve_context), intent(inout) :: context
-    integer, intent(in) :: grid
+    type(demands), intent(in) :: wanted
     type(contact_filter), intent(inout) :: filter
-    real(dp), intent(in) :: shape(:)
+    real(dp), intent(in), contiguous :: shape(:)
     class(fuge_monitor), intent(inout) :: monitor
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: reached(:)
+    real(dp), allocatable :: force(:)
     logical, allocatable :: barred(:), tied(:)
     integer, allocatable :: side(:)
     integer :: newest, n, stat
+    logical :: reached
 
     n = size(shape)
-    allocate (reached(n), barred(n), tied(n), side(n), stat=stat)
+    allocate (force(n), barred(n), tied(n), side(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the way down the energy of '//text(n)//' points')
       return
@@ -347,40 +407,41 @@ contains
     barred = .false.
     tied = .false.
     newest = 0
-    call push(operator, state, info)
+    call restart(operator, state, info)
     state%contact = state%force > 0.0_dp
     do while (.not. info%failed())
-      reached = state%force
-      call settle(operator, context, grid, filter, shape, .true., monitor, state, info)
+      force = state%force
+      call settle(operator, wanted, filter, shape, .true., monitor, state, reached, info)
       if (info%failed()) exit
       if (any(state%contact .and. state%force <= 0.0_dp)) then
         side = merge(1, 0, state%contact)
-        call step_back(state%force, tied, side, reached, newest, barred)
+        call step_back(state%force, tied, side, force, newest, barred)
         state%contact = side /= 0
-        state%force = reached
+        state%force = force
       else
         if (newest > 0) barred = barred .and. barred(newest)
-        newest = worst_gap(shape, state, barred)
-        if (newest == 0) exit
+        newest = worst_gap(shape, state, noise_of(wanted, state), barred)
+        if (newest == 0 .or. .not. reached) exit
         state%contact(newest) = .true.
       end if
-      call push(operator, state, info)
+      call restart(operator, state, info)
     end do
-    if (.not. info%failed()) call push(operator, state, info)
-    if (.not. info%failed()) call measure(shape, state, info)
+    if (.not. info%failed()) call restart(operator, state, info)
+    if (.not. info%failed()) call measure(operator, shape, state, info)
   end subroutine descend
 
   !> The point that penetrates most, of those not barred; 0 if there is none.
-  pure function worst_gap(shape, state, barred) result(worst)
+  pure function worst_gap(shape, state, noise, barred) result(worst)
     real(dp), intent(in) :: shape(:)
     type(iterate), intent(in) :: state
+    real(dp), intent(in) :: noise
     logical, intent(in) :: barred(:)
     integer :: worst
     real(dp) :: gap, deepest
     integer :: k
 
     worst = 0
-    deepest = -MARGIN*state%target
+    deepest = -noise
     do k = 1, size(shape)
       if (state%contact(k) .or. barred(k)) cycle
       gap = open_gap(shape(k), state%displacement(k), state%motion)

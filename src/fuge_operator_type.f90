@@ -23,7 +23,9 @@ module fuge_operator_type
     procedure :: has_filter => without_filter
     !> force = M length, M symmetric, positive definite and near the inverse of A.
     procedure :: filter => copy_through
-    !> The same body on cells of twice the width, for a first guess; none by default.
+    !> Are the points cells side by side in the order of their numbers?
+    procedure :: in_row => in_no_order
+    !> The same body on wider cells, for a first guess; none by default.
     procedure :: coarsen => no_coarser
   end type fuge_operator
 
@@ -66,13 +68,22 @@ contains
     status = merge(FUGE_DONE, FUGE_ERR_SIZE, self%points() == size(length))
   end subroutine copy_through
 
-  !> `coarse` has (n+1)/2 points, each in the place of points 2k-1 and 2k of this one (the
-  !> last may stand for one alone), or stays unallocated where there is none.
-  subroutine no_coarser(self, coarse)
+  function in_no_order(self) result(in_row)
     class(fuge_operator), intent(in) :: self
+    logical :: in_row
+
+    in_row = self%points() < 0
+  end function in_no_order
+
+  !> `coarse` has n/2**doublings points, rounded up, each in the place of 2**doublings
+  !> consecutive ones of this operator (the last may stand for fewer), or stays
+  !> unallocated where there is no such operator. Only for points in a row.
+  subroutine no_coarser(self, doublings, coarse)
+    class(fuge_operator), intent(in) :: self
+    integer, intent(in) :: doublings
     class(fuge_operator), allocatable, intent(out) :: coarse
 
-    if (self%points() < 0) allocate (coarse, source=self)
+    if (self%points() < 0 .and. doublings < 0) allocate (coarse, source=self)
   end subroutine no_coarser
 
   function no_datum(self) result(datum)

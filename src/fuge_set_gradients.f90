@@ -2,7 +2,6 @@
 !> their sum stays, and all gaps of the set become equal.
 module fuge_set_gradients
   use fuge_contact_filter, only: contact_filter
-  use fuge_grids, only: grid_family
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_products, only: multiply
@@ -19,7 +18,8 @@ module fuge_set_gradients
   real(dp), parameter :: ENOUGH = 0.2_dp
   !> More iterations than this, beyond the number of points, are rounding.
   integer, parameter :: SPARE_ITERATIONS = 20
-  integer, parameter :: MOST_ITERATIONS = 2000
+  !> And never more than these: then the operator needs a filter.
+  integer, parameter :: MOST_ITERATIONS = 20000
   !> A negative energy below this part of its terms is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-10_dp
 
@@ -35,10 +35,11 @@ module fuge_set_gradients
     real(dp) :: motion = 0.0_dp
     !> Largest difference from `motion` on the contact.
     real(dp) :: residual = huge(1.0_dp)
-    !> Residual that is asked for.
-    real(dp) :: target = 0.0_dp
+    !> Least length of a contact point as in the certificate: its depth and the terms of
+    !> its displacement. Residuals are compared with it.
+    real(dp) :: least_length = 0.0_dp
     !> The stretches of the set, made by `relax` and `measure`.
-    type(stretches) :: over
+    type(stretches) :: over = stretches()
     !> Work space, (n); of `remainder` and `correction` only the contact counts, elsewhere
     !> `direction` is zero.
     real(dp), allocatable, private :: remainder(:), correction(:), direction(:), image(:)
@@ -62,44 +63,46 @@ contains
   !>
   !> `shape` (n) gaps per load; `state` forces, displacements and set, new forces and
   !> displacements on return (the latter by recurrence). Ends when the residual is at
-  !> most `tolerance` times the least length of a contact point (as in the certificate:
-  !> its depth and the terms of its displacement) or, unless `thorough`, when it is
-  !> small enough to tell which points pull and which penetrate. Errors: those of the
+  !> most `tolerance` times the least length of the set, which is `reached`; unless
+  !> `thorough`, when it is small enough to tell which points pull and which penetrate;
+  !> or when only rounding is left, or too many iterations have been made. Errors: those of the
   !> operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY.
-  subroutine relax(operator, family, grid, filter, shape, tolerance, thorough, state, info)
+  subroutine relax(operator, filter, shape, tolerance, thorough, state, reached, info)
     class(fuge_operator), intent(in) :: operator
-    type(grid_family), intent(in) :: family
-    integer, intent(in) :: grid
     type(contact_filter), intent(inout) :: filter
-    real(dp), intent(in) :: shape(:), tolerance
+    real(dp), intent(in), contiguous :: shape(:)
+    real(dp), intent(in) :: tolerance
     logical, intent(in) :: thorough
     type(iterate), intent(inout) :: state
+    logical, intent(out) :: reached
     type(fuge_info), intent(inout) :: info
     real(dp) :: drift, tension, penetration, product, previous, curvature, step
     integer :: iteration, limit
     logical :: judges_forces, filtered
 
+    reached = .false.
     filtered = operator%has_filter()
     judges_forces = filtered .and. .not. thorough
-    call start(shape, state, penetration, info)
+    call start(operator, shape, state, penetration, info)
     if (info%failed()) return
     limit = min(state%over%points + SPARE_ITERATIONS, MOST_ITERATIONS)
-    call operator%magnitude(state%force, state%displacement, state%image)
-    state%target = tolerance*minval(abs(shape - state%motion) + state%image, mask=state%contact)
     state%direction = 0.0_dp
     previous = 1.0_dp
     do iteration = 0, limit
-      if (state%residual <= state%target .or. iteration == limit) return
+      reached = state%residual <= tolerance*state%least_length
+      if (reached .or. iteration == limit) return
       if (iteration > 0 .and. .not. thorough .and. state%residual <= ENOUGH*penetration) return
-      call filter%apply(operator, family, grid, state%over, state%remainder, state%correction, info)
+      call filter%apply(operator, state%over, state%remainder, state%correction, info)
       if (info%failed()) return
       if (iteration > 0 .and. judges_forces) then
         call estimate(state, drift, tension)
         if (drift <= ENOUGH*tension) return
       end if
       product = inner(state%over, state%remainder, state%correction)
-      ! Nothing is left but rounding.
-      if (.not. product > 0.0_dp) return
+      if (.not. product > 0.0_dp) then
+        call explain_filter(state, product, info)
+        return
+      end if
       call turn(state%over, product/previous, state%correction, state%direction)
       previous = product
       call multiply(operator, state%direction, state%image, info)
@@ -120,19 +123,22 @@ contains
     end do
   end subroutine relax
 
-  !> Motion and residual of the present forces and displacements. Error: FUGE_ERR_MEMORY.
-  pure subroutine measure(shape, state, info)
-    real(dp), intent(in) :: shape(:)
+  !> Motion, residual and least length of the present forces and displacements. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine measure(operator, shape, state, info)
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in), contiguous :: shape(:)
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
     real(dp) :: penetration
 
-    call start(shape, state, penetration, info)
+    call start(operator, shape, state, penetration, info)
   end subroutine measure
 
   !> What lengths differ by on the contact set, and the worst penetration off it.
-  pure subroutine start(shape, state, penetration, info)
-    real(dp), intent(in) :: shape(:)
+  subroutine start(operator, shape, state, penetration, info)
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in), contiguous :: shape(:)
     type(iterate), intent(inout) :: state
     real(dp), intent(out) :: penetration
     type(fuge_info), intent(inout) :: info
@@ -146,7 +152,23 @@ contains
     ! The mean of large numbers is not exact: once more for what is left of it.
     call centre(state)
     penetration = worst_penetration(shape, state)
+    call operator%magnitude(state%force, state%displacement, state%image)
+    state%least_length = least_length(state, shape, state%image)
   end subroutine start
+
+  pure function least_length(state, shape, terms) result(least)
+    type(iterate), intent(in) :: state
+    real(dp), intent(in), contiguous :: shape(:), terms(:)
+    real(dp) :: least
+    integer :: i, k
+
+    least = huge(least)
+    do i = 1, size(state%over%first)
+      do k = state%over%first(i), state%over%last(i)
+        least = min(least, abs(shape(k) - state%motion) + terms(k))
+      end do
+    end do
+  end function least_length
 
   !> direction = correction + factor*direction on the contact.
   pure subroutine turn(over, factor, correction, direction)
@@ -165,7 +187,8 @@ contains
 
   !> One step along the direction.
   pure subroutine advance(shape, step, state, penetration)
-    real(dp), intent(in) :: shape(:), step
+    real(dp), intent(in), contiguous :: shape(:)
+    real(dp), intent(in) :: step
     type(iterate), intent(inout) :: state
     real(dp), intent(out) :: penetration
     real(dp) :: mean
@@ -211,7 +234,7 @@ contains
 
   !> The deepest that an open point is pressed in, 0 if none is.
   pure function worst_penetration(shape, state) result(depth)
-    real(dp), intent(in) :: shape(:)
+    real(dp), intent(in), contiguous :: shape(:)
     type(iterate), intent(in) :: state
     real(dp) :: depth
     integer :: i, first, last
@@ -222,7 +245,8 @@ contains
       last = size(shape)
       if (i > 0) first = state%over%last(i) + 1
       if (i < size(state%over%first)) last = state%over%first(i + 1) - 1
-      if (first <= last) depth = max(depth, depth_between(shape(first:last), state%displacement(first:last), state%motion))
+      if (first <= last) depth = max(depth, depth_between(shape(first:last), state%displacement(first:last), &
+                                                          state%motion))
     end do
   end function worst_penetration
 
@@ -262,13 +286,25 @@ contains
     gap = (shape - motion) + displacement
   end function open_gap
 
+  !> No energy in the remainder: nothing is left but rounding, or the filter is not
+  !> positive definite.
+  pure subroutine explain_filter(state, product, info)
+    type(iterate), intent(in) :: state
+    real(dp), intent(in) :: product
+    type(fuge_info), intent(inout) :: info
+
+    if (product >= -ROUNDING*largest(state%over, state%remainder)*largest(state%over, state%correction)) return
+    call report(info, FUGE_ERR_NOT_DEFINITE, 'filter '//text(info%filters)//': lengths with the negative energy ' &
+                //text(product)//': the filter of the operator is not positive definite')
+  end subroutine explain_filter
+
   !> No energy in a direction: rounding, or an operator that is not positive definite.
   pure subroutine explain(state, curvature, info)
     type(iterate), intent(in) :: state
     real(dp), intent(in) :: curvature
     type(fuge_info), intent(inout) :: info
 
-    if (curvature >= -ROUNDING*inner(state%over, abs(state%direction), abs(state%image))) return
+    if (curvature >= -ROUNDING*largest(state%over, state%direction)*largest(state%over, state%image)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces with zero sum store the ' &
                 //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
   end subroutine explain

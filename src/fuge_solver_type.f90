@@ -14,8 +14,9 @@ module fuge_solver_type
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
   use fuge_scene, only: contact_scene, make_scene
   use fuge_set_answer, only: solve_set, displaced, add_deflection
-  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
-    FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
+    FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
+    FUGE_ERR_OVERFLOW
   use fuge_text, only: text
   implicit none
   private
@@ -145,8 +146,11 @@ contains
     integer :: n
 
     n = operator%points()
-    if (.not. (self%factor%is_set() .and. allocated(self%side))) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
+    if (.not. has_coefficients(operator)) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a fuge_dense_operator')
+    else if (.not. (self%factor%is_set() .and. allocated(self%side))) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load by a dense engine: solve first, not by ' &
+                  //'FUGE_ITERATIVE')
     else if (size(gap_change) /= n .or. size(self%side) /= n) then
       call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
                   //text(n)//' points and the last solution '//text(size(self%side)))
@@ -171,10 +175,19 @@ contains
       if (self%scene%constant) motion(1) = motion(1) + datum*load(1)
       call self%scene%motions_of(load_change, motion, found%rigid)
       call take(found, change)
-    class default
-      call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a fuge_dense_operator')
     end select
   end subroutine general_derivative
+
+  pure function has_coefficients(operator) result(has)
+    class(fuge_operator), intent(in) :: operator
+    logical :: has
+
+    has = .false.
+    select type (operator)
+    class is (fuge_dense_operator)
+      has = .true.
+    end select
+  end function has_coefficients
 
   pure subroutine take(answer, solution)
     type(fuge_solution), intent(inout) :: answer, solution
@@ -290,6 +303,11 @@ contains
     type(fuge_info), intent(inout) :: info
     logical :: warm
 
+    if (options%keep_history) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'only the tableau keeps a history, and it needs a fuge_dense_operator: ' &
+                  //'leave keep_history out')
+      return
+    end if
     if (.not. problem%is_plain()) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'the iterative engine solves one-sided contact under one load: use ' &
                   //'FUGE_ACTIVE_SET with a fuge_dense_operator')
@@ -301,12 +319,14 @@ contains
       if (.not. warm) deallocate (self%part)
     end if
     call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
-    if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
-      info = fuge_info()
+    ! What the operator or the monitor ends is not for us to try again.
+    if (warm .and. any(info%status == [FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW])) then
+      ! The counts stay.
+      call report(info, FUGE_DONE, '')
       if (allocated(self%part)) deallocate (self%part)
       call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
     end if
-    self%last_load = problem%resultant(1)
+    if (.not. info%failed()) self%last_load = problem%resultant(1)
   end subroutine iterate_warm
 
   !> Keep the contact set for the next solve; without memory that starts from scratch.

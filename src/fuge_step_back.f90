@@ -25,7 +25,7 @@ contains
 
     k = 0
     if (newest > 0) then
-      if (pulls(wanted(newest), side(newest), tied(newest))) k = newest
+      if (pulls(wanted(newest), side(newest), tied(newest)) .and. .not. abs(force(newest)) > 0.0_dp) k = newest
     end if
     if (k > 0) then
       barred(k) = .true.
