@@ -98,8 +98,10 @@ contains
         if (drift <= ENOUGH*tension) return
       end if
       product = inner(state%over, state%remainder, state%correction)
-      ! Nothing is left but rounding.
-      if (.not. product > 0.0_dp) return
+      if (.not. product > 0.0_dp) then
+        call explain_filter(state, product, info)
+        return
+      end if
       call turn(state%over, product/previous, state%correction, state%direction)
       previous = product
       call multiply(operator, state%direction, state%image, info)
@@ -261,6 +263,18 @@ contains
 
     gap = (shape - motion) + displacement
   end function open_gap
+
+  !> No energy in the remainder: nothing is left but rounding, or the filter is not
+  !> positive definite.
+  pure subroutine explain_filter(state, product, info)
+    type(iterate), intent(in) :: state
+    real(dp), intent(in) :: product
+    type(fuge_info), intent(inout) :: info
+
+    if (product >= -ROUNDING*inner(state%over, abs(state%remainder), abs(state%correction))) return
+    call report(info, FUGE_ERR_NOT_DEFINITE, 'filter '//text(info%filters)//': lengths with the negative energy ' &
+                //text(product)//': the filter of the operator is not positive definite')
+  end subroutine explain_filter
 
   !> No energy in a direction: rounding, or an operator that is not positive definite.
   pure subroutine explain(state, curvature, info)

@@ -14,7 +14,8 @@ module fuge_solver_type
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
   use fuge_set_answer, only: solve_set, add_deflection
   use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
-    FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED
+    FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
+    FUGE_ERR_OVERFLOW
   use fuge_text, only: text
   implicit none
   private
@@ -246,7 +247,8 @@ contains
       if (.not. warm) deallocate (self%part)
     end if
     call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
-    if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
+    ! What the operator or the monitor ends is not for us to try again.
+    if (warm .and. any(info%status == [FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW])) then
       info = fuge_info()
       if (allocated(self%part)) deallocate (self%part)
       call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
