@@ -295,11 +295,26 @@ contains
     call relax(operator, context%family, grid, filter, shape, MARGIN*context%tolerance, thorough, state, info)
     if (info%failed()) return
     info%iterations = info%iterations + 1
-    call tell_monitor(monitor, info%iterations, state%residual*(MARGIN*context%tolerance/state%target), &
+    call tell_monitor(monitor, info%iterations, MARGIN*context%tolerance*ratio(state%residual, state%target), &
                       count(state%contact), status)
     if (status /= FUGE_DONE) call report(info, FUGE_ERR_CANCELLED, 'cancelled by the progress callback after ' &
                                          //text(info%iterations)//' contact sets')
   end subroutine settle
+
+  !> value/measure for the monitor; 0 for nothing, whatever the measure.
+  pure function ratio(value, measure)
+    real(dp), intent(in) :: value, measure
+    real(dp) :: ratio
+
+    ratio = 0.0_dp
+    if (.not. value > 0.0_dp) return
+    ratio = huge(ratio)
+    if (measure >= 1.0_dp) then
+      ratio = value/measure
+    else if (value < measure*huge(ratio)) then
+      ratio = value/measure
+    end if
+  end function ratio
 
   !> Forces of the contact set that only push and sum to one, and their displacements.
   subroutine push(operator, state, info)
