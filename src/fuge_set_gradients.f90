@@ -75,7 +75,7 @@ contains
     logical, intent(in) :: thorough
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
-    real(dp) :: drift, tension, penetration, product, previous, curvature, step
+    real(dp) :: drift, tension, penetration, product, previous, curvature, step, squares, softest
     integer :: iteration, limit
     logical :: judges_forces, filtered
 
@@ -88,6 +88,7 @@ contains
     state%target = tolerance*minval(abs(shape - state%motion) + state%image, mask=state%contact)
     state%direction = 0.0_dp
     previous = 1.0_dp
+    softest = 0.0_dp
     do iteration = 0, limit
       if (state%residual <= state%target .or. iteration == limit) return
       if (iteration > 0 .and. .not. thorough .and. state%residual <= ENOUGH*penetration) return
@@ -107,10 +108,12 @@ contains
       call multiply(operator, state%direction, state%image, info)
       if (info%failed()) return
       curvature = inner(state%over, state%direction, state%image)
+      squares = inner(state%over, state%direction, state%direction)
       if (.not. curvature > 0.0_dp) then
-        call explain(state, curvature, info)
+        call explain(state, curvature, softest*squares, info)
         return
       end if
+      if (curvature > softest*squares) softest = curvature/squares
       step = product/curvature
       call advance(shape, step, state, penetration)
       if (.not. (thorough .or. filtered)) then
@@ -277,12 +280,14 @@ contains
   end subroutine explain_filter
 
   !> No energy in a direction: rounding, or an operator that is not positive definite.
-  pure subroutine explain(state, curvature, info)
+  !> `most` is what the softest direction so far would store in forces of this size: where
+  !> the operator is singular the image is nothing but rounding of that.
+  pure subroutine explain(state, curvature, most, info)
     type(iterate), intent(in) :: state
-    real(dp), intent(in) :: curvature
+    real(dp), intent(in) :: curvature, most
     type(fuge_info), intent(inout) :: info
 
-    if (curvature >= -ROUNDING*inner(state%over, abs(state%direction), abs(state%image))) return
+    if (curvature >= -ROUNDING*max(most, inner(state%over, abs(state%direction), abs(state%image)))) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces with zero sum store the ' &
                 //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
   end subroutine explain
