@@ -247,7 +247,7 @@ contains
           ! Displacements by recurrence have drifted.
           call push(operator, state, info)
           if (info%failed()) exit
-          call measure(shape, state, info)
+          call measure(operator, shape, MARGIN*context%tolerance, state, info)
           if (info%failed()) exit
           if (state%residual <= state%target .or. .not. state%residual < 0.5_dp*before) exit
           before = state%residual
@@ -378,7 +378,7 @@ contains
       call push(operator, state, info)
     end do
     if (.not. info%failed()) call push(operator, state, info)
-    if (.not. info%failed()) call measure(shape, state, info)
+    if (.not. info%failed()) call measure(operator, shape, MARGIN*context%tolerance, state, info)
   end subroutine descend
 
   !> The point that penetrates most, of those not barred; 0 if there is none.

@@ -84,8 +84,7 @@ contains
     call start(shape, state, penetration, info)
     if (info%failed()) return
     limit = min(state%over%points + SPARE_ITERATIONS, MOST_ITERATIONS)
-    call operator%magnitude(state%force, state%displacement, state%image)
-    state%target = tolerance*minval(abs(shape - state%motion) + state%image, mask=state%contact)
+    call aim(operator, shape, tolerance, state)
     state%direction = 0.0_dp
     previous = 1.0_dp
     softest = 0.0_dp
@@ -125,14 +124,27 @@ contains
     end do
   end subroutine relax
 
-  !> Motion and residual of the present forces and displacements. Error: FUGE_ERR_MEMORY.
-  pure subroutine measure(shape, state, info)
-    real(dp), intent(in) :: shape(:)
+  !> The residual that is asked for, by the present displacements.
+  subroutine aim(operator, shape, tolerance, state)
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: shape(:), tolerance
+    type(iterate), intent(inout) :: state
+
+    call operator%magnitude(state%force, state%displacement, state%image)
+    state%target = tolerance*minval(abs(shape - state%motion) + state%image, mask=state%contact)
+  end subroutine aim
+
+  !> Motion and residual of the present forces and displacements, and the residual asked
+  !> for, which was larger if `relax` started from larger displacements. Error: FUGE_ERR_MEMORY.
+  subroutine measure(operator, shape, tolerance, state, info)
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: shape(:), tolerance
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
     real(dp) :: penetration
 
     call start(shape, state, penetration, info)
+    if (.not. info%failed()) call aim(operator, shape, tolerance, state)
   end subroutine measure
 
   !> What lengths differ by on the contact set, and the worst penetration off it.
@@ -227,7 +239,8 @@ contains
       last = size(shape)
       if (i > 0) first = state%over%last(i) + 1
       if (i < size(state%over%first)) last = state%over%first(i + 1) - 1
-      if (first <= last) depth = max(depth, depth_between(shape(first:last), state%displacement(first:last), state%motion))
+      if (first <= last) depth = max(depth, depth_between(shape(first:last), state%displacement(first:last), &
+                                                          state%motion))
     end do
   end function worst_penetration
 
