@@ -293,8 +293,12 @@ contains
     type(iterate), intent(in) :: state
     real(dp), intent(in) :: curvature
     type(fuge_info), intent(inout) :: info
+    real(dp) :: length, force
 
-    if (curvature >= -ROUNDING*largest(state%over, state%direction)*largest(state%over, state%image)) return
+    ! Where the operator is singular the image is nothing but rounding of displacements.
+    length = max(maxval(abs(state%displacement)), largest(state%over, state%image))
+    force = largest(state%over, state%direction)
+    if (curvature >= -ROUNDING*length*force*max(1.0_dp, real(state%over%points, dp)*force)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces with zero sum store the ' &
                 //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
   end subroutine explain
