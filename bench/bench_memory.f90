@@ -8,14 +8,18 @@ module bench_memory
 
 contains
 
-  !> Let the peak be what is resident now.
-  subroutine forget_peak()
+  !> Let the peak be what is resident now. `done`: it is.
+  subroutine forget_peak(done)
+    logical, intent(out) :: done
     integer :: unit, stat
 
     open (newunit=unit, file='/proc/self/clear_refs', action='write', status='old', iostat=stat)
-    if (stat /= 0) return
+    done = stat == 0
+    if (.not. done) return
     write (unit, '(a)', iostat=stat) '5'
+    done = stat == 0
     close (unit, iostat=stat)
+    done = done .and. stat == 0
   end subroutine forget_peak
 
   function resident() result(bytes)
