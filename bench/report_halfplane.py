@@ -83,14 +83,8 @@ def over_peer(table, name):
     return None if peer is None or None in parts else sum(parts) / peer
 
 
-def worst(values):
-    known = [value for value in values if value is not None]
-    return max(known) if known else None
-
-
 def counts(table, names):
-    return worst(table.figure(column, name, "iterative", 1e-10) for name in names
-                 for column in ("products", "filters"))
+    return [table.figure(column, name, "iterative", 1e-10) for name in names for column in ("products", "filters")]
 
 
 def write_targets(out, table):
@@ -102,18 +96,23 @@ def write_targets(out, table):
         ("products and filters, light and heavy 2^16, 1e-10", 250,
          counts(table, [f"{family}_{2**16}" for family in ("light", "heavy")])),
         ("time over one product, compact contact, 2^20, 1e-10", 40,
-         worst(table.figure("time_over_product", name, "iterative", 1e-10) for name in finest)),
-        ("memory, compact contact, 2^20: arrays of n numbers", 20, worst(arrays(table, name) for name in finest)),
-        ("time over Tamaas, light 2^12", 0.3, over_peer(table, "light_4096")),
-        ("time over Tamaas, heavy 2^12", 0.3, over_peer(table, "heavy_4096")),
-        ("time over Tamaas, light 2^16", 0.05, over_peer(table, "light_65536")),
+         [table.figure("time_over_product", name, "iterative", 1e-10) for name in finest]),
+        ("memory, compact contact, 2^20: arrays of n numbers", 20, [arrays(table, name) for name in finest]),
+        ("time over Tamaas, light 2^12", 0.3, [over_peer(table, "light_4096")]),
+        ("time over Tamaas, heavy 2^12", 0.3, [over_peer(table, "heavy_4096")]),
+        ("time over Tamaas, light 2^16", 0.05, [over_peer(table, "light_65536")]),
     ]
     out.write(line(["target", "at most", "measured", ""]) + line(["---", "---:", "---:", "---"]))
-    for text, most, value in rows:
-        verdict = "not measured" if value is None else "met" if value <= most else "missed"
-        if value is None and text.endswith("light 2^16") and peer:
+    for text, most, values in rows:
+        known = [value for value in values if value is not None]
+        worst = max(known) if known else None
+        if worst is None:
+            verdict = "not measured"
+        else:
+            verdict = ("met" if worst <= most else "missed") + (" where measured" if len(known) < len(values) else "")
+        if worst is None and text.endswith("light 2^16") and peer:
             verdict = f"Tamaas: {peer}"
-        out.write(line([text, figure(most), figure(value), verdict]))
+        out.write(line([text, figure(most), figure(worst), verdict]))
 
 
 def write_solves(out, table, names):
