@@ -1,22 +1,30 @@
-!> The problems of the benchmark: two profiles on a half-plane with known answers, and
-!> random positive definite matrices.
+!> The problems of the benchmark: two profiles on a half-plane with known answers, rough
+!> periodic ones, and random positive definite matrices.
 module bench_problems
   use, intrinsic :: iso_fortran_env, only: int64
   use bench_lapack, only: dsyrk
-  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, fuge_solver
+  use bench_waves, only: sum_of_waves
+  use closed_forms, only: cylinder, press_cylinder, press_quartic, quartic_punch
+  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, &
+    fuge_solver, FUGE_CENTRE
   implicit none
   private
 
-  public :: make_punch, make_cylinder, make_random
+  public :: make_punch, make_cylinder, make_random, make_rough, add_matrix
 
   type, public :: bench_problem
     character(len=16) :: name = ''
     real(dp), allocatable :: alpha(:, :), gap(:)
     real(dp) :: load = 0.0_dp
-    !> On the half-plane: centres (n), width of the cells, exact forces of the cells
-    !> (n) and exact half width of the contact. Elsewhere not allocated.
-    real(dp), allocatable :: x(:), exact(:)
-    real(dp) :: width = 0.0_dp, half_width = 0.0_dp
+    !> On the half-plane: modulus and element; centres (n), width of the cells; does the
+    !> surface repeat?
+    real(dp) :: e_star = 0.0_dp, width = 0.0_dp
+    integer :: element = FUGE_CENTRE
+    logical :: periodic = .false.
+    real(dp), allocatable :: x(:)
+    !> Exact forces of the cells (n) and exact half width; not allocated where not known.
+    real(dp), allocatable :: exact(:)
+    real(dp) :: half_width = 0.0_dp
   end type bench_problem
 
   real(dp), parameter :: PI = acos(-1.0_dp)
@@ -24,71 +32,99 @@ module bench_problems
   real(dp), parameter :: E_STAR = 1.0e6_dp/(1.0_dp - 0.25_dp**2)
   real(dp), parameter :: REACH = 0.8_dp, LOAD = 30.0e3_dp
   real(dp), parameter :: QUARTIC = 0.05_dp, RADIUS = 7.0_dp
+  !> Rough profiles.
+  integer, parameter :: LONGEST_WAVE = 4
+  real(dp), parameter :: HURST = 0.8_dp, SLOPE_RMS = 0.1_dp
   !> Random problems: what is added to the diagonal, and the part of the points in contact.
   real(dp), parameter :: RIDGE = 1.0e-3_dp, ACTIVE = 0.40_dp, ACTIVE_TOLERANCE = 0.02_dp
 
 contains
 
-  !> P1: rigid punch y = 0.05 x**4, |x| <= 0.8, `n` equal cells.
+  !> P1: rigid punch y = 0.05 x**4, |x| <= 0.8, `n` equal cells; no matrix yet.
   subroutine make_punch(n, element, problem)
     integer, intent(in) :: n, element
     type(bench_problem), intent(out) :: problem
+    type(quartic_punch) :: form
 
-    call make_halfplane(n, element, problem)
+    call place_cells(n, element, problem)
     problem%name = 'P1_'//whole(n)
     problem%gap = QUARTIC*problem%x**4
-    problem%half_width = (LOAD/(0.75_dp*PI*E_STAR*QUARTIC))**0.25_dp
-    problem%exact = LOAD*(quartic_share(problem%x + 0.5_dp*problem%width, problem%half_width) &
-                          - quartic_share(problem%x - 0.5_dp*problem%width, problem%half_width))
+    ! What sees the mean displacement of a cell sees the mean gap.
+    if (element /= FUGE_CENTRE) problem%gap = problem%gap + QUARTIC*problem%width**2*(0.5_dp*problem%x**2 &
+                                                                                     + problem%width**2/80.0_dp)
+    form = press_quartic(E_STAR, LOAD, QUARTIC)
+    problem%half_width = form%a
+    problem%exact = form%cell_force(problem%x, problem%width)
   end subroutine make_punch
 
-  !> P2: cylinder of radius 7 as the parabola x**2/14, `n` equal cells.
+  !> P2: cylinder of radius 7 as the parabola x**2/14, `n` equal cells; no matrix yet.
   subroutine make_cylinder(n, element, problem)
     integer, intent(in) :: n, element
     type(bench_problem), intent(out) :: problem
+    type(cylinder) :: form
 
-    call make_halfplane(n, element, problem)
+    call place_cells(n, element, problem)
     problem%name = 'P2_'//whole(n)
     problem%gap = problem%x**2/(2.0_dp*RADIUS)
-    problem%half_width = sqrt(4.0_dp*LOAD*RADIUS/(PI*E_STAR))
-    problem%exact = LOAD*(hertz_share(problem%x + 0.5_dp*problem%width, problem%half_width) &
-                          - hertz_share(problem%x - 0.5_dp*problem%width, problem%half_width))
+    if (element /= FUGE_CENTRE) problem%gap = problem%gap + problem%width**2/(24.0_dp*RADIUS)
+    form = press_cylinder(E_STAR, LOAD, RADIUS)
+    problem%half_width = form%a
+    problem%exact = form%cell_force(problem%x, problem%width)
   end subroutine make_cylinder
 
-  subroutine make_halfplane(n, element, problem)
+  subroutine place_cells(n, element, problem)
     integer, intent(in) :: n, element
     type(bench_problem), intent(inout) :: problem
-    type(fuge_info) :: info
-    real(dp) :: widths(n)
     integer :: k
 
-    problem%width = 2.0_dp*REACH/real(n, dp)
-    problem%x = [(problem%width*(real(k, dp) - 0.5_dp*real(n + 1, dp)), k=1, n)]
+    problem%e_star = E_STAR
+    problem%element = element
     problem%load = LOAD
+    problem%width = 2.0_dp*REACH/real(n, dp)
+    allocate (problem%x(n))
+    do k = 1, n
+      problem%x(k) = problem%width*(real(k, dp) - 0.5_dp*real(n + 1, dp))
+    end do
+  end subroutine place_cells
+
+  !> The influence matrix of a problem on the half-plane.
+  subroutine add_matrix(problem)
+    type(bench_problem), intent(inout) :: problem
+    type(fuge_info) :: info
+    real(dp) :: widths(size(problem%x))
+
     widths = problem%width
-    allocate (problem%alpha(n, n))
-    call fuge_halfplane_matrix(problem%x, widths, E_STAR, element, problem%alpha, info)
+    allocate (problem%alpha(size(widths), size(widths)))
+    call fuge_halfplane_matrix(problem%x, widths, problem%e_star, problem%element, problem%alpha, info)
     if (info%failed()) error stop 'no influence matrix of the half-plane'
-  end subroutine make_halfplane
+  end subroutine add_matrix
 
-  !> The part of the load left of `x`: the integral of the exact pressure
-  !> E* A (2 x**2 + a**2) sqrt(a**2 - x**2), over the load.
-  elemental function quartic_share(x, a) result(share)
-    real(dp), intent(in) :: x, a
-    real(dp) :: share, t
+  !> Periodic self-affine profile of length 1, E* = 1: wave numbers 4 .. n/16 with amplitudes
+  !> k**(-1/2 - H), random phases, slope 0.1 (root mean square). `n` >= 128 a power of two;
+  !> `pressure` the mean pressure. Another n has the same long waves.
+  subroutine make_rough(n, pressure, problem)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: pressure
+    type(bench_problem), intent(out) :: problem
+    real(dp) :: amplitude(n/16), phase(n/16), slope
+    integer(int64) :: state
+    integer :: k
 
-    t = asin(min(max(x/a, -1.0_dp), 1.0_dp))
-    share = 0.5_dp + (0.75_dp*t + 0.25_dp*sin(2.0_dp*t) - sin(4.0_dp*t)/16.0_dp)/(0.75_dp*PI)
-  end function quartic_share
-
-  !> The same for E*/(2 R) sqrt(a**2 - x**2).
-  elemental function hertz_share(x, a) result(share)
-    real(dp), intent(in) :: x, a
-    real(dp) :: share, t
-
-    t = asin(min(max(x/a, -1.0_dp), 1.0_dp))
-    share = 0.5_dp + (0.5_dp*t + 0.25_dp*sin(2.0_dp*t))/(0.5_dp*PI)
-  end function hertz_share
+    amplitude = 0.0_dp
+    state = 5
+    do k = 1, size(phase)
+      call next_uniform(state, phase(k))
+      if (k >= LONGEST_WAVE) amplitude(k) = real(k, dp)**(-0.5_dp - HURST)
+    end do
+    slope = sqrt(0.5_dp*sum([((2.0_dp*PI*real(k, dp)*amplitude(k))**2, k=1, size(phase))]))
+    allocate (problem%gap(n))
+    call sum_of_waves(SLOPE_RMS/slope*amplitude, 2.0_dp*PI*phase, problem%gap)
+    problem%gap = maxval(problem%gap) - problem%gap
+    problem%load = pressure
+    problem%e_star = 1.0_dp
+    problem%width = 1.0_dp/real(n, dp)
+    problem%periodic = .true.
+  end subroutine make_rough
 
   !> P3: alpha = G G^T/n + 1e-3 I with normal G, gaps uniform in (0, 1), and the load
   !> at which about 40 % of the points touch.

@@ -8,7 +8,7 @@
 program dense
   use, intrinsic :: iso_fortran_env, only: error_unit
   use bench_lapack, only: dposv
-  use bench_problems, only: bench_problem, make_punch, make_cylinder, make_random
+  use bench_problems, only: add_matrix, bench_problem, make_punch, make_cylinder, make_random
   use bench_records, only: bench_row, write_header, write_row, write_problem
   use bench_watch, only: stopwatch
   use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solve_dense, &
@@ -76,8 +76,10 @@ contains
     do e = 1, size(ELEMENTS)
       if (e > 1 .and. n > QUICK_SIZE) cycle
       call make_punch(n, ELEMENTS(e), punch)
+      call add_matrix(punch)
       call measure(punch, ELEMENT_NAMES(e), chosen, all_engines=e == 1, for_others=e == 1)
       call make_cylinder(n, ELEMENTS(e), cylinder)
+      call add_matrix(cylinder)
       call measure(cylinder, ELEMENT_NAMES(e), chosen, all_engines=e == 1, for_others=.false.)
     end do
   end subroutine measure_halfplane

@@ -3,7 +3,8 @@
     python peers.py DIRECTORY [TIMEOUT]
 
 Reads DIRECTORY/dense.csv, NAME.txt and NAME.bin; writes peers.csv, and tables.md with fuge beside
-the peers. Every solver gets the same scaled problem (largest diagonal of H 1, mean of F 1)
+the peers; then the half-plane by FFT, see peers_halfplane.py. Every solver gets the same scaled
+problem (largest diagonal of H 1, mean of F 1)
 
     minimise F.HF/2 + g.F,   F >= 0,   sum F = S
 
@@ -14,22 +15,17 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 import csv
 import importlib.metadata
-import multiprocessing
-import statistics
 import sys
-import time
 
 import daqp
 import numpy as np
+import peers_halfplane
 import piqp
 import proxsuite
 import quadprog
 import scipy.linalg
 import scipy.optimize
-
-TIMEOUT = 120.0
-# A solver slower than this runs once, others until a second has passed, three times at least.
-SLOW = 10.0
+from peers_tools import TIMEOUT, line, milliseconds, run
 
 
 def by_daqp(H, g, S):
@@ -184,42 +180,6 @@ def read_problem(directory, name):
     return data[: n * n].reshape(n, n), data[n * n : n * n + n], load, data[n * n + n :]
 
 
-def work(pipe, solver, H, g, S):
-    """In a process of its own: the forces, then the times."""
-    quiet = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(quiet, 1)
-    os.dup2(quiet, 2)
-    try:
-        times = []
-        while not times or (times[0] < SLOW and (len(times) < 3 or sum(times) < 1.0) and len(times) < 1001):
-            start = time.perf_counter()
-            force = solver(H, g, S)
-            times.append(time.perf_counter() - start)
-        pipe.send((np.asarray(force, float).ravel(), statistics.median(times), ""))
-    except Exception as error:
-        pipe.send((None, None, f"{type(error).__name__}: {error}".replace(",", " ").splitlines()[0][:60]))
-
-
-def run(solver, H, g, S, timeout):
-    """Forces, median time, failure."""
-    context = multiprocessing.get_context("fork")
-    ours, theirs = context.Pipe()
-    process = context.Process(target=work, args=(theirs, solver, H, g, S))
-    process.start()
-    theirs.close()
-    try:
-        # Three runs at least, each below the limit.
-        result = ours.recv() if ours.poll(3 * timeout) else (None, None, "timeout")
-    except EOFError:
-        result = (None, None, "crash")
-    if process.is_alive():
-        process.kill()
-    process.join()
-    if result[1] is not None and result[1] > timeout:
-        result = (None, None, "timeout")
-    return result
-
-
 def measure(directory, names, fuge, timeout):
     rows, given_up = [], set()
     for name in names:
@@ -233,9 +193,10 @@ def measure(directory, names, fuge, timeout):
             if (name[:2], solver) in given_up:
                 rows.append([name, solver, n, "", "", "timeout"])
                 continue
-            found, seconds, failure = run(solve, H, g, float(n), timeout)
+            found, seconds, failure = run(solve, timeout, H, g, float(n))
             if failure == "timeout":
                 given_up.add((name[:2], solver))
+            found = None if found is None else np.asarray(found, float).ravel()
             if found is not None and not np.all(np.isfinite(found)):
                 failure = "not finite"
             if failure:
@@ -244,18 +205,6 @@ def measure(directory, names, fuge, timeout):
                 rows.append([name, solver, n, f"{seconds:.3e}", f"{residual(alpha, gap, load, found * mean):.1e}", ""])
             print(*rows[-1], flush=True)
     return rows
-
-
-def milliseconds(seconds):
-    value = 1e3 * float(seconds)
-    if value >= 1000.0:
-        return f"{value / 1e3:.1f} s"
-    figures = f"{value:#.2g}".rstrip(".")
-    return f"{figures} ms" if value < 100.0 else f"{value:.0f} ms"
-
-
-def line(*cells):
-    return "| " + " | ".join(cells) + " |\n"
 
 
 def write_tables(path, names, rows, measured):
@@ -292,6 +241,7 @@ def main():
         table.writerow(["problem", "method", "n", "time_s", "residual", "failure"])
         table.writerows(rows)
     write_tables(os.path.join(directory, "tables.md"), names, rows, measured)
+    peers_halfplane.measure(directory, timeout)
 
 
 main()

@@ -26,6 +26,8 @@ module fuge_halfplane_fft
   real(dp), parameter :: PI = acos(-1.0_dp)
   !> Larger powers of two could overflow when squared or inverted.
   integer, parameter :: LARGEST_EXPONENT = maxexponent(1.0_dp)/2
+  !> Mean over the period of 2/pi |ln(2 sin(pi x))|: 4 Cl_2(pi/3)/pi^2.
+  real(dp), parameter :: MEAN_TERM = 0.41132_dp
   !> Fewer points have no coarser grid: they are solved at once.
   integer, parameter :: FEWEST_CELLS = 32
 
@@ -52,6 +54,7 @@ module fuge_halfplane_fft
     procedure :: points
     procedure :: apply
     procedure :: datum
+    procedure :: magnitude
     procedure :: has_filter
     procedure :: filter
     procedure :: in_row
@@ -330,6 +333,17 @@ contains
 
     datum = self%constant
   end function datum
+
+  !> The largest displacement; on a periodic surface, where even forces displace nothing,
+  !> at least what the terms of even forces add up to.
+  subroutine magnitude(self, force, displacement, length)
+    class(fuge_halfplane_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:), displacement(:)
+    real(dp), intent(out) :: length(:)
+
+    length = maxval(abs(displacement))
+    if (self%boundary == FUGE_PERIODIC) length = max(length, MEAN_TERM*sum(abs(force))/self%e_star)
+  end subroutine magnitude
 
   function has_filter(self) result(filtered)
     class(fuge_halfplane_operator), intent(in) :: self

@@ -30,6 +30,9 @@ module fuge_iterative_engine
   !> The engine aims below the tolerance by this factor, because the certificate
   !> counts more than the equations of the set.
   real(dp), parameter :: MARGIN = 0.4_dp
+  !> Forces of the last solve are a start if their gaps are off by less than this part of
+  !> the least length.
+  real(dp), parameter :: GOOD_START = 0.2_dp
   !> Block changes without fewer wrong points before single ones; the foresight ends
   !> when half of them are used.
   integer, parameter :: PATIENCE = 10
@@ -81,7 +84,8 @@ contains
     associate (load => problem%resultant(1))
       lowest = minval(problem%gap)
       shape = (problem%gap - lowest)/load
-      if (.not. allocated(part)) call climb(operator, wanted, shape, monitor, part, info)
+      if (allocated(part)) call judge_start(operator, shape, part, info)
+      if (.not. (info%failed() .or. allocated(part))) call climb(operator, wanted, shape, monitor, part, info)
       if (.not. info%failed()) call make_iterate(state, n, info)
       if (info%failed()) return
       if (allocated(part)) then
@@ -103,6 +107,25 @@ contains
     end associate
   end subroutine solve_by_iteration
 
+  !> Forget forces to start from that are far from the answer: coarser grids start better.
+  subroutine judge_start(operator, shape, part, info)
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in), contiguous :: shape(:)
+    real(dp), allocatable, intent(inout) :: part(:)
+    type(fuge_info), intent(inout) :: info
+    type(iterate) :: state
+
+    if (.not. operator%in_row()) return
+    call make_iterate(state, size(part), info)
+    if (info%failed()) return
+    state%force = part
+    state%contact = part > 0.0_dp
+    call restart(operator, state, info)
+    if (.not. info%failed()) call measure(operator, shape, state, info)
+    if (info%failed()) return
+    if (max(state%residual, state%penetration) > GOOD_START*state%least_length) deallocate (part)
+  end subroutine judge_start
+
   !> Refuse gaps that overflow when divided by the load.
   pure subroutine check_magnitude(problem, info)
     type(fuge_problem), intent(in) :: problem
@@ -110,7 +133,8 @@ contains
     integer :: excess
 
     excess = exponent(maxval(problem%gap) - minval(problem%gap)) - exponent(problem%resultant(1))
-    if (excess > LARGEST_EXPONENT) then
+    ! Squares of lengths are formed.
+    if (2*excess > LARGEST_EXPONENT) then
       call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess)//' times the load: choose units in which ' &
                   //'they are nearer to it')
     end if

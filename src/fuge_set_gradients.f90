@@ -16,7 +16,9 @@ module fuge_set_gradients
   !> Errors of the forces below this part of the worst tension, or of the gaps below
   !> this part of the worst penetration, let the set be judged.
   real(dp), parameter :: ENOUGH = 0.2_dp
-  !> More iterations than this, beyond the number of points, are rounding.
+  !> Exact conjugate gradients need as many iterations as there are points; rounded ones
+  !> several times as many where alpha is badly conditioned.
+  integer, parameter :: ITERATIONS_PER_POINT = 10
   integer, parameter :: SPARE_ITERATIONS = 20
   !> And never more than these: then the operator needs a filter.
   integer, parameter :: MOST_ITERATIONS = 20000
@@ -35,6 +37,8 @@ module fuge_set_gradients
     real(dp) :: motion = 0.0_dp
     !> Largest difference from `motion` on the contact.
     real(dp) :: residual = huge(1.0_dp)
+    !> The deepest that an open point is pressed in.
+    real(dp) :: penetration = 0.0_dp
     !> Least length of a contact point as in the certificate: its depth and the terms of
     !> its displacement. Residuals are compared with it.
     real(dp) :: least_length = 0.0_dp
@@ -76,22 +80,22 @@ contains
     type(iterate), intent(inout) :: state
     logical, intent(out) :: reached
     type(fuge_info), intent(inout) :: info
-    real(dp) :: drift, tension, penetration, product, previous, curvature, step
+    real(dp) :: drift, tension, product, previous, curvature, step
     integer :: iteration, limit
     logical :: judges_forces, filtered
 
     reached = .false.
     filtered = operator%has_filter()
     judges_forces = filtered .and. .not. thorough
-    call start(operator, shape, state, penetration, info)
+    call measure(operator, shape, state, info)
     if (info%failed()) return
-    limit = min(state%over%points + SPARE_ITERATIONS, MOST_ITERATIONS)
+    limit = min(ITERATIONS_PER_POINT*min(state%over%points, MOST_ITERATIONS) + SPARE_ITERATIONS, MOST_ITERATIONS)
     state%direction = 0.0_dp
     previous = 1.0_dp
     do iteration = 0, limit
       reached = state%residual <= tolerance*state%least_length
       if (reached .or. iteration == limit) return
-      if (iteration > 0 .and. .not. thorough .and. state%residual <= ENOUGH*penetration) return
+      if (iteration > 0 .and. .not. thorough .and. state%residual <= ENOUGH*state%penetration) return
       call filter%apply(operator, state%over, state%remainder, state%correction, info)
       if (info%failed()) return
       if (iteration > 0 .and. judges_forces) then
@@ -113,7 +117,7 @@ contains
         return
       end if
       step = product/curvature
-      call advance(shape, step, state, penetration)
+      call advance(shape, step, state)
       if (.not. (thorough .or. filtered)) then
         ! Without a filter the last step stands for the error of the forces.
         drift = step*largest(state%over, state%direction)
@@ -123,27 +127,14 @@ contains
     end do
   end subroutine relax
 
-  !> Motion, residual and least length of the present forces and displacements. Error:
-  !> FUGE_ERR_MEMORY.
+  !> Motion, residual, penetration and least length of the present forces and
+  !> displacements. Error: FUGE_ERR_MEMORY.
   subroutine measure(operator, shape, state, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in), contiguous :: shape(:)
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
-    real(dp) :: penetration
 
-    call start(operator, shape, state, penetration, info)
-  end subroutine measure
-
-  !> What lengths differ by on the contact set, and the worst penetration off it.
-  subroutine start(operator, shape, state, penetration, info)
-    class(fuge_operator), intent(in) :: operator
-    real(dp), intent(in), contiguous :: shape(:)
-    type(iterate), intent(inout) :: state
-    real(dp), intent(out) :: penetration
-    type(fuge_info), intent(inout) :: info
-
-    penetration = 0.0_dp
     call state%over%find(state%contact, info)
     if (info%failed()) return
     state%remainder = shape + state%displacement
@@ -151,10 +142,10 @@ contains
     call centre(state)
     ! The mean of large numbers is not exact: once more for what is left of it.
     call centre(state)
-    penetration = worst_penetration(shape, state)
+    state%penetration = worst_penetration(shape, state)
     call operator%magnitude(state%force, state%displacement, state%image)
     state%least_length = least_length(state, shape, state%image)
-  end subroutine start
+  end subroutine measure
 
   pure function least_length(state, shape, terms) result(least)
     type(iterate), intent(in) :: state
@@ -186,11 +177,10 @@ contains
   end subroutine turn
 
   !> One step along the direction.
-  pure subroutine advance(shape, step, state, penetration)
+  pure subroutine advance(shape, step, state)
     real(dp), intent(in), contiguous :: shape(:)
     real(dp), intent(in) :: step
     type(iterate), intent(inout) :: state
-    real(dp), intent(out) :: penetration
     real(dp) :: mean
 
     mean = total(state%over, state%image)/real(state%over%points, dp)
@@ -198,7 +188,7 @@ contains
     call move(state%over, step, mean, state%direction, state%image, state%force, state%remainder)
     state%motion = state%motion - step*mean
     call centre(state)
-    penetration = worst_penetration(shape, state)
+    state%penetration = worst_penetration(shape, state)
   end subroutine advance
 
   pure subroutine move(over, step, mean, direction, image, force, remainder)
@@ -303,8 +293,12 @@ contains
     type(iterate), intent(in) :: state
     real(dp), intent(in) :: curvature
     type(fuge_info), intent(inout) :: info
+    real(dp) :: length, force
 
-    if (curvature >= -ROUNDING*largest(state%over, state%direction)*largest(state%over, state%image)) return
+    ! Where the operator is singular the image is nothing but rounding of displacements.
+    length = max(maxval(abs(state%displacement)), largest(state%over, state%image))
+    force = largest(state%over, state%direction)
+    if (curvature >= -ROUNDING*length*force*max(1.0_dp, real(state%over%points, dp)*force)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces with zero sum store the ' &
                 //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
   end subroutine explain

@@ -315,7 +315,7 @@ contains
     end if
     warm = .false.
     if (allocated(self%part)) then
-      warm = size(self%part) == size(problem%gap) .and. abs(problem%resultant(1)/self%last_load - 1.0_dp) <= WARM_RANGE
+      warm = size(self%part) == size(problem%gap) .and. abs(problem%resultant(1) - self%last_load) <= WARM_RANGE*self%last_load
       if (.not. warm) deallocate (self%part)
     end if
     call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)

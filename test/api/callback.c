@@ -163,7 +163,218 @@ static void test_filter_refusals(void) {
   fuge_operator_free(&op);
 }
 
+/* ---- solves with a load ------------------------------------------------- */
+
+enum { M = 24 };
+static double bed[M * M], bed_gap[M];
+
+/* A bed of springs with stiff and soft places. */
+static void make_bed(void) {
+  for (int j = 0; j < M; j++) {
+    for (int i = 0; i < M; i++)
+      bed[i + j * M] = (i == j ? 1.0 : 0.3 / (1.0 + abs(i - j))) * sqrt((1.0 + 20.0 * (i % 3)) * (1.0 + 20.0 * (j % 3)));
+    bed_gap[j] = fabs(sin(5.0 * j)) + 0.02 * (j - 9.0) * (j - 9.0);
+  }
+}
+
+typedef struct user {
+  int products, filters;
+  int bad_product, bad_filter; /* which goes wrong; 0: none */
+  int returns;                 /* what it returns; 0: it gives NaN at point 5 */
+} user;
+
+static int go_wrong(user *u, double *values) {
+  if (u->returns == 0) values[4] = NAN;
+  return u->returns;
+}
+
+static int multiply_bed(int n, const double *f, double *u, void *data) {
+  user *counted = data;
+  CHECK_INT(n, M);
+  for (int i = 0; i < n; i++) {
+    u[i] = 0.0;
+    for (int j = 0; j < n; j++) u[i] += bed[i + j * M] * f[j];
+  }
+  return ++counted->products == counted->bad_product ? go_wrong(counted, u) : 0;
+}
+
+static int filter_bed(int n, const double *f, double *u, void *data) {
+  user *counted = data;
+  CHECK_INT(n, M);
+  for (int i = 0; i < n; i++) u[i] = f[i] / bed[i + i * M];
+  return ++counted->filters == counted->bad_filter ? go_wrong(counted, u) : 0;
+}
+
+static int wrong_filter(int n, const double *f, double *u, void *data) {
+  (void)data;
+  for (int i = 0; i < n; i++) u[i] = -f[i];
+  return 0;
+}
+
+enum { NO_FILTER, DIAGONAL, FILTER };
+
+static fuge_solver *bed_solver(user *u, int kind, fuge_operator **op) {
+  double diagonal[M];
+  fuge_solver *solver = NULL;
+  for (int k = 0; k < M; k++) diagonal[k] = bed[k + k * M];
+  CHECK_STATUS(fuge_operator_callback(M, multiply_bed, u, op), FUGE_DONE);
+  if (kind == DIAGONAL) CHECK_STATUS(fuge_operator_set_diagonal(*op, diagonal), FUGE_DONE);
+  if (kind == FILTER) CHECK_STATUS(fuge_operator_set_filter(*op, filter_bed), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(*op, NULL, &solver), FUGE_DONE);
+  CHECK_STATUS(fuge_set_gap(solver, bed_gap, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
+  return solver;
+}
+
+/* The answer of the matrix. */
+static void check_bed(fuge_solver *solver, const user *u, int kind) {
+  double force[M], gap[M], approach, resultant, right_force[M], right_gap[M], right_approach;
+  fuge_info info;
+  CHECK_STATUS(fuge_solve_dense(M, bed, M, bed_gap, 2.0, right_force, right_gap, &right_approach), FUGE_DONE);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_INT(info.products, u->products);
+  CHECK(info.products > 1);
+  CHECK(kind == NO_FILTER ? info.filters == 0 : info.filters > 0);
+  if (kind == FILTER) CHECK_INT(info.filters, u->filters);
+  CHECK(info.residual <= 1e-10);
+  CHECK(info.contacts > 1 && info.contacts < M);
+  CHECK(info.iterations > 0);
+  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
+  CHECK_STATUS(fuge_get_rigid(solver, &approach), FUGE_DONE);
+  CHECK_STATUS(fuge_get_resultant(solver, &resultant), FUGE_DONE);
+  for (int k = 0; k < M; k++) {
+    CHECK_NEAR(force[k], right_force[k], 1e-7);
+    CHECK_NEAR(gap[k], right_gap[k], 1e-7);
+  }
+  CHECK_NEAR(approach, right_approach, 1e-7);
+  CHECK_NEAR(resultant, 2.0, 1e-13);
+}
+
+static void test_solve(void) {
+  int products[3];
+  for (int kind = NO_FILTER; kind <= FILTER; kind++) {
+    user u = {0};
+    fuge_info info;
+    fuge_operator *op = NULL;
+    fuge_solver *solver = bed_solver(&u, kind, &op);
+    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+    check_bed(solver, &u, kind);
+    CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+    products[kind] = info.products;
+    free_both(&solver, &op);
+  }
+  CHECK(products[FILTER] < products[NO_FILTER]);
+  CHECK_INT(products[FILTER], products[DIAGONAL]);
+}
+
+/* Fails once, at product or filter k: words with its number and the point, no answer; and
+ * the same solver goes on when all is well. */
+static int check_bed_fails(int k, int of_filter, int returns) {
+  char message[256] = "", part[64];
+  double force[M];
+  user u = {0};
+  fuge_info info;
+  fuge_operator *op = NULL;
+  fuge_solver *solver = bed_solver(&u, FILTER, &op);
+  u.returns = returns;
+  if (of_filter) u.bad_filter = k; else u.bad_product = k;
+  int status = fuge_solve(solver);
+  if (status != FUGE_DONE) {
+    CHECK_INT(status, FUGE_ERR_CALLBACK);
+    if (returns == 0)
+      snprintf(part, sizeof part, "%s(5) = NaN", of_filter ? "force" : "displacement");
+    else
+      snprintf(part, sizeof part, "the operator returned status %d", returns);
+    CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+    CHECK_CONTAINS(message, part);
+    snprintf(part, sizeof part, "%s %d: ", of_filter ? "filter" : "product", k);
+    CHECK_CONTAINS(message, part);
+    CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+    CHECK_INT(info.status, FUGE_ERR_CALLBACK);
+    fill(force, M);
+    CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
+    CHECK_UNTOUCHED(force, M);
+    memset(&u, 0, sizeof u);
+    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+    check_bed(solver, &u, FILTER);
+  }
+  free_both(&solver, &op);
+  return status;
+}
+
+static void test_bed_failures(void) {
+  for (int of_filter = 0; of_filter <= 1; of_filter++)
+    for (int returns = 0; returns <= 7; returns += 7) {
+      int k = 1;
+      while (k < 1000 && check_bed_fails(k, of_filter, returns) != FUGE_DONE) k++;
+      CHECK(k > 5 && k < 1000);
+    }
+}
+
+/* Also when it has forces to start from: one call, and no second attempt. */
+static void test_warm_failure(void) {
+  char message[256] = "";
+  user u = {0};
+  fuge_operator *op = NULL;
+  fuge_solver *solver = bed_solver(&u, NO_FILTER, &op);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  u.bad_product = u.products + 1;
+  u.returns = 3;
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CALLBACK);
+  CHECK_INT(u.products, u.bad_product);
+  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_CONTAINS(message, "product 1: the operator returned status 3");
+  u.bad_product = 0;
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  free_both(&solver, &op);
+}
+
+static void test_wrong_filter(void) {
+  char message[256] = "";
+  user u = {0};
+  fuge_operator *op = NULL;
+  fuge_solver *solver = bed_solver(&u, NO_FILTER, &op);
+  CHECK_STATUS(fuge_operator_set_filter(op, wrong_filter), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_NOT_DEFINITE);
+  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_CONTAINS(message, "filter");
+  CHECK_STATUS(fuge_operator_set_filter(op, filter_bed), FUGE_DONE);
+  memset(&u, 0, sizeof u);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  check_bed(solver, &u, FILTER);
+  free_both(&solver, &op);
+}
+
+/* Engines that need coefficients. */
+static void test_unsupported(void) {
+  for (int method = FUGE_TABLEAU; method <= FUGE_ACTIVE_SET; method++) {
+    char message[256] = "";
+    user u = {0};
+    fuge_options options;
+    fuge_operator *op = NULL;
+    fuge_solver *solver = NULL, *other = bed_solver(&u, NO_FILTER, &op);
+    fuge_solver_free(&other);
+    fuge_default_options(&options);
+    options.method = method;
+    CHECK_STATUS(fuge_solver_new(op, &options, &solver), FUGE_DONE);
+    CHECK_STATUS(fuge_set_gap(solver, bed_gap, NULL), FUGE_DONE);
+    CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
+    CHECK_STATUS(fuge_solve(solver), FUGE_ERR_UNSUPPORTED);
+    CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+    CHECK_CONTAINS(message, "FUGE_ITERATIVE");
+    CHECK_INT(u.products, 0);
+    free_both(&solver, &op);
+  }
+}
+
 int main(void) {
+  make_bed();
+  test_solve();
+  test_bed_failures();
+  test_warm_failure();
+  test_wrong_filter();
+  test_unsupported();
   test_product();
   test_overwritten_forces();
   test_failures();

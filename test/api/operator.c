@@ -119,6 +119,159 @@ static void test_halfplane_refusals(void) {
   CHECK_STATUS(fuge_check_operator_halfplane(0, 0.25, 3, FUGE_MEAN, FUGE_FREE, NULL, 9), FUGE_ERR_SIZE);
 }
 
+/* ---- a half-plane from end to end --------------------------------------- */
+
+enum { CELLS = 150 };
+static const double SPACING = 0.25, E_STAR = 3.0, LOAD = 20.0;
+
+static void make_gap(double *x, double *gap) {
+  for (int k = 0; k < CELLS; k++) {
+    x[k] = SPACING * (k - 0.4 * CELLS);
+    gap[k] = 0.02 * x[k] * x[k] + 0.05 * cos(7.0 * x[k]);
+  }
+}
+
+static fuge_solver *halfplane_solver(int element, int boundary, int method, fuge_operator **op) {
+  double x[CELLS], gap[CELLS];
+  fuge_options options;
+  fuge_solver *solver = NULL;
+  fuge_default_options(&options);
+  options.method = method;
+  make_gap(x, gap);
+  CHECK_STATUS(fuge_operator_halfplane(CELLS, SPACING, E_STAR, element, boundary, op), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(*op, &options, &solver), FUGE_DONE);
+  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_load(solver, LOAD), FUGE_DONE);
+  return solver;
+}
+
+/* Forces, gaps and approach of the matrix. */
+static void check_free_answer(int element, const double *force, const double *gap, double approach) {
+  static double alpha[CELLS * CELLS];
+  double x[CELLS], width[CELLS], initial[CELLS], right_force[CELLS], right_gap[CELLS], right_approach;
+  make_gap(x, initial);
+  for (int k = 0; k < CELLS; k++) width[k] = SPACING;
+  CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, alpha, CELLS), FUGE_DONE);
+  CHECK_STATUS(fuge_solve_dense(CELLS, alpha, CELLS, initial, LOAD, right_force, right_gap, &right_approach), FUGE_DONE);
+  for (int k = 0; k < CELLS; k++) {
+    CHECK_NEAR(force[k], right_force[k], 1e-7 * LOAD);
+    CHECK_NEAR(gap[k], right_gap[k], 1e-8 * LOAD);
+  }
+  CHECK_NEAR(approach, right_approach, 1e-8 * LOAD);
+}
+
+static void check_halfplane(int element, int boundary, int method) {
+  double force[CELLS], gap[CELLS], approach, resultant, change[CELLS], sum = 0.0;
+  int contacts = 0;
+  fuge_info info;
+  fuge_operator *op = NULL;
+  fuge_solver *solver = halfplane_solver(element, boundary, method, &op);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
+  CHECK_STATUS(fuge_get_rigid(solver, &approach), FUGE_DONE);
+  CHECK_STATUS(fuge_get_resultant(solver, &resultant), FUGE_DONE);
+  for (int k = 0; k < CELLS; k++) {
+    CHECK(force[k] >= 0.0 && gap[k] >= 0.0);
+    CHECK_NEAR(force[k] * gap[k], 0.0, 0.0);
+    contacts += force[k] > 0.0;
+    sum += force[k];
+  }
+  CHECK_NEAR(sum, LOAD, 1e-12 * LOAD);
+  CHECK_NEAR(resultant, sum, 1e-13 * LOAD);
+  CHECK_INT(info.status, FUGE_DONE);
+  CHECK_INT(info.contacts, contacts);
+  CHECK(contacts > 3 && contacts < CELLS);
+  CHECK(info.products > 1 && info.products < 60);
+  CHECK(info.filters > 1);
+  CHECK(info.residual <= 1e-10);
+  if (boundary == FUGE_FREE) check_free_answer(element, force, gap, approach);
+  fill(change, CELLS);
+  /* Derivatives need the factor of a matrix. */
+  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, change, NULL, NULL), FUGE_ERR_CALL_ORDER);
+  CHECK_UNTOUCHED(change, CELLS);
+  free_both(&solver, &op);
+}
+
+static void test_halfplane_solves(void) {
+  for (int element = FUGE_CENTRE; element <= FUGE_HAT; element++)
+    for (int boundary = FUGE_FREE; boundary <= FUGE_PERIODIC; boundary++) {
+      check_halfplane(element, boundary, FUGE_AUTO);
+      check_halfplane(element, boundary, FUGE_ITERATIVE);
+    }
+}
+
+/* Nothing but the engine of products works without coefficients. */
+static void test_halfplane_unsupported(void) {
+  for (int method = FUGE_TABLEAU; method <= FUGE_ACTIVE_SET; method++) {
+    char message[256] = "";
+    double force[CELLS], x[CELLS], gap[CELLS];
+    int events = -1;
+    fuge_operator *op = NULL;
+    fuge_solver *solver = halfplane_solver(FUGE_MEAN, FUGE_FREE, method, &op);
+    CHECK_STATUS(fuge_solve(solver), FUGE_ERR_UNSUPPORTED);
+    CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+    CHECK_CONTAINS(message, "FUGE_ITERATIVE");
+    fill(force, CELLS);
+    CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
+    CHECK_UNTOUCHED(force, CELLS);
+    make_gap(x, gap);
+    CHECK_STATUS(fuge_load_path(op, gap, LOAD, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0), FUGE_ERR_UNSUPPORTED);
+    CHECK_INT(events, -1);
+    free_both(&solver, &op);
+  }
+}
+
+/* Steps of the load from the last forces; after fuge_reset the same work as at first. */
+static void test_halfplane_steps(void) {
+  fuge_info first, info;
+  fuge_operator *op = NULL;
+  fuge_solver *solver = halfplane_solver(FUGE_MEAN, FUGE_PERIODIC, FUGE_AUTO, &op);
+  int warm = 0, cold = 0;
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_info(solver, &first), FUGE_DONE);
+  for (int step = 1; step <= 10; step++) {
+    CHECK_STATUS(fuge_set_load(solver, LOAD * (1.0 + 0.002 * step)), FUGE_DONE);
+    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+    CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+    warm += info.products;
+    cold += first.products;
+  }
+  CHECK(warm < cold);
+  CHECK_STATUS(fuge_set_load(solver, LOAD), FUGE_DONE);
+  CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_INT(info.products, first.products);
+  CHECK_INT(info.filters, first.filters);
+  CHECK_INT(info.iterations, first.iterations);
+  free_both(&solver, &op);
+}
+
+static int cancel_third(int iteration, double residual, int contacts, void *user) {
+  (void)residual;
+  (void)contacts;
+  *(int *)user = iteration;
+  return iteration == 3;
+}
+
+static void test_halfplane_cancelled(void) {
+  int last = 0;
+  double force[CELLS];
+  fuge_operator *op = NULL;
+  fuge_solver *solver = halfplane_solver(FUGE_MEAN, FUGE_FREE, FUGE_AUTO, &op);
+  CHECK_STATUS(fuge_set_progress(solver, cancel_third, &last), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CANCELLED);
+  CHECK_INT(last, 3);
+  fill(force, CELLS);
+  CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
+  CHECK_UNTOUCHED(force, CELLS);
+  CHECK_STATUS(fuge_set_progress(solver, NULL, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  free_both(&solver, &op);
+}
+
 int main(void) {
   test_life_cycle();
   test_padding();
@@ -126,5 +279,9 @@ int main(void) {
   test_asymmetry_limit();
   test_halfplane_life_cycle();
   test_halfplane_refusals();
+  test_halfplane_solves();
+  test_halfplane_unsupported();
+  test_halfplane_steps();
+  test_halfplane_cancelled();
   return check_summary();
 }

@@ -90,6 +90,8 @@ static void test_bad_options(void) {
   check_int_option(op, offsetof(fuge_options, method), 99, FUGE_ERR_OPTION);
   check_int_option(op, offsetof(fuge_options, method), -1, FUGE_ERR_OPTION);
   check_int_option(op, offsetof(fuge_options, method), FUGE_TABLEAU, FUGE_DONE);
+  check_int_option(op, offsetof(fuge_options, method), FUGE_ITERATIVE, FUGE_DONE);
+  check_int_option(op, offsetof(fuge_options, method), FUGE_ITERATIVE + 1, FUGE_ERR_OPTION);
   check_int_option(op, offsetof(fuge_options, pivot_rule), FUGE_GREATEST_DECREASE + 1, FUGE_ERR_OPTION);
   check_int_option(op, offsetof(fuge_options, pivot_rule), -1, FUGE_ERR_OPTION);
   check_int_option(op, offsetof(fuge_options, max_iterations), -1, FUGE_ERR_OPTION);
@@ -113,6 +115,59 @@ static void test_every_rule(void) {
     check_solved(solver);
     free_both(&solver, &op);
   }
+}
+
+/* The engine of products on a matrix: all that a solver does. */
+static void test_iterative(void) {
+  const double loads[] = {1.0, 20.0, 0.0, 2.0}, first[] = {1.0, 15.0, 0.0, 2.0};
+  double values[2];
+  fuge_info info;
+  fuge_options options;
+  fuge_operator *op = NULL;
+  fuge_default_options(&options);
+  options.method = FUGE_ITERATIVE;
+  fuge_solver *solver = table1_solver(&options, &op);
+  check_solved(solver);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK(info.iterations > 0);
+  CHECK(info.products > 1);
+  CHECK_INT(info.filters, 0);
+  CHECK_INT(info.contacts, 1);
+  for (int k = 0; k < 4; k++) {
+    CHECK_STATUS(fuge_set_load(solver, loads[k]), FUGE_DONE);
+    check_no_answer(solver);
+    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+    CHECK_STATUS(fuge_get_force(solver, values), FUGE_DONE);
+    CHECK_NEAR(values[0], first[k], 1e-9);
+    CHECK_NEAR(values[1], loads[k] - first[k], 1e-9);
+  }
+  fill(values, 2);
+  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, values, NULL, NULL), FUGE_ERR_CALL_ORDER);
+  CHECK_UNTOUCHED(values, 2);
+  free_both(&solver, &op);
+}
+
+static void test_iterative_limit(void) {
+  enum { N = 30 };
+  double alpha[N * N], gap[N];
+  fuge_info info;
+  fuge_options options;
+  fuge_operator *op = NULL;
+  for (int j = 0; j < N; j++) {
+    for (int i = 0; i < N; i++) alpha[i + j * N] = 1.0 / (1.0 + 0.3 * abs(i - j));
+    gap[j] = 0.02 * (j - 14.0) * (j - 14.0) + 0.1 * fabs(sin(3.0 * j));
+  }
+  fuge_default_options(&options);
+  options.method = FUGE_ITERATIVE;
+  options.max_iterations = 1;
+  fuge_solver *solver = new_solver(alpha, N, &options, &op);
+  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_load(solver, 1.0), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_ITERATION_LIMIT);
+  check_message(solver, "max_iterations");
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_INT(info.iterations, 1);
+  free_both(&solver, &op);
 }
 
 /* The caller may throw the options away. */
@@ -400,6 +455,8 @@ int main(void) {
   test_null_solver();
   test_bad_options();
   test_every_rule();
+  test_iterative();
+  test_iterative_limit();
   test_options_are_copied();
   test_solve_needs_data();
   test_load_before_gap();

@@ -22,6 +22,7 @@ module hard_scene_type
     !> What the engines have to say.
     integer :: tableau = FUGE_DONE
     integer :: active_set = FUGE_DONE
+    integer :: iterative = FUGE_DONE
     !> At the limit of double precision: a warning, or FUGE_ERR_NOT_DEFINITE, will do too.
     logical :: hedged = .false.
     !> Most pivots for each row of the tableau, most contact sets tried.

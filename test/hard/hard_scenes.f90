@@ -5,7 +5,7 @@
 !> rounds: F is the answer of the data as stored, whatever the condition of alpha.
 module hard_scenes
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp, fuge_halfplane_matrix, fuge_info, FUGE_MEAN, FUGE_WARN_NOT_UNIQUE, &
+  use fuge, only: dp, fuge_halfplane_matrix, fuge_info, FUGE_MEAN, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL, &
     FUGE_ERR_NOT_DEFINITE
   use hard_matrices, only: decimal, halfplane, integer_bed, places, ring, string, tridiagonal
   use hard_reference, only: draw, integers
@@ -13,9 +13,9 @@ module hard_scenes
   implicit none
   private
 
-  public :: numbered_scene, hard_scene, given, bowl, steel, fathi, fathi_with_stop, rough
+  public :: numbered_scene, hard_scene, given, bowl, steel, fathi, fathi_with_stop, rough, surface, surface_load
 
-  integer, parameter, public :: SCENES = 54
+  integer, parameter, public :: SCENES = 61, SURFACES = 7
 
   !> Error of forces for each unit of the condition number after refinement with
   !> residuals in extended precision (64 bits: 5e-20).
@@ -49,8 +49,10 @@ contains
       scene = loaded(number - 40)
     case (47:49)
       scene = in_units(number - 46)
-    case default
+    case (50:54)
       scene = long_way(number - 49)
+    case default
+      scene = on_halfplane(number - 54)
     end select
   end function numbered_scene
 
@@ -153,6 +155,7 @@ contains
     case (8)
       scene = built('rigid', 'alpha = 0', 0.0_dp*THREE, [7.0_dp, 0.0_dp, 0.0_dp], [0.0_dp, 1.0_dp, 2.0_dp], 0.0_dp)
       scene%tableau = FUGE_ERR_NOT_DEFINITE
+      scene%iterative = FUGE_WARN_RESIDUAL
     case default
       scene = built('rigid but for a datum', 'alpha = 1 everywhere, equal gaps', 0.0_dp*THREE + 1.0_dp, &
                     [7.0_dp, 0.0_dp, 0.0_dp], [0.0_dp, 0.0_dp, 0.0_dp], 7.0_dp)
@@ -241,6 +244,7 @@ contains
     scene%exact = .false.
     scene%tolerance = min(1.0_dp, 10.0_dp**(decimals - 15))
     scene%hedged = decimals > 12
+    if (decimals > 6) scene%iterative = FUGE_WARN_RESIDUAL
   end function orthogonal
 
   !> The Hilbert matrix times the least common multiple of its denominators.
@@ -323,6 +327,7 @@ contains
                   spread(s, 1, N)*integer_bed(N, 16_int64)*spread(s, 2, N), &
                   [(real(merge(1 + mod(k, 4), 0, mod(k, 3) > 0), dp), k=1, N)]*32768.0_dp/s, &
                   [(real(merge(0, 1 + mod(k, 9), mod(k, 3) > 0), dp), k=1, N)]*32768.0_dp*s, 1.0_dp)
+    scene%iterative = FUGE_WARN_RESIDUAL
   end function bad_rows
 
   !> Walsh functions with a datum on alpha and on the gaps, as parts of the range.
@@ -395,6 +400,62 @@ contains
       scene%large = .true.
     end select
   end function long_way
+
+  !> Surfaces on a half-plane: hard for what looks at smooth contacts.
+  pure function on_halfplane(number) result(scene)
+    integer, intent(in) :: number
+    type(hard_scene) :: scene
+    integer, parameter :: N = 160
+    character(len=32), parameter :: NAMES(SURFACES) = [character(len=32) :: 'crests 4 cells apart', &
+      'one open cell', 'two punches', 'white noise', 'steps', 'plateau', 'spike']
+    character(len=40), parameter :: WHY(SURFACES) = [character(len=40) :: 'as many stretches as crests', &
+      'full contact but for a pit', 'far apart, one hardly loaded', 'no scale but that of the cells', &
+      'singular edges', 'equal gaps', 'a cell that stands far out']
+
+    scene = given(trim(NAMES(number)), trim(WHY(number)), halfplane(places(N, 1.0_dp/real(N, dp)), 1.0_dp/real(N, dp)), &
+                  surface(number, N), surface_load(number))
+    scene%tolerance = 1.0e-10_dp
+    scene%most_sets = 30
+    scene%most_pivots = 4
+  end function on_halfplane
+
+  !> Gaps over n cells of width 1/n, and the load per unit modulus that goes with them.
+  pure function surface(number, n) result(gap)
+    integer, intent(in) :: number, n
+    real(dp) :: gap(n)
+    real(dp) :: x(n)
+    integer(int64) :: seed
+
+    x = places(n, 1.0_dp/real(n, dp))
+    gap = 0.0_dp
+    select case (number)
+    case (1)
+      gap = real(merge(0, 1, mod(nint(x*real(n, dp) + 0.5_dp*real(n, dp) + 0.5_dp), 4) < 2), dp)/real(n, dp)
+    case (2)
+      gap(n/3) = 1.0_dp
+    case (3)
+      gap = min((x + 0.4_dp)**2, (x - 0.4_dp)**2 + 0.0052_dp)
+    case (4)
+      seed = 18_int64
+      call draw(seed, gap)
+      gap = 0.01_dp*gap
+    case (5)
+      gap = 0.003_dp*real(mod(floor(10.0_dp*(x + 0.5_dp)), 4), dp)
+    case (6)
+      gap = max(0.0_dp, abs(x) - 0.2_dp)
+    case default
+      gap = x**2
+      gap(n/3) = -0.2_dp
+    end select
+  end function surface
+
+  pure function surface_load(number) result(load)
+    integer, intent(in) :: number
+    real(dp) :: load
+    real(dp), parameter :: LOADS(SURFACES) = [0.02_dp, 1.0_dp, 0.002_dp, 0.005_dp, 0.005_dp, 0.1_dp, 0.2_dp]
+
+    load = LOADS(number)
+  end function surface_load
 
   !> Y. Fathi, Mathematical Programming 17 (1979): principal pivoting takes 2**n steps
   !> for w = U^T U z - 1, U with 1 on and 2 above the diagonal; z is the first unit vector.

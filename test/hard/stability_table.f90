@@ -1,10 +1,10 @@
-!> The table of doc/stability.md: every hard scene by both engines.
+!> The table of doc/stability.md: every hard scene by all engines.
 !>
 !> stability_table [file] writes it to a file or to the terminal, and stops with an
 !> error where a scene misses what it promises.
 program stability_table
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
-  use fuge, only: dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_TABLEAU, FUGE_DONE
+  use fuge, only: dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_TABLEAU, FUGE_ITERATIVE, FUGE_DONE
   use hard_matrices, only: decimal
   use hard_run, only: solve_scene, force_error, gap_error, own_violation
   use hard_scenes, only: hard_scene, numbered_scene, SCENES
@@ -25,8 +25,9 @@ contains
     call get_command_argument(1, file)
     if (len_trim(file) > 0) open (newunit=unit, file=trim(file), action='write')
     write (unit, '(a)') '| scene | n | what is hard | tableau | pivots | residual | error ' &
-      //'| active set | sets | residual | error |'
-    write (unit, '(a)') '| --- | ---: | --- | --- | ---: | ---: | ---: | --- | ---: | ---: | ---: |'
+      //'| active set | sets | residual | error | iterative | sets | residual | error |'
+    write (unit, '(a)') '| --- | ---: | --- | --- | ---: | ---: | ---: | --- | ---: | ---: | ---: ' &
+      //'| --- | ---: | ---: | ---: |'
     misses = 0
     do number = 1, SCENES
       call write_row(unit, numbered_scene(number), misses)
@@ -42,8 +43,8 @@ contains
     integer, intent(in) :: unit
     type(hard_scene), intent(in) :: scene
     integer, intent(inout) :: misses
-    type(fuge_solution) :: slow, fast
-    type(fuge_info) :: slow_info, fast_info
+    type(fuge_solution) :: slow, fast, iterated
+    type(fuge_info) :: slow_info, fast_info, iterated_info
     character(len=:), allocatable :: row
 
     call solve_scene(scene, FUGE_ACTIVE_SET, fast, fast_info)
@@ -55,8 +56,11 @@ contains
       row = row//cells(scene, slow_info, slow, fast)
       call check(scene, slow_info, slow, misses)
     end if
-    row = row//cells(scene, fast_info, fast, slow)//' |'
+    row = row//cells(scene, fast_info, fast, slow)
     call check(scene, fast_info, fast, misses)
+    call solve_scene(scene, FUGE_ITERATIVE, iterated, iterated_info)
+    row = row//cells(scene, iterated_info, iterated, fast)//' |'
+    call check(scene, iterated_info, iterated, misses)
     write (unit, '(a)') row
   end subroutine write_row
 

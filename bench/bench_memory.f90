@@ -1,0 +1,60 @@
+!> Resident memory of this process, as Linux tells it; elsewhere it is not known.
+module bench_memory
+  use fuge, only: dp
+  implicit none
+  private
+
+  public :: forget_peak, resident, peak_resident
+
+contains
+
+  !> Let the peak be what is resident now. `done`: it is.
+  subroutine forget_peak(done)
+    logical, intent(out) :: done
+    integer :: unit, stat
+
+    open (newunit=unit, file='/proc/self/clear_refs', action='write', status='old', iostat=stat)
+    done = stat == 0
+    if (.not. done) return
+    write (unit, '(a)', iostat=stat) '5'
+    done = stat == 0
+    close (unit, iostat=stat)
+    done = done .and. stat == 0
+  end subroutine forget_peak
+
+  function resident() result(bytes)
+    real(dp) :: bytes
+
+    bytes = status_value('VmRSS:')
+  end function resident
+
+  function peak_resident() result(bytes)
+    real(dp) :: bytes
+
+    bytes = status_value('VmHWM:')
+  end function peak_resident
+
+  !> A line like "VmHWM:      1760 kB" of the process' status; negative if there is none.
+  function status_value(word) result(bytes)
+    character(len=*), intent(in) :: word
+    real(dp) :: bytes
+    character(len=80) :: line
+    integer :: unit, stat
+
+    bytes = -1.0_dp
+    open (newunit=unit, file='/proc/self/status', action='read', status='old', iostat=stat)
+    if (stat /= 0) return
+    do
+      read (unit, '(a)', iostat=stat) line
+      if (stat /= 0) exit
+      if (index(line, word) /= 1) cycle
+      line = line(len(word) + 1:index(line, 'kB') - 1)
+      if (iachar(line(1:1)) == 9) line(1:1) = ' '
+      read (line, *, iostat=stat) bytes
+      if (stat == 0) bytes = 1024.0_dp*bytes
+      exit
+    end do
+    close (unit)
+  end function status_value
+
+end module bench_memory
