@@ -172,7 +172,8 @@ static double bed[M * M], bed_gap[M];
 static void make_bed(void) {
   for (int j = 0; j < M; j++) {
     for (int i = 0; i < M; i++)
-      bed[i + j * M] = (i == j ? 1.0 : 0.3 / (1.0 + abs(i - j))) * sqrt((1.0 + 20.0 * (i % 3)) * (1.0 + 20.0 * (j % 3)));
+      bed[i + j * M] = (i == j ? 1.0 : 0.3 / (1.0 + abs(i - j)))
+                       * sqrt((1.0 + 20.0 * (i % 3)) * (1.0 + 20.0 * (j % 3)));
     bed_gap[j] = fabs(sin(5.0 * j)) + 0.02 * (j - 9.0) * (j - 9.0);
   }
 }

@@ -152,7 +152,8 @@ static void check_free_answer(int element, const double *force, const double *ga
   make_gap(x, initial);
   for (int k = 0; k < CELLS; k++) width[k] = SPACING;
   CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, alpha, CELLS), FUGE_DONE);
-  CHECK_STATUS(fuge_solve_dense(CELLS, alpha, CELLS, initial, LOAD, right_force, right_gap, &right_approach), FUGE_DONE);
+  CHECK_STATUS(fuge_solve_dense(CELLS, alpha, CELLS, initial, LOAD, right_force, right_gap, &right_approach),
+               FUGE_DONE);
   for (int k = 0; k < CELLS; k++) {
     CHECK_NEAR(force[k], right_force[k], 1e-7 * LOAD);
     CHECK_NEAR(gap[k], right_gap[k], 1e-8 * LOAD);
@@ -217,7 +218,8 @@ static void test_halfplane_unsupported(void) {
     CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
     CHECK_UNTOUCHED(force, CELLS);
     make_gap(x, gap);
-    CHECK_STATUS(fuge_load_path(op, gap, LOAD, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0), FUGE_ERR_UNSUPPORTED);
+    CHECK_STATUS(fuge_load_path(op, gap, LOAD, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0),
+                 FUGE_ERR_UNSUPPORTED);
     CHECK_INT(events, -1);
     free_both(&solver, &op);
   }

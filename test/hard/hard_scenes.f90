@@ -412,7 +412,8 @@ contains
       'full contact but for a pit', 'far apart, one hardly loaded', 'no scale but that of the cells', &
       'singular edges', 'equal gaps', 'a cell that stands far out']
 
-    scene = given(trim(NAMES(number)), trim(WHY(number)), halfplane(places(N, 1.0_dp/real(N, dp)), 1.0_dp/real(N, dp)), &
+    scene = given(trim(NAMES(number)), trim(WHY(number)), &
+                  halfplane(places(N, 1.0_dp/real(N, dp)), 1.0_dp/real(N, dp)), &
                   surface(number, N), surface_load(number))
     scene%tolerance = 1.0e-10_dp
     scene%most_sets = 30
