@@ -3,7 +3,7 @@
 !> Both sink without tilting: two rigid motions, each of which moves the cells of one punch
 !> only, with its force as resultant. Either punch sinks into the hollow of the other one.
 !> First equal forces over the distance, then one force is kept and the other one raised from
-!> zero. All is per unit depth and compared with the exact answer. For full contact on
+!> a twentieth of it. All is per unit depth and compared with the exact answer. For full contact on
 !> b < |x| < c, with the sum S = F_1 + F_2, the difference T = F_1 - F_2 and k = b/c, it is
 !>
 !>     p = [S |x| +- pi T c/(2 K(k'))]/(pi sqrt((x**2 - b**2) (c**2 - x**2)))
@@ -69,6 +69,7 @@ contains
 
   !> Under a small force the second punch rests on its outer corner, because the hollow of the
   !> first one slopes away from it; full contact begins where p is 0 at its inner corner.
+  !> With no force at all its approach would be anything up to the first touch.
   subroutine raise_second(distance, file)
     real(dp), intent(in) :: distance
     integer, intent(in) :: file
@@ -81,15 +82,13 @@ contains
     print '(/,a,f5.2,a,f7.1,a)', 'First force 5 kN/mm, distance/2a =', distance/(2.0_dp*HALF_FACE), &
       ': full contact of the second punch from F_2 =', least, ' N/mm'
     print '(a)', ' F_2 [N/mm]  touching   punch 1 far apart   exact     punch 2 far apart   exact [mm]'
-    do k = 0, 20
+    do k = 1, 20
       second = 0.05_dp*FORCE*real(k, dp)
       found = press(distance, [FORCE, second])
       write (file, '(6(es14.7,'',''),es14.7)') distance, FORCE, second, found
       full = .not. found%touching(2) < 1.0_dp
       if (full .neqv. second > least) error stop 'full contact does not begin where it should'
-      if (k == 0) then
-        call show(distance, second, found, beside_first(distance))
-      else if (full) then
+      if (full) then
         call show(distance, second, found, full_contact(distance, [FORCE, second]))
       else
         call show(distance, second, found)
@@ -193,15 +192,6 @@ contains
     approach = sinking(sum(load), sqrt(0.5_dp*HALF_FACE*distance)) &
                + [1.0_dp, -1.0_dp]*(load(1) - load(2))*quotient/E_STAR
   end function full_contact
-
-  !> The second punch without a force: its outer corner on the surface beside the first one.
-  pure function beside_first(distance) result(approach)
-    real(dp), intent(in) :: distance
-    real(dp) :: approach(2)
-
-    approach(1) = alone(FORCE)
-    approach(2) = alone(FORCE) - 2.0_dp*FORCE/(PI*E_STAR)*acosh(distance/HALF_FACE + 1.0_dp)
-  end function beside_first
 
   !> Least F_2/F_1 for full contact.
   pure function full_from(distance) result(ratio)
