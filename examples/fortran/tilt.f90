@@ -1,0 +1,235 @@
+!> A flat and a rounded punch on an elastic half-plane under an eccentric force.
+!>
+!> The force F acts at the distance e from the middle of the face |x| <= a, so that its moment
+!> is M = F e. The face may sink and tilt: two rigid motions, R = [1, x], whose resultants are
+!> F and M. The flat punch stays in full contact up to e = a/2 and then lifts off; the rounded
+!> one, y = x**2/(2 R), rolls until its contact reaches the corner. Beyond e = a both would
+!> tip over. Everything is per unit depth and compared with the exact answer.
+!> Writes tilt_length.csv and tilt_pressure.csv for the picture.
+program tilt
+  use fuge, only: dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_interval, &
+    fuge_problem, fuge_solution, fuge_solver, fuge_status_text, FUGE_ERR_NO_EQUILIBRIUM, FUGE_MEAN
+  implicit none
+
+  !> N, mm.
+  integer, parameter :: CELLS = 400
+  real(dp), parameter :: HALF_FACE = 10.0_dp, E_STAR = 1.0e5_dp, LOAD = 5.0e3_dp
+  real(dp), parameter :: WIDTH = 2.0_dp*HALF_FACE/real(CELLS, dp)
+  real(dp), parameter :: PI = acos(-1.0_dp)
+  !> Clear of the corners the contact of the rounded punch covers 0.4 of the face.
+  real(dp), parameter :: RADIUS = PI*E_STAR*(0.4_dp*HALF_FACE)**2/(4.0_dp*LOAD)
+
+  !> Contact from middle - half to middle + half, and the motions of the punch.
+  type :: contact
+    real(dp) :: middle = 0.0_dp, half = 0.0_dp
+    real(dp) :: approach = 0.0_dp, rotation = 0.0_dp
+  end type contact
+
+  call run()
+
+contains
+
+  subroutine run()
+    real(dp), allocatable, target :: alpha(:, :)
+    real(dp) :: x(CELLS)
+    type(fuge_dense_operator) :: operator
+    type(fuge_info) :: info
+    integer :: file, k
+
+    x = [(-HALF_FACE + WIDTH*(real(k, dp) - 0.5_dp), k=1, CELLS)]
+    allocate (alpha(CELLS, CELLS))
+    call fuge_halfplane_matrix(x, [(WIDTH, k=1, CELLS)], E_STAR, FUGE_MEAN, alpha, info)
+    if (.not. info%failed()) call operator%set(alpha, info)
+    if (info%failed()) error stop 'no influence matrix'
+
+    open (newunit=file, file='tilt_length.csv', status='replace', action='write')
+    write (file, '(a)') 'punch,eccentricity/a,length/2a,exact,rotation,exact,approach [mm],exact'
+    call all_eccentricities(operator, x, 'flat', 0.0_dp, file)
+    call all_eccentricities(operator, x, 'rounded', 1.0_dp/RADIUS, file)
+    close (file)
+    call write_pressures(operator, x)
+    call tip_over(operator, x)
+  end subroutine run
+
+  !> From the middle to almost the corner; one solver, because each contact is a good start
+  !> for the next one.
+  subroutine all_eccentricities(operator, x, name, curvature, file)
+    type(fuge_dense_operator), intent(in) :: operator
+    real(dp), intent(in) :: x(:), curvature
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: file
+    type(fuge_problem) :: problem
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution
+    type(contact) :: found, exact
+    real(dp) :: eccentricity
+    integer :: percent
+
+    problem = punch(x, curvature)
+    print '(/,3a)', 'The ', name, ' punch'
+    print '(a)', '  e/a   contact from .. to [mm]    length/2a    exact    rotation [mrad] exact    approach [mm] exact'
+    do percent = 0, 96, 2
+      eccentricity = 0.01_dp*real(percent, dp)*HALF_FACE
+      call press(operator, problem, eccentricity, solver, solution)
+      found = contact_of(solution, x)
+      exact = exact_contact(eccentricity, curvature)
+      write (file, '(a,7('','',es14.7))') name, eccentricity/HALF_FACE, found%half/HALF_FACE, exact%half/HALF_FACE, &
+        found%rotation, exact%rotation, found%approach, exact%approach
+      if (mod(percent, 8) == 0) print '(f5.2,2f12.4,f13.5,f9.5,3x,2f11.4,3x,2f10.5)', eccentricity/HALF_FACE, &
+        found%middle - found%half, found%middle + found%half, found%half/HALF_FACE, exact%half/HALF_FACE, &
+        1.0e3_dp*found%rotation, 1.0e3_dp*exact%rotation, found%approach, exact%approach
+      call compare(found, exact)
+    end do
+  end subroutine all_eccentricities
+
+  !> Initial gap x**2 curvature/2; the load is set later.
+  function punch(x, curvature) result(problem)
+    real(dp), intent(in) :: x(:), curvature
+    type(fuge_problem) :: problem
+
+    allocate (problem%gap(size(x)), problem%modes(size(x), 2))
+    problem%gap = 0.5_dp*curvature*x**2
+    problem%modes(:, 1) = 1.0_dp
+    problem%modes(:, 2) = x
+  end function punch
+
+  subroutine press(operator, problem, eccentricity, solver, solution)
+    type(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(inout) :: problem
+    real(dp), intent(in) :: eccentricity
+    type(fuge_solver), intent(inout) :: solver
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info) :: info
+
+    problem%resultant = [LOAD, LOAD*eccentricity]
+    call solver%solve(operator, problem, solution, info)
+    if (info%status /= 0) error stop 'the punch was not solved'
+  end subroutine press
+
+  function contact_of(solution, x) result(found)
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: x(:)
+    type(contact) :: found
+    type(fuge_interval), allocatable :: intervals(:)
+    type(fuge_info) :: info
+    integer :: k
+
+    call fuge_contact_edges(x, [(WIDTH, k=1, size(x))], solution%force, FUGE_MEAN, intervals, info)
+    if (info%status /= 0) error stop 'the edges were not found'
+    if (size(intervals) /= 1) error stop 'more than one contact under the punch'
+    found%middle = 0.5_dp*(intervals(1)%left + intervals(1)%right)
+    found%half = 0.5_dp*(intervals(1)%right - intervals(1)%left)
+    found%approach = solution%rigid(1)
+    found%rotation = solution%rigid(2)
+  end function contact_of
+
+  !> With t = (x - middle)/half the pressure on a parabola or a plane is
+  !>
+  !>     p = [F + c_1 t - c_2 (2 t**2 - 1)]/(pi half sqrt(1 - t**2))
+  !>     c_1 = 2 (M - F middle)/half,   c_2 = F half**2/hertz**2
+  !>
+  !> and each Chebyshev polynomial under the root moves the surface by a multiple of itself.
+  !> At a free edge p is 0. `eccentricity` in 0 .. a.
+  pure function exact_contact(eccentricity, curvature) result(exact)
+    real(dp), intent(in) :: eccentricity, curvature
+    type(contact) :: exact
+    real(dp) :: flattening, unit
+
+    exact%half = half_length(eccentricity, curvature)
+    ! Under the force, or as close to it as the corner lets it.
+    exact%middle = min(eccentricity, HALF_FACE - exact%half)
+    flattening = exact%half**2*inverse_hertz(curvature)
+    unit = 2.0_dp*LOAD/(PI*E_STAR)
+    exact%rotation = curvature*exact%middle + 2.0_dp*unit*(eccentricity - exact%middle)/exact%half**2
+    ! The displacement by a line load is zero at twice the length of the face.
+    exact%approach = unit*(log(8.0_dp*HALF_FACE/exact%half) + 0.5_dp*flattening) &
+                     - exact%rotation*exact%middle + 0.5_dp*curvature*exact%middle**2
+  end function exact_contact
+
+  !> The whole face, Hertz's contact, or one that ends at the corner and at a free edge:
+  !> eccentricity = a - half/2 - half**3/(2 hertz**2). The least of the three is right.
+  pure function half_length(eccentricity, curvature) result(half)
+    real(dp), intent(in) :: eccentricity, curvature
+    real(dp) :: half
+    real(dp) :: arm, low, high
+    integer :: k
+
+    arm = HALF_FACE - eccentricity
+    low = 0.0_dp
+    high = HALF_FACE
+    if (curvature > 0.0_dp) high = min(high, 1.0_dp/sqrt(inverse_hertz(curvature)))
+    half = high
+    if (0.5_dp*half*(1.0_dp + half**2*inverse_hertz(curvature)) <= arm) return
+    do k = 1, digits(half)
+      half = 0.5_dp*(low + high)
+      if (0.5_dp*half*(1.0_dp + half**2*inverse_hertz(curvature)) > arm) then
+        high = half
+      else
+        low = half
+      end if
+    end do
+  end function half_length
+
+  !> 1/hertz**2, hertz the half width of the contact that meets no corner.
+  pure function inverse_hertz(curvature) result(inverse)
+    real(dp), intent(in) :: curvature
+    real(dp) :: inverse
+
+    inverse = PI*E_STAR*curvature/(4.0_dp*LOAD)
+  end function inverse_hertz
+
+  !> The cells press up to a tenth of a width inside of a corner, an error of first order
+  !> that a free edge at the other end doubles twice. Two free edges are far better.
+  subroutine compare(found, exact)
+    type(contact), intent(in) :: found, exact
+    real(dp) :: shift, turn
+
+    shift = 0.25_dp*WIDTH
+    if (exact%middle + exact%half < HALF_FACE - WIDTH) shift = 1.0e-3_dp*WIDTH
+    turn = 2.0_dp*LOAD/(PI*E_STAR)*shift/exact%half**2
+    if (abs(found%half - exact%half) > shift) error stop 'the length of contact is not the exact one'
+    if (abs(found%middle - exact%middle) > shift) error stop 'the place of contact is not the exact one'
+    if (abs(found%rotation - exact%rotation) > turn) error stop 'the rotation is not the exact one'
+    if (abs(found%approach - exact%approach) > turn*HALF_FACE) error stop 'the approach is not the exact one'
+  end subroutine compare
+
+  !> Under the flat punch, for the right half of the picture.
+  subroutine write_pressures(operator, x)
+    type(fuge_dense_operator), intent(in) :: operator
+    real(dp), intent(in) :: x(:)
+    type(fuge_problem) :: problem
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution(4)
+    real(dp), parameter :: QUARTERS(4) = [0.0_dp, 0.25_dp, 0.5_dp, 0.75_dp]
+    integer :: file, j, k
+
+    problem = punch(x, 0.0_dp)
+    do j = 1, size(solution)
+      call press(operator, problem, QUARTERS(j)*HALF_FACE, solver, solution(j))
+    end do
+    open (newunit=file, file='tilt_pressure.csv', status='replace', action='write')
+    write (file, '(a)') 'x [mm],p(e=0) [N/mm2],p(e=a/4),p(e=a/2),p(e=3a/4)'
+    do k = 1, size(x), 5
+      write (file, '(f9.4,4('','',f12.4))') x(k), (solution(j)%force(k)/WIDTH, j=1, size(solution))
+    end do
+    close (file)
+  end subroutine write_pressures
+
+  !> Beyond the corner no pressure can carry the force: an error that says why.
+  subroutine tip_over(operator, x)
+    type(fuge_dense_operator), intent(in) :: operator
+    real(dp), intent(in) :: x(:)
+    type(fuge_problem) :: problem
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution
+    type(fuge_info) :: info
+
+    problem = punch(x, 0.0_dp)
+    problem%resultant = [LOAD, 1.1_dp*LOAD*HALF_FACE]
+    call solver%solve(operator, problem, solution, info)
+    print '(/,a,i0,2a)', 'With e = 1.1 a the status is ', info%status, ': ', fuge_status_text(info%status)
+    print '(2a)', '  ', trim(info%message)
+    if (info%status /= FUGE_ERR_NO_EQUILIBRIUM) error stop 'a punch that tips over was accepted'
+  end subroutine tip_over
+
+end program tilt

@@ -1,0 +1,236 @@
+!> Two rigid flat punches side by side on one elastic half-plane, each with its own force.
+!>
+!> Both sink without tilting: two rigid motions, each of which moves the cells of one punch
+!> only, with its force as resultant. Either punch sinks into the hollow of the other one.
+!> First equal forces over the distance, then one force is kept and the other one raised from
+!> a twentieth of it. All is per unit depth and compared with the exact answer. For full contact on
+!> b < |x| < c, with the sum S = F_1 + F_2, the difference T = F_1 - F_2 and k = b/c, it is
+!>
+!>     p = [S |x| +- pi T c/(2 K(k'))]/(pi sqrt((x**2 - b**2) (c**2 - x**2)))
+!>     v = [S ln(4 D**2/(c**2 - b**2)) +- pi T K(k)/K(k')]/(pi E*)
+!>
+!> + for the first punch, - for the second one; K the complete elliptic integral of the first
+!> kind, D the distance at which a line load displaces nothing.
+!> Writes two_bodies.csv: the approaches over the distance and over the force.
+program two_bodies
+  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, fuge_solver, &
+    FUGE_MEAN
+  implicit none
+
+  !> N, mm; cells of each punch.
+  integer, parameter :: CELLS = 60
+  real(dp), parameter :: HALF_FACE = 10.0_dp, E_STAR = 1.0e5_dp, FORCE = 5.0e3_dp
+  real(dp), parameter :: DATUM = 1.0e3_dp
+  real(dp), parameter :: PI = acos(-1.0_dp)
+  !> Largest relative error of an approach.
+  real(dp), parameter :: TOLERANCE = 1.0e-4_dp
+
+  !> What a pair of forces does.
+  type :: answer
+    !> Approaches, length, and how much of each face touches.
+    real(dp) :: approach(2) = 0.0_dp, touching(2) = 0.0_dp
+  end type answer
+
+  call run()
+
+contains
+
+  subroutine run()
+    integer :: file
+
+    open (newunit=file, file='two_bodies.csv', status='replace', action='write')
+    write (file, '(a)') 'distance [mm],F_1 [N],F_2 [N],v_1 [mm],v_2 [mm],touching 1,touching 2'
+    call move_apart(file)
+    call raise_second(2.5_dp*HALF_FACE, file)
+    close (file)
+  end subroutine run
+
+  !> A line force in place of the other punch is right far away; for equal forces it is exact
+  !> at any distance, because c**2 - b**2 is 2 a times the distance.
+  subroutine move_apart(file)
+    integer, intent(in) :: file
+    real(dp), parameter :: RATIO(8) = [1.1_dp, 1.2_dp, 1.5_dp, 2.0_dp, 3.0_dp, 6.0_dp, 11.0_dp, 31.0_dp]
+    type(answer) :: found
+    real(dp) :: distance, exact(2)
+    integer :: k
+
+    print '(a,f6.3,a)', 'Equal forces of 5 kN/mm; alone each punch sinks by ', alone(FORCE), ' mm'
+    print '(a)', '  distance/2a    punch 1    punch 2      exact  far apart [mm]'
+    do k = 1, size(RATIO)
+      distance = 2.0_dp*HALF_FACE*RATIO(k)
+      found = press(distance, [FORCE, FORCE])
+      exact = full_contact(distance, [FORCE, FORCE])
+      print '(f11.1,2x,4f11.6)', RATIO(k), found%approach, exact(1), far_apart(distance, FORCE, FORCE)
+      write (file, '(6(es14.7,'',''),es14.7)') distance, FORCE, FORCE, found
+      call compare(found%approach, exact)
+      if (any(found%touching < 1.0_dp)) error stop 'a punch has lifted off'
+    end do
+  end subroutine move_apart
+
+  !> Under a small force the second punch rests on its outer corner, because the hollow of the
+  !> first one slopes away from it; full contact begins where p is 0 at its inner corner.
+  !> With no force at all its approach would be anything up to the first touch.
+  subroutine raise_second(distance, file)
+    real(dp), intent(in) :: distance
+    integer, intent(in) :: file
+    type(answer) :: found
+    real(dp) :: second, least
+    logical :: full
+    integer :: k
+
+    least = full_from(distance)*FORCE
+    print '(/,a,f5.2,a,f7.1,a)', 'First force 5 kN/mm, distance/2a =', distance/(2.0_dp*HALF_FACE), &
+      ': full contact of the second punch from F_2 =', least, ' N/mm'
+    print '(a)', ' F_2 [N/mm]  touching   punch 1 far apart   exact     punch 2 far apart   exact [mm]'
+    do k = 1, 20
+      second = 0.05_dp*FORCE*real(k, dp)
+      found = press(distance, [FORCE, second])
+      write (file, '(6(es14.7,'',''),es14.7)') distance, FORCE, second, found
+      full = .not. found%touching(2) < 1.0_dp
+      if (full .neqv. second > least) error stop 'full contact does not begin where it should'
+      if (full) then
+        call show(distance, second, found, full_contact(distance, [FORCE, second]))
+      else
+        call show(distance, second, found)
+      end if
+    end do
+  end subroutine raise_second
+
+  !> A line of the table, with the exact approaches where they are known.
+  subroutine show(distance, second, found, exact)
+    real(dp), intent(in) :: distance, second
+    type(answer), intent(in) :: found
+    real(dp), intent(in), optional :: exact(2)
+    character(len=10) :: known(2)
+
+    known = '     -'
+    if (present(exact)) then
+      write (known, '(f10.6)') exact
+      call compare(found%approach, exact)
+    end if
+    print '(f9.0,f11.1,a,2(f12.6,f10.6,a))', second, 100.0_dp*found%touching(2), ' %', &
+      found%approach(1), far_apart(distance, FORCE, second), known(1), &
+      found%approach(2), far_apart(distance, second, FORCE), known(2)
+  end subroutine show
+
+  !> Cells narrow towards the corners, where the pressure is singular.
+  function press(distance, load) result(found)
+    real(dp), intent(in) :: distance, load(2)
+    type(answer) :: found
+    real(dp), allocatable, target :: alpha(:, :)
+    real(dp) :: edge(0:CELLS), x(2*CELLS), width(2*CELLS)
+    type(fuge_dense_operator) :: operator
+    type(fuge_problem) :: problem
+    type(fuge_solution) :: solution
+    type(fuge_solver) :: solver
+    type(fuge_info) :: info
+    integer :: k
+
+    edge = [(-HALF_FACE*cos(PI*real(k, dp)/real(CELLS, dp)), k=0, CELLS)]
+    width = [edge(1:) - edge(:CELLS - 1), edge(1:) - edge(:CELLS - 1)]
+    x(:CELLS) = 0.5_dp*(edge(1:) + edge(:CELLS - 1)) - 0.5_dp*distance
+    x(CELLS + 1:) = x(:CELLS) + distance
+    allocate (alpha(2*CELLS, 2*CELLS))
+    call fuge_halfplane_matrix(x, width, E_STAR, FUGE_MEAN, alpha, info)
+    if (.not. info%failed()) call operator%set(alpha, info)
+    if (info%failed()) error stop 'no influence matrix'
+
+    call set_punches(load, problem)
+    call solver%solve(operator, problem, solution, info)
+    if (info%status /= 0) error stop 'the punches were not solved'
+    found%touching(1) = sum(width(:CELLS), mask=solution%force(:CELLS) > 0.0_dp)/(2.0_dp*HALF_FACE)
+    found%touching(2) = sum(width(CELLS + 1:), mask=solution%force(CELLS + 1:) > 0.0_dp)/(2.0_dp*HALF_FACE)
+    if (all(solution%force > 0.0_dp)) found%touching = 1.0_dp
+    ! The matrix has the datum at twice the length from the first cell to the last one, which
+    ! is another one at each distance.
+    found%approach = solution%rigid + sinking(sum(load), 2.0_dp*(distance + 2.0_dp*HALF_FACE))
+  end function press
+
+  pure subroutine set_punches(load, problem)
+    real(dp), intent(in) :: load(2)
+    type(fuge_problem), intent(out) :: problem
+
+    allocate (problem%gap(2*CELLS), problem%modes(2*CELLS, 2), problem%resultant(2))
+    problem%gap = 0.0_dp
+    problem%modes = 0.0_dp
+    problem%modes(:CELLS, 1) = 1.0_dp
+    problem%modes(CELLS + 1:, 2) = 1.0_dp
+    problem%resultant = load
+  end subroutine set_punches
+
+  !> Of the surface at a distance from a line load.
+  elemental function sinking(load, distance)
+    real(dp), intent(in) :: load, distance
+    real(dp) :: sinking
+
+    sinking = 2.0_dp*load/(PI*E_STAR)*log(DATUM/distance)
+  end function sinking
+
+  elemental function alone(load) result(approach)
+    real(dp), intent(in) :: load
+    real(dp) :: approach
+
+    approach = sinking(load, 0.5_dp*HALF_FACE)
+  end function alone
+
+  !> The punch under its own load and a line load at a distance.
+  elemental function far_apart(distance, own, other) result(approach)
+    real(dp), intent(in) :: distance, own, other
+    real(dp) :: approach
+
+    approach = alone(own) + sinking(other, distance)
+  end function far_apart
+
+  pure function full_contact(distance, load) result(approach)
+    real(dp), intent(in) :: distance, load(2)
+    real(dp) :: approach(2)
+    real(dp) :: k, quotient
+
+    k = modulus(distance)
+    ! K(k)/K(k'), with K(k) = pi/(2 agm(1, k')).
+    quotient = mean_with_1(k)/mean_with_1(sqrt((1.0_dp - k)*(1.0_dp + k)))
+    approach = sinking(sum(load), sqrt(0.5_dp*HALF_FACE*distance)) &
+               + [1.0_dp, -1.0_dp]*(load(1) - load(2))*quotient/E_STAR
+  end function full_contact
+
+  !> Least F_2/F_1 for full contact.
+  pure function full_from(distance) result(ratio)
+    real(dp), intent(in) :: distance
+    real(dp) :: ratio
+    real(dp) :: difference
+
+    ! T/S = 2 k K(k')/pi.
+    difference = modulus(distance)/mean_with_1(modulus(distance))
+    ratio = (1.0_dp - difference)/(1.0_dp + difference)
+  end function full_from
+
+  !> k = b/c.
+  pure function modulus(distance) result(k)
+    real(dp), intent(in) :: distance
+    real(dp) :: k
+
+    k = (distance - 2.0_dp*HALF_FACE)/(distance + 2.0_dp*HALF_FACE)
+  end function modulus
+
+  !> Arithmetic-geometric mean of 1 and x > 0.
+  pure function mean_with_1(x) result(mean)
+    real(dp), intent(in) :: x
+    real(dp) :: mean
+    real(dp) :: geometric, last
+
+    mean = 1.0_dp
+    geometric = x
+    do while (abs(mean - geometric) > 4.0_dp*epsilon(mean)*mean)
+      last = mean
+      mean = 0.5_dp*(last + geometric)
+      geometric = sqrt(last*geometric)
+    end do
+  end function mean_with_1
+
+  subroutine compare(found, exact)
+    real(dp), intent(in) :: found(2), exact(2)
+
+    if (any(abs(found - exact) > TOLERANCE*exact)) error stop 'an approach is not the exact one'
+  end subroutine compare
+
+end program two_bodies

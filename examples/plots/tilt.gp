@@ -1,0 +1,39 @@
+# Punches under an eccentric force: contact length over the eccentricity, and pressure.
+# Run where tilt_length.csv and tilt_pressure.csv are.
+set terminal pngcairo size 1200,480 font "sans,13" enhanced
+set output "tilt.png"
+set datafile separator ","
+set multiplot layout 1,2
+set border 3
+set tics nomirror
+set grid lc rgb "#dddddd"
+
+set title "Contact length over the eccentricity"
+set xlabel "e / a"
+set ylabel "length / 2a"
+set xrange [0:1]
+set yrange [0:1.1]
+set key bottom left
+plot "tilt_length.csv" using (strcol(1) eq "flat" ? $2 : NaN):4 with lines lw 2 lc rgb "#999999" title "exact", \
+     "" using (strcol(1) eq "rounded" ? $2 : NaN):4 with lines lw 2 lc rgb "#999999" notitle, \
+     "" using (strcol(1) eq "flat" ? $2 : NaN):3 with points pt 7 ps 0.8 lc rgb "#c0392b" title "flat punch", \
+     "" using (strcol(1) eq "rounded" ? $2 : NaN):3 with points pt 7 ps 0.8 lc rgb "#2471a3" title "rounded punch"
+
+# Full contact up to e = a/2, beyond it a contact of half length b = 2 (a - e) at the corner.
+a = 10.0
+F = 5000.0
+full(x, e) = F*(1 + 2*e*x/a**2)/(pi*sqrt(a**2 - x**2))
+b(e) = 2*(a - e)
+lifted(x, e) = x > a - 2*b(e) ? F/(pi*b(e))*sqrt((x - a + 2*b(e))/(a - x)) : 0
+p(x, e) = abs(x) >= a ? NaN : (e > a/2 ? lifted(x, e) : full(x, e))
+set title "Pressure under the flat punch, F = 5 kN/mm"
+set xlabel "x [mm]"
+set ylabel "pressure [N/mm^2]"
+set xrange [-10:10]
+set yrange [0:900]
+set samples 1001
+set key top left Left reverse
+plot for [k=0:3] p(x, 0.25*k*a) with lines lw 2 lc rgb "#cccccc" notitle, \
+     for [k=0:3] "tilt_pressure.csv" using 1:k+2 with points pt 7 ps 0.5 \
+       lc rgb word("#2471a3 #1e8449 #b9770e #c0392b", k + 1) title word("e=0 e=a/4 e=a/2 e=3a/4", k + 1)
+unset multiplot
