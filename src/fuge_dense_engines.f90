@@ -85,7 +85,9 @@ contains
     logical :: contact(size(side))
     integer :: sets
 
-    call check_scene(alpha, largest_load(scene), info)
+    call check_magnitudes(alpha(:size(alpha, 2), :), largest_load(scene), info)
+    ! Opposite forces are in equilibrium only where all motions move both points alike.
+    if (scene%plain .and. .not. info%failed()) call check_pairs(alpha, info)
     if (info%failed()) return
     if (.not. any(side /= 0)) then
       if (scene%plain) then

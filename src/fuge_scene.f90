@@ -123,6 +123,11 @@ contains
       return
     end if
     part = part/spread(scales, 1, size(part, 1))
+    if (is_orthogonal(part)) then
+      ! Several bodies: mixing them would cost the smallest resultant its digits.
+      call keep_modes(part, scales, resultant, scene)
+      return
+    end if
     call triangular(part, .true., order, rank)
     if (rank < m) then
       call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(order(rank + 1)))//' is made of the other modes: leave ' &
@@ -135,14 +140,60 @@ contains
     if (scene%constant) then
       part = cshift(part, replaced - 1, dim=2)
       call triangular(part, .false., order, rank)
-      part(:, 1) = merge(0.0_dp, 1.0_dp/sqrt(real(count(.not. scene%excluded), dp)), scene%excluded)
     end if
     part = part*sqrt(real(count(.not. scene%excluded), dp))
-    if (scene%constant) where (.not. scene%excluded) part(:, 1) = 1.0_dp
+    if (scene%constant) part(:, 1) = merge(0.0_dp, 1.0_dp, scene%excluded)
     scene%modes = part
     scene%mixing = matmul(transpose(part), given)/real(count(.not. scene%excluded), dp)
     call solve_small(transpose(scene%mixing), resultant, scene%load)
   end subroutine orthogonalise
+
+  !> Are the columns orthogonal to each other as they are?
+  pure function is_orthogonal(matrix) result(orthogonal)
+    real(dp), intent(in) :: matrix(:, :)
+    logical :: orthogonal
+    integer :: i, j
+
+    orthogonal = .true.
+    do j = 2, size(matrix, 2)
+      do i = 1, j - 1
+        orthogonal = orthogonal .and. abs(dot_product(matrix(:, i), matrix(:, j))) &
+                     <= DEPENDENT*norm2(matrix(:, i))*norm2(matrix(:, j))
+      end do
+    end do
+  end function is_orthogonal
+
+  !> The modes as given but for their size, one that is constant first.
+  pure subroutine keep_modes(part, scales, resultant, scene)
+    real(dp), intent(in) :: part(:, :), scales(:), resultant(:)
+    type(contact_scene), intent(inout) :: scene
+    real(dp) :: least, most
+    integer :: first, j, m
+
+    m = size(scales)
+    first = 0
+    do j = 1, m
+      least = minval(part(:, j), mask=.not. scene%excluded)
+      most = maxval(part(:, j), mask=.not. scene%excluded)
+      if (least >= most .and. first == 0) first = j
+    end do
+    scene%constant = first > 0
+    scene%mixing = 0.0_dp
+    do j = 1, m
+      ! A rotation of the order brings the constant mode to the front.
+      associate (place => modulo(j - max(first, 1), m) + 1)
+        scene%modes(:, place) = part(:, j)
+        scene%mixing(place, j) = scales(j)
+        scene%load(place) = resultant(j)/scales(j)
+        ! The constant is 1, not -1.
+        if (j == first .and. any(part(:, j) < 0.0_dp)) then
+          scene%modes(:, place) = -part(:, j)
+          scene%mixing(place, j) = -scales(j)
+          scene%load(place) = -resultant(j)/scales(j)
+        end if
+      end associate
+    end do
+  end subroutine keep_modes
 
   !> Overwrite a matrix by an orthonormal base of its columns, in order of size if
   !> `pivoted`; `rank` counts those that are not rounding.
