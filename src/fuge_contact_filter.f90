@@ -44,8 +44,11 @@ module fuge_contact_filter
   end type level_force
 
   type, public :: contact_filter
+    !> Made when several levels are wanted.
     type(filter_level), allocatable, private :: levels(:)
     type(level_force), allocatable, private :: forces(:)
+    !> The present set, (n).
+    logical, allocatable, private :: contact(:)
     !> Levels in use for the present set; 0 without a filter.
     integer, private :: depth = 0
     !> Forces that sink all contact points alike, nearly, and their sum.
@@ -82,14 +85,17 @@ contains
       return
     end if
     if (self%depth > 0) then
-      if (all(contact .eqv. self%levels(1)%weight > 0.0_dp)) return
+      if (all(contact .eqv. self%contact)) return
     end if
     call over%find(contact, info)
-    if (.not. info%failed()) call make_levels(self, operator, size(over%first) >= MANY_STRETCHES, info)
+    if (.not. info%failed()) call make_ready(self, operator, contact, size(over%first) >= MANY_STRETCHES, info)
     if (info%failed()) return
-    call weigh(self%levels(:self%depth), contact)
-    self%levels(1)%length = self%levels(1)%weight
-    call filter_from(self%levels(:self%depth), self%forces, operator, self%even, self%coarse_share, info)
+    if (self%depth == 1) then
+      call filter_equal(operator, contact, self%even, info)
+    else
+      self%levels(1)%length = self%levels(1)%weight
+      call filter_from(self%levels(:self%depth), self%forces, operator, self%even, self%coarse_share, info)
+    end if
     if (info%failed()) return
     self%sum_of_even = total(over, self%even)
     if (.not. self%sum_of_even > 0.0_dp) then
@@ -100,8 +106,8 @@ contains
 
   !> Forces with zero sum on the contact set, near those that take `length` away.
   !>
-  !> `over` the stretches of its set; `length` (n) and `force` (n) on them, elsewhere they
-  !> may be anything. Errors: those of the filter.
+  !> `over` the stretches of its set; `length` (n), zero off them; `force` (n), off them
+  !> anything. Errors: those of the filter.
   subroutine apply(self, operator, over, length, force, info)
     class(contact_filter), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
@@ -113,14 +119,14 @@ contains
     integer :: i
 
     excess = 0.0_dp
-    if (self%depth > 0) then
-      do i = 1, size(over%first)
-        self%levels(1)%length(over%first(i):over%last(i)) = length(over%first(i):over%last(i))
-      end do
+    if (self%depth == 1) then
+      call precondition(operator, length, force, info)
+    else if (self%depth > 1) then
+      self%levels(1)%length = length
       call filter_from(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
-      if (info%failed()) return
-      excess = total(over, force)/self%sum_of_even
     end if
+    if (info%failed()) return
+    if (self%depth > 0) excess = total(over, force)/self%sum_of_even
     do i = 1, size(over%first)
       associate (a => over%first(i), b => over%last(i))
         if (self%depth > 0) then
@@ -132,34 +138,68 @@ contains
     end do
   end subroutine apply
 
-  !> Room for the first level, and for all others once they are wanted.
-  subroutine make_levels(self, operator, many, info)
+  !> Remember the set, and make all levels there are if `many` stretches want them.
+  subroutine make_ready(self, operator, contact, many, info)
     class(contact_filter), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
-    logical, intent(in) :: many
+    logical, intent(in) :: contact(:), many
     type(fuge_info), intent(inout) :: info
-    class(fuge_operator), allocatable :: coarse
     integer :: l, n, stat
 
     n = operator%points()
     stat = 0
-    if (.not. allocated(self%levels)) then
-      allocate (self%levels(MOST_LEVELS), self%forces(MOST_LEVELS), self%even(n), stat=stat)
-      if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%length(n), stat=stat)
-    end if
+    if (.not. allocated(self%contact)) allocate (self%contact(n), self%even(n), stat=stat)
+    if (stat == 0) self%contact = contact
     self%depth = 1
-    do l = 2, merge(MOST_LEVELS, 1, many)
-      if (stat /= 0) exit
-      if (.not. allocated(self%levels(l)%operator)) then
-        call operator%coarsen(DOUBLINGS*(l - 1), coarse)
-        if (.not. is_usable(coarse, (n - 1)/CELLS**(l - 1) + 1)) exit
-        call move_alloc(coarse, self%levels(l)%operator)
-        call make_room(self%levels(l), self%forces(l), stat)
+    if (many .and. stat == 0) then
+      if (.not. allocated(self%levels)) then
+        allocate (self%levels(MOST_LEVELS), self%forces(MOST_LEVELS), stat=stat)
+        if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%length(n), stat=stat)
       end if
-      if (stat == 0) self%depth = l
-    end do
+      do l = 2, MOST_LEVELS
+        if (stat == 0) call make_level(operator, l, self%levels(l), self%forces(l), stat)
+        if (stat /= 0 .or. .not. allocated(self%levels(l)%operator)) exit
+        self%depth = l
+      end do
+      if (self%depth > 1 .and. stat == 0) call weigh(self%levels(:self%depth), contact)
+    end if
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
-  end subroutine make_levels
+  end subroutine make_ready
+
+  !> A level of coarser cells, if it is not there yet and the operator has it.
+  subroutine make_level(operator, number, level, force, stat)
+    class(fuge_operator), intent(in) :: operator
+    integer, intent(in) :: number
+    type(filter_level), intent(inout) :: level
+    type(level_force), intent(inout) :: force
+    integer, intent(out) :: stat
+    class(fuge_operator), allocatable :: coarse
+
+    stat = 0
+    if (allocated(level%operator)) return
+    call operator%coarsen(DOUBLINGS*(number - 1), coarse)
+    if (.not. is_usable(coarse, (operator%points() - 1)/CELLS**(number - 1) + 1)) return
+    call move_alloc(coarse, level%operator)
+    call make_room(level, force, stat)
+  end subroutine make_level
+
+  !> What the filter makes of equal lengths on the set.
+  subroutine filter_equal(operator, contact, force, info)
+    class(fuge_operator), intent(in) :: operator
+    logical, intent(in) :: contact(:)
+    real(dp), intent(inout), contiguous :: force(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: length(:)
+    integer :: stat
+
+    allocate (length(size(contact)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(size(contact))//' points')
+    else
+      length = merge(1.0_dp, 0.0_dp, contact)
+      call precondition(operator, length, force, info)
+    end if
+  end subroutine filter_equal
 
   !> A coarser grid of the right number of cells with a filter.
   function is_usable(coarse, cells) result(usable)

@@ -73,6 +73,8 @@ contains
     n = operator%points()
     call check_magnitude(problem, info)
     if (info%failed()) return
+    ! Made anew at the end, to have the memory until then.
+    if (allocated(answer%force)) deallocate (answer%force, answer%gap)
     allocate (shape(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(n)//' points')
@@ -97,6 +99,11 @@ contains
       wanted%only_start = .false.
       call find_contact(operator, wanted, shape, monitor, state, info)
       if (info%failed()) return
+      allocate (answer%force(n), answer%gap(n), stat=stat)
+      if (stat /= 0) then
+        call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
+        return
+      end if
       ! What is left of a force that should have become zero.
       where (state%force <= 4.0_dp*epsilon(1.0_dp)*maxval(state%force)) state%force = 0.0_dp
       answer%force = load*state%force
@@ -274,16 +281,10 @@ contains
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
     type(contact_filter) :: filter
-    logical, allocatable :: pulls(:), penetrates(:)
     real(dp) :: before
-    integer :: wrong, fewest, patience_left, stat
+    integer :: wrong, fewest, patience_left
     logical :: thorough, reached, in_row
 
-    allocate (pulls(size(shape)), penetrates(size(shape)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(shape))//' points')
-      return
-    end if
     in_row = operator%in_row()
     fewest = huge(fewest)
     patience_left = PATIENCE
@@ -294,9 +295,9 @@ contains
     do while (.not. info%failed())
       call settle(operator, wanted, filter, shape, thorough, monitor, state, reached, info)
       if (info%failed()) exit
-      pulls = state%contact .and. state%force < 0.0_dp
-      penetrates = .not. state%contact .and. open_gap(shape, state%displacement, state%motion) < -noise_of(wanted, state)
-      wrong = count(pulls) + count(penetrates)
+      wrong = count(state%contact .and. state%force < 0.0_dp) &
+              + count(.not. state%contact .and. open_gap(shape, state%displacement, state%motion) &
+                      < -noise_of(wanted, state))
       if (wrong == 0) then
         if (wanted%only_start) exit
         if (thorough .or. reached) then
@@ -313,15 +314,37 @@ contains
       if (patience_left < 0) then
         call descend(operator, wanted, filter, shape, monitor, state, info)
         exit
-      else if (in_row .and. 2*patience_left > PATIENCE) then
-        call exchange_in_row(pulls, penetrates, state%contact)
-      else
-        call exchange(pulls, penetrates, state%contact)
       end if
+      call change_sides(shape, noise_of(wanted, state), in_row .and. 2*patience_left > PATIENCE, state, info)
+      if (info%failed()) exit
       call restart(operator, state, info)
     end do
     info%filters = info%filters + ceiling(filter%coarse_share)
   end subroutine find_contact
+
+  !> Points that pull leave, points that penetrate join. Error: FUGE_ERR_MEMORY.
+  subroutine change_sides(shape, noise, foresight, state, info)
+    real(dp), intent(in) :: shape(:), noise
+    logical, intent(in) :: foresight
+    type(iterate), intent(inout) :: state
+    type(fuge_info), intent(inout) :: info
+    logical, allocatable :: pulls(:), penetrates(:)
+    integer :: stat
+
+    ! Not kept, to have the memory for products.
+    allocate (pulls(size(shape)), penetrates(size(shape)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(shape))//' points')
+      return
+    end if
+    pulls = state%contact .and. state%force < 0.0_dp
+    penetrates = .not. state%contact .and. open_gap(shape, state%displacement, state%motion) < -noise
+    if (foresight) then
+      call exchange_in_row(pulls, penetrates, state%contact)
+    else
+      call exchange(pulls, penetrates, state%contact)
+    end if
+  end subroutine change_sides
 
   !> Is a set without wrong points solved, judged by a fresh product and not by
   !> recurrences, which drift? `done` also if the residual does not fall any more, from

@@ -44,9 +44,11 @@ module fuge_set_gradients
     real(dp) :: least_length = 0.0_dp
     !> The stretches of the set, made by `relax` and `measure`.
     type(stretches) :: over = stretches()
-    !> Work space, (n); of `remainder` and `correction` only the contact counts, elsewhere
-    !> `direction` is zero.
-    real(dp), allocatable, private :: remainder(:), correction(:), direction(:), image(:)
+    !> Differences of the gaps from their mean and the direction of the next step, (n),
+    !> zero off the contact.
+    real(dp), allocatable, private :: remainder(:), direction(:)
+    !> In turn what the filter makes of `remainder` and the product with `direction`, (n).
+    real(dp), allocatable, private :: work(:)
   end type iterate
 
 contains
@@ -58,8 +60,8 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    allocate (state%force(n), state%displacement(n), state%contact(n), state%remainder(n), state%correction(n), &
-              state%direction(n), state%image(n), stat=stat)
+    allocate (state%force(n), state%displacement(n), state%contact(n), state%remainder(n), state%direction(n), &
+              state%work(n), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
   end subroutine make_iterate
 
@@ -96,22 +98,22 @@ contains
       reached = state%residual <= tolerance*state%least_length
       if (reached .or. iteration == limit) return
       if (iteration > 0 .and. .not. thorough .and. state%residual <= ENOUGH*state%penetration) return
-      call filter%apply(operator, state%over, state%remainder, state%correction, info)
+      call filter%apply(operator, state%over, state%remainder, state%work, info)
       if (info%failed()) return
       if (iteration > 0 .and. judges_forces) then
         call estimate(state, drift, tension)
         if (drift <= ENOUGH*tension) return
       end if
-      product = inner(state%over, state%remainder, state%correction)
+      product = inner(state%over, state%remainder, state%work)
       if (.not. product > 0.0_dp) then
         call explain_filter(state, product, info)
         return
       end if
-      call turn(state%over, product/previous, state%correction, state%direction)
+      call turn(state%over, product/previous, state%work, state%direction)
       previous = product
-      call multiply(operator, state%direction, state%image, info)
+      call multiply(operator, state%direction, state%work, info)
       if (info%failed()) return
-      curvature = inner(state%over, state%direction, state%image)
+      curvature = inner(state%over, state%direction, state%work)
       if (.not. curvature > 0.0_dp) then
         call explain(state, curvature, info)
         return
@@ -137,14 +139,15 @@ contains
 
     call state%over%find(state%contact, info)
     if (info%failed()) return
-    state%remainder = shape + state%displacement
+    state%remainder = 0.0_dp
+    where (state%contact) state%remainder = shape + state%displacement
     state%motion = 0.0_dp
     call centre(state)
     ! The mean of large numbers is not exact: once more for what is left of it.
     call centre(state)
     state%penetration = worst_penetration(shape, state)
-    call operator%magnitude(state%force, state%displacement, state%image)
-    state%least_length = least_length(state, shape, state%image)
+    call operator%magnitude(state%force, state%displacement, state%work)
+    state%least_length = least_length(state, shape, state%work)
   end subroutine measure
 
   pure function least_length(state, shape, terms) result(least)
@@ -183,9 +186,9 @@ contains
     type(iterate), intent(inout) :: state
     real(dp) :: mean
 
-    mean = total(state%over, state%image)/real(state%over%points, dp)
-    state%displacement = state%displacement - step*state%image
-    call move(state%over, step, mean, state%direction, state%image, state%force, state%remainder)
+    mean = total(state%over, state%work)/real(state%over%points, dp)
+    state%displacement = state%displacement - step*state%work
+    call move(state%over, step, mean, state%direction, state%work, state%force, state%remainder)
     state%motion = state%motion - step*mean
     call centre(state)
     state%penetration = worst_penetration(shape, state)
@@ -262,8 +265,8 @@ contains
     tension = 0.0_dp
     do i = 1, size(state%over%first)
       do k = state%over%first(i), state%over%last(i)
-        drift = max(drift, abs(state%correction(k)))
-        tension = max(tension, state%correction(k) - state%force(k))
+        drift = max(drift, abs(state%work(k)))
+        tension = max(tension, state%work(k) - state%force(k))
       end do
     end do
   end subroutine estimate
@@ -283,7 +286,7 @@ contains
     real(dp), intent(in) :: product
     type(fuge_info), intent(inout) :: info
 
-    if (product >= -ROUNDING*largest(state%over, state%remainder)*largest(state%over, state%correction)) return
+    if (product >= -ROUNDING*largest(state%over, state%remainder)*largest(state%over, state%work)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'filter '//text(info%filters)//': lengths with the negative energy ' &
                 //text(product)//': the filter of the operator is not positive definite')
   end subroutine explain_filter
@@ -296,7 +299,7 @@ contains
     real(dp) :: length, force
 
     ! Where the operator is singular the image is nothing but rounding of displacements.
-    length = max(maxval(abs(state%displacement)), largest(state%over, state%image))
+    length = max(maxval(abs(state%displacement)), largest(state%over, state%work))
     force = largest(state%over, state%direction)
     if (curvature >= -ROUNDING*length*force*max(1.0_dp, real(state%over%points, dp)*force)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces with zero sum store the ' &
