@@ -247,10 +247,11 @@ contains
   pure subroutine mirror(self, point)
     class(paper_tableau), intent(inout) :: self
     integer, intent(in) :: point
-    integer :: i, last
+    integer :: i, last, rows
 
     last = size(self%table, 2)
-    associate (t => self%table, rows => size(self%basis), limits => self%limits, gap => gap_column(self%limits%n, point), &
+    rows = size(self%basis)
+    associate (t => self%table, limits => self%limits, gap => gap_column(self%limits%n, point), &
                force => force_column(point))
       t(:rows, last) = t(:rows, last) - limits%upper(point)*t(:rows, gap)
       t(:rows, gap) = -t(:rows, gap)
