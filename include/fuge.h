@@ -390,8 +390,10 @@ int fuge_get_info(const fuge_solver *s, fuge_info *info);
 
 /* Course of the pivots (options.keep_history).  Steps first .. first+count-1;
  * step 0 is the artificial start.
- *   basis      out  count rows of n+1 column numbers, row k at basis + k*(n+1):
- *                   1..n forces, n+1..2n gaps, 2n+1 v_0, then artificials
+ *   basis      out  count rows of n+m column numbers, row k at basis + k*(n+m):
+ *                   1..n forces, n+1..2n gaps, then m free motions (v_0: 2n+1, m = 1),
+ *                   then artificials.  The same basis twice: a gap went from one stop
+ *                   to the other
  *   z          out  count; sum of the artificial variables in your units
  *   available  out  steps that there are
  * count = 0 only asks for available; basis and z may then be NULL. A solve with

@@ -9,10 +9,10 @@ module fuge_dense_engines
   use fuge_monitor_type, only: fuge_monitor
   use fuge_options_type, only: fuge_options
   use fuge_presolve, only: guess_contact_set
-  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_problem_type, only: fuge_solution
   use fuge_scene, only: contact_scene
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, &
-    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_OVERFLOW, FUGE_ERR_UNSUPPORTED
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_OVERFLOW
   use fuge_tableau, only: run_phase_one
   use fuge_text, only: text
   implicit none
@@ -30,12 +30,11 @@ contains
   !> The paper's engine: Phase I finds the contact set, and the numbers are solved
   !> anew on it, which also mends points that the rounding of the pivots misjudged.
   !>
-  !> `alpha` (at least n rows, n columns), `datum` its coefficient nearest to zero, `problem`
-  !> checked and its `scene`; `side` (n) and `factor` belong to the answer on return.
-  subroutine solve_by_tableau(alpha, datum, problem, scene, options, monitor, history, side, factor, answer, info)
+  !> `alpha` (at least n rows, n columns), `datum` its coefficient nearest to zero, `scene` of
+  !> a checked problem; `side` (n) and `factor` belong to the answer on return.
+  subroutine solve_by_tableau(alpha, datum, scene, options, monitor, history, side, factor, answer, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
-    type(fuge_problem), intent(in) :: problem
     type(contact_scene), intent(in) :: scene
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
@@ -44,30 +43,22 @@ contains
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
-    logical :: contact(size(side))
     integer :: limit, sets, status
 
     side = 0
-    if (.not. scene%plain) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the tableau solves one-sided contact under one load: use FUGE_ACTIVE_SET')
-      return
+    call check_solvable(alpha, datum, scene, info)
+    if (info%failed()) return
+    limit = limit_of(options, size(side) + size(scene%load))
+    call run_phase_one(alpha, datum, scene, options%pivot_rule, limit, options%keep_history, monitor, history, side, &
+                       info%iterations, status)
+    ! Only a limit that was asked for ends the solve; otherwise the set so far will do.
+    if (status == FUGE_ERR_ITERATION_LIMIT .and. options%max_iterations == 0) status = FUGE_DONE
+    if (status /= FUGE_DONE) then
+      call explain(status, limit, count(side /= 0), info)
+    else
+      call solve_from(alpha, datum, scene, limit_of(fuge_options(), size(side) + 1), monitor, side, factor, answer, &
+                      sets, info)
     end if
-    associate (gap => problem%gap, load => problem%resultant(1))
-      call check_solvable(alpha, load, info)
-      if (info%failed()) return
-      limit = limit_of(options, size(gap))
-      call run_phase_one(alpha, gap, load, options%pivot_rule, limit, options%keep_history, monitor, history, &
-                         contact, info%iterations, status)
-      side = merge(1, 0, contact)
-      ! Only a limit that was asked for ends the solve; otherwise the set so far will do.
-      if (status == FUGE_ERR_ITERATION_LIMIT .and. options%max_iterations == 0) status = FUGE_DONE
-      if (status /= FUGE_DONE) then
-        call explain(status, limit, count(contact), info)
-      else
-        call solve_from(alpha, datum, scene, limit_of(fuge_options(), size(gap)), monitor, side, factor, answer, &
-                        sets, info)
-      end if
-    end associate
   end subroutine solve_by_tableau
 
   !> Block principal pivoting. `side` (n): on entry a guess, or none to have one made; on
@@ -97,7 +88,8 @@ contains
       end if
       side = merge(1, 0, contact)
     end if
-    call solve_from(alpha, datum, scene, limit_of(options, size(side)), monitor, side, factor, answer, sets, info)
+    call solve_from(alpha, datum, scene, limit_of(options, size(side) + 1), monitor, side, factor, answer, sets, &
+                    info)
     info%iterations = sets
   end subroutine solve_by_active_set
 
@@ -175,13 +167,13 @@ contains
     end do
   end subroutine check_pairs
 
-  pure function limit_of(options, n) result(limit)
+  pure function limit_of(options, rows) result(limit)
     type(fuge_options), intent(in) :: options
-    integer, intent(in) :: n
+    integer, intent(in) :: rows
     integer :: limit
 
     limit = options%max_iterations
-    if (limit == 0) limit = ITERATIONS_PER_ROW*(n + 1)
+    if (limit == 0) limit = ITERATIONS_PER_ROW*rows
   end function limit_of
 
   !> Put an engine's status into words.
@@ -203,30 +195,35 @@ contains
     end select
   end subroutine explain
 
-  !> Refuse what no engine solves with a load: numbers that overflow
+  !> Refuse what the tableau does not solve: numbers that overflow
   !> (FUGE_ERR_OVERFLOW), an alpha without a unique answer (FUGE_ERR_NOT_DEFINITE).
-  subroutine check_solvable(alpha, load, info)
-    real(dp), intent(in) :: alpha(:, :), load
+  subroutine check_solvable(alpha, datum, scene, info)
+    real(dp), intent(in) :: alpha(:, :), datum
+    type(contact_scene), intent(in) :: scene
     type(fuge_info), intent(inout) :: info
-
-    call check_magnitudes(alpha(:size(alpha, 2), :), load, info)
-    if (.not. info%failed()) call require_definite(alpha, info)
-  end subroutine check_solvable
-
-  subroutine require_definite(alpha, info)
-    real(dp), intent(in) :: alpha(:, :)
-    type(fuge_info), intent(inout) :: info
+    real(dp) :: constant
     integer :: deficient, status
 
-    call check_definite(alpha, deficient, status)
+    call check_magnitudes(alpha(:size(alpha, 2), :), largest_load(scene), info)
+    if (info%failed()) return
+    constant = merge(datum, 0.0_dp, scene%constant .and. .not. scene%plain)
+    call check_definite(alpha, constant, scene%modes, scene%excluded, deficient, status)
     if (status /= FUGE_DONE) then
       call report(info, status, 'no memory to factor alpha')
     else if (deficient > 0) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces with zero sum: ' &
-                  //'point '//text(deficient)//' and others carry some that store no energy; look for a repeated ' &
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces '//kind_of_forces(scene) &
+                  //': point '//text(deficient)//' and others carry some that store no energy; look for a repeated ' &
                   //'point or a wrong sign at point '//text(deficient))
     end if
-  end subroutine require_definite
+  end subroutine check_solvable
+
+  pure function kind_of_forces(scene) result(words)
+    type(contact_scene), intent(in) :: scene
+    character(len=:), allocatable :: words
+
+    words = 'without resultant in the free motions'
+    if (scene%plain) words = 'with zero sum'
+  end function kind_of_forces
 
   !> Refuse an alpha whose products with the load leave the range of double precision,
   !> at either end.

@@ -2,8 +2,11 @@
 !>
 !>     1 .. n              forces F_k
 !>     n+1 .. 2n           gaps c_k
-!>     2n+1 .. 2n+m        rigid motions (the paper: m = 1, the approach v_0)
+!>     2n+1 .. 2n+m        free rigid motions (the paper: m = 1, the approach v_0)
 !>     2n+m+1 .. 3n+2m     artificial variables, one for each row
+!>
+!> A play needs no columns of its own: its upper stop is a limit of c_k, and F_k is
+!> negative there.
 !>
 !> Source: Fischer, Hoyer, Melosh, section 3, Bild 3 and Tabelle 1.
 module fuge_numbering
@@ -11,7 +14,7 @@ module fuge_numbering
   private
 
   public :: force_column, gap_column, rigid_column, artificial_column
-  public :: partner_column, is_force, is_artificial, stored_columns
+  public :: partner_column, point_of, is_force, is_gap, is_artificial, stored_columns
 
 contains
 
@@ -67,6 +70,22 @@ contains
 
     is_force = column <= n
   end function is_force
+
+  elemental function is_gap(n, column)
+    integer, intent(in) :: n, column
+    logical :: is_gap
+
+    is_gap = column > n .and. column <= 2*n
+  end function is_gap
+
+  !> The point of a force or a gap; 0 for other columns.
+  elemental function point_of(n, column) result(point)
+    integer, intent(in) :: n, column
+    integer :: point
+
+    point = 0
+    if (column <= 2*n) point = modulo(column - 1, n) + 1
+  end function point_of
 
   elemental function is_artificial(n, m, column)
     integer, intent(in) :: n, m, column

@@ -270,8 +270,8 @@ contains
     if (.not. info%failed()) call allocate_answer(found, size(side), size(self%scene%load), info)
     if (info%failed()) return
     if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
-      call solve_by_tableau(operator%alpha, operator%datum(), problem, self%scene, options, monitor, self%history, &
-                            side, self%factor, found, info)
+      call solve_by_tableau(operator%alpha, operator%datum(), self%scene, options, monitor, self%history, side, &
+                            self%factor, found, info)
     else
       call solve_warm(self, operator%alpha, operator%datum(), options, monitor, side, found, info)
     end if

@@ -1,16 +1,19 @@
-!> The active set on the paper's problem, called from a matrix, gaps and a load.
+!> The dense engines on the paper's problem, called from a matrix, gaps and a load.
 module plain_runs
   use fuge_active_set, only: run_active_set
   use fuge_contact_factor, only: contact_factor
+  use fuge_definiteness, only: check_definite
+  use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_problem_type, only: fuge_problem, set_problem
   use fuge_scene, only: contact_scene, make_scene
   use fuge_status, only: fuge_info
+  use fuge_tableau, only: run_phase_one
   implicit none
   private
 
-  public :: run_plain
+  public :: run_plain, plain_phase, plain_definite
 
 contains
 
@@ -38,5 +41,35 @@ contains
     contact = side /= 0
     approach = motion(1)
   end subroutine run_plain
+
+  !> As `run_phase_one`, with the contact set as a mask.
+  subroutine plain_phase(alpha, gap, load, rule, max_pivots, keep_history, monitor, history, contact, pivots, status)
+    real(dp), intent(in) :: alpha(:, :), gap(:), load
+    integer, intent(in) :: rule, max_pivots
+    logical, intent(in) :: keep_history
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_history), intent(inout) :: history
+    logical, intent(out) :: contact(:)
+    integer, intent(out) :: pivots, status
+    type(fuge_problem) :: problem
+    type(contact_scene) :: scene
+    type(fuge_info) :: info
+    integer :: side(size(gap))
+
+    call set_problem(gap, load, problem, info)
+    call make_scene(problem, scene, info)
+    call run_phase_one(alpha, 0.0_dp, scene, rule, max_pivots, keep_history, monitor, history, side, pivots, status)
+    contact = side /= 0
+  end subroutine plain_phase
+
+  !> As `check_definite`, on forces with zero sum.
+  subroutine plain_definite(alpha, deficient, status)
+    real(dp), intent(in) :: alpha(:, :)
+    integer, intent(out) :: deficient, status
+    real(dp) :: ones(size(alpha, 2), 1)
+
+    ones = 1.0_dp
+    call check_definite(alpha, 0.0_dp, ones, spread(.false., 1, size(alpha, 2)), deficient, status)
+  end subroutine plain_definite
 
 end module plain_runs
