@@ -62,6 +62,8 @@ contains
     if (scene%constant) base = minval(scene%gap)
     shape = scene%gap - base
     where (scene%excluded) side = 0
+    ! A guess from another problem may know of a stop that is no more.
+    where (scene%upper >= huge(base)) side = max(side, 0)
     where (scene%upper <= 0.0_dp .and. .not. scene%excluded) side = 1
     fewest = huge(fewest)
     patience_left = PATIENCE

@@ -145,7 +145,6 @@ contains
     shared = 0.0_dp
     if (translation) shared = error(reference)
     do k = 1, size(error)
-      if (.not. counts(k)) cycle
       ! A maximum may drop a NaN, which must not pass for small.
       if (.not. abs(error(k)) <= huge(violation)) violation = huge(violation)
       ! Half a unit in the last place of the gap and of the motions, and as much for their sum.

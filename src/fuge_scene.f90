@@ -39,10 +39,14 @@ module fuge_scene
     !> Prescribed motions R, (n, m), zero where free; not allocated if none is prescribed.
     real(dp), allocatable, private :: given(:, :)
     logical, allocatable, private :: prescribed(:)
+    !> Excluded points, and their rows of R: the orthogonal modes are not theirs.
+    integer, allocatable, private :: outside(:)
+    real(dp), allocatable, private :: rows(:, :)
   contains
     procedure :: motions
     procedure :: motions_of
     procedure :: change_of
+    procedure :: open_outside
   end type contact_scene
 
 contains
@@ -74,6 +78,7 @@ contains
       return
     end if
     call take_prescribed(problem, scene)
+    call take_outside(problem, scene)
     if (.not. allocated(problem%modes)) then
       scene%constant = m == 1
       scene%modes = 1.0_dp
@@ -104,6 +109,18 @@ contains
       scene%gap = scene%gap - problem%motion(j)*scene%given(:, j)
     end do
   end subroutine take_prescribed
+
+  !> Rows of R at the excluded points.
+  pure subroutine take_outside(problem, scene)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(inout) :: scene
+    integer :: k
+
+    scene%outside = pack([(k, k=1, size(scene%excluded))], scene%excluded)
+    allocate (scene%rows(size(scene%outside), problem%motions()))
+    scene%rows = 1.0_dp
+    if (allocated(problem%modes)) scene%rows = problem%modes(scene%outside, :)
+  end subroutine take_outside
 
   !> Modes of equal size, orthogonal at the points that take part; the first is 1 if that
   !> is made of the given ones.
@@ -239,6 +256,21 @@ contains
     allocate (load(size(self%free)))
     if (size(load) > 0) call solve_small(transpose(self%mixing), load_change(self%free), load)
   end subroutine change_of
+
+  !> c = g + A f - R q at the excluded points, of `gap` g (n), `force` (n) and all
+  !> motions `rigid` (m), or of changes of these.
+  pure subroutine open_outside(self, alpha, gap, force, rigid, gap_out)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: alpha(:, :), gap(:), force(:), rigid(:)
+    real(dp), intent(inout) :: gap_out(:)
+    integer :: k
+
+    do k = 1, size(self%outside)
+      associate (point => self%outside(k))
+        gap_out(point) = gap(point) + sum(alpha(point, :)*force) - sum(self%rows(k, :)*rigid)
+      end associate
+    end do
+  end subroutine open_outside
 
   !> Forces to start with, or the reason why there are none.
   subroutine require_equilibrium(problem, scene, info)
