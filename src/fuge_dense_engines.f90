@@ -87,6 +87,9 @@ contains
 
     call check_scene(alpha, largest_load(scene), info)
     if (info%failed()) return
+    ! A guess from another problem may know of stops and points that are no more.
+    where (scene%excluded) side = 0
+    where (scene%upper >= huge(1.0_dp)) side = max(side, 0)
     if (.not. any(side /= 0)) then
       if (scene%plain) then
         call guess_contact_set(alpha, scene%gap, scene%load(1), contact, info%products)

@@ -154,6 +154,8 @@ contains
       call triangular(part, .false., order, rank)
       part(:, 1) = merge(0.0_dp, 1.0_dp/sqrt(real(count(.not. scene%excluded), dp)), scene%excluded)
     end if
+    ! Rounding would let a point carry what does not move it.
+    where (spread(all(abs(given) <= 0.0_dp, dim=2), 2, m)) part = 0.0_dp
     part = part*sqrt(real(count(.not. scene%excluded), dp))
     if (scene%constant) where (.not. scene%excluded) part(:, 1) = 1.0_dp
     scene%modes = part
