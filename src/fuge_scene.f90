@@ -300,31 +300,45 @@ contains
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: remainder(:)
     type(fuge_info), intent(inout) :: info
-    real(dp) :: motion(size(remainder)), x(size(scene%gap))
+    real(dp) :: motion(size(remainder))
     integer :: worst
 
-    if (.not. allocated(problem%modes)) then
+    if (all(scene%excluded)) then
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'all points are excluded: nothing carries the resultant')
+    else if (.not. allocated(problem%modes)) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'resultant '//text(problem%resultant(1))//' is negative: contact ' &
                   //'forces can only push, so it must be >= 0')
-      return
+    else
+      call explain_line(problem, scene, 1, 2, info)
+      if (.not. info%failed()) call explain_line(problem, scene, 2, 1, info)
+      if (info%failed()) return
+      associate (w => problem%resultant(scene%free), r => problem%modes(:, scene%free))
+        call solve_small(scene%mixing, remainder, motion)
+        worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
+                    //' in motion '//text(scene%free(worst))//' together with the others: moving along it by ' &
+                    //text(motion(worst))//' closes no contact, but the resultants do work')
+      end associate
     end if
-    associate (w => problem%resultant(scene%free), r => problem%modes(:, scene%free))
-      if (size(w) == 2) then
-        if (minval(r(:, 1)) > 0.0_dp .and. maxval(r(:, 1)) <= minval(r(:, 1)) .and. w(1) > 0.0_dp) then
-          x = r(:, 2)/r(:, 1)
-          call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(2)/w(1)) &
-                      //', but the points reach from ' &
-                      //text(minval(x, mask=.not. scene%excluded))//' to '//text(maxval(x, mask=.not. scene%excluded)) &
-                      //' only: move the load between them')
-          return
-        end if
-      end if
-      call solve_small(scene%mixing, remainder, motion)
-      worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
-                  //' in motion '//text(scene%free(worst))//' together with the others: moving along it by ' &
-                  //text(motion(worst))//' closes no contact, but the resultants do work')
-    end associate
   end subroutine explain_missing
+
+  !> A load that presses beside all points, of a translation and a tilt: there its line of
+  !> action says more. Points that pull have no range.
+  subroutine explain_line(problem, scene, translation, tilt, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: translation, tilt
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: x(size(scene%gap))
+
+    if (size(scene%free) /= 2 .or. any(scene%upper < huge(x) .and. .not. scene%excluded)) return
+    associate (w => problem%resultant(scene%free), unit => problem%modes(:, scene%free(translation)))
+      if (.not. (minval(unit) > 0.0_dp .and. maxval(unit) <= minval(unit) .and. w(translation) > 0.0_dp)) return
+      x = problem%modes(:, scene%free(tilt))/unit
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(tilt)/w(translation)) &
+                  //', but the points reach from '//text(minval(x, mask=.not. scene%excluded))//' to ' &
+                  //text(maxval(x, mask=.not. scene%excluded))//' only: move the load between them')
+    end associate
+  end subroutine explain_line
 
 end module fuge_scene
