@@ -15,6 +15,22 @@
  * only.  Units are yours, as long as they agree:
  * length for gaps and v_0, force for f and F_0, length per force for alpha.
  *
+ * In general there are m rigid motions q, such as a translation and a tilt, or those of
+ * several bodies; column j of R (n x m) says how far each point closes per unit of q_j:
+ *
+ *     c = g + alpha f - R q                      gaps
+ *     0 <= c <= d                                play d >= 0 between two stops,
+ *     f >= 0 where c = 0,  f <= 0 where c = d,   d infinite: one-sided, as above
+ *     f = 0 between                              d = 0: tied, c = 0 and f of either sign
+ *     (R^T f)_j = w_j  or  q_j given             each motion free under its resultant
+ *                                                w_j, or prescribed
+ *
+ * and points may be excluded: no force, any gap.  The paper's problem is R = 1, q = v_0,
+ * w = F_0.  alpha has to be positive definite on the forces with R^T f = 0 in the free
+ * motions.  The forces are then unique; a free motion that no contact holds (w = 0, or a
+ * body about to tip) is not, any of those possible is given.  General problems need a
+ * dense operator and the active set.
+ *
  * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda], i, k
  * from 0.  Points in messages count from 1.  Every int function returns a status:
  * 0 done, > 0 done with a warning, < 0 an error that left all outputs untouched
@@ -23,8 +39,8 @@
  * allowed gives FUGE_ERR_POINTER.
  *
  * CALL ORDER.  Either fuge_solve_dense alone, or
- *     fuge_operator_dense, _halfplane or _callback
- *     -> fuge_solver_new -> fuge_set_gap, fuge_set_load
+ *     fuge_operator_dense, _halfplane or _callback -> fuge_solver_new
+ *     -> fuge_set_gap, and fuge_set_load or another of the section "problem"
  *     -> fuge_solve -> fuge_get_... -> (set, solve, get again)
  *     -> fuge_solver_free -> fuge_operator_free
  */
@@ -56,7 +72,7 @@ enum {
   FUGE_ERR_GRID = -7,           /* element not symmetric on unequal widths; grid not uniform */
   FUGE_ERR_NOT_SYMMETRIC = -8,  /* asymmetry above 1e-10 of the range of alpha */
   FUGE_ERR_NOT_DEFINITE = -9,   /* alpha not positive definite on forces with zero sum */
-  FUGE_ERR_NO_EQUILIBRIUM = -10,/* load < 0                                    */
+  FUGE_ERR_NO_EQUILIBRIUM = -10,/* load < 0; resultants that the points cannot carry */
   FUGE_ERR_ITERATION_LIMIT = -11,
   FUGE_ERR_MEMORY = -12,
   FUGE_ERR_CALL_ORDER = -13,
@@ -67,7 +83,7 @@ enum {
   FUGE_ERR_CANCELLED = -18,     /* the progress callback ended the solve       */
   FUGE_ERR_FILE = -19,          /* a file cannot be read                       */
   FUGE_ERR_GAP = -20,           /* gap_upper < 0                               */
-  FUGE_ERR_MODES = -21          /* rigid motions that depend on each other     */
+  FUGE_ERR_MODES = -21          /* rigid motions that depend on each other, or move no point */
 };
 
 /* General meaning of a status; a constant string, never NULL. */
@@ -318,13 +334,6 @@ int fuge_solver_new(const fuge_operator *op, const fuge_options *opt, fuge_solve
 /* Free and set *s to NULL; NULL and *s == NULL are fine. */
 void fuge_solver_free(fuge_solver **s);
 
-/* Initial gaps, n, copied; length.  gap_upper must be NULL in this version
- * (FUGE_ERR_UNSUPPORTED).  Makes earlier results unavailable. */
-int fuge_set_gap(fuge_solver *s, const double *gap, const double *gap_upper);
-
-/* Load F_0 >= 0; force.  Makes earlier results unavailable. */
-int fuge_set_load(fuge_solver *s, double load);
-
 /* Progress of a solve, called once in each iteration.
  *   iteration  grows from call to call, from 1 in each solve
  *   residual   >= 0, no unit: how far it still is.  Tableau: z relative to its start;
@@ -339,14 +348,62 @@ typedef int (*fuge_progress)(int iteration, double residual, int contacts, void 
  * contact sets of its final solve. */
 int fuge_set_progress(fuge_solver *s, fuge_progress progress, void *user);
 
-/* Solve; FUGE_ERR_CALL_ORDER before gaps and load are set.  The active set starts from
- * the contact set of the last solve, the iteration from its forces if the load is within
- * a quarter of the last one. */
+/* Solve; FUGE_ERR_CALL_ORDER before gaps and motions are set.  The active set starts
+ * from the contact set of the last solve, the iteration from its forces if the load is
+ * within a quarter of the last one. */
 int fuge_solve(fuge_solver *s);
 
 /* Forget results, contact set and history: the next fuge_solve starts from scratch.
- * Operator, options, gaps and load stay. */
+ * Operator, options and problem stay. */
 int fuge_reset(fuge_solver *s);
+
+/* ---- problem ------------------------------------------------------------ */
+
+/* Three parts, each set on its own and in any order; the others stay:
+ *     gaps        fuge_set_gap
+ *     exclusions  fuge_set_excluded; none at first
+ *     motions     fuge_set_load, fuge_set_approach or fuge_set_modes, each of which
+ *                 replaces all motions; then fuge_set_motion and fuge_free_motion
+ *                 change one.  At first there is one translation, neither free nor given
+ * All arrays are copied.  Success makes earlier results unavailable; an error changes
+ * nothing.  What the parts say together is checked by fuge_solve:
+ * FUGE_ERR_NO_EQUILIBRIUM, whose message says why, and FUGE_ERR_MODES.  Modes in
+ * messages count from 1. */
+
+/* Initial gaps.
+ *   gap        in  n; length
+ *   gap_upper  in  n, play d between the two stops; length.  HUGE_VAL: one-sided,
+ *                  0: tied.  NULL: one-sided everywhere.  FUGE_ERR_GAP if negative */
+int fuge_set_gap(fuge_solver *s, const double *gap, const double *gap_upper);
+
+/* Points that take no part, where excluded (n) is not zero; NULL for none.  Their gaps
+ * are computed all the same. */
+int fuge_set_excluded(fuge_solver *s, const int *excluded);
+
+/* One translation, free under the load F_0 >= 0; force.  With fuge_set_gap(s, gap, NULL)
+ * and fuge_set_excluded(s, NULL) this is the plain problem again.  A load that pulls on
+ * two-sided points: fuge_free_motion(s, 0, load). */
+int fuge_set_load(fuge_solver *s, double load);
+
+/* One translation, prescribed; length.  The load is a result: fuge_get_resultant. */
+int fuge_set_approach(fuge_solver *s, double approach);
+
+/* m rigid motions, all free.
+ *   m          in  0 .. n.  0: none, c = g + alpha f
+ *   modes      in  R, n x m, column-major; length per unit of the motion
+ *   resultant  in  w, m; force times length per unit of the motion.  Both may be NULL
+ *                  if m = 0
+ * FUGE_ERR_SIZE for m < 0, FUGE_ERR_MODES for m > n. */
+int fuge_set_modes(fuge_solver *s, int m, const double *modes, const double *resultant);
+
+/* Prescribe motion mode, 0 .. m-1 (else FUGE_ERR_SIZE), or change its value. */
+int fuge_set_motion(fuge_solver *s, int mode, double value);
+
+/* Free motion mode under a resultant of either sign, or change that. */
+int fuge_free_motion(fuge_solver *s, int mode, double resultant);
+
+/* Number m of motions of the problem, free and prescribed; at any time. */
+int fuge_get_motions(const fuge_solver *s, int *m);
 
 /* ---- load path ---------------------------------------------------------- */
 
@@ -370,20 +427,27 @@ int fuge_load_path(const fuge_operator *op, const double *gap, double load, int 
 /* ---- results ------------------------------------------------------------ */
 
 /* Each gives FUGE_ERR_CALL_ORDER unless the last fuge_solve gave an answer for
- * the present gaps and load. */
+ * the present problem.  m is that of fuge_get_motions: 1 without fuge_set_modes. */
 int fuge_get_force(const fuge_solver *s, double *force);        /* n; force */
 int fuge_get_gap(const fuge_solver *s, double *gap);            /* n; length */
-int fuge_get_rigid(const fuge_solver *s, double *q);            /* 1: v_0; length */
-int fuge_get_resultant(const fuge_solver *s, double *w);        /* 1: sum of the forces */
+int fuge_get_rigid(const fuge_solver *s, double *q);            /* m: v_0; length, if m = 1 */
+int fuge_get_resultant(const fuge_solver *s, double *w);        /* m: R^T f, the sum of the forces
+                                                                   for a translation */
 
 /* Derivative of the last solution in a direction, exact as long as the contact set
  * stays: changes of force and gap (n) and v_0 (1) for a change of the gaps (n; NULL
  * for none) and of the load.  gap and rigid may be NULL.  The contact stiffness is
  * 1/rigid for gap_change NULL and load_change 1; a unit gap_change at k gives column k
  * of the sensitivity to the gaps.  Two triangular solves each.  FUGE_ERR_CALL_ORDER
- * also after a solve with zero load. */
+ * also after a solve with zero load; FUGE_ERR_SIZE unless there is one motion. */
 int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double load_change,
                         double *force, double *gap, double *rigid);
+
+/* The same for m motions: load_change (m; NULL for none) are the changes of the
+ * resultants of free motions and of the values of prescribed ones, rigid the changes of
+ * all motions (m). */
+int fuge_get_derivatives(const fuge_solver *s, const double *gap_change, const double *load_change,
+                         double *force, double *gap, double *rigid);
 
 /* Report of the last fuge_solve, failed or not. */
 int fuge_get_info(const fuge_solver *s, fuge_info *info);

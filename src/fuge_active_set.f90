@@ -54,13 +54,14 @@ contains
     integer, intent(inout) :: side(:)
     real(dp), intent(out) :: force(:), gap_out(:), motion(:)
     integer, intent(out) :: iterations, status
-    real(dp) :: shape(size(side)), terms(size(side)), violation(size(side)), distance(size(side)), base
+    real(dp) :: shape(size(side)), terms(size(side)), violation(size(side)), distance(size(side)), base, nothing
     logical :: wrong(size(side)), careful, fresh
     integer :: fewest, patience_left
 
     base = 0.0_dp
     if (scene%constant) base = minval(scene%gap)
     shape = scene%gap - base
+    nothing = rounding_force(alpha, shape, scene%load)
     where (scene%excluded) side = 0
     where (scene%upper <= 0.0_dp .and. .not. scene%excluded) side = 1
     fewest = huge(fewest)
@@ -93,7 +94,7 @@ contains
       else
         terms = largest_term(alpha, datum, force)
       end if
-      violation = violations(distance, terms, side, scene%upper, scene%excluded, force, gap_out)
+      violation = violations(distance, terms, side, scene%upper, scene%excluded, nothing, force, gap_out)
       if (fresh) call tell_monitor(monitor, iterations, maxval(violation), count(side /= 0), status)
       if (status /= FUGE_DONE) return
       fresh = .false.
@@ -115,7 +116,7 @@ contains
       fewest = min(fewest, count(wrong))
       careful = patience_left < PATIENCE
       if (patience_left < 0) then
-        call descend(alpha, datum, scene, shape, limit, monitor, factor, side, force, iterations, status)
+        call descend(alpha, datum, scene, shape, nothing, limit, monitor, factor, side, force, iterations, status)
         if (status /= FUGE_DONE) return
       else
         side = changed(side, wrong, gap_out, scene%upper)
@@ -125,6 +126,7 @@ contains
     if (factor%ridge > 0.0_dp) call refine(alpha, datum, scene%modes, at_stops(shape, scene%upper, side), scene%load, &
                                            factor, 0.0_dp, side /= 0, force, motion)
     where (scene%upper > 0.0_dp) force = real(side, dp)*max(side*force, 0.0_dp)
+    where (abs(force) <= nothing) force = 0.0_dp
     if (scene%plain) motion(1) = motion_at_shallowest(alpha, datum, shape, side /= 0, force, motion(1))
     gap_out = shape - displaced(scene%modes, motion)
     call add_deflection(alpha, datum, side /= 0, force, gap_out)
@@ -132,6 +134,17 @@ contains
     gap_out = merge(merge(0.0_dp, scene%upper, side > 0), gap_out, side /= 0)
     if (scene%constant) motion(1) = motion(1) + base + datum*scene%load(1)
   end subroutine run_active_set
+
+  !> Without a load there may be no force but rounding to compare forces with: then those
+  !> count that displace by a part of the gaps. Otherwise zero.
+  pure function rounding_force(alpha, shape, load) result(nothing)
+    real(dp), intent(in) :: alpha(:, :), shape(:), load(:)
+    real(dp) :: nothing, largest
+
+    nothing = 0.0_dp
+    largest = maxval(abs(alpha(:size(shape), :)))
+    if (largest > 0.0_dp .and. .not. any(abs(load) > 0.0_dp)) nothing = SIGN_TOLERANCE*(maxval(abs(shape))/largest)
+  end function rounding_force
 
   !> Gaps less those that the stops leave open.
   pure function at_stops(shape, upper, side) result(rest)
@@ -158,9 +171,9 @@ contains
   !> Down the energy: from forces that push at their stops towards the answer of their
   !> set as far as none pulls, then the point furthest beyond a stop joins, until none is.
   !> `force` (n) in: where to start; `side` and `factor` out.
-  subroutine descend(alpha, datum, scene, shape, limit, monitor, factor, side, force, iterations, status)
+  subroutine descend(alpha, datum, scene, shape, nothing, limit, monitor, factor, side, force, iterations, status)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, shape(:)
+    real(dp), intent(in) :: datum, shape(:), nothing
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
@@ -189,7 +202,7 @@ contains
       gap_out = distance
       call add_deflection(alpha, datum, side /= 0, wanted, gap_out)
       terms = terms_of(alpha, datum, side /= 0, wanted)
-      violation = violations(distance, terms, side, scene%upper, scene%excluded, wanted, gap_out)
+      violation = violations(distance, terms, side, scene%upper, scene%excluded, nothing, wanted, gap_out)
       call tell_monitor(monitor, iterations, maxval(violation), count(side /= 0), status)
       if (status /= FUGE_DONE) return
       if (any(side /= 0 .and. wanted*side <= 0.0_dp .and. .not. tied)) then

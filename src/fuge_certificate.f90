@@ -145,7 +145,6 @@ contains
     shared = 0.0_dp
     if (translation) shared = error(reference)
     do k = 1, size(error)
-      if (.not. counts(k)) cycle
       ! A maximum may drop a NaN, which must not pass for small.
       if (.not. abs(error(k)) <= huge(violation)) violation = huge(violation)
       ! Half a unit in the last place of the gap and of the motions, and as much for their sum.
@@ -193,21 +192,23 @@ contains
     end do
   end subroutine contact_violations
 
-  !> Equation (11) for the free motions; the others must be as prescribed.
+  !> Equation (11) for the free motions; the others must be as prescribed. Forces count as
+  !> parts of the largest one here too: a resultant of zero may rest on rounding alone.
   pure function equilibrium_violation(problem, solution) result(violation)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
-    real(dp) :: violation
+    real(dp) :: violation, largest
     integer :: j
 
     violation = 0.0_dp
+    largest = maxval(abs(solution%force))
     do j = 1, problem%motions()
       if (is_prescribed(problem, j)) then
         violation = max(violation, relative(abs(solution%rigid(j) - problem%motion(j)), abs(problem%motion(j))))
       else if (allocated(problem%modes)) then
         violation = max(violation, relative(abs(sum(problem%modes(:, j)*solution%force) - problem%resultant(j)), &
                                             max(sum(abs(problem%modes(:, j)*solution%force)), &
-                                                abs(problem%resultant(j)))))
+                                                maxval(abs(problem%modes(:, j)))*largest, abs(problem%resultant(j)))))
       else
         violation = max(violation, relative(abs(sum(solution%force) - problem%resultant(1)), &
                                             max(sum(abs(solution%force)), abs(problem%resultant(1)))))
@@ -242,7 +243,7 @@ contains
     if (allocated(problem%prescribed)) then
       fits = fits .and. size(problem%prescribed) == m .and. length_of(problem%motion) == m
       if (.not. all(problem%prescribed)) fits = fits .and. length_of(problem%resultant) == m
-    else
+    else if (m > 0) then
       fits = fits .and. length_of(problem%resultant) == m
     end if
   end function fits

@@ -80,6 +80,9 @@ contains
     ! Opposite forces are in equilibrium only where all motions move both points alike.
     if (scene%plain .and. .not. info%failed()) call check_pairs(alpha, info)
     if (info%failed()) return
+    ! A guess from another problem may know of stops and points that are no more.
+    where (scene%excluded) side = 0
+    where (scene%upper >= huge(1.0_dp)) side = max(side, 0)
     if (.not. any(side /= 0)) then
       if (scene%plain) then
         call guess_contact_set(alpha, scene%gap, scene%load(1), contact, info%products)

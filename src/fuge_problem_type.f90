@@ -16,7 +16,7 @@ module fuge_problem_type
   implicit none
   private
 
-  public :: set_problem, check_problem, check_load
+  public :: set_problem, check_problem, check_load, check_play
 
   !> The data beside the operator, in the operator's units. Components may be added:
   !> set them by name; those not allocated have the meaning given.
@@ -118,26 +118,34 @@ contains
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
     type(fuge_info), intent(inout) :: info
-    integer :: k
 
     if (allocated(problem%gap_upper)) then
       call check_length(problem%gap_upper, n, 'gap_upper', info)
+      if (.not. info%failed()) call check_play(problem%gap_upper, info)
       if (info%failed()) return
-      do k = 1, n
-        if (ieee_is_nan(problem%gap_upper(k))) then
-          call report(info, FUGE_ERR_NOT_FINITE, 'gap_upper('//text(k)//') is NaN: use infinity for one-sided contact')
-        else if (problem%gap_upper(k) < 0.0_dp) then
-          call report(info, FUGE_ERR_GAP, 'gap_upper('//text(k)//') = '//text(problem%gap_upper(k))//' is negative: the upper ' &
-                      //'stop would lie below the lower one; 0 ties the point')
-        end if
-        if (info%failed()) return
-      end do
     end if
     if (allocated(problem%excluded)) then
       if (size(problem%excluded) /= n) call report(info, FUGE_ERR_SIZE, 'excluded has '//text(size(problem%excluded)) &
                                                    //' value(s): it needs '//text(n))
     end if
   end subroutine check_points
+
+  !> Refuse a play that is NaN (FUGE_ERR_NOT_FINITE) or negative (FUGE_ERR_GAP).
+  pure subroutine check_play(gap_upper, info)
+    real(dp), intent(in) :: gap_upper(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    do k = 1, size(gap_upper)
+      if (ieee_is_nan(gap_upper(k))) then
+        call report(info, FUGE_ERR_NOT_FINITE, 'gap_upper('//text(k)//') is NaN: use infinity for one-sided contact')
+      else if (gap_upper(k) < 0.0_dp) then
+        call report(info, FUGE_ERR_GAP, 'gap_upper('//text(k)//') = '//text(gap_upper(k))//' is negative: the upper ' &
+                    //'stop would lie below the lower one; 0 ties the point')
+      end if
+      if (info%failed()) return
+    end do
+  end subroutine check_play
 
   !> Modes, resultants and prescribed motions.
   pure subroutine check_motions(problem, n, info)

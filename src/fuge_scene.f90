@@ -39,10 +39,14 @@ module fuge_scene
     !> Prescribed motions R, (n, m), zero where free; not allocated if none is prescribed.
     real(dp), allocatable, private :: given(:, :)
     logical, allocatable, private :: prescribed(:)
+    !> Excluded points, and their rows of R: the orthogonal modes are not theirs.
+    integer, allocatable, private :: outside(:)
+    real(dp), allocatable, private :: rows(:, :)
   contains
     procedure :: motions
     procedure :: motions_of
     procedure :: change_of
+    procedure :: open_outside
   end type contact_scene
 
 contains
@@ -74,6 +78,7 @@ contains
       return
     end if
     call take_prescribed(problem, scene)
+    call take_outside(problem, scene)
     if (.not. allocated(problem%modes)) then
       scene%constant = m == 1
       scene%modes = 1.0_dp
@@ -104,6 +109,18 @@ contains
       scene%gap = scene%gap - problem%motion(j)*scene%given(:, j)
     end do
   end subroutine take_prescribed
+
+  !> Rows of R at the excluded points.
+  pure subroutine take_outside(problem, scene)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(inout) :: scene
+    integer :: k
+
+    scene%outside = pack([(k, k=1, size(scene%excluded))], scene%excluded)
+    allocate (scene%rows(size(scene%outside), problem%motions()))
+    scene%rows = 1.0_dp
+    if (allocated(problem%modes)) scene%rows = problem%modes(scene%outside, :)
+  end subroutine take_outside
 
   !> Modes of equal size, orthogonal at the points that take part; the first is 1 if that
   !> is made of the given ones.
@@ -141,6 +158,8 @@ contains
       part = cshift(part, replaced - 1, dim=2)
       call triangular(part, .false., order, rank)
     end if
+    ! Rounding would let a point carry what does not move it.
+    where (spread(all(abs(given) <= 0.0_dp, dim=2), 2, m)) part = 0.0_dp
     part = part*sqrt(real(count(.not. scene%excluded), dp))
     if (scene%constant) part(:, 1) = merge(0.0_dp, 1.0_dp, scene%excluded)
     scene%modes = part
@@ -291,6 +310,21 @@ contains
     if (size(load) > 0) call solve_small(transpose(self%mixing), load_change(self%free), load)
   end subroutine change_of
 
+  !> c = g + A f - R q at the excluded points, of `gap` g (n), `force` (n) and all
+  !> motions `rigid` (m), or of changes of these.
+  pure subroutine open_outside(self, alpha, gap, force, rigid, gap_out)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: alpha(:, :), gap(:), force(:), rigid(:)
+    real(dp), intent(inout) :: gap_out(:)
+    integer :: k
+
+    do k = 1, size(self%outside)
+      associate (point => self%outside(k))
+        gap_out(point) = gap(point) + sum(alpha(point, :)*force) - sum(self%rows(k, :)*rigid)
+      end associate
+    end do
+  end subroutine open_outside
+
   !> Forces to start with, or the reason why there are none.
   subroutine require_equilibrium(problem, scene, info)
     type(fuge_problem), intent(in) :: problem
@@ -317,31 +351,45 @@ contains
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: remainder(:)
     type(fuge_info), intent(inout) :: info
-    real(dp) :: motion(size(remainder)), x(size(scene%gap))
+    real(dp) :: motion(size(remainder))
     integer :: worst
 
-    if (.not. allocated(problem%modes)) then
+    if (all(scene%excluded)) then
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'all points are excluded: nothing carries the resultant')
+    else if (.not. allocated(problem%modes)) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'resultant '//text(problem%resultant(1))//' is negative: contact ' &
                   //'forces can only push, so it must be >= 0')
-      return
+    else
+      call explain_line(problem, scene, 1, 2, info)
+      if (.not. info%failed()) call explain_line(problem, scene, 2, 1, info)
+      if (info%failed()) return
+      associate (w => problem%resultant(scene%free), r => problem%modes(:, scene%free))
+        call solve_small(scene%mixing, remainder, motion)
+        worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
+                    //' in motion '//text(scene%free(worst))//' together with the others: moving along it by ' &
+                    //text(motion(worst))//' closes no contact, but the resultants do work')
+      end associate
     end if
-    associate (w => problem%resultant(scene%free), r => problem%modes(:, scene%free))
-      if (size(w) == 2) then
-        if (minval(r(:, 1)) > 0.0_dp .and. maxval(r(:, 1)) <= minval(r(:, 1)) .and. w(1) > 0.0_dp) then
-          x = r(:, 2)/r(:, 1)
-          call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(2)/w(1)) &
-                      //', but the points reach from ' &
-                      //text(minval(x, mask=.not. scene%excluded))//' to '//text(maxval(x, mask=.not. scene%excluded)) &
-                      //' only: move the load between them')
-          return
-        end if
-      end if
-      call solve_small(scene%mixing, remainder, motion)
-      worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
-                  //' in motion '//text(scene%free(worst))//' together with the others: moving along it by ' &
-                  //text(motion(worst))//' closes no contact, but the resultants do work')
-    end associate
   end subroutine explain_missing
+
+  !> A load that presses beside all points, of a translation and a tilt: there its line of
+  !> action says more. Points that pull have no range.
+  subroutine explain_line(problem, scene, translation, tilt, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: translation, tilt
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: x(size(scene%gap))
+
+    if (size(scene%free) /= 2 .or. any(scene%upper < huge(x) .and. .not. scene%excluded)) return
+    associate (w => problem%resultant(scene%free), unit => problem%modes(:, scene%free(translation)))
+      if (.not. (minval(unit) > 0.0_dp .and. maxval(unit) <= minval(unit) .and. w(translation) > 0.0_dp)) return
+      x = problem%modes(:, scene%free(tilt))/unit
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(tilt)/w(translation)) &
+                  //', but the points reach from '//text(minval(x, mask=.not. scene%excluded))//' to ' &
+                  //text(maxval(x, mask=.not. scene%excluded))//' only: move the load between them')
+    end associate
+  end subroutine explain_line
 
 end module fuge_scene

@@ -74,9 +74,10 @@ contains
   !> `distance` (n) is the gap less the motion: what the displacement has to make up
   !> for at a point in contact. `terms` (n) is what the displacement is made of. `side`
   !> (n) is 1 at the lower stop, -1 at the upper one, 0 between; `upper` (n) the play;
-  !> tied points (play 0) and `excluded` ones cannot be wrong.
-  pure function violations(distance, terms, side, upper, excluded, force, gap_out) result(violation)
-    real(dp), intent(in) :: distance(:), terms(:), upper(:), force(:), gap_out(:)
+  !> tied points (play 0) and `excluded` ones cannot be wrong. A force up to `nothing` is
+  !> rounding.
+  pure function violations(distance, terms, side, upper, excluded, nothing, force, gap_out) result(violation)
+    real(dp), intent(in) :: distance(:), terms(:), upper(:), nothing, force(:), gap_out(:)
     integer, intent(in) :: side(:)
     logical, intent(in) :: excluded(:)
     real(dp) :: violation(size(side))
@@ -88,7 +89,7 @@ contains
     do j = 1, size(side)
       if (excluded(j) .or. .not. upper(j) > 0.0_dp) cycle
       if (side(j) /= 0) then
-        if (force(j)*side(j) < 0.0_dp) violation(j) = abs(force(j))/largest
+        if (force(j)*side(j) < -nothing) violation(j) = abs(force(j))/largest
       else
         beyond = max(-gap_out(j), gap_out(j) - upper(j))
         if (beyond > 0.0_dp) violation(j) = beyond/max(abs(distance(j)) + terms(j), beyond)

@@ -41,8 +41,10 @@ module fuge_solver_type
   contains
     procedure :: solve
     procedure :: reset
-    procedure :: derivative
-    procedure :: general_derivative
+    !> For a change of one load, or of each.
+    generic :: derivative => derivative_by_load, derivative_by_loads
+    procedure, private :: derivative_by_load
+    procedure, private :: derivative_by_loads
   end type fuge_solver
 
 contains
@@ -122,19 +124,19 @@ contains
   !> without force counts as on the side that the solve left it.
   !> Errors, `change` untouched: FUGE_ERR_CALL_ORDER without a solution with a load,
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_UNSUPPORTED, FUGE_ERR_MEMORY.
-  subroutine derivative(self, operator, gap_change, load_change, change, info)
+  subroutine derivative_by_load(self, operator, gap_change, load_change, change, info)
     class(fuge_solver), intent(in) :: self
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(out) :: info
 
-    call general_derivative(self, operator, gap_change, [load_change], change, info)
-  end subroutine derivative
+    call derivative_by_loads(self, operator, gap_change, [load_change], change, info)
+  end subroutine derivative_by_load
 
   !> The same for changes of all resultants, `load_change` (m); those of prescribed
   !> motions are changes of the motion.
-  subroutine general_derivative(self, operator, gap_change, load_change, change, info)
+  subroutine derivative_by_loads(self, operator, gap_change, load_change, change, info)
     class(fuge_solver), intent(in) :: self
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change(:)
@@ -174,9 +176,10 @@ contains
       where (self%side /= 0) found%gap = 0.0_dp
       if (self%scene%constant) motion(1) = motion(1) + datum*load(1)
       call self%scene%motions_of(load_change, motion, found%rigid)
+      call self%scene%open_outside(operator%alpha, gap_change, found%force, found%rigid, found%gap)
       call take(found, change)
     end select
-  end subroutine general_derivative
+  end subroutine derivative_by_loads
 
   pure function has_coefficients(operator) result(has)
     class(fuge_operator), intent(in) :: operator
@@ -278,6 +281,7 @@ contains
     if (info%failed()) return
     call remember(self, side)
     call self%scene%motions_of(prescribed_values(problem), found%rigid, answer%rigid)
+    call self%scene%open_outside(operator%alpha, problem%gap, found%force, answer%rigid, found%gap)
     call move_alloc(found%force, answer%force)
     call move_alloc(found%gap, answer%gap)
   end subroutine run_dense_engine

@@ -2,7 +2,7 @@
 module fuge_c_results
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_solver, only: take_solver
-  use fuge_c_types, only: c_info, solver_handle, to_c, copy_string
+  use fuge_c_types, only: c_info, solver_handle, to_c, copy_string, copy_reals
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, &
     FUGE_ERR_MEMORY
@@ -38,31 +38,69 @@ contains
     if (status == FUGE_DONE) call copy_out(handle%solution%rigid, q)
   end function c_get_rigid
 
-  !> Resultants of the contact forces found; equal to the load up to rounding.
+  !> Resultants of the contact forces found in all motions: equal to the loads up to
+  !> rounding where free, the reaction where prescribed.
   function c_get_resultant(solver, w) bind(c, name='fuge_get_resultant') result(status)
     type(c_ptr), intent(in), value :: solver, w
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
     status = ready(solver, w, handle)
-    if (status == FUGE_DONE) call copy_out([sum(handle%solution%force)], w)
+    if (status /= FUGE_DONE) return
+    associate (problem => handle%problem, force => handle%solution%force)
+      if (allocated(problem%modes)) then
+        call copy_out(matmul(force, problem%modes), w)
+      else
+        call copy_out([sum(force)], w)
+      end if
+    end associate
   end function c_get_resultant
 
-  !> First-order changes of the last solution, see `derivative` of `fuge_solver`.
+  !> First-order changes of the last solution with one load, see `derivative` of
+  !> `fuge_solver`.
   function c_get_derivative(solver, gap_change, load_change, force, gap, rigid) &
     bind(c, name='fuge_get_derivative') result(status)
     type(c_ptr), intent(in), value :: solver, gap_change, force, gap, rigid
     real(c_double), intent(in), value :: load_change
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
+
+    status = ready(solver, force, handle)
+    if (status == FUGE_DONE) status = differentiate(handle, gap_change, [load_change], force, gap, rigid)
+  end function c_get_derivative
+
+  !> The same with all loads; NULL for none that changes.
+  function c_get_derivatives(solver, gap_change, load_change, force, gap, rigid) &
+    bind(c, name='fuge_get_derivatives') result(status)
+    type(c_ptr), intent(in), value :: solver, gap_change, load_change, force, gap, rigid
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(c_double), pointer :: loads(:)
+    integer :: k
+
+    status = ready(solver, force, handle)
+    if (status /= FUGE_DONE) return
+    associate (m => handle%problem%motions())
+      if (c_associated(load_change)) then
+        call c_f_pointer(load_change, loads, [m])
+        status = differentiate(handle, gap_change, loads, force, gap, rigid)
+      else
+        status = differentiate(handle, gap_change, [(0.0_c_double, k=1, m)], force, gap, rigid)
+      end if
+    end associate
+  end function c_get_derivatives
+
+  function differentiate(handle, gap_change, load_change, force, gap, rigid) result(status)
+    type(solver_handle), intent(inout) :: handle
+    type(c_ptr), intent(in) :: gap_change, force, gap, rigid
+    real(c_double), intent(in) :: load_change(:)
+    integer(c_int) :: status
     real(c_double), pointer :: values(:)
     real(c_double), allocatable :: direction(:)
     type(fuge_solution) :: change
     type(fuge_info) :: info
     integer :: stat
 
-    status = ready(solver, force, handle)
-    if (status /= FUGE_DONE) return
     allocate (direction(handle%operator%operator%points()), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the change of the gaps')
@@ -80,9 +118,9 @@ contains
       return
     end if
     call copy_out(change%force, force)
-    if (c_associated(gap)) call copy_out(change%gap, gap)
-    if (c_associated(rigid)) call copy_out(change%rigid, rigid)
-  end function c_get_derivative
+    call copy_reals(change%gap, gap)
+    call copy_reals(change%rigid, rigid)
+  end function differentiate
 
   function c_get_info(solver, destination) bind(c, name='fuge_get_info') result(status)
     type(c_ptr), intent(in), value :: solver, destination
@@ -180,7 +218,7 @@ contains
       if (.not. c_associated(destination)) then
         call report(info, FUGE_ERR_POINTER, 'the array for the result is NULL')
       else if (.not. handle%solved) then
-        call report(info, FUGE_ERR_CALL_ORDER, 'there is no answer for the present gaps and load: ' &
+        call report(info, FUGE_ERR_CALL_ORDER, 'there is no answer for the present problem: ' &
                     //'call fuge_solve and look at its status')
       end if
       if (info%failed()) handle%message = info%message

@@ -1,17 +1,15 @@
-!> C bindings, section "solver": life cycle, data, solve.
+!> C bindings, section "solver": life cycle, solve.
 module fuge_c_solver
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_funptr, c_loc, c_associated, &
+  use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_null_ptr, c_funptr, c_loc, c_associated, &
     c_f_pointer
   use fuge_c_types, only: c_options, operator_handle, solver_handle, from_c
-  use fuge_check, only: check_finite
   use fuge_options_type, only: fuge_options, check_options
-  use fuge_problem_type, only: check_load
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED
+    FUGE_ERR_CALL_ORDER
   implicit none
   private
 
-  public :: take_solver
+  public :: take_solver, answer
 
 contains
 
@@ -57,58 +55,6 @@ contains
     slot = c_null_ptr
   end subroutine c_solver_free
 
-  function c_set_gap(solver, gap, gap_upper) bind(c, name='fuge_set_gap') result(status)
-    type(c_ptr), intent(in), value :: solver, gap, gap_upper
-    integer(c_int) :: status
-    type(solver_handle), pointer :: handle
-    real(c_double), pointer :: values(:)
-    real(c_double), allocatable :: copy(:)
-    type(fuge_info) :: info
-    integer :: stat
-
-    call take_solver(solver, handle, info)
-    if (.not. info%failed() .and. .not. c_associated(gap)) call report(info, FUGE_ERR_POINTER, 'gap is NULL')
-    if (.not. info%failed() .and. c_associated(gap_upper)) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'gap_upper is not NULL: ' &
-                  //'no engine of this version solves two-sided contact')
-    end if
-    if (.not. info%failed()) then
-      call c_f_pointer(gap, values, [handle%operator%operator%points()])
-      call check_finite(values, 'gap', info)
-    end if
-    if (.not. info%failed()) then
-      allocate (copy, source=values, stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the gaps')
-    end if
-    if (.not. info%failed()) then
-      call move_alloc(copy, handle%problem%gap)
-      handle%solved = .false.
-    end if
-    status = answer(handle, info)
-  end function c_set_gap
-
-  function c_set_load(solver, load) bind(c, name='fuge_set_load') result(status)
-    type(c_ptr), intent(in), value :: solver
-    real(c_double), intent(in), value :: load
-    integer(c_int) :: status
-    type(solver_handle), pointer :: handle
-    type(fuge_info) :: info
-    integer :: stat
-
-    call take_solver(solver, handle, info)
-    if (.not. info%failed()) call check_load(load, info)
-    if (.not. info%failed()) then
-      stat = 0
-      if (.not. allocated(handle%problem%resultant)) allocate (handle%problem%resultant(1), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the load')
-    end if
-    if (.not. info%failed()) then
-      handle%problem%resultant(1) = load
-      handle%solved = .false.
-    end if
-    status = answer(handle, info)
-  end function c_set_load
-
   function c_set_progress(solver, progress, user) bind(c, name='fuge_set_progress') result(status)
     type(c_ptr), intent(in), value :: solver, user
     type(c_funptr), intent(in), value :: progress
@@ -131,8 +77,9 @@ contains
     if (.not. info%failed()) then
       if (.not. allocated(handle%problem%gap)) then
         call report(info, FUGE_ERR_CALL_ORDER, 'the gaps are not known: call fuge_set_gap before fuge_solve')
-      else if (.not. allocated(handle%problem%resultant)) then
-        call report(info, FUGE_ERR_CALL_ORDER, 'the load is not known: call fuge_set_load before fuge_solve')
+      else if (.not. (allocated(handle%problem%resultant) .or. allocated(handle%problem%prescribed))) then
+        call report(info, FUGE_ERR_CALL_ORDER, 'the load is not known: call fuge_set_load, fuge_set_approach or ' &
+                    //'fuge_set_modes before fuge_solve')
       end if
     end if
     if (.not. info%failed()) then
@@ -147,7 +94,7 @@ contains
     status = answer(handle, info)
   end function c_solve
 
-  !> Forget answers and history; operator, options, gaps and load stay.
+  !> Forget answers and history; operator, options and problem stay.
   function c_reset(solver) bind(c, name='fuge_reset') result(status)
     type(c_ptr), intent(in), value :: solver
     integer(c_int) :: status

@@ -47,7 +47,7 @@ module fuge_c_types
     type(fuge_info) :: info
     !> Of the last call that had something to say.
     character(len=FUGE_MESSAGE_LENGTH) :: message = ''
-    !> The solution belongs to the present gaps and load.
+    !> The solution belongs to the present problem.
     logical :: solved = .false.
     !> A solve has been tried, so that `info` means something.
     logical :: tried = .false.

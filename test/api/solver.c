@@ -308,8 +308,6 @@ static void test_refused_data(void) {
   check_message(solver, "gap(1)");
   CHECK_STATUS(fuge_set_gap(solver, NULL, NULL), FUGE_ERR_POINTER);
   check_message(solver, "gap is NULL");
-  CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, TABLE1_GAP), FUGE_ERR_UNSUPPORTED);
-  check_message(solver, "gap_upper");
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
   check_solved(solver);
   free_both(&solver, &op);

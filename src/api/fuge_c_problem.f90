@@ -1,0 +1,341 @@
+!> C bindings, section "problem": the data of a solve beside the operator.
+module fuge_c_problem
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_associated, c_f_pointer
+  use fuge_c_solver, only: take_solver, answer
+  use fuge_c_types, only: solver_handle
+  use fuge_check, only: check_finite
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: check_load, check_play
+  use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, FUGE_ERR_MODES
+  use fuge_text, only: text
+  implicit none
+  private
+
+contains
+
+  function c_set_gap(solver, gap, gap_upper) bind(c, name='fuge_set_gap') result(status)
+    type(c_ptr), intent(in), value :: solver, gap, gap_upper
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(dp), allocatable :: lower(:), play(:)
+    type(fuge_info) :: info
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) call take_reals(gap, points_of(handle), 'gap', lower, info)
+    if (.not. info%failed()) call check_finite(lower, 'gap', info)
+    if (.not. info%failed() .and. c_associated(gap_upper)) then
+      call take_reals(gap_upper, points_of(handle), 'gap_upper', play, info)
+      if (.not. info%failed()) call check_play(play, info)
+    end if
+    if (.not. info%failed()) then
+      call move_alloc(lower, handle%problem%gap)
+      call move_alloc(play, handle%problem%gap_upper)
+      handle%solved = .false.
+    end if
+    status = answer(handle, info)
+  end function c_set_gap
+
+  function c_set_excluded(solver, excluded) bind(c, name='fuge_set_excluded') result(status)
+    type(c_ptr), intent(in), value :: solver, excluded
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    integer(c_int), pointer :: flags(:)
+    logical, allocatable :: copy(:)
+    type(fuge_info) :: info
+    integer :: stat
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed() .and. c_associated(excluded)) then
+      call c_f_pointer(excluded, flags, [points_of(handle)])
+      allocate (copy(size(flags)), stat=stat)
+      if (stat /= 0) then
+        call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of excluded')
+      else
+        copy = flags /= 0
+      end if
+    end if
+    if (.not. info%failed()) then
+      call move_alloc(copy, handle%problem%excluded)
+      handle%solved = .false.
+    end if
+    status = answer(handle, info)
+  end function c_set_excluded
+
+  !> The plain motion: one free translation.
+  function c_set_load(solver, load) bind(c, name='fuge_set_load') result(status)
+    type(c_ptr), intent(in), value :: solver
+    real(c_double), intent(in), value :: load
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(dp), allocatable :: resultant(:)
+    type(fuge_info) :: info
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) call check_load(load, info)
+    if (.not. info%failed()) call one_value(load, resultant, info)
+    if (.not. info%failed()) then
+      call forget_motions(handle)
+      call move_alloc(resultant, handle%problem%resultant)
+    end if
+    status = answer(handle, info)
+  end function c_set_load
+
+  function c_set_approach(solver, approach) bind(c, name='fuge_set_approach') result(status)
+    type(c_ptr), intent(in), value :: solver
+    real(c_double), intent(in), value :: approach
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(dp), allocatable :: motion(:)
+    logical, allocatable :: prescribed(:)
+    type(fuge_info) :: info
+    integer :: stat
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) call check_finite([approach], 'approach', info)
+    if (.not. info%failed()) call one_value(approach, motion, info)
+    if (.not. info%failed()) then
+      allocate (prescribed(1), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the approach')
+    end if
+    if (.not. info%failed()) then
+      prescribed = .true.
+      call forget_motions(handle)
+      call move_alloc(motion, handle%problem%motion)
+      call move_alloc(prescribed, handle%problem%prescribed)
+    end if
+    status = answer(handle, info)
+  end function c_set_approach
+
+  function c_set_modes(solver, m, modes, resultant) bind(c, name='fuge_set_modes') result(status)
+    type(c_ptr), intent(in), value :: solver, modes, resultant
+    integer(c_int), intent(in), value :: m
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(dp), allocatable :: r(:, :), w(:)
+    type(fuge_info) :: info
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) call check_count(int(m), points_of(handle), info)
+    if (.not. info%failed()) call take_columns(modes, points_of(handle), int(m), r, info)
+    if (.not. info%failed()) call take_reals(resultant, int(m), 'resultant', w, info)
+    if (.not. info%failed()) call check_finite(w, 'resultant', info)
+    if (.not. info%failed()) then
+      call forget_motions(handle)
+      call move_alloc(r, handle%problem%modes)
+      call move_alloc(w, handle%problem%resultant)
+    end if
+    status = answer(handle, info)
+  end function c_set_modes
+
+  !> Prescribe one motion.
+  function c_set_motion(solver, mode, motion) bind(c, name='fuge_set_motion') result(status)
+    type(c_ptr), intent(in), value :: solver
+    integer(c_int), intent(in), value :: mode
+    real(c_double), intent(in), value :: motion
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) call check_mode(handle, int(mode), motion, 'motion', info)
+    if (.not. info%failed()) call make_prescribed(handle, info)
+    if (.not. info%failed()) then
+      handle%problem%prescribed(mode + 1) = .true.
+      handle%problem%motion(mode + 1) = motion
+      handle%solved = .false.
+    end if
+    status = answer(handle, info)
+  end function c_set_motion
+
+  !> Free one motion.
+  function c_free_motion(solver, mode, resultant) bind(c, name='fuge_free_motion') result(status)
+    type(c_ptr), intent(in), value :: solver
+    integer(c_int), intent(in), value :: mode
+    real(c_double), intent(in), value :: resultant
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(fuge_info) :: info
+    integer :: stat
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) call check_mode(handle, int(mode), resultant, 'resultant', info)
+    if (.not. info%failed()) then
+      stat = 0
+      ! Only the plain motion can be without a resultant.
+      if (.not. allocated(handle%problem%resultant)) allocate (handle%problem%resultant(1), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the resultant')
+    end if
+    if (.not. info%failed()) then
+      handle%problem%resultant(mode + 1) = resultant
+      call take_free(handle, mode + 1)
+      handle%solved = .false.
+    end if
+    status = answer(handle, info)
+  end function c_free_motion
+
+  function c_get_motions(solver, destination) bind(c, name='fuge_get_motions') result(status)
+    type(c_ptr), intent(in), value :: solver, destination
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    integer(c_int), pointer :: m
+    type(fuge_info) :: info
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) then
+      if (c_associated(destination)) then
+        call c_f_pointer(destination, m)
+        m = int(handle%problem%motions(), c_int)
+      else
+        call report(info, FUGE_ERR_POINTER, 'm is NULL')
+        handle%message = info%message
+      end if
+    end if
+    status = int(info%status, c_int)
+  end function c_get_motions
+
+  pure function points_of(handle) result(n)
+    type(solver_handle), intent(in) :: handle
+    integer :: n
+
+    n = handle%operator%operator%points()
+  end function points_of
+
+  !> Back to one free translation, without a load yet.
+  pure subroutine forget_motions(handle)
+    type(solver_handle), intent(inout) :: handle
+
+    associate (problem => handle%problem)
+      if (allocated(problem%modes)) deallocate (problem%modes)
+      if (allocated(problem%resultant)) deallocate (problem%resultant)
+      if (allocated(problem%prescribed)) deallocate (problem%prescribed)
+      if (allocated(problem%motion)) deallocate (problem%motion)
+    end associate
+    handle%solved = .false.
+  end subroutine forget_motions
+
+  !> More modes than points cannot be independent, and their array need not exist.
+  pure subroutine check_count(m, n, info)
+    integer, intent(in) :: m, n
+    type(fuge_info), intent(inout) :: info
+
+    if (m < 0) then
+      call report(info, FUGE_ERR_SIZE, 'm = '//text(m)//' is negative: it is the number of modes')
+    else if (m > n) then
+      call report(info, FUGE_ERR_MODES, text(m)//' modes of '//text(n)//' point(s) depend on each other: leave ' &
+                  //text(m - n)//' out')
+    end if
+  end subroutine check_count
+
+  pure subroutine check_mode(handle, mode, value, name, info)
+    type(solver_handle), intent(in) :: handle
+    integer, intent(in) :: mode
+    real(dp), intent(in) :: value
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    associate (m => handle%problem%motions())
+      if (m < 1) then
+        call report(info, FUGE_ERR_SIZE, 'there is no mode: fuge_set_modes has set none')
+      else if (mode < 0 .or. mode >= m) then
+        call report(info, FUGE_ERR_SIZE, 'mode = '//text(mode)//' is none of the '//text(m)//': it has to be 0 .. ' &
+                    //text(m - 1))
+      else
+        call check_finite([value], name, info)
+      end if
+    end associate
+  end subroutine check_mode
+
+  !> Room to say which motions are prescribed, all free at first.
+  pure subroutine make_prescribed(handle, info)
+    type(solver_handle), intent(inout) :: handle
+    type(fuge_info), intent(inout) :: info
+    logical, allocatable :: prescribed(:)
+    real(dp), allocatable :: motion(:)
+    integer :: m, stat
+
+    if (allocated(handle%problem%prescribed)) return
+    m = handle%problem%motions()
+    allocate (prescribed(m), motion(m), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the prescribed motions')
+      return
+    end if
+    prescribed = .false.
+    motion = 0.0_dp
+    call move_alloc(prescribed, handle%problem%prescribed)
+    call move_alloc(motion, handle%problem%motion)
+  end subroutine make_prescribed
+
+  !> With no prescribed motion left the problem is as if there had been none.
+  pure subroutine take_free(handle, mode)
+    type(solver_handle), intent(inout) :: handle
+    integer, intent(in) :: mode
+
+    associate (problem => handle%problem)
+      if (.not. allocated(problem%prescribed)) return
+      problem%prescribed(mode) = .false.
+      if (any(problem%prescribed)) return
+      deallocate (problem%prescribed, problem%motion)
+    end associate
+  end subroutine take_free
+
+  pure subroutine one_value(value, array, info)
+    real(dp), intent(in) :: value
+    real(dp), allocatable, intent(out) :: array(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (array(1), stat=stat)
+    if (stat == 0) then
+      array = value
+    else
+      call report(info, FUGE_ERR_MEMORY, 'no memory for one number')
+    end if
+  end subroutine one_value
+
+  !> A copy of an array of C; NULL is refused unless it has no elements.
+  subroutine take_reals(source, length, name, copy, info)
+    type(c_ptr), intent(in) :: source
+    integer, intent(in) :: length
+    character(len=*), intent(in) :: name
+    real(dp), allocatable, intent(out) :: copy(:)
+    type(fuge_info), intent(inout) :: info
+    real(c_double), pointer :: values(:)
+    integer :: stat
+
+    if (length > 0 .and. .not. c_associated(source)) then
+      call report(info, FUGE_ERR_POINTER, name//' is NULL')
+      return
+    end if
+    allocate (copy(length), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of '//name)
+    if (stat /= 0 .or. length < 1) return
+    call c_f_pointer(source, values, [length])
+    copy = values
+  end subroutine take_reals
+
+  !> The same for a matrix, whose values have to be finite.
+  subroutine take_columns(source, rows, columns, copy, info)
+    type(c_ptr), intent(in) :: source
+    integer, intent(in) :: rows, columns
+    real(dp), allocatable, intent(out) :: copy(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(c_double), pointer :: values(:, :)
+    integer :: j, stat
+
+    if (columns > 0 .and. .not. c_associated(source)) then
+      call report(info, FUGE_ERR_POINTER, 'modes is NULL')
+      return
+    end if
+    allocate (copy(rows, columns), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the modes')
+    if (stat /= 0 .or. columns < 1) return
+    call c_f_pointer(source, values, [rows, columns])
+    copy = values
+    do j = 1, columns
+      call check_finite(copy(:, j), 'mode '//text(j)//' ', info)
+      if (info%failed()) return
+    end do
+  end subroutine take_columns
+
+end module fuge_c_problem

@@ -1,0 +1,285 @@
+!> What general problems are measured against: all states tried, the equations checked
+!> anew. Nothing here comes from the library but its types.
+module general_reference
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
+  implicit none
+  private
+
+  public :: draw, integers, solve_general, enumerate_states, general_violation, eliminate, infinity
+  public :: play_of, is_excluded, is_prescribed, modes_of
+
+  !> Pivots below this part of the largest entry belong to a singular system.
+  real(dp), parameter :: SINGULAR = 1.0e-10_dp
+
+contains
+
+  !> Minimal standard generator: the same numbers, 0 < value < 1, with every compiler.
+  pure subroutine draw(seed, values)
+    integer(int64), intent(inout) :: seed
+    real(dp), intent(out) :: values(:)
+    integer :: k
+
+    do k = 1, size(values)
+      seed = mod(16807_int64*seed, 2147483647_int64)
+      values(k) = real(seed, dp)/2147483647.0_dp
+    end do
+  end subroutine draw
+
+  !> Whole numbers from `low` to `high`.
+  pure subroutine integers(seed, low, high, values)
+    integer(int64), intent(inout) :: seed
+    integer, intent(in) :: low, high
+    real(dp), intent(out) :: values(:)
+
+    call draw(seed, values)
+    values = real(low, dp) + aint(values*real(high - low + 1, dp))
+  end subroutine integers
+
+  pure function infinity()
+    real(dp) :: infinity
+
+    infinity = ieee_value(infinity, ieee_positive_inf)
+  end function infinity
+
+  !> One solve with a solver of its own.
+  subroutine solve_general(alpha, problem, solution, info)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(out) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_dense_operator) :: operator
+    type(fuge_solver) :: solver
+    real(dp), allocatable, target :: matrix(:, :)
+
+    allocate (matrix, source=alpha)
+    call operator%set(matrix, info)
+    if (info%failed()) return
+    call solver%solve(operator, problem, solution, info)
+  end subroutine solve_general
+
+  !> Play at a point, infinite where one-sided.
+  pure function play_of(problem, point) result(play)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: point
+    real(dp) :: play
+
+    play = infinity()
+    if (allocated(problem%gap_upper)) play = problem%gap_upper(point)
+  end function play_of
+
+  pure function is_excluded(problem, point) result(excluded)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: point
+    logical :: excluded
+
+    excluded = .false.
+    if (allocated(problem%excluded)) excluded = problem%excluded(point)
+  end function is_excluded
+
+  pure function is_prescribed(problem, mode) result(prescribed)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: mode
+    logical :: prescribed
+
+    prescribed = .false.
+    if (allocated(problem%prescribed)) prescribed = problem%prescribed(mode)
+  end function is_prescribed
+
+  !> R, (n, m).
+  pure function modes_of(problem) result(modes)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: modes(problem%points(), problem%motions())
+
+    modes = 1.0_dp
+    if (allocated(problem%modes)) modes = problem%modes
+  end function modes_of
+
+  !> Try every state of every point: between the stops, at the lower, at the upper one.
+  !> `worst` is the least violation of signs and play, relative, that any of the regular
+  !> systems has, with its forces and motions; `all_regular` tells if none was singular.
+  pure subroutine enumerate_states(alpha, problem, force, rigid, worst, all_regular)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(out) :: force(:), rigid(:), worst
+    logical, intent(out) :: all_regular
+    type(fuge_solution) :: tried
+    integer :: side(size(force)), code, rest, k
+    real(dp) :: violation
+    logical :: regular
+
+    worst = huge(worst)
+    force = 0.0_dp
+    rigid = 0.0_dp
+    all_regular = .true.
+    do code = 0, 3**size(side) - 1
+      rest = code
+      do k = 1, size(side)
+        side(k) = mod(rest, 3) - 1
+        rest = rest/3
+      end do
+      if (.not. possible(problem, side)) cycle
+      call try_state(alpha, problem, side, tried, regular)
+      all_regular = all_regular .and. regular
+      if (.not. regular) cycle
+      violation = general_violation(alpha, problem, tried)
+      if (violation >= worst) cycle
+      worst = violation
+      force = tried%force
+      rigid = tried%rigid
+    end do
+  end subroutine enumerate_states
+
+  pure function possible(problem, side)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: side(:)
+    logical :: possible
+    integer :: k
+
+    possible = .true.
+    do k = 1, size(side)
+      if (is_excluded(problem, k)) then
+        possible = possible .and. side(k) == 0
+      else if (.not. play_of(problem, k) > 0.0_dp) then
+        possible = possible .and. side(k) == 1
+      else if (play_of(problem, k) > huge(1.0_dp)) then
+        possible = possible .and. side(k) >= 0
+      end if
+    end do
+  end function possible
+
+  !> The linear system of one state: unknown forces and motions.
+  pure subroutine try_state(alpha, problem, side, tried, regular)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: side(:)
+    type(fuge_solution), intent(inout) :: tried
+    logical, intent(out) :: regular
+    real(dp) :: system(size(side) + problem%motions(), size(side) + problem%motions())
+    real(dp) :: right(size(system, 1)), x(size(system, 1)), modes(size(side), problem%motions())
+    integer :: j, k, n, m
+
+    n = size(side)
+    m = problem%motions()
+    modes = modes_of(problem)
+    system = 0.0_dp
+    right = 0.0_dp
+    do k = 1, n
+      if (side(k) == 0) then
+        system(k, k) = 1.0_dp
+      else
+        system(k, :n) = alpha(k, :n)
+        system(k, n + 1:) = -modes(k, :)
+        right(k) = -problem%gap(k)
+        if (side(k) < 0) right(k) = right(k) + problem%gap_upper(k)
+      end if
+    end do
+    do j = 1, m
+      if (is_prescribed(problem, j)) then
+        system(n + j, n + j) = 1.0_dp
+        right(n + j) = problem%motion(j)
+      else
+        system(n + j, :n) = modes(:, j)
+        right(n + j) = problem%resultant(j)
+      end if
+    end do
+    call eliminate(system, right, x, regular)
+    tried%force = x(:n)
+    tried%rigid = x(n + 1:)
+    tried%gap = problem%gap + matmul(alpha(:n, :n), tried%force) - matmul(modes, tried%rigid)
+    where (side > 0) tried%gap = 0.0_dp
+    if (any(side < 0)) then
+      where (side < 0) tried%gap = problem%gap_upper
+    end if
+  end subroutine try_state
+
+  !> Gauss-Jordan elimination with row interchanges; x is zero if the matrix is not
+  !> `regular`.
+  pure subroutine eliminate(matrix, right, x, regular)
+    real(dp), intent(in) :: matrix(:, :), right(:)
+    real(dp), intent(out) :: x(:)
+    logical, intent(out) :: regular
+    real(dp) :: work(size(right), size(right) + 1), row(size(right) + 1), largest
+    integer :: i, k, p, n
+
+    n = size(right)
+    work(:, :n) = matrix
+    work(:, n + 1) = right
+    largest = maxval(abs(matrix))
+    x = 0.0_dp
+    do k = 1, n
+      p = k - 1 + maxloc(abs(work(k:, k)), dim=1)
+      regular = abs(work(p, k)) > SINGULAR*largest
+      if (.not. regular) return
+      row = work(p, :)
+      work(p, :) = work(k, :)
+      work(k, :) = row/row(k)
+      do i = 1, n
+        if (i /= k) work(i, :) = work(i, :) - work(i, k)*work(k, :)
+      end do
+    end do
+    x = work(:, n + 1)
+    regular = .true.
+  end subroutine eliminate
+
+  pure function has_load(problem)
+    type(fuge_problem), intent(in) :: problem
+    logical :: has_load
+    integer :: j
+
+    has_load = .false.
+    do j = 1, problem%motions()
+      if (.not. is_prescribed(problem, j)) has_load = has_load .or. abs(problem%resultant(j)) > 0.0_dp
+    end do
+  end function has_load
+
+  !> The worst of all equations, measured by one length and one force for all points.
+  pure function general_violation(alpha, problem, solution) result(worst)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp) :: worst
+    real(dp) :: modes(problem%points(), problem%motions()), error(problem%points()), length, largest, play
+    integer :: j, k, n
+
+    n = problem%points()
+    modes = modes_of(problem)
+    error = problem%gap + matmul(alpha(:n, :n), solution%force) - matmul(modes, solution%rigid) - solution%gap
+    length = maxval(abs(problem%gap) + matmul(abs(alpha(:n, :n)), abs(solution%force)) &
+                    + matmul(abs(modes), abs(solution%rigid)))
+    length = max(length, tiny(length))
+    largest = max(maxval(abs(solution%force)), tiny(largest))
+    ! Without a load forces may be rounding: then those count that displace at all.
+    if (.not. has_load(problem)) largest = max(largest, 1.0e-4_dp*length/maxval(abs(alpha)))
+    worst = maxval(abs(error))/length
+    do k = 1, n
+      play = play_of(problem, k)
+      associate (f => solution%force(k), c => solution%gap(k))
+        if (is_excluded(problem, k)) then
+          worst = max(worst, abs(f)/largest)
+        else
+          worst = max(worst, -c/length)
+          if (play > huge(play)) then
+            worst = max(worst, -f/largest, min(abs(f)/largest, abs(c)/length))
+          else
+            worst = max(worst, (c - play)/length)
+            ! Pushing at the lower stop, pulling at the upper one.
+            if (f > 0.0_dp) worst = max(worst, min(f/largest, abs(c)/length))
+            if (f < 0.0_dp) worst = max(worst, min(-f/largest, abs(c - play)/length))
+          end if
+        end if
+      end associate
+    end do
+    do j = 1, problem%motions()
+      if (is_prescribed(problem, j)) then
+        worst = max(worst, abs(solution%rigid(j) - problem%motion(j)))
+      else
+        worst = max(worst, abs(sum(modes(:, j)*solution%force) - problem%resultant(j)) &
+                    /max(sum(abs(modes(:, j)*solution%force)), largest*maxval(abs(modes(:, j))), &
+                         abs(problem%resultant(j)), tiny(worst)))
+      end if
+    end do
+  end function general_violation
+
+end module general_reference
