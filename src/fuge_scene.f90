@@ -186,31 +186,26 @@ contains
   pure subroutine keep_modes(part, scales, resultant, scene)
     real(dp), intent(in) :: part(:, :), scales(:), resultant(:)
     type(contact_scene), intent(inout) :: scene
-    real(dp) :: least, most
-    integer :: first, j, m
+    real(dp) :: unit
+    integer :: first, j, m, place
 
     m = size(scales)
     first = 0
-    do j = 1, m
-      least = minval(part(:, j), mask=.not. scene%excluded)
-      most = maxval(part(:, j), mask=.not. scene%excluded)
-      if (least >= most .and. first == 0) first = j
+    do j = m, 1, -1
+      if (minval(part(:, j), mask=.not. scene%excluded) >= maxval(part(:, j), mask=.not. scene%excluded)) first = j
     end do
     scene%constant = first > 0
     scene%mixing = 0.0_dp
     do j = 1, m
-      ! A rotation of the order brings the constant mode to the front.
-      associate (place => modulo(j - max(first, 1), m) + 1)
-        scene%modes(:, place) = part(:, j)
-        scene%mixing(place, j) = scales(j)
-        scene%load(place) = resultant(j)/scales(j)
-        ! The constant is 1, not -1.
-        if (j == first .and. any(part(:, j) < 0.0_dp)) then
-          scene%modes(:, place) = -part(:, j)
-          scene%mixing(place, j) = -scales(j)
-          scene%load(place) = -resultant(j)/scales(j)
-        end if
-      end associate
+      ! Turning the order brings the constant mode to the front.
+      place = modulo(j - max(first, 1), m) + 1
+      unit = norm2(part(:, j))/sqrt(real(count(.not. scene%excluded), dp))
+      ! The constant is 1, not -1.
+      if (j == first .and. any(part(:, j) < 0.0_dp)) unit = -unit
+      scene%modes(:, place) = part(:, j)/unit
+      if (j == first) scene%modes(:, place) = merge(0.0_dp, 1.0_dp, scene%excluded)
+      scene%mixing(place, j) = scales(j)*unit
+      scene%load(place) = resultant(j)/(scales(j)*unit)
     end do
   end subroutine keep_modes
 
