@@ -1,10 +1,14 @@
-!> The table of doc/stability.md: every hard scene by all engines.
+!> The tables of doc/stability.md: every hard scene by all engines, and those of general
+!> problems by the active set.
 !>
-!> stability_table [file] writes it to a file or to the terminal, and stops with an
+!> stability_table [file] writes them to a file or to the terminal, and stops with an
 !> error where a scene misses what it promises.
 program stability_table
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
   use fuge, only: dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_TABLEAU, FUGE_ITERATIVE, FUGE_DONE
+  use general_reference, only: general_violation
+  use hard_general, only: general_scene, numbered_general, solve_general_scene, general_force_error, general_gap_error, &
+    GENERAL_SCENES
   use hard_matrices, only: decimal
   use hard_run, only: solve_scene, force_error, gap_error, own_violation
   use hard_scenes, only: hard_scene, numbered_scene, SCENES
@@ -31,6 +35,12 @@ contains
     misses = 0
     do number = 1, SCENES
       call write_row(unit, numbered_scene(number), misses)
+    end do
+    write (unit, '(a)') ''
+    write (unit, '(a)') '| general scene | n | m | what is hard | active set | sets | residual | error |'
+    write (unit, '(a)') '| --- | ---: | ---: | --- | --- | ---: | ---: | ---: |'
+    do number = 1, GENERAL_SCENES
+      call write_general_row(unit, numbered_general(number), misses)
     end do
     if (unit /= output_unit) close (unit)
     if (misses > 0) then
@@ -63,6 +73,35 @@ contains
     call check(scene, iterated_info, iterated, misses)
     write (unit, '(a)') row
   end subroutine write_row
+
+  subroutine write_general_row(unit, scene, misses)
+    integer, intent(in) :: unit
+    type(general_scene), intent(in) :: scene
+    integer, intent(inout) :: misses
+    type(fuge_solution) :: solution
+    type(fuge_info) :: info
+    character(len=:), allocatable :: row
+    real(dp) :: violation
+
+    call solve_general_scene(scene, solution, info)
+    row = '| '//trim(scene%name)//' | '//decimal(scene%problem%points())//' | '//decimal(scene%problem%motions())//' | ' &
+      //trim(scene%why)//' | '//decimal(info%status)//' | '//decimal(info%iterations)//' | '
+    if (info%failed()) then
+      write (unit, '(a)') row//' | |'
+      return
+    end if
+    row = row//short(info%residual)//' | '
+    if (allocated(scene%opening)) then
+      row = row//short(max(general_force_error(scene, solution), general_gap_error(scene, solution)))
+    else if (allocated(scene%force)) then
+      row = row//short(general_force_error(scene, solution))//' (forces)'
+    end if
+    write (unit, '(a)') row//' |'
+    violation = general_violation(scene%alpha, scene%problem, solution)
+    if (info%status /= FUGE_DONE .or. (info%residual <= MOST .and. violation <= MOST)) return
+    misses = misses + 1
+    write (error_unit, '(a,2es12.3)') trim(scene%name), info%residual, violation
+  end subroutine write_general_row
 
   !> Status, iterations, residual, error against the known answer or the other engine.
   function cells(scene, info, solution, other) result(row)

@@ -1,0 +1,304 @@
+!> Hard cases of general problems: modes that nearly depend, far-away points of reference,
+!> small play, loads at the edge of equilibrium.
+!>
+!> Built from the answer in whole numbers below 2**53, as in hard_scenes: F, c and q first,
+!> gap = c - alpha F + R q and w = R^T F.
+module hard_general
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver, &
+    FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM
+  use general_reference, only: infinity
+  use hard_matrices, only: decimal, integer_bed
+  use hard_reference, only: integers
+  implicit none
+  private
+
+  public :: numbered_general, solve_general_scene, general_force_error, general_gap_error
+
+  integer, parameter, public :: GENERAL_SCENES = 24
+  integer, parameter :: N = 16
+
+  type, public :: general_scene
+    character(len=44) :: name = ''
+    character(len=64) :: why = ''
+    real(dp), allocatable :: alpha(:, :)
+    type(fuge_problem) :: problem
+    !> The answer; without `opening` where motions are not unique.
+    real(dp), allocatable :: force(:), opening(:)
+    !> Largest error of forces as parts of the largest, of gaps as parts of the lengths.
+    real(dp) :: tolerance = 1.0e-12_dp
+    integer :: status = FUGE_DONE
+    !> At the limit of double precision: an answer with a small residual will do too.
+    logical :: hedged = .false.
+  end type general_scene
+
+contains
+
+  !> Scene 1 .. GENERAL_SCENES.
+  pure function numbered_general(number) result(scene)
+    integer, intent(in) :: number
+    type(general_scene) :: scene
+    integer, parameter :: BITS(3) = [10, 20, 30]
+
+    select case (number)
+    case (1:3)
+      scene = nearly_parallel(BITS(number))
+    case (4:6)
+      scene = far_away(BITS(number - 3))
+    case (7:8)
+      scene = odd_units(merge(100, -100, number == 7))
+    case (9:11)
+      scene = many_modes(N - 11 + number)
+    case (12:17)
+      scene = with_play(number - 11)
+    case default
+      scene = at_the_edge(number - 17)
+    end select
+  end function numbered_general
+
+  !> A scene with this answer.
+  pure function made(name, why, modes, force, opening, motion) result(scene)
+    character(len=*), intent(in) :: name, why
+    real(dp), intent(in) :: modes(:, :), force(:), opening(:), motion(:)
+    type(general_scene) :: scene
+
+    scene%name = name
+    scene%why = why
+    allocate (scene%alpha, source=integer_bed(size(force), 61_int64))
+    allocate (scene%force, source=force)
+    allocate (scene%opening, source=opening)
+    allocate (scene%problem%modes, source=modes)
+    allocate (scene%problem%gap, source=opening - matmul(scene%alpha, force) + matmul(modes, motion))
+    allocate (scene%problem%resultant, source=matmul(force, modes))
+  end function made
+
+  !> -8 .. 7
+  pure function abscissa() result(x)
+    real(dp) :: x(N)
+    integer :: k
+
+    x = [(real(k - 1 - N/2, dp), k=1, N)]
+  end function abscissa
+
+  !> Two of three points touch.
+  pure subroutine two_of_three(force, opening)
+    real(dp), intent(out) :: force(N), opening(N)
+    integer :: k
+
+    force = [(real(merge(1 + mod(k, 4), 0, mod(k, 3) > 0), dp), k=1, N)]
+    opening = [(real(merge(0, 1 + mod(k, 9), mod(k, 3) > 0), dp), k=1, N)]
+  end subroutine two_of_three
+
+  pure function nearly_parallel(bits) result(scene)
+    integer, intent(in) :: bits
+    type(general_scene) :: scene
+    real(dp) :: modes(N, 3), force(N), opening(N)
+
+    call two_of_three(force, opening)
+    modes(:, 1) = 1.0_dp
+    modes(:, 2) = abscissa()
+    modes(:, 3) = scale(abscissa(), bits) + abscissa()**2
+    scene = made('almost parallel modes', 'two of three agree to 2**-'//decimal(bits), modes, force, opening, &
+                 [3.0_dp, 1.0_dp, 2.0_dp])
+    scene%tolerance = max(scene%tolerance, scale(4.0e-15_dp, bits))
+  end function nearly_parallel
+
+  pure function far_away(bits) result(scene)
+    integer, intent(in) :: bits
+    type(general_scene) :: scene
+    real(dp) :: modes(N, 2), force(N), opening(N)
+
+    call two_of_three(force, opening)
+    modes(:, 1) = 1.0_dp
+    modes(:, 2) = abscissa() - scale(real(N, dp), bits)
+    scene = made('tilt about a far-away point', 'its distance is 2**'//decimal(bits)//' widths', modes, force, opening, &
+                 [5.0_dp, 3.0_dp])
+    scene%tolerance = max(scene%tolerance, scale(4.0e-15_dp, bits))
+  end function far_away
+
+  pure function odd_units(bits) result(scene)
+    integer, intent(in) :: bits
+    type(general_scene) :: scene
+    real(dp) :: modes(N, 2), force(N), opening(N)
+
+    call two_of_three(force, opening)
+    modes(:, 1) = 1.0_dp
+    modes(:, 2) = scale(abscissa(), bits)
+    scene = made('unit of the tilt', '2**'//decimal(bits)//' of that of the translation', modes, force, opening, &
+                 [5.0_dp, scale(3.0_dp, -bits)])
+  end function odd_units
+
+  !> As many motions as points, or nearly so.
+  pure function many_modes(m) result(scene)
+    integer, intent(in) :: m
+    type(general_scene) :: scene
+    real(dp) :: modes(N, m), force(N), opening(N)
+    integer(int64) :: seed
+    integer :: j
+
+    seed = 62_int64
+    do j = 1, m
+      call integers(seed, -3, 3, modes(:, j))
+      modes(j, j) = modes(j, j) + 20.0_dp
+    end do
+    ! All carry: fewer would not hold the motions.
+    force = [(real(1 + mod(j, 4), dp), j=1, N)]
+    opening = 0.0_dp
+    scene = made('many motions', decimal(m)//' motions of '//decimal(N)//' points', modes, force, opening, &
+                 [(real(j, dp), j=1, m)])
+  end function many_modes
+
+  pure function with_play(number) result(scene)
+    integer, intent(in) :: number
+    type(general_scene) :: scene
+    real(dp) :: modes(N, 2), force(N), opening(N), upper(N)
+    integer :: k
+
+    modes(:, 1) = 1.0_dp
+    modes(:, 2) = abscissa()
+    force = [(real(merge(0, (-1)**k*(1 + mod(k, 4)), mod(k, 3) == 0), dp), k=1, N)]
+    select case (number)
+    case (1)
+      upper = 0.0_dp
+      opening = 0.0_dp
+      scene = made('no play', 'all points tied', modes, force, opening, [7.0_dp, -2.0_dp])
+    case (2)
+      call stops_of(force, spread(2.0_dp, 1, N), upper, opening)
+      scene = made('play of 1e-12 of the gaps', 'both stops are one but for rounding', modes, force, opening, &
+                   [scale(1.0_dp, 41), 0.0_dp])
+    case (3)
+      call stops_of(force, spread(2.0_dp, 1, N), upper, opening)
+      scene = made('play of 1e-12, tilted', 'the motion is 1e12 of the play', modes, force, opening, &
+                   [scale(3.0_dp, 40), scale(1.0_dp, 38)])
+      ! The tilt moves points by 2**40, in double precision.
+      scene%tolerance = 1.0e-4_dp
+    case (4)
+      call stops_of(force, [(real(2*k, dp), k=1, N)], upper, opening)
+      scene = made('all points two-sided', 'some at either stop, some between', modes, force, opening, [9.0_dp, 4.0_dp])
+    case (5)
+      force = -abs(force)
+      call stops_of(force, [(real(2*k, dp), k=1, N)], upper, opening)
+      scene = made('pulled off', 'contact at the upper stops only', modes, force, opening, [-9.0_dp, 4.0_dp])
+    case default
+      ! The resultants cancel.
+      force = 0.0_dp
+      force([1, 4, 5, 8]) = [1.0_dp, -1.0_dp, -1.0_dp, 1.0_dp]
+      call stops_of(force, spread(4.0_dp, 1, N), upper, opening)
+      scene = made('two-sided without a load', 'forces that balance each other', modes, force, opening, [1.0_dp, 2.0_dp])
+    end select
+    allocate (scene%problem%gap_upper, source=upper)
+  end function with_play
+
+  !> Pushing at the lower stop, pulling at the upper one, in the middle without a force.
+  pure subroutine stops_of(force, play, upper, opening)
+    real(dp), intent(in) :: force(:), play(:)
+    real(dp), intent(out) :: upper(:), opening(:)
+
+    upper = play
+    opening = merge(0.0_dp, play, force > 0.0_dp)
+    where (abs(force) <= 0.0_dp) opening = 0.5_dp*play
+  end subroutine stops_of
+
+  !> Loads that just lift the other side off, or more than that.
+  pure function at_the_edge(number) result(scene)
+    integer, intent(in) :: number
+    type(general_scene) :: scene
+    real(dp), parameter :: LAST = real(N/2 - 1, dp)
+    real(dp) :: modes(N, 2), force(N), opening(N)
+    integer :: k
+
+    modes(:, 1) = 1.0_dp
+    modes(:, 2) = abscissa()
+    force = 0.0_dp
+    opening = [(real(N - k, dp), k=1, N)]
+    opening(N - 1) = 0.0_dp
+    force(N) = 1048576.0_dp
+    select case (number)
+    case (1)
+      force(N - 1:) = [1.0_dp, scale(1.0_dp, 40) - 1.0_dp]
+      scene = made('about to tip', 'load within 1e-12 of the last point', modes, force, opening, [4.0_dp, 1.0_dp])
+      scene%tolerance = 1.0e-11_dp
+    case (2)
+      opening(N - 1) = 1.0_dp
+      scene = made('on the edge', 'load exactly at the last point', modes, force, opening, [4.0_dp, 1.0_dp])
+      deallocate (scene%opening)
+    case (3)
+      scene = made('on the edge, weakly', 'and the next one touches without force', modes, force, opening, &
+                   [4.0_dp, 1.0_dp])
+      deallocate (scene%opening)
+    case (4)
+      scene = made('over the edge', 'load 1e-12 beyond the last point', modes, force, opening, [4.0_dp, 1.0_dp])
+      scene%problem%resultant(2) = scene%problem%resultant(1)*LAST*(1.0_dp + 1.0e-12_dp)
+      call without_answer(scene)
+      scene%hedged = .true.
+    case (5)
+      scene = made('well over the edge', 'load 1e-9 beyond the last point', modes, force, opening, [4.0_dp, 1.0_dp])
+      scene%problem%resultant(2) = scene%problem%resultant(1)*LAST*(1.0_dp + 1.0e-9_dp)
+      call without_answer(scene)
+    case (6)
+      scene = made('no resultant', 'nothing holds the motions', modes, 0.0_dp*force, opening + 1.0_dp, [4.0_dp, 1.0_dp])
+      deallocate (scene%opening)
+    case default
+      scene = made('small moment held', 'a stop at the first point holds a load over the edge', modes, force, opening, &
+                   [4.0_dp, 1.0_dp])
+      call hold_first_point(scene, modes)
+    end select
+  end function at_the_edge
+
+  pure subroutine without_answer(scene)
+    type(general_scene), intent(inout) :: scene
+
+    deallocate (scene%force, scene%opening)
+    scene%status = FUGE_ERR_NO_EQUILIBRIUM
+  end subroutine without_answer
+
+  !> The first point pulls by 1 at its upper stop: the load is 1e-6 beyond the last.
+  pure subroutine hold_first_point(scene, modes)
+    type(general_scene), intent(inout) :: scene
+    real(dp), intent(in) :: modes(:, :)
+
+    scene%problem%gap_upper = [scene%opening(1), spread(infinity(), 1, N - 1)]
+    scene%force(1) = -1.0_dp
+    scene%problem%gap = scene%opening - matmul(scene%alpha, scene%force) + matmul(modes, [4.0_dp, 1.0_dp])
+    scene%problem%resultant = matmul(scene%force, modes)
+  end subroutine hold_first_point
+
+  subroutine solve_general_scene(scene, solution, info)
+    type(general_scene), intent(in) :: scene
+    type(fuge_solution), intent(out) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_dense_operator) :: operator
+    type(fuge_solver) :: solver
+    real(dp), allocatable, target :: alpha(:, :)
+
+    ! The operator points to the matrix.
+    allocate (alpha, source=scene%alpha)
+    call operator%set(alpha, info)
+    if (info%failed()) return
+    call solver%solve(operator, scene%problem, solution, info, fuge_options(FUGE_ACTIVE_SET))
+  end subroutine solve_general_scene
+
+  !> Largest difference of forces, as a part of the largest.
+  pure function general_force_error(scene, solution) result(error)
+    type(general_scene), intent(in) :: scene
+    type(fuge_solution), intent(in) :: solution
+    real(dp) :: error
+
+    error = maxval(abs(solution%force - scene%force))/max(maxval(abs(scene%force)), tiny(error))
+  end function general_force_error
+
+  !> Largest difference of gaps, as a part of the lengths.
+  pure function general_gap_error(scene, solution) result(error)
+    type(general_scene), intent(in) :: scene
+    type(fuge_solution), intent(in) :: solution
+    real(dp) :: error, lengths(N)
+    integer :: j
+
+    lengths = maxval(abs(scene%problem%gap))
+    do j = 1, N
+      lengths = lengths + abs(scene%alpha(:, j)*scene%force(j))
+    end do
+    error = maxval(abs(solution%gap - scene%opening))/maxval(lengths)
+  end function general_gap_error
+
+end module hard_general
