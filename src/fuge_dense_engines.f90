@@ -49,7 +49,8 @@ contains
 
     side = 0
     if (.not. scene%plain) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the tableau solves one-sided contact under one load: use FUGE_ACTIVE_SET')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the tableau solves one-sided contact under one load: ' &
+                  //'use FUGE_ACTIVE_SET')
       return
     end if
     associate (gap => problem%gap, load => problem%resultant(1))

@@ -38,7 +38,7 @@ module fuge_set_gradients
     !> Residual that is asked for.
     real(dp) :: target = 0.0_dp
     !> The stretches of the set, made by `relax` and `measure`.
-    type(stretches) :: over
+    type(stretches) :: over = stretches()
     !> Work space, (n); of `remainder` and `correction` only the contact counts, elsewhere
     !> `direction` is zero.
     real(dp), allocatable, private :: remainder(:), correction(:), direction(:), image(:)
@@ -222,7 +222,8 @@ contains
       last = size(shape)
       if (i > 0) first = state%over%last(i) + 1
       if (i < size(state%over%first)) last = state%over%first(i + 1) - 1
-      if (first <= last) depth = max(depth, depth_between(shape(first:last), state%displacement(first:last), state%motion))
+      if (first > last) cycle
+      depth = max(depth, depth_between(shape(first:last), state%displacement(first:last), state%motion))
     end do
   end function worst_penetration
 
