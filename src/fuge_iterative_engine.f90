@@ -416,7 +416,7 @@ contains
 
     where (state%contact)
       state%force = max(state%force, 0.0_dp)
-    elsewhere
+    else where
       state%force = 0.0_dp
     end where
     total = sum(state%force)

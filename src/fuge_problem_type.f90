@@ -159,8 +159,8 @@ contains
     free = .true.
     if (allocated(problem%modes)) then
       if (size(problem%modes, 1) /= n) then
-        call report(info, FUGE_ERR_SIZE, 'modes has '//text(size(problem%modes, 1))//' rows: it needs one for each of ' &
-                    //text(n)//' points')
+        call report(info, FUGE_ERR_SIZE, 'modes has '//text(size(problem%modes, 1))//' rows: it needs one for ' &
+                    //'each of '//text(n)//' points')
         return
       end if
       do j = 1, m
