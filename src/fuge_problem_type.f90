@@ -79,8 +79,8 @@ contains
     class(fuge_problem), intent(in) :: self
     logical :: plain
 
-    plain = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded) &
-                   .or. allocated(self%prescribed))
+    plain = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded))
+    if (plain .and. allocated(self%prescribed)) plain = .not. any(self%prescribed)
   end function is_plain
 
   !> A problem with one load. Error: FUGE_ERR_MEMORY.
