@@ -29,7 +29,8 @@
  * w = F_0.  alpha has to be positive definite on the forces with R^T f = 0 in the free
  * motions.  The forces are then unique; a free motion that no contact holds (w = 0, or a
  * body about to tip) is not, any of those possible is given.  General problems need a
- * dense operator and the active set.
+ * dense operator, for the active set or the tableau; the iteration takes the plain problem
+ * and a prescribed translation.
  *
  * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda], i, k
  * from 0.  Points in messages count from 1.  Every int function returns a status:
