@@ -122,7 +122,7 @@ typedef struct fuge_options {
 typedef struct fuge_info {
   int status;                   /* what fuge_solve returned */
   int iterations;               /* pivots of the tableau, else contact sets, on all grids */
-  int contacts;                 /* points with a positive force */
+  int contacts;                 /* points with a contact force */
   int products;                 /* products alpha f by the operator, those on coarser grids
                                    by their share, rounded up */
   int filters;                  /* preconditioner applications, likewise */

@@ -14,7 +14,7 @@ module fuge_active_set
   use fuge_scene, only: contact_scene
   use fuge_set_answer, only: solve_set, displaced, refine, add_deflection, violations, terms_of, largest_term, &
     motion_at_shallowest
-  use fuge_step_back, only: step_back
+  use fuge_step_back, only: step_back, pulls
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
   implicit none
   private
@@ -59,9 +59,9 @@ contains
     integer :: fewest, patience_left
 
     base = 0.0_dp
-    if (scene%constant) base = minval(scene%gap)
+    if (scene%constant) base = minval(scene%gap, mask=.not. scene%excluded)
     shape = scene%gap - base
-    nothing = rounding_force(alpha, shape, scene%load)
+    nothing = rounding_force(alpha, shape, scene)
     where (scene%excluded) side = 0
     where (scene%upper <= 0.0_dp .and. .not. scene%excluded) side = 1
     fewest = huge(fewest)
@@ -79,7 +79,7 @@ contains
         if (scene%constant) then
           ! Gaps are counted from where the bodies meet: one point far below the others
           ! would cost them digits.
-          base = scene%gap(minloc(abs(shape - displaced(scene%modes, motion)), dim=1))
+          base = scene%gap(minloc(abs(shape - displaced(scene%modes, motion)), dim=1, mask=.not. scene%excluded))
           shape = scene%gap - base
           call solve_set(factor, datum, at_stops(shape, scene%upper, side), scene%load, force, motion)
         end if
@@ -136,14 +136,29 @@ contains
   end subroutine run_active_set
 
   !> Without a load there may be no force but rounding to compare forces with: then those
-  !> count that displace by a part of the gaps. Otherwise zero.
-  pure function rounding_force(alpha, shape, load) result(nothing)
-    real(dp), intent(in) :: alpha(:, :), shape(:), load(:)
-    real(dp) :: nothing, largest
+  !> count that displace by a part of the gaps, or of how far points lie beyond their stops
+  !> if no motion is free. Otherwise zero.
+  pure function rounding_force(alpha, shape, scene) result(nothing)
+    real(dp), intent(in) :: alpha(:, :), shape(:)
+    type(contact_scene), intent(in) :: scene
+    real(dp) :: nothing
+    real(dp) :: length, largest
+    integer :: k
 
     nothing = 0.0_dp
-    largest = maxval(abs(alpha(:size(shape), :)))
-    if (largest > 0.0_dp .and. .not. any(abs(load) > 0.0_dp)) nothing = SIGN_TOLERANCE*(maxval(abs(shape))/largest)
+    if (any(abs(scene%load) > 0.0_dp)) return
+    length = 0.0_dp
+    largest = 0.0_dp
+    do k = 1, size(shape)
+      largest = max(largest, maxval(abs(alpha(:size(shape), k))))
+      if (scene%excluded(k)) cycle
+      if (size(scene%load) > 0) then
+        length = max(length, abs(shape(k)))
+      else
+        length = max(length, -shape(k), shape(k) - scene%upper(k))
+      end if
+    end do
+    if (largest > 0.0_dp) nothing = SIGN_TOLERANCE*(length/largest)
   end function rounding_force
 
   !> Gaps less those that the stops leave open.
@@ -185,6 +200,7 @@ contains
     real(dp) :: wanted(size(shape)), gap_out(size(shape)), terms(size(shape)), distance(size(shape))
     real(dp) :: motion(size(scene%load)), beyond(size(shape)), violation(size(shape))
     logical :: barred(size(shape)), wrong(size(shape)), tied(size(shape))
+    real(dp) :: noise
     integer :: newest
 
     tied = scene%upper <= 0.0_dp .and. .not. scene%excluded
@@ -207,8 +223,10 @@ contains
       if (status /= FUGE_DONE) return
       ! A point that holds a motion may pull by rounding: without it the set would be wrong.
       if (all(violation <= SIGN_TOLERANCE)) return
-      if (any(side /= 0 .and. wanted*side <= 0.0_dp .and. .not. tied)) then
-        call step_back(wanted, tied, side, force, newest, barred)
+      ! One translation is held by any point; several motions by points that may carry nothing.
+      noise = merge(0.0_dp, max(SIGN_TOLERANCE*maxval(abs(wanted)), nothing), scene%plain)
+      if (any(pulls(wanted, noise, side, tied))) then
+        call step_back(wanted, noise, tied, side, force, newest, barred)
       else
         force = wanted
         if (newest > 0) barred = barred .and. barred(newest)

@@ -169,14 +169,17 @@ contains
     real(dp), intent(in) :: length(:)
     logical, intent(in) :: counts(:)
     type(fuge_violation), intent(inout) :: violation
-    real(dp) :: largest, upper, stop_distance
+    real(dp) :: largest, own, noise, upper, stop_distance
     integer :: k
 
     violation%sign = 0.0_dp
     violation%complementarity = 0.0_dp
     largest = maxval(abs(solution%force))
+    noise = ROUNDINGS*epsilon(noise)*largest
+    own = largest
     upper = huge(upper)
     do k = 1, size(length)
+      if (allocated(problem%modes)) own = largest_of_body(problem%modes, solution%force, k)
       associate (f => solution%force(k), c => solution%gap(k))
         if (.not. counts(k)) then
           violation%sign = max(violation%sign, relative(abs(f), largest))
@@ -187,15 +190,30 @@ contains
         if (upper < huge(upper)) then
           violation%sign = max(violation%sign, relative(c - upper, length(k)))
         else
-          violation%sign = max(violation%sign, relative(-f, largest))
+          violation%sign = max(violation%sign, relative(max(-f - merge(noise, 0.0_dp, own < largest), 0.0_dp), own))
         end if
         stop_distance = c
         if (f < 0.0_dp .and. upper < huge(upper)) stop_distance = c - upper
         violation%complementarity = max(violation%complementarity, &
-                                        min(relative(abs(f), largest), relative(abs(stop_distance), length(k))))
+                                        min(relative(max(abs(f) - merge(noise, 0.0_dp, own < largest), 0.0_dp), own), &
+                                            relative(abs(stop_distance), length(k))))
       end associate
     end do
   end subroutine contact_violations
+
+  !> The largest force among the points that a motion moves together with this one.
+  pure function largest_of_body(modes, force, point) result(largest)
+    real(dp), intent(in) :: modes(:, :), force(:)
+    integer, intent(in) :: point
+    real(dp) :: largest
+    integer :: j
+
+    largest = 0.0_dp
+    do j = 1, size(modes, 2)
+      if (abs(modes(point, j)) > 0.0_dp) largest = max(largest, maxval(abs(force), mask=abs(modes(:, j)) > 0.0_dp))
+    end do
+    if (.not. largest > 0.0_dp) largest = maxval(abs(force))
+  end function largest_of_body
 
   !> Equation (11) for the free motions; the others must be as prescribed. Forces count as
   !> parts of the largest one here too: a resultant of zero may rest on rounding alone.

@@ -118,12 +118,14 @@ contains
     end if
     do attempt = 0, DATUMS - 1
       if (constant) self%datum = nearest - range*real(8**attempt - 1, dp)
-      if (.not. constant) self%stiffening = range*real(8**attempt, dp)
+      ! One translation needs no more than the datum; other motions stiffen alpha too.
+      if (size(modes, 2) > merge(1, 0, constant) .and. (attempt > 0 .or. .not. constant)) &
+        self%stiffening = range*real(8**attempt, dp)
       call factor_base(self, alpha, 0.0_dp, done)
       if (done) return
     end do
     if (constant) self%datum = nearest - range
-    if (.not. constant) self%stiffening = range
+    self%stiffening = merge(range, 0.0_dp, size(modes, 2) > merge(1, 0, constant))
     do attempt = 1, size(RIDGES)
       call factor_base(self, alpha, RIDGES(attempt)*range, done)
       if (done) return
@@ -370,19 +372,26 @@ contains
   pure subroutine hold_free_motions(self, alpha)
     class(contact_factor), intent(inout) :: self
     real(dp), intent(in) :: alpha(:, :)
-    real(dp) :: stiffness
+    real(dp) :: stiffness, largest
     integer :: j
 
     if (size(self%modes, 2) == 1 .and. size(self%base) > 0 .and. all(abs(self%modes - 1.0_dp) <= 0.0_dp)) return
-    stiffness = 0.0_dp
+    largest = 0.0_dp
     do j = 1, self%borders
-      if (is_motion(self, self%keys(j))) stiffness = max(stiffness, abs(self%small(j, j)))
+      if (is_motion(self, self%keys(j))) largest = max(largest, abs(self%small(j, j)))
     end do
-    do j = 1, size(self%place)
-      if (.not. stiffness > 0.0_dp) stiffness = max(stiffness, 1.0_dp/max(abs(alpha(j, j)), tiny(stiffness)))
-    end do
+    if (.not. largest > 0.0_dp) then
+      ! No contact at all: the stiffness that any would have.
+      do j = 1, size(self%place)
+        largest = max(largest, abs(alpha(j, j)))
+      end do
+      if (largest > 0.0_dp) largest = 1.0_dp/largest
+    end if
     do j = 1, self%borders
-      if (is_motion(self, self%keys(j))) self%small(j, j) = self%small(j, j) - SPRING*stiffness
+      if (.not. is_motion(self, self%keys(j))) cycle
+      stiffness = abs(self%small(j, j))
+      if (stiffness <= SPRING*largest) stiffness = largest
+      self%small(j, j) = self%small(j, j) - SPRING*stiffness
     end do
   end subroutine hold_free_motions
 

@@ -15,6 +15,8 @@ module fuge_equilibrium
 
   !> What remains of the resultant below this part of it is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-11_dp
+  !> A point that closes by less than this part of what the motions move it does not.
+  real(dp), parameter :: PROOF = 1.0e-10_dp
   !> Two points whose columns agree to this in all motions are one.
   real(dp), parameter :: DEPENDENT = 1.0e-13_dp
 
@@ -29,36 +31,84 @@ contains
     real(dp), intent(in) :: modes(:, :), resultant(:)
     logical, intent(in) :: pushes(:), pulls(:)
     real(dp), intent(out) :: force(:), remainder(:)
-    real(dp) :: wanted(size(force)), work(size(force)), size_of_w, way
+    real(dp) :: wanted(size(force)), work(size(force))
     integer :: side(size(force)), newest, iteration
 
     force = 0.0_dp
     side = 0
     remainder = resultant
-    size_of_w = maxval(abs(resultant))
     do iteration = 1, 20*(size(modes, 2) + 1) + size(force)
-      if (maxval(abs(remainder)) <= ROUNDING*size_of_w) exit
+      if (is_met(modes, resultant, force, remainder)) exit
       work = matmul(modes, remainder)
       where (.not. pulls) work = max(work, 0.0_dp)
       where (.not. pushes) work = min(work, 0.0_dp)
       where (side /= 0) work = 0.0_dp
       newest = maxloc(abs(work), dim=1)
-      if (abs(work(newest)) <= ROUNDING*maxval(abs(remainder))*sum(abs(modes(newest, :)))) return
+      if (abs(work(newest)) <= ROUNDING*maxval(abs(remainder))*sum(abs(modes(newest, :)))) then
+        if (proves(modes, resultant, pushes, pulls, remainder)) return
+        exit
+      end if
       side(newest) = merge(1, -1, work(newest) > 0.0_dp)
-      do
-        call solve_on(modes, resultant, side, wanted)
-        if (all(wanted*side > 0.0_dp .or. side == 0)) exit
-        way = step_length(force, wanted, side)
-        force = force + way*(wanted - force)
-        where (side /= 0 .and. wanted*side <= 0.0_dp .and. abs(force) <= DEPENDENT*maxval(abs(force))) side = 0
-        where (side == 0) force = 0.0_dp
-        if (way <= 0.0_dp .and. .not. any(side /= 0)) exit
-      end do
-      force = wanted
+      call settle(modes, resultant, side, force, wanted)
       remainder = resultant - matmul(force, modes)
     end do
+    ! Met, or not decided: then the certificate has the last word.
     remainder = 0.0_dp
   end subroutine find_equilibrium
+
+  !> Is nothing left of each resultant but rounding of it and of the terms that make it?
+  pure function is_met(modes, resultant, force, remainder) result(met)
+    real(dp), intent(in) :: modes(:, :), resultant(:), force(:), remainder(:)
+    logical :: met
+    integer :: j
+
+    met = .true.
+    do j = 1, size(resultant)
+      met = met .and. abs(remainder(j)) <= max(ROUNDING*max(abs(resultant(j)), sum(abs(modes(:, j)*force))), &
+                                               64.0_dp*epsilon(1.0_dp)*maxval(abs(resultant)))
+    end do
+  end function is_met
+
+  !> Does no point close along the motion, while the resultants do work?
+  pure function proves(modes, resultant, pushes, pulls, motion)
+    real(dp), intent(in) :: modes(:, :), resultant(:), motion(:)
+    logical, intent(in) :: pushes(:), pulls(:)
+    logical :: proves
+    real(dp) :: closing, noise
+    integer :: k
+
+    ! The motion is a difference of resultants and carries their rounding.
+    noise = max(PROOF*maxval(abs(motion)), 64.0_dp*epsilon(noise)*maxval(abs(resultant)))
+    proves = dot_product(motion, resultant) > 0.0_dp
+    do k = 1, size(modes, 1)
+      closing = dot_product(modes(k, :), motion)
+      if (abs(closing) <= noise*sum(abs(modes(k, :)))) cycle
+      if (pushes(k) .and. closing > 0.0_dp) proves = .false.
+      if (pulls(k) .and. closing < 0.0_dp) proves = .false.
+    end do
+  end function proves
+
+  !> Forces of least squares at the points in use, of which those leave that would change
+  !> their sign, the first one first.
+  subroutine settle(modes, resultant, side, force, wanted)
+    real(dp), intent(in) :: modes(:, :), resultant(:)
+    integer, intent(inout) :: side(:)
+    real(dp), intent(inout) :: force(:)
+    real(dp), intent(out) :: wanted(:)
+    real(dp) :: way
+    integer :: blocking
+
+    do
+      call solve_on(modes, resultant, side, wanted)
+      call find_blocking(force, wanted, side, way, blocking)
+      if (blocking == 0) exit
+      force = force + way*(wanted - force)
+      ! One leaves in each turn, so that this ends.
+      side(blocking) = 0
+      force(blocking) = 0.0_dp
+    end do
+    force = wanted
+  end subroutine settle
 
   !> Least squares forces at the points in use.
   subroutine solve_on(modes, resultant, side, force)
@@ -81,19 +131,26 @@ contains
     force(points) = right(:p)
   end subroutine solve_on
 
-  !> The part of the way to the wanted forces until the first changes its sign.
-  pure function step_length(force, wanted, side) result(way)
+  !> The part of the way to the wanted forces until the first changes its sign, and which;
+  !> 0 if none does.
+  pure subroutine find_blocking(force, wanted, side, way, blocking)
     real(dp), intent(in) :: force(:), wanted(:)
     integer, intent(in) :: side(:)
-    real(dp) :: way
+    real(dp), intent(out) :: way
+    integer, intent(out) :: blocking
+    real(dp) :: part
     integer :: k
 
     way = 1.0_dp
+    blocking = 0
     do k = 1, size(force)
       if (side(k) == 0 .or. wanted(k)*side(k) > 0.0_dp) cycle
-      if (abs(force(k) - wanted(k)) > 0.0_dp) way = min(way, force(k)/(force(k) - wanted(k)))
+      part = 0.0_dp
+      if (abs(force(k) - wanted(k)) > 0.0_dp) part = min(max(force(k)/(force(k) - wanted(k)), 0.0_dp), 1.0_dp)
+      if (blocking > 0 .and. part >= way) cycle
+      way = part
+      blocking = k
     end do
-    way = max(way, 0.0_dp)
-  end function step_length
+  end subroutine find_blocking
 
 end module fuge_equilibrium

@@ -515,7 +515,7 @@ contains
       if (info%failed()) exit
       if (any(state%contact .and. state%force <= 0.0_dp)) then
         side = merge(1, 0, state%contact)
-        call step_back(state%force, tied, side, force, newest, barred)
+        call step_back(state%force, 0.0_dp, tied, side, force, newest, barred)
         state%contact = side /= 0
         state%force = force
       else

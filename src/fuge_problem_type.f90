@@ -46,7 +46,7 @@ module fuge_problem_type
 
   !> The answer, in the same units.
   type, public :: fuge_solution
-    !> Contact forces F, (n), force; negative only at the upper stop of a play.
+    !> Contact forces F, (n), force; negative only at the upper stop of a play and where tied.
     real(dp), allocatable :: force(:)
     !> Gaps c, (n), length; negative only where excluded.
     real(dp), allocatable :: gap(:)
@@ -177,7 +177,7 @@ contains
       free = .not. problem%prescribed
       call check_length(problem%motion, m, 'motion', info)
       if (info%failed()) return
-      call check_values(pack(problem%motion, problem%prescribed), 'prescribed motion', info)
+      call check_values(merge(problem%motion, 0.0_dp, problem%prescribed), 'prescribed motion', info)
       if (info%failed()) return
     end if
     if (.not. any(free)) return
@@ -186,7 +186,7 @@ contains
     if (problem%is_plain()) then
       call check_load(problem%resultant(1), info)
     else
-      call check_values(pack(problem%resultant, free), 'resultant', info)
+      call check_values(merge(problem%resultant, 0.0_dp, free), 'resultant', info)
     end if
   end subroutine check_motions
 

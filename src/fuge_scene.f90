@@ -145,7 +145,7 @@ contains
       call keep_modes(part, scales, resultant, scene)
       return
     end if
-    call triangular(part, .true., order, rank)
+    call orthonormal_base(part, .true., order, rank)
     if (rank < m) then
       call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(order(rank + 1)))//' is made of the other modes: ' &
                   //'leave it out')
@@ -156,7 +156,7 @@ contains
     scene%constant = replaced > 0
     if (scene%constant) then
       part = cshift(part, replaced - 1, dim=2)
-      call triangular(part, .false., order, rank)
+      call orthonormal_base(part, .false., order, rank)
     end if
     ! Rounding would let a point carry what does not move it.
     where (spread(all(abs(given) <= 0.0_dp, dim=2), 2, m)) part = 0.0_dp
@@ -211,7 +211,7 @@ contains
 
   !> Overwrite a matrix by an orthonormal base of its columns, in order of size if
   !> `pivoted`; `rank` counts those that are not rounding.
-  subroutine triangular(matrix, pivoted, order, rank)
+  subroutine orthonormal_base(matrix, pivoted, order, rank)
     real(dp), intent(inout), contiguous :: matrix(:, :)
     logical, intent(in) :: pivoted
     integer, intent(out) :: order(:), rank
@@ -230,7 +230,7 @@ contains
       if (abs(matrix(j, j)) > DEPENDENT*abs(matrix(1, 1))) rank = j
     end do
     call dorgqr(size(matrix, 1), size(matrix, 2), size(matrix, 2), matrix, size(matrix, 1), tau, work, size(work), info)
-  end subroutine triangular
+  end subroutine orthonormal_base
 
   !> More motions than points: some must depend on the others.
   pure subroutine rank_of_wide(matrix, order, rank)

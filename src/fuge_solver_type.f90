@@ -16,7 +16,7 @@ module fuge_solver_type
   use fuge_set_answer, only: solve_set, displaced, add_deflection
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
-    FUGE_ERR_OVERFLOW
+    FUGE_ERR_OVERFLOW, FUGE_ERR_NO_EQUILIBRIUM
   use fuge_text, only: text
   implicit none
   private
@@ -25,6 +25,8 @@ module fuge_solver_type
 
   !> Relative change of the load up to which the last forces are the better start.
   real(dp), parameter :: WARM_RANGE = 0.25_dp
+  !> Equilibrium of changes, relative.
+  real(dp), parameter :: HELD_TO = 1.0e-6_dp
   !> Stands for the load where the approach is prescribed.
   real(dp), parameter :: HELD = -1.0_dp
 
@@ -173,6 +175,12 @@ contains
       call self%scene%change_of(gap_change, load_change, shape, load)
       allocate (motion(size(load)))
       call solve_set(self%factor, datum, shape, load, found%force, motion)
+      if (any(abs(load - matmul(found%force, self%scene%modes)) &
+              > HELD_TO*max(abs(load), matmul(abs(found%force), abs(self%scene%modes))))) then
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not hold the motions that these resultants act in: ' &
+                    //'they would turn the body over, whatever the size of the change')
+        return
+      end if
       found%gap = shape - displaced(self%scene%modes, motion)
       call add_deflection(operator%alpha, datum, self%side /= 0, found%force, found%gap)
       where (self%side /= 0) found%gap = 0.0_dp
@@ -386,7 +394,7 @@ contains
 
     call find_violation(operator, problem, answer, violation, info)
     if (info%failed()) return
-    info%contacts = count(answer%force > 0.0_dp)
+    info%contacts = count(abs(answer%force) > 0.0_dp)
     info%residual = violation%worst()
     if (info%residual > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the tolerance ' &

@@ -76,7 +76,7 @@ module fuge_status
     character(len=FUGE_MESSAGE_LENGTH) :: message = ''
     !> Pivots of the tableau, contact sets tried by the active set.
     integer :: iterations = 0
-    !> Points with a positive contact force.
+    !> Points with a contact force.
     integer :: contacts = 0
     !> Products A f of the operator, the certificate's included.
     integer :: products = 0

@@ -5,16 +5,16 @@ module fuge_step_back
   implicit none
   private
 
-  public :: step_back
+  public :: step_back, pulls
 
 contains
 
   !> Go towards the wanted forces until the first becomes zero; that point leaves. A point
   !> that was to join but would pull at once did so by rounding: it is barred until the
   !> forces have moved. All (n); `side` 1 at the lower stop, -1 at the upper one, 0 open;
-  !> `tied` points may pull.
-  pure subroutine step_back(wanted, tied, side, force, newest, barred)
-    real(dp), intent(in) :: wanted(:)
+  !> `tied` points may pull; `noise` >= 0 is a force that is rounding.
+  pure subroutine step_back(wanted, noise, tied, side, force, newest, barred)
+    real(dp), intent(in) :: wanted(:), noise
     logical, intent(in) :: tied(:)
     integer, intent(inout) :: side(:)
     logical, intent(inout) :: barred(:)
@@ -25,14 +25,14 @@ contains
 
     k = 0
     if (newest > 0) then
-      if (pulls(wanted(newest), side(newest), tied(newest)) .and. .not. abs(force(newest)) > 0.0_dp) k = newest
+      if (pulls(wanted(newest), noise, side(newest), tied(newest)) .and. .not. abs(force(newest)) > 0.0_dp) k = newest
     end if
     if (k > 0) then
       barred(k) = .true.
     else
       least = huge(least)
       do j = 1, size(force)
-        if (.not. pulls(wanted(j), side(j), tied(j))) cycle
+        if (.not. pulls(wanted(j), noise, side(j), tied(j))) cycle
         way = abs(force(j))/max(abs(force(j) - wanted(j)), tiny(way))
         if (way >= least) cycle
         least = way
@@ -46,13 +46,21 @@ contains
     side(k) = 0
   end subroutine step_back
 
-  elemental function pulls(wanted, side, tied)
-    real(dp), intent(in) :: wanted
+  !> Would the force pull at its stop? None at all counts as that too, unless it may hold a
+  !> motion that no other point does: then only one beyond the rounding.
+  elemental function pulls(wanted, noise, side, tied)
+    real(dp), intent(in) :: wanted, noise
     integer, intent(in) :: side
     logical, intent(in) :: tied
     logical :: pulls
 
-    pulls = side /= 0 .and. .not. tied .and. wanted*side <= 0.0_dp
+    pulls = side /= 0 .and. .not. tied
+    if (.not. pulls) return
+    if (noise > 0.0_dp) then
+      pulls = wanted*side < -noise
+    else
+      pulls = wanted*side <= 0.0_dp
+    end if
   end function pulls
 
 end module fuge_step_back
