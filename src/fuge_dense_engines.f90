@@ -18,7 +18,7 @@ module fuge_dense_engines
   implicit none
   private
 
-  public :: solve_by_tableau, solve_by_active_set, check_scene
+  public :: solve_by_tableau, solve_by_active_set, check_scene, check_magnitudes
 
   !> Pivots or sets allowed for each row when the caller sets no limit.
   integer, parameter, public :: ITERATIONS_PER_ROW = 50
