@@ -1,16 +1,67 @@
-!> Rigid motions that some points do not hold.
+!> Rigid motions that contact does not hold: they are not unique, forces are.
 module fuge_loose_motions
+  use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgeqp3, dorgqr
+  use fuge_scene, only: contact_scene
   implicit none
   private
 
-  public :: find_loose, without_loose
+  public :: find_loose, without_loose, find_free_way
 
   !> Rows of the modes that differ by less than this part are one.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
 
+  !> A force below this part of the loads that it may carry is rounding.
+  real(dp), parameter :: NO_FORCE = 1.0e-14_dp
+
 contains
+
+  !> A way (m) in which the bodies of an answer can move without a change of force, or zero
+  !> if there is none: the motions are unique then.
+  !>
+  !> `side` (n), `force` (n) and `gap` (n) of the answer in `scene`.
+  subroutine find_free_way(scene, side, force, gap, way)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: side(:)
+    real(dp), intent(in) :: force(:), gap(:)
+    real(dp), intent(out) :: way(:)
+    real(dp), allocatable :: base(:, :)
+    real(dp) :: work(size(side))
+    logical :: held(size(side)), pushes(size(side)), pulls(size(side))
+    integer :: j
+
+    way = 0.0_dp
+    held = holds(scene, side, force)
+    call find_loose(scene%modes, held, base)
+    ! Points that touch without force bar one sense.
+    pushes = held .or. ((side > 0 .or. gap <= 0.0_dp) .and. .not. scene%excluded)
+    pulls = held .or. ((side < 0 .or. gap >= scene%upper) .and. .not. scene%excluded)
+    do j = 1, size(base, 2)
+      call find_equilibrium(scene%modes, base(:, j), pushes, pulls, work, way)
+      if (any(abs(way) > 0.0_dp)) return
+      call find_equilibrium(scene%modes, -base(:, j), pushes, pulls, work, way)
+      if (any(abs(way) > 0.0_dp)) return
+    end do
+  end subroutine find_free_way
+
+  !> Points (n) that are tied, or that carry more force than rounding makes.
+  pure function holds(scene, side, force) result(held)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: side(:)
+    real(dp), intent(in) :: force(:)
+    logical :: held(size(side))
+    real(dp) :: measure(size(side))
+    integer :: j
+
+    measure = 0.0_dp
+    do j = 1, size(scene%load)
+      measure = max(measure, abs(scene%modes(:, j)*scene%load(j)))
+    end do
+    ! Without a load of its own a body may be squeezed between stops.
+    where (.not. measure > 0.0_dp) measure = maxval(abs(force))
+    held = side /= 0 .and. (abs(force) > NO_FORCE*measure .or. .not. scene%upper > 0.0_dp)
+  end function holds
 
   !> An orthonormal base of the motions q with R q = 0 at the points `held` (n).
   !>

@@ -300,7 +300,7 @@ contains
       return
     end if
     side = 0
-    if (scene%plain .and. .not. scene%load(1) > 0.0_dp) then
+    if (rests(scene)) then
       answer%force = 0.0_dp
       answer%rigid = 0.0_dp
       scene%gap = scene%gap - base
@@ -308,12 +308,23 @@ contains
     else
       call solve_by_active_set(operator%alpha, operator%datum(), scene, fuge_options(), nobody, side, factor, answer, info)
       if (info%failed()) return
+      ! The path says itself where the motions begin; forces have to be unique.
+      if (.not. factor%ridge > 0.0_dp) call report(info, FUGE_DONE, '')
       scene%gap = scene%gap - base
       if (scene%constant) answer%rigid(1) = answer%rigid(1) - (base + datum*scene%load(1))
     end if
     call start_at(scene, side, answer%force, answer%gap, answer%rigid, here, status)
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine stand_at_start
+
+  !> The plain problem without a load, where the bodies just touch.
+  pure function rests(scene)
+    type(contact_scene), intent(in) :: scene
+    logical :: rests
+
+    rests = scene%plain
+    if (rests) rests = .not. scene%load(1) > 0.0_dp
+  end function rests
 
   !> Put the end of a path into words.
   pure subroutine explain(status, entries, t, info)
