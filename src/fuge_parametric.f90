@@ -306,7 +306,8 @@ contains
       scene%gap = scene%gap - base
       answer%gap = scene%gap
     else
-      call solve_by_active_set(operator%alpha, operator%datum(), scene, fuge_options(), nobody, side, factor, answer, info)
+      call solve_by_active_set(operator%alpha, operator%datum(), scene, fuge_options(), nobody, side, factor, answer, &
+                               info)
       if (info%failed()) return
       ! The path says itself where the motions begin; forces have to be unique.
       if (.not. factor%ridge > 0.0_dp) call report(info, FUGE_DONE, '')

@@ -83,7 +83,9 @@ contains
       length = length + abs(scene%modes(:, j)*motion(j))
     end do
     here%undecided = 0
-    where (side /= 0 .and. scene%upper > 0.0_dp .and. abs(force) <= TIE_TOLERANCE*maxval(abs(force))) here%undecided = side
+    where (side /= 0 .and. scene%upper > 0.0_dp)
+      where (abs(force) <= TIE_TOLERANCE*maxval(abs(force))) here%undecided = side
+    end where
     where (side == 0 .and. .not. scene%excluded)
       where (scene%upper - gap <= TIE_TOLERANCE*length) here%undecided = -1
       where (gap <= TIE_TOLERANCE*length) here%undecided = 1
@@ -153,7 +155,8 @@ contains
       held = here%side /= 0 .and. here%undecided == 0
       call find_loose(scene%modes, held, here%loose)
       if (size(here%loose, 2) < 1) return
-      call find_equilibrium(scene%modes, load_rate, held .or. here%undecided > 0, held .or. here%undecided < 0, force, way)
+      call find_equilibrium(scene%modes, load_rate, held .or. here%undecided > 0, held .or. here%undecided < 0, force, &
+                            way)
       if (.not. any(abs(way) > 0.0_dp)) return
       call move_along(scene, way, held, here, status)
       if (status /= FUGE_DONE) return
