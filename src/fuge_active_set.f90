@@ -205,6 +205,8 @@ contains
       violation = violations(distance, terms, side, scene%upper, scene%excluded, nothing, wanted, gap_out)
       call tell_monitor(monitor, iterations, maxval(violation), count(side /= 0), status)
       if (status /= FUGE_DONE) return
+      ! A point that holds a motion may pull by rounding: without it the set would be wrong.
+      if (all(violation <= SIGN_TOLERANCE)) return
       if (any(side /= 0 .and. wanted*side <= 0.0_dp .and. .not. tied)) then
         call step_back(wanted, tied, side, force, newest, barred)
       else

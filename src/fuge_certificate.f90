@@ -142,6 +142,8 @@ contains
     violation = 0.0_dp
     if (.not. any(counts)) return
     reference = minloc(gap, dim=1, mask=counts)
+    ! Without forces the motions round like the largest of them.
+    if (.not. translation) reference = maxloc(abs(gap) + terms, dim=1, mask=counts)
     ! A force that may be rounding is no contact.
     if (any(abs(force) > 0.0_dp)) reference = minloc(length, dim=1, mask=counts .and. &
                                                      abs(force) > sqrt(epsilon(shared))*maxval(abs(force)))

@@ -183,7 +183,9 @@ contains
       do i = j, m
         self%lower(i, j) = alpha(self%base(i), self%base(j)) - self%datum
       end do
-      if (self%stiffening > 0.0_dp) self%lower(j:, j) = self%lower(j:, j) + along_motions(self, self%base(j:), self%base(j))
+      if (self%stiffening > 0.0_dp) then
+        self%lower(j:, j) = self%lower(j:, j) + along_motions(self, self%base(j:), self%base(j))
+      end if
       self%lower(j, j) = self%lower(j, j) + ridge
       diagonal(j) = self%lower(j, j)
     end do

@@ -67,7 +67,7 @@ contains
 
   !> Make ready for a contact set.
   !>
-  !> `contact` (n), not empty; `softness` a typical length per force, used where the
+  !> `contact` (n); `softness` a typical length per force, used where the
   !> operator has no filter. Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE for a filter
   !> that is not positive definite, those of the filter.
   subroutine set(self, operator, contact, softness, info)
@@ -98,20 +98,22 @@ contains
     end if
     if (info%failed()) return
     self%sum_of_even = total(over, self%even)
-    if (.not. self%sum_of_even > 0.0_dp) then
+    if (over%points > 0 .and. .not. self%sum_of_even > 0.0_dp) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'the filter of the operator is not positive definite: equal lengths ' &
                   //'on the contact set have the energy '//text(self%sum_of_even))
     end if
   end subroutine set
 
-  !> Forces with zero sum on the contact set, near those that take `length` away.
+  !> Forces on the contact set near those that take `length` away; with zero sum if
+  !> `balanced`.
   !>
   !> `over` the stretches of its set; `length` (n), zero off them; `force` (n), off them
   !> anything. Errors: those of the filter.
-  subroutine apply(self, operator, over, length, force, info)
+  subroutine apply(self, operator, over, balanced, length, force, info)
     class(contact_filter), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(stretches), intent(in) :: over
+    logical, intent(in) :: balanced
     real(dp), intent(in), contiguous :: length(:)
     real(dp), intent(inout), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
@@ -126,7 +128,7 @@ contains
       call filter_from(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
     end if
     if (info%failed()) return
-    if (self%depth > 0) excess = total(over, force)/self%sum_of_even
+    if (self%depth > 0 .and. balanced) excess = total(over, force)/self%sum_of_even
     do i = 1, size(over%first)
       associate (a => over%first(i), b => over%last(i))
         if (self%depth > 0) then

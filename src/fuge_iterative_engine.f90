@@ -14,11 +14,10 @@ module fuge_iterative_engine
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_products, only: multiply
-  use fuge_set_gradients, only: iterate, make_iterate, relax, measure, open_gap
+  use fuge_set_gradients, only: iterate, make_iterate, relax, measure, deflect, open_gap
   use fuge_step_back, only: step_back
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_OVERFLOW, &
-    FUGE_ERR_CANCELLED
+    FUGE_ERR_CANCELLED, FUGE_ERR_NO_EQUILIBRIUM
   use fuge_text, only: text
   implicit none
   private
@@ -36,6 +35,8 @@ module fuge_iterative_engine
   !> Block changes without fewer wrong points before single ones; the foresight ends
   !> when half of them are used.
   integer, parameter :: PATIENCE = 10
+  !> Displacements by even forces below this part of their terms are rounding.
+  real(dp), parameter :: SINGULAR = 1.0e-12_dp
   !> Sets allowed for each point when the caller sets no limit.
   integer, parameter :: SETS_PER_POINT = 50
 
@@ -46,14 +47,17 @@ module fuge_iterative_engine
     integer :: limit = 0
     !> A consistent set is enough: its forces only start a finer grid.
     logical :: only_start = .true.
+    !> The motion is prescribed.
+    logical :: held = .false.
   end type demands
 
 contains
 
   !> From checked data to an answer and its words.
   !>
-  !> `problem` checked, load > 0; `part` (n) if allocated forces to start from, as parts
-  !> of the load, and on return those of the answer; `answer` allocated. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW,
+  !> `problem` checked, plain with a load > 0, or with the translation prescribed; `part`
+  !> (n) if allocated forces to start from, as parts of the load if there is one, and on
+  !> return those of the answer; `answer` allocated. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW,
   !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CALLBACK,
   !> FUGE_ERR_CANCELLED.
   subroutine solve_by_iteration(operator, problem, options, monitor, part, answer, info)
@@ -67,7 +71,7 @@ contains
     type(iterate) :: state
     type(demands) :: wanted
     real(dp), allocatable :: shape(:)
-    real(dp) :: lowest
+    real(dp) :: lowest, load
     integer :: n, stat
 
     n = operator%points()
@@ -83,40 +87,88 @@ contains
     wanted%limit = options%max_iterations
     if (wanted%limit == 0) wanted%limit = int(min(real(SETS_PER_POINT, dp)*(real(n, dp) + 1.0_dp), 1.0e9_dp))
 
-    associate (load => problem%resultant(1))
-      lowest = minval(problem%gap)
-      shape = (problem%gap - lowest)/load
-      if (allocated(part)) call judge_start(operator, shape, part, info)
-      if (.not. (info%failed() .or. allocated(part))) call climb(operator, wanted, shape, monitor, part, info)
-      if (.not. info%failed()) call make_iterate(state, n, info)
-      if (info%failed()) return
-      if (allocated(part)) then
-        state%force = part
-      else
-        state%force = 1.0_dp/real(n, dp)
-      end if
-      wanted%tolerance = options%tolerance
-      wanted%only_start = .false.
-      call find_contact(operator, wanted, shape, monitor, state, info)
-      if (info%failed()) return
-      allocate (answer%force(n), answer%gap(n), stat=stat)
-      if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
-        return
-      end if
-      ! What is left of a force that should have become zero.
-      where (state%force <= 4.0_dp*epsilon(1.0_dp)*maxval(state%force)) state%force = 0.0_dp
-      answer%force = load*state%force
-      answer%gap = load*max(open_gap(shape, state%displacement, state%motion), 0.0_dp)
-      where (state%contact) answer%gap = 0.0_dp
-      answer%rigid = (load*state%motion + operator%datum()*sum(answer%force)) + lowest
-      call move_alloc(state%force, part)
-    end associate
+    wanted%held = .not. problem%is_plain()
+    ! Gaps are counted from the prescribed motion, or from the lowest.
+    lowest = minval(problem%gap)
+    load = 1.0_dp
+    if (wanted%held) lowest = problem%motion(1)
+    if (.not. wanted%held) load = problem%resultant(1)
+    shape = (problem%gap - lowest)/load
+    if (wanted%held) call check_approach(operator, problem%motion(1), shape, info)
+    if (allocated(part) .and. .not. info%failed()) call judge_start(operator, wanted, shape, part, info)
+    if (.not. (info%failed() .or. allocated(part))) call climb(operator, wanted, shape, monitor, part, info)
+    if (.not. info%failed()) call make_iterate(state, n, info)
+    if (info%failed()) return
+    call set_start(wanted, part, state)
+    wanted%tolerance = options%tolerance
+    wanted%only_start = .false.
+    call find_contact(operator, wanted, shape, monitor, state, info)
+    if (info%failed()) return
+    allocate (answer%force(n), answer%gap(n), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
+      return
+    end if
+    ! What is left of a force that should have become zero.
+    where (state%force <= 4.0_dp*epsilon(1.0_dp)*maxval(state%force)) state%force = 0.0_dp
+    answer%force = load*state%force
+    answer%gap = load*max(open_gap(shape, state%displacement, state%motion), 0.0_dp)
+    where (state%contact) answer%gap = 0.0_dp
+    answer%rigid = lowest
+    if (.not. wanted%held) answer%rigid = (load*state%motion + operator%datum()*sum(answer%force)) + lowest
+    call move_alloc(state%force, part)
   end subroutine solve_by_iteration
 
-  !> Forget forces to start from that are far from the answer: coarser grids start better.
-  subroutine judge_start(operator, shape, part, info)
+  !> Even forces may displace nothing, as on a periodic surface: then an approach at which
+  !> the mean gap is closed cannot be held. Errors: FUGE_ERR_NO_EQUILIBRIUM,
+  !> FUGE_ERR_MEMORY, those of the operator.
+  subroutine check_approach(operator, approach, shape, info)
     class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: approach
+    real(dp), intent(in), contiguous :: shape(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: force(:), displacement(:), terms(:)
+    real(dp) :: mean
+    integer :: n, stat
+
+    n = size(shape)
+    mean = sum(shape)/real(n, dp)
+    if (mean > 0.0_dp) return
+    allocate (force(n), displacement(n), terms(n), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to judge the approach of '//text(n)//' points')
+      return
+    end if
+    force = 1.0_dp
+    call deflect(operator, .true., force, displacement, info)
+    if (info%failed()) return
+    call operator%magnitude(force, displacement, terms)
+    if (sum(displacement) > SINGULAR*sum(terms)) return
+    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'even forces displace nothing (a periodic surface), so no forces hold ' &
+                //'the approach '//text(approach)//' at which the mean gap is closed: prescribe less than ' &
+                //text(approach + mean)//', or a load')
+  end subroutine check_approach
+
+  !> Forces to start with: those given; else even ones, none if the motion is held.
+  pure subroutine set_start(wanted, start, state)
+    type(demands), intent(in) :: wanted
+    real(dp), intent(in), allocatable :: start(:)
+    type(iterate), intent(inout) :: state
+
+    state%held = wanted%held
+    if (allocated(start)) then
+      state%force = start
+    else if (wanted%held) then
+      state%force = 0.0_dp
+    else
+      state%force = 1.0_dp/real(size(state%force), dp)
+    end if
+  end subroutine set_start
+
+  !> Forget forces to start from that are far from the answer: coarser grids start better.
+  subroutine judge_start(operator, wanted, shape, part, info)
+    class(fuge_operator), intent(in) :: operator
+    type(demands), intent(in) :: wanted
     real(dp), intent(in), contiguous :: shape(:)
     real(dp), allocatable, intent(inout) :: part(:)
     type(fuge_info), intent(inout) :: info
@@ -125,7 +177,7 @@ contains
     if (.not. operator%in_row()) return
     call make_iterate(state, size(part), info)
     if (info%failed()) return
-    state%force = part
+    call set_start(wanted, part, state)
     state%contact = part > 0.0_dp
     call restart(operator, state, info)
     if (.not. info%failed()) call measure(operator, shape, state, info)
@@ -139,7 +191,11 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: excess
 
-    excess = exponent(maxval(problem%gap) - minval(problem%gap)) - exponent(problem%resultant(1))
+    if (.not. problem%is_plain()) then
+      excess = exponent(maxval(abs(problem%gap - problem%motion(1))))
+    else
+      excess = exponent(maxval(problem%gap) - minval(problem%gap)) - exponent(problem%resultant(1))
+    end if
     ! Squares of lengths are formed.
     if (2*excess > LARGEST_EXPONENT) then
       call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess)//' times the load: choose units in which ' &
@@ -196,11 +252,7 @@ contains
     if (.not. info%failed()) call make_iterate(state, n, info)
     if (allocated(start) .and. .not. info%failed()) call refine_grid(n, start, info)
     if (info%failed()) return
-    if (allocated(start)) then
-      state%force = start
-    else
-      state%force = 1.0_dp/real(n, dp)
-    end if
+    call set_start(wanted, start, state)
     counted%iterations = info%iterations
     call find_contact(coarse, wanted, coarse_shape, monitor, state, counted)
     info%iterations = counted%iterations
@@ -236,7 +288,7 @@ contains
     call move_alloc(fine, force)
   end subroutine refine_grid
 
-  !> Linear between the centres of the coarse cells.
+  !> Linear between the centres of the coarse cells, each of which had the forces of two.
   pure subroutine interpolate(coarse, fine)
     real(dp), intent(in) :: coarse(:)
     real(dp), intent(out) :: fine(:)
@@ -244,8 +296,8 @@ contains
 
     last = size(coarse)
     do k = 1, last
-      fine(2*k - 1) = 0.75_dp*coarse(k) + 0.25_dp*coarse(max(k - 1, 1))
-      if (2*k <= size(fine)) fine(2*k) = 0.75_dp*coarse(k) + 0.25_dp*coarse(min(k + 1, last))
+      fine(2*k - 1) = 0.375_dp*coarse(k) + 0.125_dp*coarse(max(k - 1, 1))
+      if (2*k <= size(fine)) fine(2*k) = 0.375_dp*coarse(k) + 0.125_dp*coarse(min(k + 1, last))
     end do
   end subroutine interpolate
 
@@ -407,7 +459,8 @@ contains
                                          //text(info%iterations)//' contact sets')
   end subroutine settle
 
-  !> Forces of the contact set that only push and sum to one, and their displacements.
+  !> Forces of the contact set that only push, and sum to one unless the motion is held, and
+  !> their displacements.
   subroutine restart(operator, state, info)
     class(fuge_operator), intent(in) :: operator
     type(iterate), intent(inout) :: state
@@ -416,16 +469,16 @@ contains
 
     where (state%contact)
       state%force = max(state%force, 0.0_dp)
-    elsewhere
+    else where
       state%force = 0.0_dp
     end where
     total = sum(state%force)
-    if (total > 0.0_dp) then
+    if (total > 0.0_dp .and. .not. state%held) then
       state%force = state%force/total
-    else
+    else if (.not. state%held) then
       where (state%contact) state%force = 1.0_dp/real(count(state%contact), dp)
     end if
-    call multiply(operator, state%force, state%displacement, info)
+    call deflect(operator, state%held, state%force, state%displacement, info)
   end subroutine restart
 
   !> Down the energy: from pushing forces towards the answer of their set as far as no

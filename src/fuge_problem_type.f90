@@ -79,8 +79,8 @@ contains
     class(fuge_problem), intent(in) :: self
     logical :: plain
 
-    plain = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded) &
-                   .or. allocated(self%prescribed))
+    plain = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded))
+    if (plain .and. allocated(self%prescribed)) plain = .not. any(self%prescribed)
   end function is_plain
 
   !> A problem with one load. Error: FUGE_ERR_MEMORY.
@@ -159,8 +159,8 @@ contains
     free = .true.
     if (allocated(problem%modes)) then
       if (size(problem%modes, 1) /= n) then
-        call report(info, FUGE_ERR_SIZE, 'modes has '//text(size(problem%modes, 1))//' rows: it needs one for each of ' &
-                    //text(n)//' points')
+        call report(info, FUGE_ERR_SIZE, 'modes has '//text(size(problem%modes, 1))//' rows: it needs one for ' &
+                    //'each of '//text(n)//' points')
         return
       end if
       do j = 1, m

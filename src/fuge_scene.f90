@@ -148,8 +148,8 @@ contains
     end if
     call triangular(part, .true., order, rank)
     if (rank < m) then
-      call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(order(rank + 1)))//' is made of the other modes: leave ' &
-                  //'it out')
+      call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(order(rank + 1)))//' is made of the other modes: ' &
+                  //'leave it out')
       return
     end if
     ! `part` is now an orthonormal base.

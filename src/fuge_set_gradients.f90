@@ -11,7 +11,7 @@ module fuge_set_gradients
   implicit none
   private
 
-  public :: relax, measure, make_iterate, open_gap
+  public :: relax, measure, deflect, make_iterate, open_gap
 
   !> Errors of the forces below this part of the worst tension, or of the gaps below
   !> this part of the worst penetration, let the set be judged.
@@ -27,13 +27,16 @@ module fuge_set_gradients
 
   !> Forces as parts of the load, so that lengths are per load.
   type, public :: iterate
-    !> Forces, (n), their sum is 1.
+    !> Forces, (n), their sum is 1 unless held.
     real(dp), allocatable :: force(:)
-    !> Displacements by them, without the datum of the operator, (n).
+    !> Displacements by them, (n); without the datum of the operator unless held.
     real(dp), allocatable :: displacement(:)
     !> Points taken for touching, (n).
     logical, allocatable :: contact(:)
-    !> Mean over the contact of gap plus displacement: the rigid motion.
+    !> The rigid motion is prescribed and already in the gaps, so that forces are what
+    !> they are; else they are parts of the load.
+    logical :: held = .false.
+    !> Mean over the contact of gap plus displacement: the rigid motion; 0 if held.
     real(dp) :: motion = 0.0_dp
     !> Largest difference from `motion` on the contact.
     real(dp) :: residual = huge(1.0_dp)
@@ -98,7 +101,7 @@ contains
       reached = state%residual <= tolerance*state%least_length
       if (reached .or. iteration == limit) return
       if (iteration > 0 .and. .not. thorough .and. state%residual <= ENOUGH*state%penetration) return
-      call filter%apply(operator, state%over, state%remainder, state%work, info)
+      call filter%apply(operator, state%over, .not. state%held, state%remainder, state%work, info)
       if (info%failed()) return
       if (iteration > 0 .and. judges_forces) then
         call estimate(state, drift, tension)
@@ -111,7 +114,7 @@ contains
       end if
       call turn(state%over, product/previous, state%work, state%direction)
       previous = product
-      call multiply(operator, state%direction, state%work, info)
+      call deflect(operator, state%held, state%direction, state%work, info)
       if (info%failed()) return
       curvature = inner(state%over, state%direction, state%work)
       if (.not. curvature > 0.0_dp) then
@@ -136,6 +139,7 @@ contains
     real(dp), intent(in), contiguous :: shape(:)
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
+    real(dp) :: sunk
 
     call state%over%find(state%contact, info)
     if (info%failed()) return
@@ -147,22 +151,41 @@ contains
     call centre(state)
     state%penetration = worst_penetration(shape, state)
     call operator%magnitude(state%force, state%displacement, state%work)
-    state%least_length = least_length(state, shape, state%work)
+    sunk = -state%motion
+    if (state%held) sunk = operator%datum()*sum(state%force)
+    state%least_length = least_length(state, sunk, shape, state%work)
   end subroutine measure
 
-  pure function least_length(state, shape, terms) result(least)
+  !> As in the certificate: what the displacement less the datum has to make up for, and
+  !> its terms.
+  pure function least_length(state, sunk, shape, terms) result(least)
     type(iterate), intent(in) :: state
+    real(dp), intent(in) :: sunk
     real(dp), intent(in), contiguous :: shape(:), terms(:)
     real(dp) :: least
     integer :: i, k
 
-    least = huge(least)
+    least = maxval(abs(shape))
+    if (state%over%points > 0) least = huge(least)
     do i = 1, size(state%over%first)
       do k = state%over%first(i), state%over%last(i)
-        least = min(least, abs(shape(k) - state%motion) + terms(k))
+        least = min(least, abs(shape(k) + sunk) + terms(k))
       end do
     end do
   end function least_length
+
+  !> Displacements by forces; with the datum of the operator if nothing takes it up.
+  !> Errors: those of the operator.
+  subroutine deflect(operator, held, force, displacement, info)
+    class(fuge_operator), intent(in) :: operator
+    logical, intent(in) :: held
+    real(dp), intent(in), contiguous :: force(:)
+    real(dp), intent(inout), contiguous :: displacement(:)
+    type(fuge_info), intent(inout) :: info
+
+    call multiply(operator, force, displacement, info)
+    if (held .and. .not. info%failed()) displacement = displacement + operator%datum()*sum(force)
+  end subroutine deflect
 
   !> direction = correction + factor*direction on the contact.
   pure subroutine turn(over, factor, correction, direction)
@@ -186,7 +209,8 @@ contains
     type(iterate), intent(inout) :: state
     real(dp) :: mean
 
-    mean = total(state%over, state%work)/real(state%over%points, dp)
+    mean = 0.0_dp
+    if (.not. state%held) mean = total(state%over, state%work)/real(state%over%points, dp)
     state%displacement = state%displacement - step*state%work
     call move(state%over, step, mean, state%direction, state%work, state%force, state%remainder)
     state%motion = state%motion - step*mean
@@ -215,7 +239,8 @@ contains
     real(dp) :: mean
     integer :: i
 
-    mean = total(state%over, state%remainder)/real(state%over%points, dp)
+    mean = 0.0_dp
+    if (.not. state%held) mean = total(state%over, state%remainder)/real(state%over%points, dp)
     associate (over => state%over)
       do i = 1, size(over%first)
         state%remainder(over%first(i):over%last(i)) = state%remainder(over%first(i):over%last(i)) - mean
@@ -302,7 +327,7 @@ contains
     length = max(maxval(abs(state%displacement)), largest(state%over, state%work))
     force = largest(state%over, state%direction)
     if (curvature >= -ROUNDING*length*force*max(1.0_dp, real(state%over%points, dp)*force)) return
-    call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces with zero sum store the ' &
+    call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces on the contact store the ' &
                 //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
   end subroutine explain
 

@@ -25,6 +25,8 @@ module fuge_solver_type
 
   !> Relative change of the load up to which the last forces are the better start.
   real(dp), parameter :: WARM_RANGE = 0.25_dp
+  !> Stands for the load where the approach is prescribed.
+  real(dp), parameter :: HELD = -1.0_dp
 
   !> What stays between solves. One solver for each thread.
   type, public :: fuge_solver
@@ -152,8 +154,8 @@ contains
     if (.not. has_coefficients(operator)) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a fuge_dense_operator')
     else if (.not. (self%factor%is_set() .and. allocated(self%side))) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load by a dense engine: solve first, not by ' &
-                  //'FUGE_ITERATIVE')
+      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load by a dense engine: solve first, ' &
+                  //'not by FUGE_ITERATIVE')
     else if (size(gap_change) /= n .or. size(self%side) /= n) then
       call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
                   //text(n)//' points and the last solution '//text(size(self%side)))
@@ -306,6 +308,7 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
+    real(dp) :: load
     logical :: warm
 
     if (options%keep_history) then
@@ -313,14 +316,17 @@ contains
                   //'leave keep_history out')
       return
     end if
-    if (.not. problem%is_plain()) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the iterative engine solves one-sided contact under one load: use ' &
-                  //'FUGE_ACTIVE_SET with a fuge_dense_operator')
+    if (allocated(problem%modes) .or. allocated(problem%gap_upper) .or. allocated(problem%excluded)) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration solves one-sided contact under one load or with a prescribed ' &
+                  //'approach: use FUGE_ACTIVE_SET with a fuge_dense_operator')
       return
     end if
+    load = HELD
+    if (problem%is_plain()) load = problem%resultant(1)
     warm = .false.
     if (allocated(self%part)) then
-      warm = size(self%part) == size(problem%gap) .and. abs(problem%resultant(1) - self%last_load) <= WARM_RANGE*self%last_load
+      warm = size(self%part) == size(problem%gap) &
+             .and. abs(load - self%last_load) <= WARM_RANGE*abs(self%last_load)
       if (.not. warm) deallocate (self%part)
     end if
     call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
@@ -331,7 +337,7 @@ contains
       if (allocated(self%part)) deallocate (self%part)
       call solve_by_iteration(operator, problem, options, monitor, self%part, answer, info)
     end if
-    if (.not. info%failed()) self%last_load = problem%resultant(1)
+    if (.not. info%failed()) self%last_load = load
   end subroutine iterate_warm
 
   !> Keep the contact set for the next solve; without memory that starts from scratch.

@@ -111,8 +111,8 @@ contains
     call two_of_three(force, opening)
     modes(:, 1) = 1.0_dp
     modes(:, 2) = abscissa() - scale(real(N, dp), bits)
-    scene = made('tilt about a far-away point', 'its distance is 2**'//decimal(bits)//' widths', modes, force, opening, &
-                 [5.0_dp, 3.0_dp])
+    scene = made('tilt about a far-away point', 'its distance is 2**'//decimal(bits)//' widths', modes, force, &
+                 opening, [5.0_dp, 3.0_dp])
     scene%tolerance = max(scene%tolerance, scale(4.0e-15_dp, bits))
   end function far_away
 
@@ -184,7 +184,8 @@ contains
       force = 0.0_dp
       force([1, 4, 5, 8]) = [1.0_dp, -1.0_dp, -1.0_dp, 1.0_dp]
       call stops_of(force, spread(4.0_dp, 1, N), upper, opening)
-      scene = made('two-sided without a load', 'forces that balance each other', modes, force, opening, [1.0_dp, 2.0_dp])
+      scene = made('two-sided without a load', 'forces that balance each other', modes, force, opening, &
+                   [1.0_dp, 2.0_dp])
     end select
     allocate (scene%problem%gap_upper, source=upper)
   end function with_play
