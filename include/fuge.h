@@ -28,9 +28,9 @@
  * and points may be excluded: no force, any gap.  The paper's problem is R = 1, q = v_0,
  * w = F_0.  alpha has to be positive definite on the forces with R^T f = 0 in the free
  * motions.  The forces are then unique; a free motion that no contact holds (w = 0, or a
- * body about to tip) is not, any of those possible is given.  General problems need a
- * dense operator, for the active set or the tableau; the iteration takes the plain problem
- * and a prescribed translation.
+ * body about to tip) is not: any of those possible is given, with FUGE_WARN_NOT_UNIQUE.
+ * General problems need a dense operator, for the active set or the tableau; the
+ * iteration takes the plain problem and a prescribed translation.
  *
  * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda], i, k
  * from 0.  Points in messages count from 1.  Every int function returns a status:
@@ -61,8 +61,9 @@ extern "C" {
 enum {
   FUGE_DONE = 0,
   FUGE_WARN_RESIDUAL = 1,       /* answer given, residual above the tolerance  */
-  FUGE_WARN_NOT_UNIQUE = 2,     /* alpha singular on the contact: one of many force sets;
-                                   gaps and approach are unique */
+  FUGE_WARN_NOT_UNIQUE = 2,     /* one of many answers, the message says in what: the forces
+                                   (alpha singular on the contact), or a motion that the
+                                   contact does not hold */
   FUGE_ERR_SIZE = -1,           /* n < 1, lda < n, a range beyond what there is */
   FUGE_ERR_POINTER = -2,        /* NULL, or in Fortran a non-contiguous matrix */
   FUGE_ERR_NOT_FINITE = -3,     /* NaN or infinity in an input                 */
@@ -424,6 +425,27 @@ int fuge_get_motions(const fuge_solver *s, int *m);
 int fuge_load_path(const fuge_operator *op, const double *gap, double load, int capacity,
                    double *loads, double *approach, double *stiffness, int *point, int *contacts,
                    int *events, char *message, size_t len);
+
+/* The same between two general problems: from that of the solver, in equilibrium, to one
+ * with other resultants and prescribed motions, all changing linearly with a parameter
+ * from 0 to 1.  No fuge_solve is needed, and what one found stays.
+ *   finish     in   m; resultants at the end, where prescribed the motions
+ *   capacity   in   entries that the six arrays have room for; each may be NULL if not wanted
+ *   parameter  out  ascending; the first entry is the start, 0, the others are the events
+ *                   before 1
+ *   motion     out  m for each entry: q there, entry k at motion + k*m; after the jump if
+ *                   q jumps, which it may where nothing holds it
+ *   rate       out  m for each entry: dq/d(parameter) from there to the next one
+ *   point      out  the point that changes, from 1; 0 for the start
+ *   side       out  its new state: 1 at the lower stop, 0 between, -1 at the upper stop
+ *   contacts   out  points at a stop from there on
+ *   entries    out  how many there are; only the first capacity are written
+ * Points that change together have an entry each; motion, rate and contacts are then
+ * those after all of them.  FUGE_ERR_NO_EQUILIBRIUM if equilibrium ends on the way: the
+ * message has the parameter; choose an end before it. */
+int fuge_follow_path(const fuge_solver *s, const double *finish, int capacity, double *parameter,
+                     double *motion, double *rate, int *point, int *side, int *contacts, int *entries,
+                     char *message, size_t len);
 
 /* ---- results ------------------------------------------------------------ */
 

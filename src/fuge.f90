@@ -14,7 +14,7 @@ module fuge
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET, FUGE_ITERATIVE, &
     FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
-  use fuge_parametric, only: fuge_load_path, fuge_path
+  use fuge_parametric, only: fuge_follow_path, fuge_general_path, fuge_load_path, fuge_path
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_profiles, only: fuge_read_profile, fuge_sample_profile, fuge_level_profile, &
     FUGE_LEVEL_MEAN, FUGE_LEVEL_LINE

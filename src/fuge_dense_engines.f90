@@ -6,6 +6,7 @@ module fuge_dense_engines
   use fuge_definiteness, only: check_definite
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
+  use fuge_loose_motions, only: find_free_way
   use fuge_monitor_type, only: fuge_monitor
   use fuge_options_type, only: fuge_options
   use fuge_presolve, only: guess_contact_set
@@ -18,7 +19,7 @@ module fuge_dense_engines
   implicit none
   private
 
-  public :: solve_by_tableau, solve_by_active_set, check_scene
+  public :: solve_by_tableau, solve_by_active_set, check_scene, check_magnitudes
 
   !> Pivots or sets allowed for each row when the caller sets no limit.
   integer, parameter, public :: ITERATIONS_PER_ROW = 50
@@ -136,8 +137,25 @@ contains
     if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
       call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
                   //'the forces are not; those given are near the least squares')
+    else if (status == FUGE_DONE .and. .not. scene%plain) then
+      call report_free_way(scene, side, answer, info)
     end if
   end subroutine solve_from
+
+  !> Name a motion that the contact does not hold.
+  subroutine report_free_way(scene, side, answer, info)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: side(:)
+    type(fuge_solution), intent(in) :: answer
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: way(size(scene%load))
+
+    if (size(way) < 1) return
+    call find_free_way(scene, side, answer%force, answer%gap, way)
+    if (.not. any(abs(way) > 0.0_dp)) return
+    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not hold motion '//text(scene%named_motion(way)) &
+                //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
+  end subroutine report_free_way
 
   !> What can be refused before anything is factored: FUGE_ERR_OVERFLOW,
   !> FUGE_ERR_NOT_DEFINITE.

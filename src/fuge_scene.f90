@@ -47,6 +47,7 @@ module fuge_scene
     procedure :: motions_of
     procedure :: change_of
     procedure :: open_outside
+    procedure :: named_motion
   end type contact_scene
 
 contains
@@ -291,6 +292,18 @@ contains
     call solve_small(self%mixing, found, free)
     rigid(self%free) = free
   end subroutine motions_of
+
+  !> The place, among all motions, of the one that has the largest part in a motion `way`
+  !> (free ones) of the orthogonal modes.
+  function named_motion(self, way) result(place)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: way(:)
+    integer :: place
+    real(dp) :: free(size(way))
+
+    call solve_small(self%mixing, way, free)
+    place = self%free(maxloc(abs(free)*sqrt(sum(self%mixing**2, dim=1)), dim=1))
+  end function named_motion
 
   !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the
   !> scene's gaps and loads.

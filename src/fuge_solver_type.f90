@@ -59,7 +59,8 @@ contains
   !> `fuge_options` (defaults when absent), `monitor` hears of each iteration and may
   !> cancel; there is none without a load. On return info%status is FUGE_DONE,
   !> FUGE_WARN_RESIDUAL with the residual in the message, FUGE_WARN_NOT_UNIQUE where
-  !> alpha is singular on the contact, or an error that leaves `solution` untouched:
+  !> alpha is singular on the contact (one of many sets of forces) or the contact does not
+  !> hold a motion (one of many values of that; forces are unique), or an error that leaves `solution` untouched:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM,
   !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED,
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,

@@ -63,7 +63,7 @@ module fuge_status
     'a size or range is impossible', &
     'done', &
     'done, but the residual is above the tolerance asked for', &
-    'done, but the forces are not unique; gaps and approach are']
+    'done, but the answer is not unique: the message says in what']
 
   !> Length of a message; longer ones are cut.
   integer, parameter, public :: FUGE_MESSAGE_LENGTH = 256

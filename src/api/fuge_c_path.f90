@@ -1,8 +1,9 @@
 !> C bindings, section "load path".
 module fuge_c_path
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
-  use fuge_c_types, only: operator_handle, copy_string, copy_reals
-  use fuge_parametric, only: fuge_load_path, fuge_path
+  use fuge_c_solver, only: take_solver, require_problem
+  use fuge_c_types, only: operator_handle, solver_handle, copy_string, copy_reals
+  use fuge_parametric, only: fuge_follow_path, fuge_general_path, fuge_load_path, fuge_path
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
   implicit none
   private
@@ -44,6 +45,47 @@ contains
     call c_f_pointer(events, number)
     number = int(path%events, c_int)
   end function c_load_path
+
+  function c_follow_path(solver, finish, capacity, parameter, motion, rate, point, side, contacts, entries, message, &
+                         length) bind(c, name='fuge_follow_path') result(status)
+    type(c_ptr), intent(in), value :: solver, finish, parameter, motion, rate, point, side, contacts, entries, message
+    integer(c_int), intent(in), value :: capacity
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(c_double), pointer :: values(:)
+    integer(c_int), pointer :: number
+    type(fuge_general_path) :: path
+    type(fuge_info) :: info
+    integer :: count
+
+    call take_solver(solver, handle, info)
+    if (.not. info%failed()) then
+      if (.not. (c_associated(finish) .and. c_associated(entries))) then
+        call report(info, FUGE_ERR_POINTER, 'finish or entries is NULL')
+      else if (capacity < 0) then
+        call report(info, FUGE_ERR_SIZE, 'capacity is negative: it is the length of the arrays')
+      else
+        call require_problem(handle, 'fuge_follow_path', info)
+      end if
+    end if
+    if (.not. info%failed()) then
+      call c_f_pointer(finish, values, [handle%problem%motions()])
+      call fuge_follow_path(handle%operator%operator, handle%problem, values, path, info)
+    end if
+    call copy_string(info%message, message, length)
+    status = int(info%status, c_int)
+    if (info%failed()) return
+    count = min(path%entries, int(capacity))
+    call copy_reals(path%parameter(:count), parameter)
+    call copy_reals([path%motion(:, :count)], motion)
+    call copy_reals([path%rate(:, :count)], rate)
+    call copy_integers(path%point(:count), point)
+    call copy_integers(path%side(:count), side)
+    call copy_integers(path%contacts(:count), contacts)
+    call c_f_pointer(entries, number)
+    number = int(path%entries, c_int)
+  end function c_follow_path
 
   subroutine copy_integers(values, destination)
     integer, intent(in) :: values(:)

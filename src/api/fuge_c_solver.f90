@@ -9,7 +9,7 @@ module fuge_c_solver
   implicit none
   private
 
-  public :: take_solver, answer
+  public :: take_solver, answer, require_problem
 
 contains
 
@@ -74,14 +74,7 @@ contains
     type(fuge_info) :: info
 
     call take_solver(solver, handle, info)
-    if (.not. info%failed()) then
-      if (.not. allocated(handle%problem%gap)) then
-        call report(info, FUGE_ERR_CALL_ORDER, 'the gaps are not known: call fuge_set_gap before fuge_solve')
-      else if (.not. (allocated(handle%problem%resultant) .or. allocated(handle%problem%prescribed))) then
-        call report(info, FUGE_ERR_CALL_ORDER, 'the load is not known: call fuge_set_load, fuge_set_approach or ' &
-                    //'fuge_set_modes before fuge_solve')
-      end if
-    end if
+    if (.not. info%failed()) call require_problem(handle, 'fuge_solve', info)
     if (.not. info%failed()) then
       call handle%solver%solve(handle%operator%operator, handle%problem, handle%solution, info, handle%options, &
                                handle%monitor)
@@ -93,6 +86,20 @@ contains
     end if
     status = answer(handle, info)
   end function c_solve
+
+  !> FUGE_ERR_CALL_ORDER unless gaps and motions are set.
+  subroutine require_problem(handle, caller, info)
+    type(solver_handle), intent(in) :: handle
+    character(len=*), intent(in) :: caller
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. allocated(handle%problem%gap)) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the gaps are not known: call fuge_set_gap before '//caller)
+    else if (.not. (allocated(handle%problem%resultant) .or. allocated(handle%problem%prescribed))) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the load is not known: call fuge_set_load, fuge_set_approach or ' &
+                  //'fuge_set_modes before '//caller)
+    end if
+  end subroutine require_problem
 
   !> Forget answers and history; operator, options and problem stay.
   function c_reset(solver) bind(c, name='fuge_reset') result(status)

@@ -92,10 +92,87 @@ static void test_derivative(void) {
   fuge_operator_free(&op);
 }
 
+/* Point 1 alone below F = 10, both above: one event on the way from 5 to 20. */
+static void test_follow_path(void) {
+  const double finish[1] = {20.0}, back[1] = {-1.0};
+  double parameter[MOST], motion[MOST], rate[MOST];
+  int point[MOST], side[MOST], contacts[MOST], entries = -1;
+  char message[256] = "old";
+  fuge_operator *op = NULL;
+  fuge_solver *s = NULL;
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(op, NULL, &s), FUGE_DONE);
+  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, message, sizeof message),
+               FUGE_ERR_CALL_ORDER);
+  CHECK_CONTAINS(message, "fuge_set_gap before fuge_follow_path");
+  CHECK_STATUS(fuge_set_gap(s, TABLE1_GAP, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+               FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_set_load(s, 5.0), FUGE_DONE);
+  CHECK_STATUS(fuge_follow_path(NULL, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+               FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_follow_path(s, NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_follow_path(s, finish, -1, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_follow_path(s, back, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+               FUGE_ERR_NO_EQUILIBRIUM);
+  CHECK_INT(entries, -1);
+  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, message, sizeof message),
+               FUGE_DONE);
+  CHECK_INT(entries, 2);
+  CHECK_STRING(message, "");
+  CHECK_STATUS(fuge_follow_path(s, finish, MOST, parameter, motion, rate, point, side, contacts, &entries, message,
+                                sizeof message), FUGE_DONE);
+  CHECK_INT(entries, 2);
+  CHECK_INT(point[0], 0);
+  CHECK_INT(point[1], 2);
+  CHECK_INT(side[1], 1);
+  CHECK_INT(contacts[0], 1);
+  CHECK_INT(contacts[1], 2);
+  CHECK_NEAR(parameter[0], 0.0, 0.0);
+  CHECK_NEAR(parameter[1], 1.0 / 3.0, 1e-14);
+  CHECK_NEAR(motion[0], 1.0, 1e-14);
+  CHECK_NEAR(motion[1], 2.0, 1e-14);
+  CHECK_NEAR(rate[0], 3.0, 1e-13);
+  CHECK_NEAR(rate[1], 2.25, 1e-13);
+  fuge_solver_free(&s);
+  fuge_operator_free(&op);
+}
+
+/* Two motions: entry k at motion + 2*k.  Points at -1 and 1, the load moves from the middle to the right. */
+static void test_follow_motions(void) {
+  const double alpha[4] = {1.0, 0.0, 0.0, 1.0}, gap[2] = {0.0, 0.0}, modes[4] = {1.0, 1.0, -1.0, 1.0};
+  const double middle[2] = {2.0, 0.0}, right[2] = {2.0, 1.0}, beside[2] = {2.0, 4.0};
+  double motion[2 * MOST], rate[2 * MOST];
+  int entries = -1;
+  char message[256] = "";
+  fuge_operator *op = NULL;
+  fuge_solver *s = NULL;
+  CHECK_STATUS(fuge_operator_dense(2, alpha, 2, &op), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(op, NULL, &s), FUGE_DONE);
+  CHECK_STATUS(fuge_set_gap(s, gap, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_modes(s, 2, modes, middle), FUGE_DONE);
+  CHECK_STATUS(fuge_follow_path(s, right, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries, NULL, 0), FUGE_DONE);
+  CHECK_INT(entries, 1);
+  CHECK_NEAR(motion[0], 1.0, 1e-14);
+  CHECK_NEAR(motion[1], 0.0, 1e-14);
+  CHECK_NEAR(rate[0], 0.0, 1e-14);
+  CHECK_NEAR(rate[1], 0.5, 1e-14);
+  /* The line of action passes point 2, at 1, half way. */
+  CHECK_STATUS(fuge_follow_path(s, beside, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries, message,
+                                sizeof message), FUGE_ERR_NO_EQUILIBRIUM);
+  CHECK_CONTAINS(message, "parameter");
+  CHECK_INT(entries, 1);
+  fuge_solver_free(&s);
+  fuge_operator_free(&op);
+}
+
 int main(void) {
   test_two_points();
   test_capacity();
   test_refusals();
   test_derivative();
+  test_follow_path();
+  test_follow_motions();
   return check_summary();
 }

@@ -6,7 +6,7 @@
 module hard_general
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver, &
-    FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM
+    FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_NOT_UNIQUE
   use general_reference, only: infinity
   use hard_matrices, only: decimal, integer_bed
   use hard_reference, only: integers
@@ -222,11 +222,11 @@ contains
     case (2)
       opening(N - 1) = 1.0_dp
       scene = made('on the edge', 'load exactly at the last point', modes, force, opening, [4.0_dp, 1.0_dp])
-      deallocate (scene%opening)
+      call without_motions(scene)
     case (3)
       scene = made('on the edge, weakly', 'and the next one touches without force', modes, force, opening, &
                    [4.0_dp, 1.0_dp])
-      deallocate (scene%opening)
+      call without_motions(scene)
     case (4)
       scene = made('over the edge', 'load 1e-12 beyond the last point', modes, force, opening, [4.0_dp, 1.0_dp])
       scene%problem%resultant(2) = scene%problem%resultant(1)*LAST*(1.0_dp + 1.0e-12_dp)
@@ -238,13 +238,21 @@ contains
       call without_answer(scene)
     case (6)
       scene = made('no resultant', 'nothing holds the motions', modes, 0.0_dp*force, opening + 1.0_dp, [4.0_dp, 1.0_dp])
-      deallocate (scene%opening)
+      call without_motions(scene)
     case default
       scene = made('small moment held', 'a stop at the first point holds a load over the edge', modes, force, opening, &
                    [4.0_dp, 1.0_dp])
       call hold_first_point(scene, modes)
     end select
   end function at_the_edge
+
+  !> Only forces are unique.
+  pure subroutine without_motions(scene)
+    type(general_scene), intent(inout) :: scene
+
+    deallocate (scene%opening)
+    scene%status = FUGE_WARN_NOT_UNIQUE
+  end subroutine without_motions
 
   pure subroutine without_answer(scene)
     type(general_scene), intent(inout) :: scene
