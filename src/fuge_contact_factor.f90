@@ -119,8 +119,9 @@ contains
     do attempt = 0, DATUMS - 1
       if (constant) self%datum = nearest - range*real(8**attempt - 1, dp)
       ! One translation needs no more than the datum; other motions stiffen alpha too.
-      if (size(modes, 2) > merge(1, 0, constant) .and. (attempt > 0 .or. .not. constant)) &
+      if (size(modes, 2) > merge(1, 0, constant) .and. (attempt > 0 .or. .not. constant)) then
         self%stiffening = range*real(8**attempt, dp)
+      end if
       call factor_base(self, alpha, 0.0_dp, done)
       if (done) return
     end do

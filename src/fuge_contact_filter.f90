@@ -182,7 +182,9 @@ contains
     call operator%coarsen(DOUBLINGS*(number - 1), coarse)
     if (.not. is_usable(coarse, (operator%points() - 1)/CELLS**(number - 1) + 1)) return
     call move_alloc(coarse, level%operator)
-    call make_room(level, force, stat)
+    allocate (level%weight(level%operator%points()), level%present(level%operator%points()), &
+              level%length(level%operator%points()), force%values(level%operator%points()), stat=stat)
+    if (stat /= 0) deallocate (level%operator)
   end subroutine make_level
 
   !> What the filter makes of equal lengths on the set.
@@ -213,16 +215,6 @@ contains
     if (usable) usable = coarse%points() == cells
     if (usable) usable = coarse%has_filter()
   end function is_usable
-
-  subroutine make_room(level, force, stat)
-    type(filter_level), intent(inout) :: level
-    type(level_force), intent(inout) :: force
-    integer, intent(out) :: stat
-    integer :: n
-
-    n = level%operator%points()
-    allocate (level%weight(n), level%present(n), level%length(n), force%values(n), stat=stat)
-  end subroutine make_room
 
   !> Count the points in contact in the cells of every level.
   pure subroutine weigh(levels, contact)
@@ -281,7 +273,8 @@ contains
 
     call precondition(level%operator, level%length, force, coarse)
     coarse_share = coarse_share + real(size(force), dp)/real(points, dp)
-    if (coarse%failed()) call report(info, coarse%status, 'on the grid of '//text(size(force))//' cells: '//coarse%message)
+    if (coarse%failed()) call report(info, coarse%status, 'on the grid of '//text(size(force))//' cells: ' &
+                                     //coarse%message)
     where (level%weight > 0.0_dp) force = force/level%weight
   end subroutine filter_coarse
 

@@ -178,8 +178,8 @@ contains
       call solve_set(self%factor, datum, shape, load, found%force, motion)
       if (any(abs(load - matmul(found%force, self%scene%modes)) &
               > HELD_TO*max(abs(load), matmul(abs(found%force), abs(self%scene%modes))))) then
-        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not hold the motions that these resultants act in: ' &
-                    //'they would turn the body over, whatever the size of the change')
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not hold the motions that these resultants act ' &
+                    //'in: they would turn the body over, whatever the size of the change')
         return
       end if
       found%gap = shape - displaced(self%scene%modes, motion)
@@ -325,8 +325,8 @@ contains
       return
     end if
     if (allocated(problem%modes) .or. allocated(problem%gap_upper) .or. allocated(problem%excluded)) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration solves one-sided contact under one load or with a prescribed ' &
-                  //'approach: use FUGE_ACTIVE_SET with a fuge_dense_operator')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration solves one-sided contact under one load or with a ' &
+                  //'prescribed approach: use FUGE_ACTIVE_SET with a fuge_dense_operator')
       return
     end if
     load = HELD
