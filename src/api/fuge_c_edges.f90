@@ -1,7 +1,7 @@
 !> C bindings, section "edges of contact".
 module fuge_c_edges
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
-  use fuge_c_types, only: copy_string
+  use fuge_c_types, only: copy_string, copy_reals, copy_integers
   use fuge_edges, only: fuge_contact_edges, fuge_interval
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
   use fuge_text, only: text
@@ -47,25 +47,5 @@ contains
     call c_f_pointer(number, found)
     found = int(size(intervals), c_int)
   end function c_contact_edges
-
-  subroutine copy_reals(values, destination)
-    real(c_double), intent(in) :: values(:)
-    type(c_ptr), intent(in) :: destination
-    real(c_double), pointer :: array(:)
-
-    if (.not. c_associated(destination)) return
-    call c_f_pointer(destination, array, [size(values)])
-    array = values
-  end subroutine copy_reals
-
-  subroutine copy_integers(values, destination)
-    integer, intent(in) :: values(:)
-    type(c_ptr), intent(in) :: destination
-    integer(c_int), pointer :: array(:)
-
-    if (.not. c_associated(destination)) return
-    call c_f_pointer(destination, array, [size(values)])
-    array = int(values, c_int)
-  end subroutine copy_integers
 
 end module fuge_c_edges

@@ -2,7 +2,7 @@
 module fuge_c_path
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_solver, only: take_solver, require_problem
-  use fuge_c_types, only: operator_handle, solver_handle, copy_string, copy_reals
+  use fuge_c_types, only: operator_handle, solver_handle, copy_string, copy_reals, copy_integers
   use fuge_parametric, only: fuge_follow_path, fuge_general_path, fuge_load_path, fuge_path
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
   implicit none
@@ -86,15 +86,5 @@ contains
     call c_f_pointer(entries, number)
     number = int(path%entries, c_int)
   end function c_follow_path
-
-  subroutine copy_integers(values, destination)
-    integer, intent(in) :: values(:)
-    type(c_ptr), intent(in) :: destination
-    integer(c_int), pointer :: array(:)
-
-    if (.not. c_associated(destination)) return
-    call c_f_pointer(destination, array, [size(values)])
-    array = int(values, c_int)
-  end subroutine copy_integers
 
 end module fuge_c_path

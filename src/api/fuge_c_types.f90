@@ -12,7 +12,7 @@ module fuge_c_types
   implicit none
   private
 
-  public :: from_c, to_c, copy_string, copy_reals
+  public :: from_c, to_c, copy_string, copy_reals, copy_integers
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
@@ -108,5 +108,16 @@ contains
     call c_f_pointer(destination, array, [size(values)])
     array = values
   end subroutine copy_reals
+
+  !> Copy to a C array of int; NULL is left alone.
+  subroutine copy_integers(values, destination)
+    integer, intent(in) :: values(:)
+    type(c_ptr), intent(in) :: destination
+    integer(c_int), pointer :: array(:)
+
+    if (.not. c_associated(destination)) return
+    call c_f_pointer(destination, array, [size(values)])
+    array = int(values, c_int)
+  end subroutine copy_integers
 
 end module fuge_c_types
