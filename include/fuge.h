@@ -85,7 +85,8 @@ enum {
   FUGE_ERR_CANCELLED = -18,     /* the progress callback ended the solve       */
   FUGE_ERR_FILE = -19,          /* a file cannot be read                       */
   FUGE_ERR_GAP = -20,           /* gap_upper < 0                               */
-  FUGE_ERR_MODES = -21          /* rigid motions that depend on each other, or move no point */
+  FUGE_ERR_MODES = -21,         /* rigid motions that depend on each other, or move no point */
+  FUGE_ERR_DOF = -22            /* a degree of freedom out of range or named twice */
 };
 
 /* General meaning of a status; a constant string, never NULL. */
@@ -496,5 +497,7 @@ int fuge_last_message(const fuge_solver *s, char *buf, size_t len);
 #ifdef __cplusplus
 }
 #endif
+
+#include "fuge_fe.h"
 
 #endif

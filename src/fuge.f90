@@ -2,7 +2,9 @@
 module fuge
   use fuge_bodies, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
     FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
+  use fuge_body_type, only: fuge_body
   use fuge_certificate, only: fuge_residual, fuge_violation
+  use fuge_condensation, only: fuge_condense, fuge_condensed
   use fuge_dense, only: fuge_dense_operator
   use fuge_edges, only: fuge_contact_edges, fuge_interval, FUGE_EDGE_REFINED, FUGE_EDGE_FEW_CELLS, &
     FUGE_EDGE_SINGULAR, FUGE_EDGE_GRID_END
@@ -24,7 +26,10 @@ module fuge
     FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, FUGE_ERR_NOT_SYMMETRIC, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, &
     FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED, FUGE_ERR_FILE, &
-    FUGE_ERR_GAP, FUGE_ERR_MODES
+    FUGE_ERR_GAP, FUGE_ERR_MODES, FUGE_ERR_DOF
+  use fuge_stiffness_band, only: fuge_band_stiffness
+  use fuge_stiffness_dense, only: fuge_dense_stiffness
+  use fuge_stiffness_type, only: fuge_stiffness
   implicit none
   public
 

@@ -4,7 +4,8 @@ module fuge_lapack
   implicit none
   private
 
-  public :: dgelsy, dgemv, dgeqp3, dgesv, dorgqr, dpotrf, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
+  public :: dgelsy, dgemv, dgeqp3, dgesv, dgesvd, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsyrk, dsytrf, dsytrs, &
+    dtrsm, dtrsv
 
   interface
     !> Least squares, or the shortest of several solutions, by pivoted orthogonal factors.
@@ -35,6 +36,16 @@ module fuge_lapack
       integer, intent(out) :: ipiv(*), info
     end subroutine dgesv
 
+    !> Singular values and vectors, A = U S V^T.
+    subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+      import :: dp
+      character(len=1), intent(in) :: jobu, jobvt
+      integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
+      real(dp), intent(inout) :: a(lda, *)
+      real(dp), intent(out) :: s(*), u(ldu, *), vt(ldvt, *), work(*)
+      integer, intent(out) :: info
+    end subroutine dgesvd
+
     !> The first columns of Q from its reflections.
     subroutine dorgqr(m, n, k, a, lda, tau, work, lwork, info)
       import :: dp
@@ -53,6 +64,25 @@ module fuge_lapack
       real(dp), intent(inout) :: y(*)
     end subroutine dgemv
 
+    !> Cholesky factor of a symmetric positive definite band matrix.
+    subroutine dpbtrf(uplo, n, kd, ab, ldab, info)
+      import :: dp
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, kd, ldab
+      real(dp), intent(inout) :: ab(ldab, *)
+      integer, intent(out) :: info
+    end subroutine dpbtrf
+
+    !> Solve with the factor of `dpbtrf`.
+    subroutine dpbtrs(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
+      import :: dp
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, kd, nrhs, ldab, ldb
+      real(dp), intent(in) :: ab(ldab, *)
+      real(dp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dpbtrs
+
     !> Cholesky factor of a symmetric positive definite matrix, blocked.
     subroutine dpotrf(uplo, n, a, lda, info)
       import :: dp
@@ -61,6 +91,26 @@ module fuge_lapack
       real(dp), intent(inout) :: a(lda, *)
       integer, intent(out) :: info
     end subroutine dpotrf
+
+    !> Solve with the factor of `dpotrf`.
+    subroutine dpotrs(uplo, n, nrhs, a, lda, b, ldb, info)
+      import :: dp
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(dp), intent(in) :: a(lda, *)
+      real(dp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dpotrs
+
+    !> Eigenvalues, ascending, and eigenvectors of a symmetric matrix.
+    subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+      import :: dp
+      character(len=1), intent(in) :: jobz, uplo
+      integer, intent(in) :: n, lda, lwork
+      real(dp), intent(inout) :: a(lda, *)
+      real(dp), intent(out) :: w(*), work(*)
+      integer, intent(out) :: info
+    end subroutine dsyev
 
     !> C := alpha A^T A + beta C (trans = 'T'), one triangle.
     subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)

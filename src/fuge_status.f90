@@ -34,12 +34,14 @@ module fuge_status
   integer, parameter, public :: FUGE_ERR_FILE = -19
   integer, parameter, public :: FUGE_ERR_GAP = -20
   integer, parameter, public :: FUGE_ERR_MODES = -21
+  integer, parameter, public :: FUGE_ERR_DOF = -22
 
-  integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_MODES
+  integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_DOF
   integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_NOT_UNIQUE
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
+    'a degree of freedom is out of range or named twice', &
     'rigid motions depend on each other', &
     'an upper stop lies below the lower one', &
     'a file cannot be read', &

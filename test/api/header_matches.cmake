@@ -1,5 +1,5 @@
 # cmake -DHEADER=include/fuge.h -DSOURCES=src -P header_matches.cmake
-# Fails with the names where the header and the Fortran sources differ.
+# Fails with the names where the header, with those beside it, and the Fortran sources differ.
 cmake_minimum_required(VERSION 3.20)
 
 # Numbers that are not for C.
@@ -54,8 +54,10 @@ function(require_same what in_header in_fortran)
 endfunction()
 
 file(GLOB modules "${SOURCES}/*.f90")
-file(GLOB bindings "${SOURCES}/api/*.f90")
-read_sources(header "${HEADER}")
+file(GLOB bindings "${SOURCES}/api/*.f90" "${SOURCES}/sparse/*.f90")
+get_filename_component(folder "${HEADER}" DIRECTORY)
+file(GLOB headers "${folder}/*.h")
+read_sources(header ${headers})
 read_sources(fortran ${modules})
 read_sources(api ${bindings})
 

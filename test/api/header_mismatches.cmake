@@ -1,6 +1,9 @@
 # header_matches.cmake has to find each of these changes of the header.
 cmake_minimum_required(VERSION 3.20)
 
+get_filename_component(folder "${HEADER}" DIRECTORY)
+file(COPY "${folder}/" DESTINATION "${SCRATCH}")
+
 # Replace `old` by `new` in a copy of the header; the script must fail and name `expected`.
 function(expect_mismatch old new expected)
   file(READ "${HEADER}" text)

@@ -1,0 +1,208 @@
+!> An elastic body beside its stiffness: supports, load, rigid motions, contact points; and
+!> the check of these data.
+module fuge_body_type
+  use fuge_check, only: check_finite
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_OPTION
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: check_body, check_load_field
+
+  !> The data of a body with nd degrees of freedom, numbered from 1. Components may be
+  !> added: set them by name; those not allocated have the meaning given.
+  !>
+  !> Contact point i moves by u_i = sum over k of normal(k,i) u(dof(k,i)), and its contact
+  !> force f_i acts on the body as normal(k,i) f_i at dof(k,i): `normal` points into the
+  !> body. A pair of bodies in one stiffness has the degrees of freedom of both sides in
+  !> each column, with normals of opposite directions.
+  type, public :: fuge_body
+    !> Degrees of freedom that are held. Not allocated: none.
+    integer, allocatable :: fixed(:)
+    !> Their given displacements, (size(fixed)). Not allocated: zero.
+    real(dp), allocatable :: displacement(:)
+    !> External load, (nd), force. Not allocated: none.
+    real(dp), allocatable :: load(:)
+    !> Rigid motions of the body on its supports, (nd, m). Not allocated: none, unless
+    logical :: floats = .false.
+    !> is set: then they are looked for.
+    real(dp), allocatable :: modes(:, :)
+    !> Degrees of freedom of the contact points, (width, n); 0: none.
+    integer, allocatable :: dof(:, :)
+    !> Directions of the contact forces on the body, (width, n).
+    real(dp), allocatable :: normal(:, :)
+  end type fuge_body
+
+contains
+
+  !> Refuse data that fit no body with `degrees` degrees of freedom. FUGE_ERR_SIZE;
+  !> FUGE_ERR_DOF for one out of range or repeated; FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION for
+  !> modes both given and looked for; FUGE_ERR_MEMORY.
+  pure subroutine check_body(body, degrees, info)
+    type(fuge_body), intent(in) :: body
+    integer, intent(in) :: degrees
+    type(fuge_info), intent(inout) :: info
+
+    if (body%floats .and. allocated(body%modes)) call report(info, FUGE_ERR_OPTION, 'the body has modes and floats is ' &
+      //'set: either give the rigid motions or have them looked for')
+    if (.not. info%failed()) call check_supports(body, degrees, info)
+    if (info%failed()) return
+    if (allocated(body%load)) call check_load_field(body%load, degrees, info)
+    if (.not. info%failed()) call check_contact(body, degrees, info)
+  end subroutine check_body
+
+  !> Refuse an external load that is not (degrees) or not finite.
+  pure subroutine check_load_field(load, degrees, info)
+    real(dp), intent(in) :: load(:)
+    integer, intent(in) :: degrees
+    type(fuge_info), intent(inout) :: info
+
+    if (size(load) /= degrees) then
+      call report(info, FUGE_ERR_SIZE, 'load has '//text(size(load))//' value(s): it needs one for each of ' &
+                  //text(degrees)//' degrees of freedom')
+    else
+      call check_finite(load, 'load', info)
+    end if
+  end subroutine check_load_field
+
+  pure subroutine check_supports(body, degrees, info)
+    type(fuge_body), intent(in) :: body
+    integer, intent(in) :: degrees
+    type(fuge_info), intent(inout) :: info
+    integer, allocatable :: place(:)
+    integer :: k, stat
+
+    if (.not. allocated(body%fixed)) return
+    if (allocated(body%displacement)) then
+      if (size(body%displacement) /= size(body%fixed)) then
+        call report(info, FUGE_ERR_SIZE, 'displacement has '//text(size(body%displacement))//' value(s): it needs one for ' &
+                    //'each of '//text(size(body%fixed))//' fixed degrees of freedom')
+      else
+        call check_finite(body%displacement, 'displacement', info)
+      end if
+      if (info%failed()) return
+    end if
+    allocate (place(degrees), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to check the supports')
+      return
+    end if
+    place = 0
+    do k = 1, size(body%fixed)
+      associate (dof => body%fixed(k))
+        if (dof < 1 .or. dof > degrees) then
+          call report(info, FUGE_ERR_DOF, 'fixed('//text(k)//') = '//text(dof)//' is not one of '//text(degrees) &
+                      //' degrees of freedom')
+          return
+        else if (place(dof) > 0) then
+          call report(info, FUGE_ERR_DOF, 'fixed('//text(place(dof))//') and fixed('//text(k)//') are both degree of ' &
+                      //'freedom '//text(dof)//': name it once')
+          return
+        end if
+        place(dof) = k
+      end associate
+    end do
+  end subroutine check_supports
+
+  pure subroutine check_contact(body, degrees, info)
+    type(fuge_body), intent(in) :: body
+    integer, intent(in) :: degrees
+    type(fuge_info), intent(inout) :: info
+    integer :: i
+
+    if (.not. (allocated(body%dof) .and. allocated(body%normal))) then
+      call report(info, FUGE_ERR_SIZE, 'dof or normal is not allocated: they say which degrees of freedom can touch')
+    else if (size(body%dof) < 1) then
+      call report(info, FUGE_ERR_SIZE, 'dof is empty: at least one contact point is needed')
+    else if (any(shape(body%dof) /= shape(body%normal))) then
+      call report(info, FUGE_ERR_SIZE, 'normal is '//text(size(body%normal, 1))//' by '//text(size(body%normal, 2)) &
+                  //', dof '//text(size(body%dof, 1))//' by '//text(size(body%dof, 2))//': they belong together')
+    end if
+    do i = 1, size(body%dof, 2)
+      if (info%failed()) return
+      call check_point(body%dof(:, i), body%normal(:, i), i, degrees, info)
+    end do
+    if (.not. info%failed()) call check_repeated(body, degrees, info)
+  end subroutine check_contact
+
+  !> One contact point.
+  pure subroutine check_point(dof, normal, i, degrees, info)
+    integer, intent(in) :: dof(:), i, degrees
+    real(dp), intent(in) :: normal(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    call check_finite(normal, 'contact point '//text(i)//': normal', info)
+    if (info%failed()) return
+    do k = 1, size(dof)
+      if (dof(k) < 0 .or. dof(k) > degrees) then
+        call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//': dof('//text(k)//') = '//text(dof(k)) &
+                    //' is not one of '//text(degrees)//' degrees of freedom')
+      else if (dof(k) > 0 .and. any(dof(:k - 1) == dof(k))) then
+        call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//' names degree of freedom '//text(dof(k)) &
+                    //' twice: add up its normals')
+      end if
+      if (info%failed()) return
+    end do
+    if (.not. any(dof > 0 .and. abs(normal) > 0.0_dp)) call report(info, FUGE_ERR_DOF, 'contact point '//text(i) &
+      //' moves with no degree of freedom: its dof or its normal is zero')
+  end subroutine check_point
+
+  !> Refuse points that move alike: their forces could not be told apart. Only points with
+  !> the same lowest degree of freedom are compared.
+  pure subroutine check_repeated(body, degrees, info)
+    type(fuge_body), intent(in) :: body
+    integer, intent(in) :: degrees
+    type(fuge_info), intent(inout) :: info
+    integer, allocatable :: last(:), before(:)
+    integer :: i, j, low, stat
+
+    allocate (last(degrees), before(size(body%dof, 2)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to check the contact points')
+      return
+    end if
+    last = 0
+    do i = 1, size(body%dof, 2)
+      low = minval(body%dof(:, i), body%dof(:, i) > 0 .and. abs(body%normal(:, i)) > 0.0_dp)
+      j = last(low)
+      do while (j > 0)
+        if (move_alike(body%dof(:, i), body%normal(:, i), body%dof(:, j), body%normal(:, j))) then
+          call report(info, FUGE_ERR_DOF, 'contact points '//text(j)//' and '//text(i)//' are the same: both move ' &
+                      //'degree of freedom '//text(low)//' in the same direction; name the point once')
+          return
+        end if
+        j = before(j)
+      end do
+      before(i) = last(low)
+      last(low) = i
+    end do
+  end subroutine check_repeated
+
+  !> The same degrees of freedom, with parallel normals?
+  pure function move_alike(dof, normal, dof_other, normal_other) result(alike)
+    integer, intent(in) :: dof(:), dof_other(:)
+    real(dp), intent(in) :: normal(:), normal_other(:)
+    logical :: alike
+    real(dp) :: other(size(dof))
+    integer :: k, l, match
+
+    other = 0.0_dp
+    do k = 1, size(dof_other)
+      if (dof_other(k) == 0 .or. .not. abs(normal_other(k)) > 0.0_dp) cycle
+      match = 0
+      do l = 1, size(dof)
+        if (dof(l) == dof_other(k)) match = l
+      end do
+      alike = match > 0
+      if (.not. alike) return
+      other(match) = normal_other(k)
+    end do
+    associate (mine => merge(normal, 0.0_dp, dof > 0))
+      k = maxloc(abs(mine), 1)
+      alike = all(abs(mine/mine(k)*other(k) - other) <= 16.0_dp*epsilon(1.0_dp)*maxval(abs(other)))
+    end associate
+  end function move_alike
+
+end module fuge_body_type

@@ -1,0 +1,490 @@
+!> From the stiffness of a body to the influence matrix of its contact points, and back from
+!> contact forces to the displacements of all degrees of freedom.
+!>
+!> With N the directions of the contact forces (n columns), p the external load and G the
+!> inverse of K where supports and pins are held,
+!>
+!>     alpha = N^T G N,    b = N^T u_p,    u_p = G p (and what the supports impose),
+!>     u = u_p + G N f + Z q.
+!>
+!> Z are the rigid motions of a body that floats; one degree of freedom is pinned for each,
+!> whose reaction is zero once forces are in equilibrium, so that no answer depends on the
+!> choice. The gaps are then g + b + alpha f - R q with R = -N^T Z, and equilibrium is
+!> R^T f = w with w = Z^T p: the general problem. A motion that moves no contact point, such
+!> as sliding along a flat one, is left out; nothing may drive it.
+module fuge_condensation
+  use fuge_body_type, only: fuge_body, check_body, check_load_field
+  use fuge_contact_points, only: add_force, add_contact_forces, moved, softness
+  use fuge_felt_motions, only: split_motions, STILL
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_rigid_motions, only: find_motions, check_motions, choose_pins, unit_at_pins
+  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_DOF, &
+    FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_DONE
+  use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: fuge_condense
+
+  !> Right-hand sides that are solved together.
+  integer, parameter :: BLOCK = 64
+  !> A pivot below so many roundings of its diagonal term is none.
+  real(dp), parameter :: NO_PIVOT = 16.0_dp*epsilon(1.0_dp)
+  !> Below, fewer than some six digits of the influence matrix are left.
+  real(dp), parameter :: WEAK_PIVOT = 1.0e6_dp*epsilon(1.0_dp)
+  !> Largest residual of K u = forces that counts as solved, relative to its parts.
+  real(dp), parameter :: SOLVED = 1.0e-10_dp
+
+  !> A body condensed to its contact points.
+  type, public :: fuge_condensed
+    !> Influence matrix, (n, n), length per force.
+    real(dp), allocatable :: alpha(:, :)
+    !> b: displacements of the contact points by load and supports, (n), length.
+    real(dp), allocatable :: displacement(:)
+    !> R: rigid motions that the contact has to hold, (n, m); m = 0 for a body that does not float.
+    real(dp), allocatable :: modes(:, :)
+    !> w: the load's work in each, (m): the resultant of the contact forces.
+    real(dp), allocatable :: resultant(:)
+    class(fuge_stiffness), allocatable, private :: stiffness
+    class(stiffness_factor), allocatable, private :: factor
+    type(fuge_body), private :: body
+    !> Supports and pins.
+    logical, allocatable, private :: held(:)
+    !> Square root of the diagonal of K, by which degrees of freedom of any unit compare.
+    real(dp), allocatable, private :: scale(:)
+    !> Z of `modes`, and those motions that move no contact point, (degrees, ..).
+    real(dp), allocatable, private :: motions(:, :), sliding(:, :)
+    !> u_p, (degrees).
+    real(dp), allocatable, private :: by_load(:)
+  contains
+    procedure :: pose
+    procedure :: recover
+    procedure :: set_load
+  end type fuge_condensed
+
+contains
+
+  !> Condense a body to its contact points.
+  !>
+  !> `stiffness` is any extension of fuge_stiffness, set before; of a dense or band matrix
+  !> only the reference is kept, for `recover`. Cost: one Cholesky factorisation, and n
+  !> solves with it in blocks of 64. `condensed` is replaced when done or warned.
+  !> Warning: FUGE_WARN_RESIDUAL where K is so near to singular that six or fewer digits of
+  !> alpha are left. Errors, which name the degree of freedom or the point:
+  !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE,
+  !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MODES, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM for a
+  !> load along a motion that no contact can hold, FUGE_ERR_MEMORY.
+  subroutine fuge_condense(stiffness, body, condensed, info)
+    class(fuge_stiffness), intent(in) :: stiffness
+    type(fuge_body), intent(in) :: body
+    type(fuge_condensed), intent(inout) :: condensed
+    type(fuge_info), intent(out) :: info
+    type(fuge_condensed) :: made
+    type(fuge_info) :: warning
+    integer :: stat
+
+    if (stiffness%degrees() < 1) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the stiffness has no matrix: call set first')
+      return
+    end if
+    call check_body(body, stiffness%degrees(), info)
+    if (info%failed()) return
+    allocate (made%stiffness, source=stiffness, stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the stiffness')
+    made%body = body
+    if (.not. info%failed()) call hold(made, info)
+    if (.not. info%failed()) call factorise(made, info)
+    warning = info
+    if (.not. info%failed()) call find_alpha(made, info)
+    if (.not. info%failed()) call find_modes(made, info)
+    if (.not. info%failed()) call apply_load(made, info)
+    if (info%failed()) return
+    info%status = warning%status
+    info%message = warning%message
+    call take(made, condensed)
+  end subroutine fuge_condense
+
+  !> Another external load on the same body: `displacement` and `resultant` follow, with one
+  !> solve.
+  !>
+  !> `load` (degrees), force. Errors: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY; all is then as it was.
+  subroutine set_load(self, load, info)
+    class(fuge_condensed), intent(inout) :: self
+    real(dp), intent(in) :: load(:)
+    type(fuge_info), intent(out) :: info
+    real(dp), allocatable :: before(:)
+
+    if (.not. allocated(self%factor)) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'nothing has been condensed')
+      return
+    end if
+    call check_load_field(load, size(self%held), info)
+    if (info%failed()) return
+    call move_alloc(self%body%load, before)
+    self%body%load = load
+    call apply_load(self, info)
+    if (info%failed()) call move_alloc(before, self%body%load)
+  end subroutine set_load
+
+  !> Pose the contact problem: gap + b; and, if the body floats, its motions and their
+  !> resultants. Other components stay: without modes that is one translation, of a rigid
+  !> counter-body under a load, whose resultant is yours to set.
+  !>
+  !> `gap` (n), initial gaps, length. Errors: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE.
+  subroutine pose(self, gap, problem, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: gap(:)
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_info), intent(out) :: info
+
+    if (.not. allocated(self%displacement)) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'nothing has been condensed')
+    else if (size(gap) /= size(self%displacement)) then
+      call report(info, FUGE_ERR_SIZE, 'gap has '//text(size(gap))//' value(s): it needs one for each of ' &
+                  //text(size(self%displacement))//' contact points')
+    end if
+    if (info%failed()) return
+    problem%gap = gap + self%displacement
+    if (size(self%resultant) < 1) return
+    problem%modes = self%modes
+    problem%resultant = self%resultant
+  end subroutine pose
+
+  !> Displacements of all degrees of freedom in the solved contact.
+  !>
+  !> `u` (degrees), length. Of the solution the forces and the first m rigid motions are
+  !> read, m the number of `modes`. A motion that moves no contact point is left at zero at
+  !> its pin. info%residual is the largest force that K u leaves unbalanced at a free degree
+  !> of freedom, relative to its parts; above 1e-10 FUGE_WARN_RESIDUAL.
+  !> Errors: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY; `u` is then as it was.
+  subroutine recover(self, solution, u, info)
+    class(fuge_condensed), intent(in) :: self
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(inout) :: u(:)
+    type(fuge_info), intent(out) :: info
+    real(dp), allocatable :: field(:, :), forces(:)
+    integer :: stat
+
+    call check_recovery(self, solution, size(u), info)
+    if (info%failed()) return
+    allocate (field(size(u), 1), forces(size(u)), stat=stat)
+    if (stat == 0) then
+      forces = 0.0_dp
+      call add_contact_forces(self%body, solution%force, forces)
+      field(:, 1) = merge(0.0_dp, forces, self%held)
+      call self%factor%solve(field, stat)
+    end if
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
+      return
+    end if
+    u = self%by_load + field(:, 1)
+    if (size(self%motions, 2) > 0) u = u + matmul(self%motions, solution%rigid(:size(self%motions, 2)))
+    call find_residual(self, solution, u, info)
+  end subroutine recover
+
+  !> Does the solution belong here?
+  pure subroutine check_recovery(self, solution, degrees, info)
+    class(fuge_condensed), intent(in) :: self
+    type(fuge_solution), intent(in) :: solution
+    integer, intent(in) :: degrees
+    type(fuge_info), intent(inout) :: info
+    integer :: m, n
+
+    if (.not. allocated(self%factor)) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'nothing has been condensed')
+      return
+    else if (.not. (allocated(solution%force) .and. allocated(solution%rigid))) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the solution holds no forces: solve first')
+      return
+    end if
+    n = size(self%displacement)
+    m = size(self%resultant)
+    if (size(solution%force) /= n .or. size(solution%rigid) < m) then
+      call report(info, FUGE_ERR_SIZE, 'the solution has '//text(size(solution%force))//' forces and ' &
+                  //text(size(solution%rigid))//' motions: this body has '//text(n)//' contact points and '//text(m) &
+                  //' motions')
+    else if (degrees /= size(self%held)) then
+      call report(info, FUGE_ERR_SIZE, 'u has '//text(degrees)//' value(s): it needs one for each of ' &
+                  //text(size(self%held))//' degrees of freedom')
+    end if
+  end subroutine check_recovery
+
+  !> What K u leaves of the loads, from K itself.
+  subroutine find_residual(self, solution, u, info)
+    class(fuge_condensed), intent(in) :: self
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: u(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: forces(size(u)), left(size(u)), product(size(u)), magnitude(size(u))
+
+    forces = 0.0_dp
+    call add_contact_forces(self%body, solution%force, forces)
+    call self%stiffness%multiply(u, product, magnitude)
+    left = product - forces
+    magnitude = magnitude + abs(forces)
+    if (allocated(self%body%load)) then
+      left = left - self%body%load
+      magnitude = magnitude + abs(self%body%load)
+    end if
+    if (allocated(self%body%fixed)) left(self%body%fixed) = 0.0_dp
+    where (self%scale > 0.0_dp)
+      left = left/self%scale
+      magnitude = magnitude/self%scale
+    end where
+    if (maxval(magnitude) > 0.0_dp) info%residual = maxval(abs(left))/maxval(magnitude)
+    if (info%residual > SOLVED) call report(info, FUGE_WARN_RESIDUAL, 'displacements given, but degree of freedom ' &
+      //text(maxloc(abs(left), 1))//' is out of balance by '//text(info%residual)//' of the largest force')
+  end subroutine find_residual
+
+  !> Mark the supports, find or check the motions and pin them.
+  subroutine hold(made, info)
+    type(fuge_condensed), intent(inout) :: made
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: free_scale(:)
+    integer, allocatable :: pins(:)
+    integer :: degrees, stat
+
+    degrees = made%stiffness%degrees()
+    allocate (made%held(degrees), made%scale(degrees), free_scale(degrees), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(degrees)//' degrees of freedom')
+      return
+    end if
+    made%held = .false.
+    if (allocated(made%body%fixed)) made%held(made%body%fixed) = .true.
+    call find_scale(made, info)
+    if (.not. info%failed()) call check_free_points(made, info)
+    if (info%failed()) return
+    free_scale = merge(0.0_dp, made%scale, made%held)
+    if (made%body%floats) then
+      call find_motions(made%stiffness, made%held, free_scale, made%motions, info)
+    else if (allocated(made%body%modes)) then
+      call check_motions(made%stiffness, made%held, made%scale, made%body%modes, info)
+      if (.not. info%failed()) made%motions = made%body%modes
+    else
+      allocate (made%motions(degrees, 0))
+    end if
+    if (info%failed()) return
+    call choose_pins(free_scale, made%motions, pins, info)
+    if (info%failed()) return
+    if (made%body%floats) call unit_at_pins(pins, made%motions, info)
+    made%held(pins) = .true.
+  end subroutine hold
+
+  !> Square roots of the diagonal of K; refuse a free degree of freedom without stiffness.
+  subroutine find_scale(made, info)
+    type(fuge_condensed), intent(inout) :: made
+    type(fuge_info), intent(inout) :: info
+    integer :: j
+
+    call made%stiffness%diagonal(made%scale)
+    do j = 1, size(made%scale)
+      if (made%scale(j) > 0.0_dp) then
+        made%scale(j) = sqrt(made%scale(j))
+      else if (made%held(j)) then
+        made%scale(j) = 0.0_dp
+      else
+        call report(info, FUGE_ERR_NOT_DEFINITE, 'degree of freedom '//text(j)//' has the stiffness ' &
+                    //text(made%scale(j))//' on the diagonal: it needs a positive one, or to be fixed')
+        return
+      end if
+    end do
+  end subroutine find_scale
+
+  !> Refuse a contact point all of whose degrees of freedom are fixed.
+  pure subroutine check_free_points(made, info)
+    type(fuge_condensed), intent(in) :: made
+    type(fuge_info), intent(inout) :: info
+    integer :: i, k
+    logical :: moves
+
+    do i = 1, size(made%body%dof, 2)
+      moves = .false.
+      do k = 1, size(made%body%dof, 1)
+        if (made%body%dof(k, i) < 1) cycle
+        moves = moves .or. (abs(made%body%normal(k, i)) > 0.0_dp .and. .not. made%held(made%body%dof(k, i)))
+      end do
+      if (moves) cycle
+      call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//' is held by the supports in the direction of its ' &
+                  //'force: leave it out, or free degree of freedom '//text(maxval(made%body%dof(:, i))))
+      return
+    end do
+  end subroutine check_free_points
+
+  !> Factorise what is free; refuse a body that still floats, and warn if it nearly does.
+  subroutine factorise(made, info)
+    type(fuge_condensed), intent(inout) :: made
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: pivot
+    integer :: status, weakest
+
+    call made%stiffness%factorise(made%held, 0.0_dp, made%factor, pivot, weakest, status)
+    if (status /= FUGE_DONE) then
+      call report(info, status, 'no memory for the factor of the stiffness matrix')
+    else if (.not. pivot > NO_PIVOT) then
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive definite at degree of freedom ' &
+                  //text(weakest)//' with '//text(count(made%held))//' held: fix the motion that is left, or set ' &
+                  //'floats (modes) if the body floats')
+    else if (pivot < WEAK_PIVOT) then
+      call report(info, FUGE_WARN_RESIDUAL, 'the stiffness matrix is nearly singular at degree of freedom ' &
+                  //text(weakest)//' (pivot '//text(pivot)//' of its diagonal): about ' &
+                  //text(nint(-log10(epsilon(1.0_dp)/pivot)))//' digits of alpha are left')
+    end if
+  end subroutine factorise
+
+  !> alpha = N^T G N, a block of columns at a time.
+  subroutine find_alpha(made, info)
+    type(fuge_condensed), intent(inout) :: made
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: columns(:, :)
+    integer :: first, i, j, last, n, stat
+
+    n = size(made%body%dof, 2)
+    allocate (made%alpha(n, n), columns(size(made%held), min(BLOCK, n)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the influence matrix of '//text(n)//' contact points')
+      return
+    end if
+    do first = 1, n, BLOCK
+      last = min(first + BLOCK - 1, n)
+      columns = 0.0_dp
+      do j = first, last
+        call add_force(made%body%dof(:, j), made%body%normal(:, j), 1.0_dp, columns(:, j - first + 1))
+        where (made%held) columns(:, j - first + 1) = 0.0_dp
+      end do
+      call made%factor%solve(columns(:, :last - first + 1), stat)
+      if (stat /= FUGE_DONE) then
+        call report(info, stat, 'no memory to solve for '//text(last - first + 1)//' right-hand sides')
+        return
+      end if
+      do j = first, last
+        do i = 1, n
+          made%alpha(i, j) = moved(made%body%dof(:, i), made%body%normal(:, i), columns(:, j - first + 1))
+        end do
+      end do
+    end do
+    do j = 2, n
+      do i = 1, j - 1
+        made%alpha(i, j) = 0.5_dp*(made%alpha(i, j) + made%alpha(j, i))
+        made%alpha(j, i) = made%alpha(i, j)
+      end do
+    end do
+  end subroutine find_alpha
+
+  !> R = -N^T Z, without what the contact cannot feel.
+  subroutine find_modes(made, info)
+    type(fuge_condensed), intent(inout) :: made
+    type(fuge_info), intent(inout) :: info
+    logical :: felt(size(made%motions, 2))
+    real(dp), allocatable :: kept(:, :)
+    integer, allocatable :: columns(:)
+    integer :: i, j, m, n, stat
+
+    m = size(made%motions, 2)
+    n = size(made%body%dof, 2)
+    allocate (made%modes(n, m), stat=stat)
+    if (stat == 0) then
+      do j = 1, m
+        do i = 1, n
+          made%modes(i, j) = -moved(made%body%dof(:, i), made%body%normal(:, i), made%motions(:, j))
+        end do
+      end do
+      call split_motions(made%motions, made%modes, made%scale, softness(made%body, made%scale), felt, made%sliding, stat)
+    end if
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of the contact points')
+    else if (.not. all(felt)) then
+      columns = pack([(j, j=1, m)], felt)
+      kept = made%modes(:, columns)
+      call move_alloc(kept, made%modes)
+      kept = made%motions(:, columns)
+      call move_alloc(kept, made%motions)
+    end if
+  end subroutine find_modes
+
+  !> u_p, b and w by the external load and the displacements of the supports.
+  subroutine apply_load(made, info)
+    class(fuge_condensed), intent(inout) :: made
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: field(:, :), given(:), product(:), magnitude(:), by_load(:), resultant(:), displacement(:)
+    integer :: i, m, n, degrees, stat
+
+    degrees = size(made%held)
+    n = size(made%body%dof, 2)
+    m = size(made%modes, 2)
+    allocate (field(degrees, 1), given(degrees), product(degrees), magnitude(degrees), resultant(m), displacement(n), &
+              stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements by the load')
+      return
+    end if
+    field = 0.0_dp
+    if (allocated(made%body%load)) field(:, 1) = made%body%load
+    call check_sliding(made, field(:, 1), info)
+    if (info%failed()) return
+    resultant = matmul(field(:, 1), made%motions)
+    given = 0.0_dp
+    if (allocated(made%body%displacement)) then
+      given(made%body%fixed) = made%body%displacement
+      call made%stiffness%multiply(given, product, magnitude)
+      field(:, 1) = field(:, 1) - product
+    end if
+    where (made%held) field(:, 1) = 0.0_dp
+    call made%factor%solve(field, stat)
+    if (stat /= FUGE_DONE) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements by the load')
+      return
+    end if
+    by_load = field(:, 1) + given
+    do i = 1, n
+      displacement(i) = moved(made%body%dof(:, i), made%body%normal(:, i), by_load)
+    end do
+    call move_alloc(by_load, made%by_load)
+    call move_alloc(displacement, made%displacement)
+    call move_alloc(resultant, made%resultant)
+  end subroutine apply_load
+
+  !> Refuse a load that drives a motion which no contact can hold.
+  pure subroutine check_sliding(made, load, info)
+    class(fuge_condensed), intent(in) :: made
+    real(dp), intent(in) :: load(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: work, parts
+    integer :: j, k
+
+    if (.not. allocated(made%sliding)) return
+    do k = 1, size(made%sliding, 2)
+      work = dot_product(made%sliding(:, k), load)
+      parts = maxval(abs(made%sliding(:, k))*made%scale)*maxval(abs(load)/max(made%scale, tiny(1.0_dp)), made%scale > 0.0_dp)
+      j = maxloc(abs(made%sliding(:, k))*made%scale, 1)
+      if (abs(work) > STILL*parts) then
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point and most of ' &
+                    //'all degree of freedom '//text(j)//': no contact force can hold it; fix one, or balance the load')
+        return
+      end if
+    end do
+  end subroutine check_sliding
+
+  !> Move what has been made to where it is wanted, without a copy.
+  subroutine take(made, condensed)
+    type(fuge_condensed), intent(inout) :: made, condensed
+
+    call move_alloc(made%alpha, condensed%alpha)
+    call move_alloc(made%displacement, condensed%displacement)
+    call move_alloc(made%modes, condensed%modes)
+    call move_alloc(made%resultant, condensed%resultant)
+    call move_alloc(made%stiffness, condensed%stiffness)
+    call move_alloc(made%factor, condensed%factor)
+    call move_alloc(made%held, condensed%held)
+    call move_alloc(made%scale, condensed%scale)
+    call move_alloc(made%motions, condensed%motions)
+    call move_alloc(made%sliding, condensed%sliding)
+    call move_alloc(made%by_load, condensed%by_load)
+    condensed%body = made%body
+  end subroutine take
+
+end module fuge_condensation

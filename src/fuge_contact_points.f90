@@ -1,0 +1,65 @@
+!> The contact points of a body among its degrees of freedom: N f and N^T u.
+module fuge_contact_points
+  use fuge_body_type, only: fuge_body
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  public :: add_contact_forces, add_force, moved, softness
+
+contains
+
+  !> Add the forces of all contact points to a field of loads.
+  pure subroutine add_contact_forces(body, force, field)
+    type(fuge_body), intent(in) :: body
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(inout) :: field(:)
+    integer :: i
+
+    do i = 1, size(force)
+      call add_force(body%dof(:, i), body%normal(:, i), force(i), field)
+    end do
+  end subroutine add_contact_forces
+
+  !> Add the force of one contact point to a field of loads: N f.
+  pure subroutine add_force(dof, normal, force, field)
+    integer, intent(in) :: dof(:)
+    real(dp), intent(in) :: normal(:), force
+    real(dp), intent(inout) :: field(:)
+    integer :: k
+
+    do k = 1, size(dof)
+      if (dof(k) > 0) field(dof(k)) = field(dof(k)) + normal(k)*force
+    end do
+  end subroutine add_force
+
+  !> How far a contact point moves in a field of displacements: N^T u.
+  pure function moved(dof, normal, field) result(distance)
+    integer, intent(in) :: dof(:)
+    real(dp), intent(in) :: normal(:), field(:)
+    real(dp) :: distance
+    integer :: k
+
+    distance = 0.0_dp
+    do k = 1, size(dof)
+      if (dof(k) > 0) distance = distance + normal(k)*field(dof(k))
+    end do
+  end function moved
+
+  !> How far each contact point moves when all scaled degrees of freedom move by one, (n).
+  pure function softness(body, scale) result(length)
+    type(fuge_body), intent(in) :: body
+    real(dp), intent(in) :: scale(:)
+    real(dp) :: length(size(body%dof, 2))
+    integer :: i, k
+
+    length = 0.0_dp
+    do i = 1, size(length)
+      do k = 1, size(body%dof, 1)
+        if (body%dof(k, i) < 1) cycle
+        if (scale(body%dof(k, i)) > 0.0_dp) length(i) = length(i) + abs(body%normal(k, i))/scale(body%dof(k, i))
+      end do
+    end do
+  end function softness
+
+end module fuge_contact_points

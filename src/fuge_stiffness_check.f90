@@ -1,0 +1,62 @@
+!> What every stiffness matrix has to be, however it is stored.
+module fuge_stiffness_check
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_check, only: is_finite_everywhere, LARGEST_EXPONENT
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: check_entries, check_pair
+
+  !> Largest asymmetry taken for rounding, relative to the two diagonal terms.
+  real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
+
+contains
+
+  !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE) and numbers near overflow
+  !> (FUGE_ERR_OVERFLOW) in a part of column j that begins at row `first`.
+  pure subroutine check_entries(entries, first, j, info)
+    real(dp), intent(in), contiguous :: entries(:)
+    integer, intent(in) :: first, j
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    if (size(entries) < 1) return
+    if (is_finite_everywhere(entries)) then
+      if (exponent(maxval(abs(entries))) <= LARGEST_EXPONENT) return
+    end if
+    do k = 1, size(entries)
+      if (.not. ieee_is_finite(entries(k))) then
+        call report(info, FUGE_ERR_NOT_FINITE, place(first + k - 1, j)//' = '//text(entries(k)) &
+                    //' is not a finite number')
+      else if (exponent(entries(k)) > LARGEST_EXPONENT) then
+        call report(info, FUGE_ERR_OVERFLOW, place(first + k - 1, j)//' = '//text(entries(k)) &
+                    //' is near overflow: choose units in which it is smaller')
+      end if
+      if (info%failed()) return
+    end do
+  end subroutine check_entries
+
+  !> Refuse entries (i, j) and (j, i) that differ by more than rounding
+  !> (FUGE_ERR_NOT_SYMMETRIC), seen beside the diagonal terms of i and j.
+  pure subroutine check_pair(i, j, above, below, diagonal_i, diagonal_j, info)
+    integer, intent(in) :: i, j
+    real(dp), intent(in) :: above, below, diagonal_i, diagonal_j
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. abs(above - below) > 0.0_dp) return
+    if (abs(above - below) <= SYMMETRY_TOLERANCE*sqrt(abs(diagonal_i))*sqrt(abs(diagonal_j))) return
+    call report(info, FUGE_ERR_NOT_SYMMETRIC, place(i, j)//' = '//text(above)//' and '//place(j, i)//' = ' &
+                //text(below)//' differ: a stiffness matrix is symmetric; if that is rounding, pass (K + transpose(K))/2')
+  end subroutine check_pair
+
+  pure function place(i, j)
+    integer, intent(in) :: i, j
+    character(len=:), allocatable :: place
+
+    place = 'stiffness('//text(i)//','//text(j)//')'
+  end function place
+
+end module fuge_stiffness_check

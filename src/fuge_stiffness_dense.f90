@@ -1,0 +1,191 @@
+!> A stiffness matrix in full storage. It stays the caller's: it is pointed to, and copied
+!> once by the factorisation.
+module fuge_stiffness_dense
+  use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+  use fuge_kinds, only: dp
+  use fuge_lapack, only: dpotrf, dpotrs
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY
+  use fuge_stiffness_check, only: check_entries, check_pair
+  use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
+  use fuge_text, only: text
+  implicit none
+  private
+
+  !> Side of the square tiles in which the matrix is compared with its transpose.
+  integer, parameter :: TILE = 64
+
+  type, extends(fuge_stiffness), public :: fuge_dense_stiffness
+    !> Columns of the caller's matrix; rows beyond the degrees of freedom are padding.
+    real(dp), pointer, contiguous, private :: matrix(:, :) => null()
+  contains
+    procedure :: set
+    procedure :: degrees
+    procedure :: diagonal
+    procedure :: multiply
+    procedure :: factorise
+  end type fuge_dense_stiffness
+
+  type, extends(stiffness_factor) :: dense_factor
+    real(dp), allocatable :: upper(:, :)
+  contains
+    procedure :: solve
+  end type dense_factor
+
+contains
+
+  !> Take `matrix` as the stiffness matrix.
+  !>
+  !> `matrix` is (degrees, degrees), or (lda, degrees) with lda larger, both triangles
+  !> filled; force per displacement. It is not copied: declare it `target` and keep it
+  !> unchanged as long as the stiffness lives.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_NOT_SYMMETRIC; the stiffness is then as it was.
+  subroutine set(self, matrix, info)
+    class(fuge_dense_stiffness), intent(inout) :: self
+    real(dp), intent(in), target :: matrix(:, :)
+    type(fuge_info), intent(out) :: info
+
+    if (size(matrix, 2) < 1 .or. size(matrix, 1) < size(matrix, 2)) then
+      call report(info, FUGE_ERR_SIZE, 'the stiffness matrix has '//text(size(matrix, 1))//' rows and ' &
+                  //text(size(matrix, 2))//' columns: it needs at least one column, and a row for each')
+    else if (.not. is_contiguous(matrix)) then
+      call report(info, FUGE_ERR_POINTER, 'the stiffness matrix is a section with gaps between its columns: pass ' &
+                  //'the whole array, whose first rows count')
+    else
+      call check_matrix(matrix, info)
+    end if
+    if (info%failed()) return
+    ! Through an address, because only `set` knows that the matrix is contiguous.
+    call c_f_pointer(c_loc(matrix(1, 1)), self%matrix, shape(matrix))
+  end subroutine set
+
+  pure function degrees(self)
+    class(fuge_dense_stiffness), intent(in) :: self
+    integer :: degrees
+
+    degrees = 0
+    if (associated(self%matrix)) degrees = size(self%matrix, 2)
+  end function degrees
+
+  pure subroutine diagonal(self, terms)
+    class(fuge_dense_stiffness), intent(in) :: self
+    real(dp), intent(out) :: terms(:)
+    integer :: j
+
+    do j = 1, self%degrees()
+      terms(j) = self%matrix(j, j)
+    end do
+  end subroutine diagonal
+
+  pure subroutine multiply(self, u, product, magnitude)
+    class(fuge_dense_stiffness), intent(in) :: self
+    real(dp), intent(in) :: u(:)
+    real(dp), intent(out) :: product(:), magnitude(:)
+    integer :: j, n
+
+    n = self%degrees()
+    product = 0.0_dp
+    magnitude = 0.0_dp
+    do j = 1, n
+      if (.not. abs(u(j)) > 0.0_dp) cycle
+      product = product + self%matrix(:n, j)*u(j)
+      magnitude = magnitude + abs(self%matrix(:n, j)*u(j))
+    end do
+  end subroutine multiply
+
+  subroutine factorise(self, held, shift, factor, pivot, weakest, status)
+    class(fuge_dense_stiffness), intent(in) :: self
+    logical, intent(in) :: held(:)
+    real(dp), intent(in) :: shift
+    class(stiffness_factor), allocatable, intent(out) :: factor
+    real(dp), intent(out) :: pivot
+    integer, intent(out) :: weakest, status
+    type(dense_factor), allocatable :: own
+    integer :: n, stat
+
+    n = self%degrees()
+    pivot = 0.0_dp
+    weakest = 0
+    status = FUGE_ERR_MEMORY
+    allocate (own, stat=stat)
+    if (stat == 0) allocate (own%upper(n, n), stat=stat)
+    if (stat /= 0) return
+    status = FUGE_DONE
+    call copy_free(self%matrix, held, shift, own%upper)
+    call dpotrf('U', n, own%upper, n, weakest)
+    if (weakest /= 0) return
+    call find_least_pivot(self%matrix, own%upper, held, pivot, weakest)
+    call move_alloc(own, factor)
+  end subroutine factorise
+
+  !> The upper triangle with rows and columns that are held replaced by those of the identity.
+  pure subroutine copy_free(matrix, held, shift, upper)
+    real(dp), intent(in) :: matrix(:, :), shift
+    logical, intent(in) :: held(:)
+    real(dp), intent(out) :: upper(:, :)
+    integer :: j
+
+    do j = 1, size(held)
+      if (held(j)) then
+        upper(:j - 1, j) = 0.0_dp
+        upper(j, j) = 1.0_dp
+      else
+        upper(:j - 1, j) = merge(0.0_dp, matrix(:j - 1, j), held(:j - 1))
+        upper(j, j) = matrix(j, j)*(1.0_dp + shift)
+      end if
+    end do
+  end subroutine copy_free
+
+  pure subroutine find_least_pivot(matrix, upper, held, pivot, weakest)
+    real(dp), intent(in) :: matrix(:, :), upper(:, :)
+    logical, intent(in) :: held(:)
+    real(dp), intent(out) :: pivot
+    integer, intent(out) :: weakest
+    integer :: j
+
+    pivot = 1.0_dp
+    weakest = 0
+    do j = 1, size(held)
+      if (held(j)) cycle
+      if (upper(j, j)**2 < pivot*matrix(j, j)) then
+        pivot = upper(j, j)**2/matrix(j, j)
+        weakest = j
+      end if
+    end do
+  end subroutine find_least_pivot
+
+  subroutine solve(self, block, status)
+    class(dense_factor), intent(in) :: self
+    real(dp), intent(inout), contiguous :: block(:, :)
+    integer, intent(out) :: status
+    integer :: lapack_info
+
+    call dpotrs('U', size(block, 1), size(block, 2), self%upper, size(self%upper, 1), block, size(block, 1), &
+                lapack_info)
+    status = FUGE_DONE
+  end subroutine solve
+
+  !> Finite and symmetric; tile by tile, so that rows are read from the cache.
+  pure subroutine check_matrix(matrix, info)
+    real(dp), intent(in) :: matrix(:, :)
+    type(fuge_info), intent(inout) :: info
+    integer :: i, i0, j, j0, n
+
+    n = size(matrix, 2)
+    do j = 1, n
+      call check_entries(matrix(:n, j), 1, j, info)
+      if (info%failed()) return
+    end do
+    do j0 = 1, n, TILE
+      do i0 = 1, j0, TILE
+        do j = j0, min(j0 + TILE - 1, n)
+          do i = i0, min(i0 + TILE - 1, j - 1)
+            call check_pair(i, j, matrix(i, j), matrix(j, i), matrix(i, i), matrix(j, j), info)
+            if (info%failed()) return
+          end do
+        end do
+      end do
+    end do
+  end subroutine check_matrix
+
+end module fuge_stiffness_dense
