@@ -119,11 +119,12 @@ contains
       call report(info, FUGE_ERR_SIZE, 'normal is '//text(size(body%normal, 1))//' by '//text(size(body%normal, 2)) &
                   //', dof '//text(size(body%dof, 1))//' by '//text(size(body%dof, 2))//': they belong together')
     end if
+    if (info%failed()) return
     do i = 1, size(body%dof, 2)
-      if (info%failed()) return
       call check_point(body%dof(:, i), body%normal(:, i), i, degrees, info)
+      if (info%failed()) return
     end do
-    if (.not. info%failed()) call check_repeated(body, degrees, info)
+    call check_repeated(body, degrees, info)
   end subroutine check_contact
 
   !> One contact point.

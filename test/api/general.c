@@ -9,12 +9,12 @@ static void test_version(void) {
 
 static void test_status_texts(void) {
   const char *unknown = fuge_status_text(FUGE_WARN_RESIDUAL + 1);
-  for (int status = FUGE_ERR_MODES; status <= FUGE_WARN_RESIDUAL; status++) {
+  for (int status = FUGE_ERR_DOF; status <= FUGE_WARN_RESIDUAL; status++) {
     const char *meaning = fuge_status_text(status);
     CHECK(meaning != NULL && strlen(meaning) > 0);
     CHECK(strcmp(meaning, unknown) != 0);
     CHECK(meaning[strlen(meaning) - 1] != ' ');
-    for (int other = FUGE_ERR_MODES; other < status; other++)
+    for (int other = FUGE_ERR_DOF; other < status; other++)
       CHECK(strcmp(meaning, fuge_status_text(other)) != 0);
   }
   CHECK_STRING(fuge_status_text(FUGE_DONE), "done");
@@ -23,7 +23,7 @@ static void test_status_texts(void) {
 }
 
 static void test_unknown_status(void) {
-  const int unknown[] = {FUGE_WARN_NOT_UNIQUE + 1, FUGE_ERR_MODES - 1, INT_MAX, INT_MIN};
+  const int unknown[] = {FUGE_WARN_NOT_UNIQUE + 1, FUGE_ERR_DOF - 1, INT_MAX, INT_MIN};
   for (int k = 0; k < 4; k++) CHECK_STRING(fuge_status_text(unknown[k]), "unknown status");
 }
 

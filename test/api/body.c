@@ -1,0 +1,218 @@
+/* Section "condensation" of fuge.h. */
+#include "check.h"
+
+enum { N = 5 };
+
+/* A chain of N masses with springs of stiffness 2 between them; if anchored, mass 0 to the
+ * ground too.  Upper triangle in band storage. */
+static void chain_band(int anchored, double *ab) {
+  for (int j = 0; j < N; j++) {
+    ab[2 * j] = -2.0;
+    ab[2 * j + 1] = 4.0;
+  }
+  ab[0] = 99.0; /* outside of the matrix */
+  ab[1] = anchored ? 4.0 : 2.0;
+  ab[2 * N - 1] = 2.0;
+}
+
+static void chain_dense(int anchored, double *k) {
+  double ab[2 * N];
+  chain_band(anchored, ab);
+  for (int i = 0; i < N * N; i++) k[i] = 0.0;
+  for (int j = 0; j < N; j++) {
+    k[j + j * N] = ab[2 * j + 1];
+    if (j > 0) k[j - 1 + j * N] = k[j + (j - 1) * N] = ab[2 * j];
+  }
+}
+
+static const int TOUCH[2] = {1, 4};
+static const double OUTWARD[2] = {1.0, 1.0};
+
+static void check_chain(fuge_body *body) {
+  double alpha[6], b[2], u[N], load[N] = {0, 0, 0, 0, 4};
+  const double force[2] = {2.0, 0.0};
+  int m = -1;
+
+  CHECK_STATUS(fuge_body_set_contact(body, 2, 1, TOUCH, OUTWARD), FUGE_DONE);
+  CHECK_STATUS(fuge_body_get_influence(body, alpha, 3), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_condense(body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_set_load(body, load), FUGE_DONE);
+  alpha[2] = alpha[5] = SENTINEL;
+  CHECK_STATUS(fuge_body_get_influence(body, alpha, 3), FUGE_DONE);
+  CHECK_NEAR(alpha[0], 1.0, 1e-14);
+  CHECK_NEAR(alpha[1], 1.0, 1e-14);
+  CHECK_NEAR(alpha[3], 1.0, 1e-14);
+  CHECK_NEAR(alpha[4], 2.5, 1e-14);
+  CHECK_UNTOUCHED(alpha + 2, 1);
+  CHECK_UNTOUCHED(alpha + 5, 1);
+  CHECK_STATUS(fuge_body_get_displacement(body, b), FUGE_DONE);
+  CHECK_NEAR(b[0], 4.0, 1e-13);
+  CHECK_NEAR(b[1], 10.0, 1e-13);
+  CHECK_STATUS(fuge_body_get_motions(body, &m), FUGE_DONE);
+  CHECK_INT(m, 0);
+  CHECK_STATUS(fuge_body_recover(body, force, NULL, u), FUGE_DONE);
+  CHECK_NEAR(u[0], 3.0, 1e-13);
+  CHECK_NEAR(u[4], 12.0, 1e-13);
+}
+
+static void test_dense_and_band(void) {
+  double k[N * N], ab[2 * N];
+  fuge_body *body = NULL;
+
+  chain_dense(1, k);
+  CHECK_STATUS(fuge_body_dense(N, k, N, &body), FUGE_DONE);
+  check_chain(body);
+  fuge_body_free(&body);
+  CHECK(body == NULL);
+  fuge_body_free(&body);
+  fuge_body_free(NULL);
+  chain_band(1, ab);
+  CHECK_STATUS(fuge_body_band(N, 1, ab, 2, 1, &body), FUGE_DONE);
+  check_chain(body);
+  fuge_body_free(&body);
+}
+
+#ifdef HAVE_SPARSE
+static void test_sparse(void) {
+  const int column[N + 1] = {0, 1, 3, 5, 7, 9}, row[9] = {0, 0, 1, 2, 1, 3, 2, 3, 4};
+  double value[9] = {4, -2, 4, 4, -2, 4, -2, -2, 2};
+  int bad[9];
+  char message[256];
+  fuge_body *body = NULL;
+
+  CHECK_STATUS(fuge_body_sparse(N, column, row, value, &body), FUGE_DONE);
+  check_chain(body);
+  fuge_body_free(&body);
+  memcpy(bad, row, sizeof bad);
+  bad[3] = N;
+  CHECK_STATUS(fuge_body_sparse(N, column, bad, value, &body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_set_contact(body, 2, 1, TOUCH, OUTWARD), FUGE_DONE);
+  CHECK_STATUS(fuge_condense(body), FUGE_ERR_DOF);
+  fuge_body_message(body, message, sizeof message);
+  CHECK_CONTAINS(message, "row(4) = 6");
+  fuge_body_free(&body);
+  CHECK_STATUS(fuge_body_sparse(0, column, row, value, &body), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_sparse(N, NULL, row, value, &body), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_sparse(N, column, row, value, NULL), FUGE_ERR_POINTER);
+  CHECK(body == NULL);
+}
+#endif
+
+/* Between two stops, without supports: all of the load goes to one of them. */
+static void test_floating(void) {
+  double k[N * N], alpha[4], b[2], modes[2], w[1], gap[2], force[2], motion[1], u[N];
+  const double load[N] = {0, 3, 0, 0, 0}, ones[N] = {1, 1, 1, 1, 1}, normal[2] = {1.0, -1.0}, stops[2] = {0.5, 0.25};
+  const int ends[2] = {0, N - 1};
+  fuge_body *body = NULL;
+  fuge_operator *op = NULL;
+  fuge_solver *solver = NULL;
+
+  chain_dense(0, k);
+  CHECK_STATUS(fuge_body_dense(N, k, N, &body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_set_load(body, load), FUGE_DONE);
+  CHECK_STATUS(fuge_body_set_contact(body, 2, 1, ends, normal), FUGE_DONE);
+  for (int given = 0; given < 2; given++) {
+    int m = 0;
+    CHECK_STATUS(given ? fuge_body_set_modes(body, 1, ones) : fuge_body_find_modes(body), FUGE_DONE);
+    CHECK_STATUS(fuge_condense(body), FUGE_DONE);
+    CHECK_STATUS(fuge_body_get_motions(body, &m), FUGE_DONE);
+    CHECK_INT(m, 1);
+    if (m != 1) break;
+    CHECK_STATUS(fuge_body_get_influence(body, alpha, 2), FUGE_DONE);
+    CHECK_STATUS(fuge_body_get_displacement(body, b), FUGE_DONE);
+    CHECK_STATUS(fuge_body_get_modes(body, modes, w), FUGE_DONE);
+    CHECK_STATUS(fuge_body_get_modes(body, NULL, NULL), FUGE_DONE);
+    for (int i = 0; i < 2; i++) gap[i] = stops[i] + b[i];
+    CHECK_STATUS(fuge_operator_dense(2, alpha, 2, &op), FUGE_DONE);
+    CHECK_STATUS(fuge_solver_new(op, NULL, &solver), FUGE_DONE);
+    CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
+    CHECK_STATUS(fuge_set_modes(solver, m, modes, w), FUGE_DONE);
+    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+    fuge_get_force(solver, force);
+    fuge_get_rigid(solver, motion);
+    CHECK_NEAR(force[0], 0.0, 1e-13);
+    CHECK_NEAR(force[1], 3.0, 1e-13);
+    CHECK_STATUS(fuge_body_recover(body, force, NULL, u), FUGE_ERR_POINTER);
+    CHECK_STATUS(fuge_body_recover(body, force, motion, u), FUGE_DONE);
+    CHECK_NEAR(u[4], 0.25, 1e-13);
+    CHECK_NEAR(u[1], 4.75, 1e-13);
+    fuge_solver_free(&solver);
+    fuge_operator_free(&op);
+  }
+  fuge_body_free(&body);
+}
+
+static void test_supports(void) {
+  double k[N * N], b[1], alpha[1];
+  const int ends[2] = {0, N - 1}, middle = 2, bad[2] = {0, N};
+  const double pulled[2] = {-4.0, 8.0}, one = 1.0;
+  char message[256];
+  fuge_body *body = NULL;
+
+  chain_dense(0, k);
+  CHECK_STATUS(fuge_body_dense(N, k, N, &body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_set_contact(body, 1, 1, &middle, &one), FUGE_DONE);
+  CHECK_STATUS(fuge_condense(body), FUGE_ERR_NOT_DEFINITE);
+  fuge_body_message(body, message, sizeof message);
+  CHECK_CONTAINS(message, "degree of freedom 5");
+  CHECK_STATUS(fuge_body_fix(body, 2, bad, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_condense(body), FUGE_ERR_DOF);
+  fuge_body_message(body, message, sizeof message);
+  CHECK_CONTAINS(message, "fixed(2) = 6");
+  CHECK_STATUS(fuge_body_fix(body, 2, ends, pulled), FUGE_DONE);
+  CHECK_STATUS(fuge_condense(body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_get_displacement(body, b), FUGE_DONE);
+  CHECK_NEAR(b[0], 2.0, 1e-13);
+  CHECK_STATUS(fuge_body_get_influence(body, alpha, 1), FUGE_DONE);
+  CHECK_NEAR(alpha[0], 0.5, 1e-14);
+  /* Without them it floats again. */
+  CHECK_STATUS(fuge_body_fix(body, 0, NULL, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_body_get_displacement(body, b), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_condense(body), FUGE_ERR_NOT_DEFINITE);
+  k[1] = 3.0;
+  CHECK_STATUS(fuge_condense(body), FUGE_ERR_NOT_SYMMETRIC);
+  fuge_body_message(body, message, sizeof message);
+  CHECK_CONTAINS(message, "stiffness(1,2)");
+  fuge_body_free(&body);
+}
+
+static void test_bad_calls(void) {
+  double k[N * N], x[N] = {0};
+  const int dof = 0;
+  fuge_body *body = NULL;
+
+  chain_dense(1, k);
+  CHECK_STATUS(fuge_body_dense(0, k, N, &body), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_dense(N, k, N - 1, &body), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_dense(N, NULL, N, &body), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_dense(N, k, N, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_band(N, -1, k, 2, 1, &body), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_band(N, 2, k, 2, 1, &body), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_band(N, 1, NULL, 2, 1, &body), FUGE_ERR_POINTER);
+  CHECK(body == NULL);
+  CHECK_STATUS(fuge_body_dense(N, k, N, &body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_fix(body, -1, &dof, NULL), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_fix(body, 1, NULL, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_set_load(body, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_set_modes(body, -1, x), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_set_modes(body, 1, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_set_contact(body, 0, 1, &dof, x), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_set_contact(body, 1, 1, NULL, x), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_condense(body), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_recover(body, x, x, x), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_condense(NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_find_modes(NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_message(body, NULL, 0), FUGE_ERR_POINTER);
+  fuge_body_free(&body);
+}
+
+int main(void) {
+  test_dense_and_band();
+#ifdef HAVE_SPARSE
+  test_sparse();
+#endif
+  test_floating();
+  test_supports();
+  test_bad_calls();
+  return check_summary();
+}
