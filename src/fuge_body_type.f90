@@ -44,8 +44,8 @@ contains
     integer, intent(in) :: degrees
     type(fuge_info), intent(inout) :: info
 
-    if (body%floats .and. allocated(body%modes)) call report(info, FUGE_ERR_OPTION, 'the body has modes and floats is ' &
-      //'set: either give the rigid motions or have them looked for')
+    if (body%floats .and. allocated(body%modes)) call report(info, FUGE_ERR_OPTION, 'the body has modes, and floats ' &
+      //'is set: either give the rigid motions or have them looked for')
     if (.not. info%failed()) call check_supports(body, degrees, info)
     if (info%failed()) return
     if (allocated(body%load)) call check_load_field(body%load, degrees, info)
@@ -76,8 +76,8 @@ contains
     if (.not. allocated(body%fixed)) return
     if (allocated(body%displacement)) then
       if (size(body%displacement) /= size(body%fixed)) then
-        call report(info, FUGE_ERR_SIZE, 'displacement has '//text(size(body%displacement))//' value(s): it needs one for ' &
-                    //'each of '//text(size(body%fixed))//' fixed degrees of freedom')
+        call report(info, FUGE_ERR_SIZE, 'displacement has '//text(size(body%displacement))//' value(s): it needs ' &
+                    //'one for each of '//text(size(body%fixed))//' fixed degrees of freedom')
       else
         call check_finite(body%displacement, 'displacement', info)
       end if

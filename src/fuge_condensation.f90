@@ -393,7 +393,8 @@ contains
           made%modes(i, j) = -moved(made%body%dof(:, i), made%body%normal(:, i), made%motions(:, j))
         end do
       end do
-      call split_motions(made%motions, made%modes, made%scale, softness(made%body, made%scale), felt, made%sliding, stat)
+      call split_motions(made%motions, made%modes, made%scale, softness(made%body, made%scale), felt, made%sliding, &
+                         stat)
     end if
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of the contact points')
@@ -459,11 +460,13 @@ contains
     if (.not. allocated(made%sliding)) return
     do k = 1, size(made%sliding, 2)
       work = dot_product(made%sliding(:, k), load)
-      parts = maxval(abs(made%sliding(:, k))*made%scale)*maxval(abs(load)/max(made%scale, tiny(1.0_dp)), made%scale > 0.0_dp)
+      parts = maxval(abs(made%sliding(:, k))*made%scale) &
+        *maxval(abs(load)/max(made%scale, tiny(1.0_dp)), made%scale > 0.0_dp)
       j = maxloc(abs(made%sliding(:, k))*made%scale, 1)
       if (abs(work) > STILL*parts) then
-        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point and most of ' &
-                    //'all degree of freedom '//text(j)//': no contact force can hold it; fix one, or balance the load')
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point and ' &
+                    //'most of all degree of freedom '//text(j)//': no contact force can hold it; fix one, or ' &
+                    //'balance the load')
         return
       end if
     end do

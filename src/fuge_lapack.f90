@@ -4,8 +4,8 @@ module fuge_lapack
   implicit none
   private
 
-  public :: dgelsy, dgemv, dgeqp3, dgesv, dgesvd, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsyrk, dsytrf, dsytrs, &
-    dtrsm, dtrsv
+  public :: dgelsy, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsyrk, dsytrf, &
+    dsytrs, dtrsm, dtrsv
 
   interface
     !> Least squares, or the shortest of several solutions, by pivoted orthogonal factors.
@@ -35,16 +35,6 @@ module fuge_lapack
       real(dp), intent(inout) :: a(lda, *), b(ldb, *)
       integer, intent(out) :: ipiv(*), info
     end subroutine dgesv
-
-    !> Singular values and vectors, A = U S V^T.
-    subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
-      import :: dp
-      character(len=1), intent(in) :: jobu, jobvt
-      integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
-      real(dp), intent(inout) :: a(lda, *)
-      real(dp), intent(out) :: s(*), u(ldu, *), vt(ldvt, *), work(*)
-      integer, intent(out) :: info
-    end subroutine dgesvd
 
     !> The first columns of Q from its reflections.
     subroutine dorgqr(m, n, k, a, lda, tau, work, lwork, info)

@@ -52,8 +52,9 @@ contains
     if (status /= 0) then
       call report(info, status, 'no memory for the factor of the stiffness matrix')
     else if (pivot <= 0.0_dp) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive semidefinite: a motion of degree ' &
-                  //'of freedom '//text(weakest)//' gains energy; look for wrong signs or elements turned inside out')
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive semidefinite: a motion of ' &
+                  //'degree of freedom '//text(weakest)//' gains energy; look for wrong signs or elements turned ' &
+                  //'inside out')
     end if
     if (info%failed()) return
     width = min(FIRST_BLOCK, free)
@@ -195,8 +196,8 @@ contains
       j = maxloc(abs(motions(:, k))*scale, 1, fixed)
       if (j > 0) then
         if (abs(motions(j, k))*scale(j) > RANK_TOLERANCE*maxval(abs(motions(:, k))*scale)) then
-          call report(info, FUGE_ERR_MODES, 'mode '//text(k)//' moves degree of freedom '//text(j)//', which is fixed: ' &
-                      //'a rigid motion leaves the supports at rest')
+          call report(info, FUGE_ERR_MODES, 'mode '//text(k)//' moves degree of freedom '//text(j)//', which is ' &
+                      //'fixed: a rigid motion leaves the supports at rest')
           return
         end if
       end if
@@ -212,7 +213,8 @@ contains
   !> Choose for each motion a degree of freedom to pin, so that none is left: the pivots of
   !> the scaled motions.
   !>
-  !> `scale` is s, zero where fixed; `pins` (m). Errors: FUGE_ERR_MODES where motions depend on each other, FUGE_ERR_MEMORY.
+  !> `scale` is s, zero where fixed; `pins` (m). Errors: FUGE_ERR_MODES where motions depend
+  !> on each other, FUGE_ERR_MEMORY.
   subroutine choose_pins(scale, motions, pins, info)
     real(dp), intent(in) :: scale(:), motions(:, :)
     integer, allocatable, intent(out) :: pins(:)
@@ -239,8 +241,8 @@ contains
     call dgeqp3(m, n, rows, m, order, tau, work, size(work), stat)
     k = min(m, n)
     if (m > n .or. .not. abs(rows(k, k)) > RANK_TOLERANCE*abs(rows(1, 1))) then
-      call report(info, FUGE_ERR_MODES, 'the '//text(m)//' modes of the body depend on each other, or one moves nothing: ' &
-                  //'leave out what the others make up')
+      call report(info, FUGE_ERR_MODES, 'the '//text(m)//' modes of the body depend on each other, or one moves ' &
+                  //'nothing: leave out what the others make up')
       return
     end if
     pins = order(:m)

@@ -49,7 +49,8 @@ contains
     if (.not. abs(above - below) > 0.0_dp) return
     if (abs(above - below) <= SYMMETRY_TOLERANCE*sqrt(abs(diagonal_i))*sqrt(abs(diagonal_j))) return
     call report(info, FUGE_ERR_NOT_SYMMETRIC, place(i, j)//' = '//text(above)//' and '//place(j, i)//' = ' &
-                //text(below)//' differ: a stiffness matrix is symmetric; if that is rounding, pass (K + transpose(K))/2')
+                //text(below)//' differ: a stiffness matrix is symmetric; if that is rounding, pass (K + ' &
+                //'transpose(K))/2')
   end subroutine check_pair
 
   pure function place(i, j)

@@ -406,7 +406,8 @@ contains
     call c_f_pointer(body, handle)
     status = FUGE_ERR_CALL_ORDER
     if (handle%done) status = FUGE_DONE
-    if (.not. handle%done) handle%message = 'nothing has been condensed since the data were set: call fuge_condense first'
+    if (.not. handle%done) handle%message = 'nothing has been condensed since the data were set: call ' &
+      //'fuge_condense first'
   end subroutine find_condensed
 
   !> Keep the message; what has been condensed no longer fits once data were taken.

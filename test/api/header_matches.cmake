@@ -54,7 +54,7 @@ function(require_same what in_header in_fortran)
 endfunction()
 
 file(GLOB modules "${SOURCES}/*.f90")
-file(GLOB bindings "${SOURCES}/api/*.f90" "${SOURCES}/sparse/fuge_c_*.f90")
+file(GLOB bindings "${SOURCES}/api/*.f90" "${SOURCES}/../sparse/fuge_c_*.f90")
 get_filename_component(folder "${HEADER}" DIRECTORY)
 file(GLOB headers "${folder}/*.h")
 read_sources(header ${headers})

@@ -146,7 +146,7 @@ contains
     real(dp), intent(in) :: stiffness(:, :), gap(:), u(:)
     type(fuge_body), intent(in) :: body
     type(fuge_solution), intent(in) :: solution
-    real(dp) :: violation, left(size(u)), open(size(gap)), force_scale, length_scale
+    real(dp) :: violation, left(size(u)), opening(size(gap)), force_scale, length_scale
     integer :: i, k
 
     left = matmul(stiffness, u)
@@ -157,17 +157,17 @@ contains
     length_scale = max(maxval(abs(gap)), maxval(abs(u)))
     if (allocated(body%load)) left = left - body%load
     do i = 1, size(gap)
-      open(i) = gap(i)
+      opening(i) = gap(i)
       do k = 1, size(body%dof, 1)
         if (body%dof(k, i) < 1) cycle
         left(body%dof(k, i)) = left(body%dof(k, i)) - body%normal(k, i)*solution%force(i)
-        open(i) = open(i) + body%normal(k, i)*u(body%dof(k, i))
+        opening(i) = opening(i) + body%normal(k, i)*u(body%dof(k, i))
       end do
     end do
     if (allocated(body%fixed)) left(body%fixed) = 0.0_dp
-    violation = max(maxval(abs(left))/force_scale, -minval(open)/length_scale, -minval(solution%force)/force_scale, &
-                    maxval(solution%force/force_scale*abs(open)/length_scale), &
-                    maxval(abs(open - solution%gap))/length_scale)
+    violation = max(maxval(abs(left))/force_scale, -minval(opening)/length_scale, -minval(solution%force)/force_scale, &
+                    maxval(solution%force/force_scale*abs(opening)/length_scale), &
+                    maxval(abs(opening - solution%gap))/length_scale)
   end function contact_violation
 
 end module small_bodies

@@ -117,7 +117,8 @@ contains
 
     n = size(column) - 1
     if (n < 1) then
-      call report(info, FUGE_ERR_SIZE, 'column has '//text(n + 1)//' value(s): it needs one more than there are columns')
+      call report(info, FUGE_ERR_SIZE, 'column has '//text(n + 1)//' value(s): it needs one more than there are ' &
+                  //'columns')
       return
     else if (column(1) /= 1) then
       call report(info, FUGE_ERR_SIZE, 'column(1) = '//text(column(1))//': columns and rows count from 1')
@@ -411,10 +412,10 @@ contains
     class(sparse_factor), intent(in) :: self
     real(dp), intent(inout), contiguous :: block(:, :)
     integer, intent(out) :: status
+    integer(c_int) :: outcome
 
-    status = FUGE_DONE
-    if (cholmod_solve(self%cholmod, int(size(block, 1), c_int), int(size(block, 2), c_int), block) /= 0) &
-      status = FUGE_ERR_MEMORY
+    outcome = cholmod_solve(self%cholmod, int(size(block, 1), c_int), int(size(block, 2), c_int), block)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, outcome == 0)
   end subroutine solve
 
   subroutine release(self)
