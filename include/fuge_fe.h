@@ -60,6 +60,11 @@ int fuge_body_set_load(fuge_body *body, const double *load);
 int fuge_body_set_modes(fuge_body *body, int m, const double *modes);
 int fuge_body_find_modes(fuge_body *body);
 
+/* Rigid motions of nodes in the plane or in space, from their places: position is
+ * dimensions x nodes, modes (dimensions*nodes) x 3 or x 6: translations, then rotations
+ * about the centre of the nodes.  FUGE_ERR_SIZE unless dimensions is 2 or 3, nodes > 0. */
+int fuge_rigid_modes(int dimensions, int nodes, const double *position, double *modes);
+
 /* n contact points of `width` degrees of freedom each; see above. */
 int fuge_body_set_contact(fuge_body *body, int n, int width, const int *dof, const double *normal);
 

@@ -15,7 +15,7 @@
 module fuge_condensation
   use fuge_body_type, only: fuge_body, check_body, check_load_field
   use fuge_contact_points, only: add_force, add_contact_forces, moved, softness
-  use fuge_felt_motions, only: split_motions, STILL
+  use fuge_felt_motions, only: split_motions
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_rigid_motions, only: find_motions, check_motions, choose_pins, unit_at_pins
@@ -56,6 +56,9 @@ module fuge_condensation
     real(dp), allocatable, private :: scale(:)
     !> Z of `modes`, and those motions that move no contact point, (degrees, ..).
     real(dp), allocatable, private :: motions(:, :), sliding(:, :)
+    !> Motions of the contact points below this fraction of the body's are none, and so are
+    !> loads that drive them.
+    real(dp), private :: still = 1.0e-8_dp
     !> u_p, (degrees).
     real(dp), allocatable, private :: by_load(:)
   contains
@@ -245,6 +248,7 @@ contains
     type(fuge_condensed), intent(inout) :: made
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: free_scale(:)
+    real(dp) :: error
     integer, allocatable :: pins(:)
     integer :: degrees, stat
 
@@ -261,7 +265,8 @@ contains
     if (info%failed()) return
     free_scale = merge(0.0_dp, made%scale, made%held)
     if (made%body%floats) then
-      call find_motions(made%stiffness, made%held, free_scale, made%motions, info)
+      call find_motions(made%stiffness, made%held, free_scale, made%motions, error, info)
+      made%still = max(made%still, 10.0_dp*error)
     else if (allocated(made%body%modes)) then
       call check_motions(made%stiffness, made%held, made%scale, made%body%modes, info)
       if (.not. info%failed()) made%motions = made%body%modes
@@ -393,8 +398,8 @@ contains
           made%modes(i, j) = -moved(made%body%dof(:, i), made%body%normal(:, i), made%motions(:, j))
         end do
       end do
-      call split_motions(made%motions, made%modes, made%scale, softness(made%body, made%scale), felt, made%sliding, &
-                         stat)
+      call split_motions(made%motions, made%modes, made%scale, softness(made%body, made%scale), made%still, felt, &
+                         made%sliding, stat)
     end if
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of the contact points')
@@ -463,7 +468,7 @@ contains
       parts = maxval(abs(made%sliding(:, k))*made%scale) &
         *maxval(abs(load)/max(made%scale, tiny(1.0_dp)), made%scale > 0.0_dp)
       j = maxloc(abs(made%sliding(:, k))*made%scale, 1)
-      if (abs(work) > STILL*parts) then
+      if (abs(work) > made%still*parts) then
         call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point and ' &
                     //'most of all degree of freedom '//text(j)//': no contact force can hold it; fix one, or ' &
                     //'balance the load')
@@ -487,6 +492,7 @@ contains
     call move_alloc(made%motions, condensed%motions)
     call move_alloc(made%sliding, condensed%sliding)
     call move_alloc(made%by_load, condensed%by_load)
+    condensed%still = made%still
     condensed%body = made%body
   end subroutine take
 

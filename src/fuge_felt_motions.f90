@@ -7,10 +7,6 @@ module fuge_felt_motions
 
   public :: split_motions
 
-  !> Motions of the contact points below this fraction of the body's are none, and so are
-  !> loads that drive them.
-  real(dp), parameter, public :: STILL = 1.0e-8_dp
-
 contains
 
   !> Which motions the contact points feel, one independent of the other; of the rest
@@ -19,9 +15,10 @@ contains
   !>
   !> `motions` (degrees, m) move the body, `modes` (n, m) its contact points; `scale` of the
   !> degrees of freedom and `softness` of the points make both free of units.
+  !> A motion of the points below `still` of the body's is none.
   !> `sliding` (degrees, m - count(felt)). `stat` is not zero without memory.
-  subroutine split_motions(motions, modes, scale, softness, felt, sliding, stat)
-    real(dp), intent(in) :: motions(:, :), modes(:, :), scale(:), softness(:)
+  subroutine split_motions(motions, modes, scale, softness, still, felt, sliding, stat)
+    real(dp), intent(in) :: motions(:, :), modes(:, :), scale(:), softness(:), still
     logical, intent(out) :: felt(:)
     real(dp), allocatable, intent(out) :: sliding(:, :)
     integer, intent(out) :: stat
@@ -43,7 +40,7 @@ contains
     call dgeqp3(n, m, r, n, order, tau, work, size(work), stat)
     rank = 0
     do k = 1, min(m, n)
-      if (abs(r(k, k)) > STILL) rank = k
+      if (abs(r(k, k)) > still) rank = k
     end do
     felt(order(rank + 1:)) = .false.
     ! z_k - z_1 R_1^-1 R_2 for each motion k beyond the rank.

@@ -22,8 +22,11 @@ module fuge_rigid_motions
   integer, parameter :: SWEEPS = 5
   !> Motions sought at first; one body has six, and something elastic should be among them.
   integer, parameter :: FIRST_BLOCK = 8
-  !> A stiffness below so many roundings is none, one below the second cannot be told from it.
-  real(dp), parameter :: NO_STIFFNESS = 20.0_dp*epsilon(1.0_dp), SOME_STIFFNESS = 100.0_dp*NO_STIFFNESS
+  !> A stiffness below so many roundings is none.
+  real(dp), parameter :: NO_STIFFNESS = 20.0_dp*epsilon(1.0_dp)
+  !> What is softest of the elastic motions is mixed into those found in the ratio of
+  !> NO_STIFFNESS to its stiffness, because K itself is rounded; so much is too much.
+  real(dp), parameter :: LARGEST_ERROR = 1.0e-4_dp
   !> Largest force that a given motion may meet, relative to its parts.
   real(dp), parameter :: MOTION_TOLERANCE = 1.0e-8_dp
   !> Below, given motions depend on each other.
@@ -34,19 +37,22 @@ contains
   !> Find all motions without stiffness that leave `fixed` at rest: subspace iteration with
   !> the inverse of K + SHIFT diag(K), until an elastic one turns up.
   !>
-  !> `scale` is s, zero where fixed; `motions` (degrees, number found). Errors: FUGE_ERR_NOT_DEFINITE where K resists a
+  !> `scale` is s, zero where fixed; `motions` (degrees, number found), with a relative
+  !> error of about `error`. Errors: FUGE_ERR_NOT_DEFINITE where K resists a
   !> motion negatively, or so little that it may be rounding; FUGE_ERR_MEMORY.
-  subroutine find_motions(stiffness, fixed, scale, motions, info)
+  subroutine find_motions(stiffness, fixed, scale, motions, error, info)
     class(fuge_stiffness), intent(in) :: stiffness
     logical, intent(in) :: fixed(:)
     real(dp), intent(in) :: scale(:)
     real(dp), allocatable, intent(out) :: motions(:, :)
+    real(dp), intent(out) :: error
     type(fuge_info), intent(inout) :: info
     class(stiffness_factor), allocatable :: factor
     real(dp), allocatable :: y(:, :), quotient(:), noise(:)
     real(dp) :: pivot
     integer :: found, free, status, width, weakest
 
+    error = 0.0_dp
     free = count(.not. fixed)
     call stiffness%factorise(fixed, SHIFT, factor, pivot, weakest, status)
     if (status /= 0) then
@@ -68,9 +74,10 @@ contains
       if (found < width .or. width == free) exit
       width = min(2*width, free)
     end do
-    if (count(quotient <= SOME_STIFFNESS*noise) > found) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'a motion of the body is so soft (' &
-                  //text(quotient(found + 1))//' of the diagonal) that it may be a rigid one in rounding: give the ' &
+    if (found < width .and. found > 0) error = NO_STIFFNESS*noise(1)/quotient(found + 1)
+    if (error > LARGEST_ERROR) then
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the body floats, and an elastic motion is so soft (' &
+                  //text(quotient(found + 1))//' of the diagonal) that rigid ones are hard to tell from it: give the ' &
                   //'rigid motions as modes')
       return
     end if

@@ -4,6 +4,7 @@ module fuge_c_body
   use fuge_body_type, only: fuge_body
   use fuge_c_types, only: copy_string, copy_reals, copy_integers
   use fuge_condensation, only: fuge_condense, fuge_condensed
+  use fuge_node_motions, only: fuge_rigid_modes
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_MESSAGE_LENGTH
@@ -252,6 +253,22 @@ contains
     handle%body%floats = .true.
     status = settle(handle, info)
   end function c_body_find_modes
+
+  function c_rigid_modes(dimensions, nodes, position, modes) bind(c, name='fuge_rigid_modes') result(status)
+    integer(c_int), intent(in), value :: dimensions, nodes
+    type(c_ptr), intent(in), value :: position, modes
+    integer(c_int) :: status
+    real(c_double), pointer :: places(:, :), motions(:, :)
+
+    status = FUGE_ERR_SIZE
+    if (dimensions < 2 .or. dimensions > 3 .or. nodes < 1) return
+    status = FUGE_ERR_POINTER
+    if (.not. (c_associated(position) .and. c_associated(modes))) return
+    call c_f_pointer(position, places, [dimensions, nodes])
+    call c_f_pointer(modes, motions, [int(dimensions)*int(nodes), 3*int(dimensions) - 3])
+    motions = fuge_rigid_modes(places)
+    status = FUGE_DONE
+  end function c_rigid_modes
 
   function c_body_set_contact(body, n, width, dof, normal) bind(c, name='fuge_body_set_contact') result(status)
     type(c_ptr), intent(in), value :: body, dof, normal

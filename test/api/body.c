@@ -142,6 +142,27 @@ static void test_floating(void) {
   fuge_body_free(&body);
 }
 
+static void test_rigid_modes(void) {
+  const double square[8] = {1, 1, 3, 1, 1, 3, 3, 3}, cube[6] = {0, 0, 0, 2, 4, 6};
+  double plane[24], space[36];
+
+  CHECK_STATUS(fuge_rigid_modes(2, 4, square, plane), FUGE_DONE);
+  for (int node = 0; node < 4; node++) {
+    CHECK_NEAR(plane[2 * node], 1.0, 0.0);
+    CHECK_NEAR(plane[8 + 2 * node + 1], 1.0, 0.0);
+    CHECK_NEAR(plane[16 + 2 * node], 2.0 - square[2 * node + 1], 0.0);
+    CHECK_NEAR(plane[16 + 2 * node + 1], square[2 * node] - 2.0, 0.0);
+  }
+  CHECK_STATUS(fuge_rigid_modes(3, 2, cube, space), FUGE_DONE);
+  /* About x, the second node moves by (0, -z, y) from the centre. */
+  CHECK_NEAR(space[3 * 6 + 3], 0.0, 0.0);
+  CHECK_NEAR(space[3 * 6 + 4], -3.0, 0.0);
+  CHECK_NEAR(space[3 * 6 + 5], 2.0, 0.0);
+  CHECK_STATUS(fuge_rigid_modes(1, 2, cube, space), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_rigid_modes(2, 0, cube, space), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_rigid_modes(2, 2, NULL, space), FUGE_ERR_POINTER);
+}
+
 static void test_supports(void) {
   double k[N * N], b[1], alpha[1];
   const int ends[2] = {0, N - 1}, middle = 2, bad[2] = {0, N};
@@ -212,6 +233,7 @@ int main(void) {
   test_sparse();
 #endif
   test_floating();
+  test_rigid_modes();
   test_supports();
   test_bad_calls();
   return check_summary();
