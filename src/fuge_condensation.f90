@@ -14,12 +14,13 @@
 !> as sliding along a flat one, is left out; nothing may drive it.
 module fuge_condensation
   use fuge_body_type, only: fuge_body, check_body, check_load_field
-  use fuge_contact_points, only: add_force, add_contact_forces, moved, softness
+  use fuge_contact_points, only: add_force, add_contact_forces, check_free_points, moved, &
+    softness
   use fuge_felt_motions, only: split_motions
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_rigid_motions, only: find_motions, check_motions, choose_pins, unit_at_pins
-  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_DOF, &
+  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_DONE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   use fuge_text, only: text
@@ -65,6 +66,7 @@ module fuge_condensation
     procedure :: pose
     procedure :: recover
     procedure :: set_load
+    procedure :: clear
   end type fuge_condensed
 
 contains
@@ -103,10 +105,12 @@ contains
     if (.not. info%failed()) call find_alpha(made, info)
     if (.not. info%failed()) call find_modes(made, info)
     if (.not. info%failed()) call apply_load(made, info)
-    if (info%failed()) return
-    info%status = warning%status
-    info%message = warning%message
-    call take(made, condensed)
+    if (.not. info%failed()) then
+      info%status = warning%status
+      info%message = warning%message
+      call take(made, condensed)
+    end if
+    call made%clear()
   end subroutine fuge_condense
 
   !> Another external load on the same body: `displacement` and `resultant` follow, with one
@@ -189,6 +193,15 @@ contains
     call find_residual(self, solution, u, info)
   end subroutine recover
 
+  !> Give back the stiffness and its factor, by far the most of the memory; alpha and what
+  !> else can be read stay. Done by itself when the variable ends, but not by flang 22.
+  subroutine clear(self)
+    class(fuge_condensed), intent(inout) :: self
+
+    if (allocated(self%stiffness)) deallocate (self%stiffness)
+    if (allocated(self%factor)) deallocate (self%factor)
+  end subroutine clear
+
   !> Does the solution belong here?
   pure subroutine check_recovery(self, solution, degrees, info)
     class(fuge_condensed), intent(in) :: self
@@ -261,7 +274,7 @@ contains
     made%held = .false.
     if (allocated(made%body%fixed)) made%held(made%body%fixed) = .true.
     call find_scale(made, info)
-    if (.not. info%failed()) call check_free_points(made, info)
+    if (.not. info%failed()) call check_free_points(made%body, made%held, info)
     if (info%failed()) return
     free_scale = merge(0.0_dp, made%scale, made%held)
     if (made%body%floats) then
@@ -299,26 +312,6 @@ contains
       end if
     end do
   end subroutine find_scale
-
-  !> Refuse a contact point all of whose degrees of freedom are fixed.
-  pure subroutine check_free_points(made, info)
-    type(fuge_condensed), intent(in) :: made
-    type(fuge_info), intent(inout) :: info
-    integer :: i, k
-    logical :: moves
-
-    do i = 1, size(made%body%dof, 2)
-      moves = .false.
-      do k = 1, size(made%body%dof, 1)
-        if (made%body%dof(k, i) < 1) cycle
-        moves = moves .or. (abs(made%body%normal(k, i)) > 0.0_dp .and. .not. made%held(made%body%dof(k, i)))
-      end do
-      if (moves) cycle
-      call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//' is held by the supports in the direction of its ' &
-                  //'force: leave it out, or free degree of freedom '//text(maxval(made%body%dof(:, i))))
-      return
-    end do
-  end subroutine check_free_points
 
   !> Factorise what is free; refuse a body that still floats, and warn if it nearly does.
   subroutine factorise(made, info)
@@ -481,6 +474,7 @@ contains
   subroutine take(made, condensed)
     type(fuge_condensed), intent(inout) :: made, condensed
 
+    call condensed%clear()
     call move_alloc(made%alpha, condensed%alpha)
     call move_alloc(made%displacement, condensed%displacement)
     call move_alloc(made%modes, condensed%modes)

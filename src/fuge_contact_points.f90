@@ -2,10 +2,12 @@
 module fuge_contact_points
   use fuge_body_type, only: fuge_body
   use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF
+  use fuge_text, only: text
   implicit none
   private
 
-  public :: add_contact_forces, add_force, moved, softness
+  public :: add_contact_forces, add_force, check_free_points, moved, softness
 
 contains
 
@@ -61,5 +63,26 @@ contains
       end do
     end do
   end function softness
+
+  !> Refuse a contact point all of whose degrees of freedom are held (FUGE_ERR_DOF).
+  pure subroutine check_free_points(body, held, info)
+    type(fuge_body), intent(in) :: body
+    logical, intent(in) :: held(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: i, k
+    logical :: moves
+
+    do i = 1, size(body%dof, 2)
+      moves = .false.
+      do k = 1, size(body%dof, 1)
+        if (body%dof(k, i) < 1) cycle
+        moves = moves .or. (abs(body%normal(k, i)) > 0.0_dp .and. .not. held(body%dof(k, i)))
+      end do
+      if (moves) cycle
+      call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//' is held by the supports in the direction of its ' &
+                  //'force: leave it out, or free degree of freedom '//text(maxval(body%dof(:, i))))
+      return
+    end do
+  end subroutine check_free_points
 
 end module fuge_contact_points

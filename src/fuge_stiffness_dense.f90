@@ -167,7 +167,7 @@ contains
 
   !> Finite and symmetric; tile by tile, so that rows are read from the cache.
   pure subroutine check_matrix(matrix, info)
-    real(dp), intent(in) :: matrix(:, :)
+    real(dp), intent(in), contiguous :: matrix(:, :)
     type(fuge_info), intent(inout) :: info
     integer :: i, i0, j, j0, n
 

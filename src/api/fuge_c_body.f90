@@ -151,6 +151,7 @@ contains
     call c_f_pointer(slot, handle)
     ! Apart, because flang 22 would leak what an extension has allocated.
     if (allocated(handle%source)) deallocate (handle%source)
+    call handle%condensed%clear()
     deallocate (handle)
     slot = c_null_ptr
   end subroutine c_body_free
@@ -221,6 +222,7 @@ contains
     type(body_handle), pointer :: handle
     real(c_double), pointer :: motions(:, :)
     type(fuge_info) :: info
+    integer :: stat
 
     status = FUGE_ERR_POINTER
     if (.not. c_associated(body)) return
@@ -234,7 +236,9 @@ contains
       if (allocated(handle%body%modes)) deallocate (handle%body%modes)
       if (m > 0) then
         call c_f_pointer(modes, motions, [handle%degrees, int(m)])
-        handle%body%modes = motions
+        allocate (handle%body%modes(handle%degrees, m), stat=stat)
+        if (stat == 0) handle%body%modes = motions
+        if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(m))//' motions')
       end if
     end if
     status = settle(handle, info)
@@ -278,6 +282,7 @@ contains
     integer(c_int), pointer :: numbers(:, :)
     real(c_double), pointer :: directions(:, :)
     type(fuge_info) :: info
+    integer :: stat
 
     status = FUGE_ERR_POINTER
     if (.not. c_associated(body)) return
@@ -290,8 +295,14 @@ contains
     else
       call c_f_pointer(dof, numbers, [width, n])
       call c_f_pointer(normal, directions, [width, n])
-      handle%body%dof = int(numbers) + 1
-      handle%body%normal = directions
+      if (allocated(handle%body%dof)) deallocate (handle%body%dof, handle%body%normal)
+      allocate (handle%body%dof(width, n), handle%body%normal(width, n), stat=stat)
+      if (stat /= 0) then
+        call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(n))//' contact points')
+      else
+        handle%body%dof = int(numbers) + 1
+        handle%body%normal = directions
+      end if
     end if
     status = settle(handle, info)
   end function c_body_set_contact
