@@ -1,0 +1,95 @@
+!> The smallest finite element program: a wire under tension, held at both ends, pressed down
+!> by a parabola. doc/tutorial_fe.md explains its middle part.
+!>
+!> Linear elements of the length h under the tension T, y upwards. Beneath the parabola
+!> x**2/(2 R) the wire takes its curvature 1/R, outside it is straight: pressed by F, the
+!> half-width is a = F R/(2 T), nodes inside carry T h/R, the parabola comes down by
+!> a L/R - a**2/(2 R). Linear elements are exact at the nodes.
+program fe_wire
+  use fuge, only: dp, fuge_band_stiffness, fuge_body, fuge_condense, fuge_condensed, fuge_dense_operator, fuge_info, &
+    fuge_problem, fuge_solution, fuge_solver
+  implicit none
+
+  integer, parameter :: ELEMENTS = 40, NODES = ELEMENTS + 1
+  real(dp), parameter :: LENGTH = 1000.0_dp, TENSION = 500.0_dp, RADIUS = 2000.0_dp   ! mm, N; LENGTH is 2 L
+  real(dp), parameter :: H = LENGTH/real(ELEMENTS, dp), LOAD = 100.0_dp               ! mm, N
+
+  call run()
+
+contains
+
+  subroutine run()
+    real(dp), target :: stiffness(2, NODES)
+    real(dp) :: x(NODES), u(NODES)
+    integer :: k
+
+    x = [(H*real(k - 1, dp) - 0.5_dp*LENGTH, k=1, NODES)]
+    stiffness(1, :) = 2.0_dp*TENSION/H
+    stiffness(1, [1, NODES]) = TENSION/H
+    stiffness(2, :) = -TENSION/H
+    call press(stiffness, [(k, k=2, NODES - 1)], x(2:NODES - 1)**2/(2.0_dp*RADIUS), u)
+    call report(x, u)
+  end subroutine run
+
+  !> Press on the nodes `touching`, whose initial gaps are `gap`; u are all displacements.
+  subroutine press(stiffness, touching, gap, u)
+    real(dp), intent(in), target :: stiffness(:, :)
+    integer, intent(in) :: touching(:)
+    real(dp), intent(in) :: gap(:)
+    real(dp), intent(out) :: u(:)
+    type(fuge_band_stiffness) :: k
+    type(fuge_body) :: body
+    type(fuge_condensed), target :: condensed
+    type(fuge_dense_operator) :: alpha
+    type(fuge_problem) :: problem
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution
+    type(fuge_info) :: info
+    integer :: i, n
+
+    n = size(touching)
+    call k%set(stiffness, .false., info)                          ! lower triangle, as LAPACK stores it
+    body%fixed = [1, NODES]
+    body%dof = reshape(touching, [1, n])
+    body%normal = reshape([(-1.0_dp, i=1, n)], [1, n])            ! y upwards, pressed from above
+    if (.not. info%failed()) call fuge_condense(k, body, condensed, info)
+    if (.not. info%failed()) call condensed%pose(gap, problem, info)
+    problem%resultant = [LOAD]
+    if (.not. info%failed()) call alpha%set(condensed%alpha, info)
+    if (.not. info%failed()) call solver%solve(alpha, problem, solution, info)
+    if (.not. info%failed()) call condensed%recover(solution, u, info)
+    if (info%failed()) print '(a)', trim(info%message)
+    if (info%failed()) error stop 'the wire was not solved'
+    call check(solution, gap, u(touching))
+  end subroutine press
+
+  !> Gaps by the whole field; forces and approach by the exact solution.
+  subroutine check(solution, gap, u)
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: gap(:), u(:)
+    real(dp) :: half_width, approach, inside
+    integer :: pressed
+
+    half_width = LOAD*RADIUS/(2.0_dp*TENSION)
+    approach = 0.5_dp*half_width*(LENGTH - half_width)/RADIUS
+    inside = TENSION*H/RADIUS
+    pressed = count(solution%force > 0.0_dp)
+    print '(a,i12,a,f12.6,a)', 'nodes in contact', pressed, '    times spacing/2  ', 0.5_dp*H*real(pressed, dp), ' mm'
+    print '(a,f12.6,a)', 'half-width, exact', half_width, ' mm'
+    print '(a,f12.6,a,f12.6,a)', 'approach        ', solution%rigid(1), '    exact            ', approach, ' mm'
+    print '(a,f12.6,a,f12.6,a)', 'largest force   ', maxval(solution%force), '    inside, exact    ', inside, ' N'
+    if (maxval(abs(gap - u - solution%rigid(1) - solution%gap)) > 1.0e-10_dp*approach) &
+      error stop 'the displacements do not fit'
+    if (abs(solution%rigid(1) - approach) > H**2/RADIUS) error stop 'the approach is not the exact one'
+    if (abs(maxval(solution%force) - inside) > 1.0e-9_dp*inside) error stop 'the force is not the exact one'
+  end subroutine check
+
+  subroutine report(x, u)
+    real(dp), intent(in) :: x(:), u(:)
+    integer :: k
+
+    print '(/,a)', '     x [mm]     u [mm]'
+    print '(f11.1,f11.4)', (x(k), u(k), k=1, size(x), 5)
+  end subroutine report
+
+end program fe_wire
