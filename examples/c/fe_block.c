@@ -163,6 +163,12 @@ static int recover(const block *b, const double *force, const double *gap, doubl
 
 /* ---- the picture --------------------------------------------------------- */
 
+static FILE *create(const char *path) {
+  FILE *file = fopen(path, "w");
+  if (!file) perror(path);
+  return file;
+}
+
 static void write_node(FILE *file, const fe_mesh *m, int column, int row, const double *u) {
   fprintf(file, "%.6f %.6f %.6e %.6e\n", m->line[column], -m->line[row], u[fe_degree(m, column, row, 0)],
           u[fe_degree(m, column, row, 1)]);
@@ -170,7 +176,7 @@ static void write_node(FILE *file, const fe_mesh *m, int column, int row, const 
 
 /* x, y and their displacements along the columns, then along the rows. */
 static int write_mesh(const fe_mesh *m, const double *u) {
-  FILE *file = fopen("fe_block_mesh.dat", "w");
+  FILE *file = create("fe_block_mesh.dat");
   if (!file) return 1;
   for (int column = 0; column < m->lines; column++) {
     for (int row = 0; row < m->lines; row++) write_node(file, m, column, row, u);
@@ -186,7 +192,7 @@ static int write_mesh(const fe_mesh *m, const double *u) {
 
 /* Of the candidates: x, displacement along y, force; approach. */
 static int write_contact(const fe_mesh *m, const double *u, const double *force, double approach) {
-  FILE *file = fopen("fe_block_contact.dat", "w");
+  FILE *file = create("fe_block_contact.dat");
   if (!file) return 1;
   for (int k = 0; k < m->candidates; k++)
     fprintf(file, "%.6f %.6e %.6e %.6e\n", m->line[k], u[fe_degree(m, k, 0, 1)], force[k], approach);
@@ -218,15 +224,22 @@ static int solve_block(int elements, int doublings, int sides_held, int draw, bl
   return status;
 }
 
+/* More than the relative error that so many elements make. */
+static double element_error(int elements) { return 0.5 * pow(4.0 / (3.0 * elements), 2); }
+
 /* Where these elements lead on an endless block, from the last two. */
 static double endless(const block_result r[DOUBLINGS]) {
   return r[DOUBLINGS - 1].half_width + (r[DOUBLINGS - 1].half_width - r[DOUBLINGS - 2].half_width) / 3.0;
 }
 
-static int check_blocks(const block_result r[DOUBLINGS]) {
+static int check_blocks(const block_result r[DOUBLINGS], int elements) {
   double last = r[DOUBLINGS - 1].approach - r[DOUBLINGS - 2].approach;
+  if (fabs(endless(r) / exact_half_width() - 1.0) > element_error(elements)) {
+    fprintf(stderr, "an endless block is no half-plane\n");
+    return 1;
+  }
   for (int k = 1; k < DOUBLINGS; k++)
-    if (fabs(r[k].half_width - endless(r)) > 0.3 * fabs(r[k - 1].half_width - endless(r))) {
+    if (fabs(r[k].half_width - endless(r)) > 0.35 * fabs(r[k - 1].half_width - endless(r))) {
       fprintf(stderr, "the half-width does not go to that of an endless block\n");
       return 1;
     }
@@ -238,7 +251,7 @@ static int check_blocks(const block_result r[DOUBLINGS]) {
 /* Bottom held in r[0], sides too in r[1]. */
 static int print_blocks(block_result r[2][DOUBLINGS]) {
   double a = exact_half_width();
-  FILE *file = fopen("fe_block_size.csv", "w");
+  FILE *file = create("fe_block_size.csv");
   if (!file) return 1;
   puts("                             bottom held                              sides held too");
   puts("  W/a  degrees   a [mm]   by the block  approach    growth      a [mm]   by the block  approach");
@@ -264,7 +277,7 @@ static int grow_block(int elements, double *factor) {
       if (solve_block(elements, k + 1, held, held == 0 && k == 0, &r[held][k]) != FUGE_DONE) return 1;
   double a = exact_half_width();
   *factor = (r[0][3].half_width - endless(r[0])) / a * pow(r[0][3].width / a, 2);
-  return print_blocks(r) || check_blocks(r[0]) || check_blocks(r[1]);
+  return print_blocks(r) || check_blocks(r[0], elements) || check_blocks(r[1], elements);
 }
 
 /* ---- error by the elements ----------------------------------------------- */
@@ -316,29 +329,33 @@ static int find_errors(int elements, double factor, element_errors *e) {
   return status;
 }
 
+static int check_errors(int elements, const element_errors *e) {
+  if (fmax(e->block, fmax(e->halfplane, e->apart)) <= element_error(elements)) return 0;
+  fprintf(stderr, "the half-width is not as good as these elements can make it\n");
+  return 1;
+}
+
 /* coarser: NULL at first. */
-static int print_errors(int elements, const element_errors *e, const element_errors *coarser, FILE *file) {
+static void print_errors(int elements, const element_errors *e, const element_errors *coarser, FILE *file) {
   printf("%5d %16.4f %%", 3 * elements / 4, 100.0 * e->block);
   if (coarser) printf("%7.1f", log(coarser->block / e->block) / log(2.0));
   printf("%*.4f %%%14.4f %%\n", coarser ? 20 : 27, 100.0 * e->halfplane, 100.0 * e->apart);
   fprintf(file, "%d, %.6e, %.6e, %.6e\n", 3 * elements / 4, e->block, e->halfplane, e->apart);
-  if (!coarser || e->block <= 0.3 * coarser->block) return 0;
-  fprintf(stderr, "the half-width does not get better with the elements\n");
-  return 1;
 }
 
 static int refine(int finest, double factor) {
   element_errors now, before;
   int failed = 0;
-  FILE *file = fopen("fe_block_elements.csv", "w");
+  FILE *file = create("fe_block_elements.csv");
   if (!file) return 1;
   printf("\nThe elements shrink, the block has W/a = %.1f: largest error of a, wherever in an element\n",
          4.0 / 3.0 * pow(2.0, DOUBLINGS - 1));
   puts("the contact ends (the block's part taken off)");
   puts("  a/h   finite elements   order   half-plane, FUGE_HAT       apart");
   for (int elements = COARSEST; elements <= finest && !failed; elements *= 2) {
-    failed = find_errors(elements, factor, &now) != FUGE_DONE ||
-             print_errors(elements, &now, elements > COARSEST ? &before : NULL, file);
+    failed = find_errors(elements, factor, &now) != FUGE_DONE;
+    if (!failed) print_errors(elements, &now, elements > COARSEST ? &before : NULL, file);
+    failed = failed || check_errors(elements, &now);
     before = now;
   }
   return fclose(file) || failed;
