@@ -67,7 +67,7 @@ contains
   subroutine check(solution, gap, u)
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: gap(:), u(:)
-    real(dp) :: half_width, reached, approach, inside
+    real(dp) :: half_width, reached, approach, inside, apart
 
     half_width = LOAD*RADIUS/(2.0_dp*TENSION)
     approach = 0.5_dp*half_width*(LENGTH - half_width)/RADIUS
@@ -77,8 +77,8 @@ contains
     print '(a,2f12.6,a)', 'last node touching', reached, half_width, ' mm'
     print '(a,2f12.6,a)', 'approach          ', solution%rigid(1), approach, ' mm'
     print '(a,2f12.6,a)', 'largest force     ', maxval(solution%force), inside, ' N'
-    if (maxval(abs(gap - u - solution%rigid(1) - solution%gap)) > 1.0e-10_dp*approach) &
-      error stop 'the displacements do not fit'
+    apart = maxval(abs(gap - u - solution%rigid(1) - solution%gap))
+    if (apart > 1.0e-10_dp*approach) error stop 'the displacements do not fit'
     if (abs(reached - half_width) > H) error stop 'the contact is not the exact one'
     if (abs(solution%rigid(1) - approach) > H**2/RADIUS) error stop 'the approach is not the exact one'
     if (abs(maxval(solution%force) - inside) > 1.0e-9_dp*inside) error stop 'the force is not the exact one'
