@@ -54,8 +54,8 @@ module fuge_status
     'out of memory', &
     'the iteration limit was reached', &
     'no contact forces can be in equilibrium with this load', &
-    'the influence matrix is not positive definite on the forces', &
-    'the influence matrix is not symmetric', &
+    'the influence or stiffness matrix is not positive definite', &
+    'the influence or stiffness matrix is not symmetric', &
     'this element is not symmetric on this grid', &
     'unknown element', &
     'the elastic modulus is not positive', &

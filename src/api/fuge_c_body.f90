@@ -179,7 +179,7 @@ contains
       if (allocated(handle%body%displacement)) deallocate (handle%body%displacement)
     else
       call c_f_pointer(dof, numbers, [count])
-      handle%body%fixed = int(numbers) + 1
+      handle%body%fixed = from_zero(numbers)
       if (allocated(handle%body%displacement)) deallocate (handle%body%displacement)
       if (c_associated(displacement)) then
         call c_f_pointer(displacement, lengths, [count])
@@ -300,7 +300,7 @@ contains
       if (stat /= 0) then
         call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(n))//' contact points')
       else
-        handle%body%dof = int(numbers) + 1
+        handle%body%dof = from_zero(numbers)
         handle%body%normal = directions
       end if
     end if
@@ -421,6 +421,14 @@ contains
     call copy_string(handle%message, buffer, length)
     status = FUGE_DONE
   end function c_body_message
+
+  !> Degrees of freedom counted from 0 as Fortran counts them; too large ones stay so.
+  elemental function from_zero(number) result(dof)
+    integer(c_int), intent(in) :: number
+    integer :: dof
+
+    dof = min(int(number), huge(dof) - 1) + 1
+  end function from_zero
 
   !> The handle of a body that has been condensed, or why not.
   subroutine find_condensed(body, handle, status)

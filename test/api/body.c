@@ -1,4 +1,5 @@
 /* Section "condensation" of fuge.h. */
+#include <limits.h>
 #include "check.h"
 
 enum { N = 5 };
@@ -165,7 +166,7 @@ static void test_rigid_modes(void) {
 
 static void test_supports(void) {
   double k[N * N], b[1], alpha[1];
-  const int ends[2] = {0, N - 1}, middle = 2, bad[2] = {0, N};
+  const int ends[2] = {0, N - 1}, middle = 2, bad[2] = {0, N}, far = INT_MAX;
   const double pulled[2] = {-4.0, 8.0}, one = 1.0;
   char message[256];
   fuge_body *body = NULL;
@@ -180,6 +181,8 @@ static void test_supports(void) {
   CHECK_STATUS(fuge_condense(body), FUGE_ERR_DOF);
   fuge_body_message(body, message, sizeof message);
   CHECK_CONTAINS(message, "fixed(2) = 6");
+  CHECK_STATUS(fuge_body_fix(body, 1, &far, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_condense(body), FUGE_ERR_DOF);
   CHECK_STATUS(fuge_body_fix(body, 2, ends, pulled), FUGE_DONE);
   CHECK_STATUS(fuge_condense(body), FUGE_DONE);
   CHECK_STATUS(fuge_body_get_displacement(body, b), FUGE_DONE);
