@@ -1,0 +1,117 @@
+!> What the external procedures for FORTRAN 77 share: a general problem from plain arrays,
+!> and its solve.
+module fuge_legacy
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
+  use fuge_dense, only: fuge_dense_operator
+  use fuge_kinds, only: dp
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_OPTION
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: check_counts, pose_problem, hold_motions, solve_matrix
+
+  !> Stops at a point.
+  integer, parameter :: EXCLUDED = 0
+  integer, parameter :: ONE_SIDED = 1
+  integer, parameter :: TWO_SIDED = 2
+
+contains
+
+  !> Refuse impossible numbers of points and motions: FUGE_ERR_SIZE, and FUGE_ERR_MODES for
+  !> more motions than points, which cannot be independent.
+  pure subroutine check_counts(n, m, ldr, info)
+    integer, intent(in) :: n, m, ldr
+    type(fuge_info), intent(inout) :: info
+
+    if (n < 1) then
+      call report(info, FUGE_ERR_SIZE, 'N = '//text(n)//': at least one point is needed')
+    else if (m < 0) then
+      call report(info, FUGE_ERR_SIZE, 'M = '//text(m)//' is negative: it is the number of motions')
+    else if (m > n) then
+      call report(info, FUGE_ERR_MODES, text(m)//' motions of '//text(n)//' point(s) depend on each other: leave ' &
+                  //text(m - n)//' out')
+    else if (m > 0 .and. ldr < n) then
+      call report(info, FUGE_ERR_SIZE, 'LDR = '//text(ldr)//' is less than N = '//text(n))
+    end if
+  end subroutine check_counts
+
+  !> A problem with all motions free: `gap` (n), `stops` (n) as above, `play` (n) read only
+  !> where there are two stops, `modes` (ldr, m), ldr >= n, `resultant` (m).
+  !> Errors: FUGE_ERR_OPTION for other stops, FUGE_ERR_MEMORY.
+  pure subroutine pose_problem(gap, stops, play, modes, resultant, problem, info)
+    real(dp), intent(in) :: gap(:), play(:), modes(:, :), resultant(:)
+    integer, intent(in) :: stops(:)
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_info), intent(inout) :: info
+    integer :: m, n, stat
+
+    n = size(gap)
+    m = size(resultant)
+    call check_stops(stops, info)
+    if (info%failed()) return
+    allocate (problem%gap(n), problem%modes(n, m), problem%resultant(m), stat=stat)
+    if (stat == 0 .and. any(stops == EXCLUDED)) allocate (problem%excluded(n), stat=stat)
+    if (stat == 0 .and. any(stops == TWO_SIDED)) allocate (problem%gap_upper(n), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of gaps, stops and modes')
+      return
+    end if
+    problem%gap = gap
+    problem%modes = modes(:n, :)
+    problem%resultant = resultant
+    if (allocated(problem%excluded)) problem%excluded = stops == EXCLUDED
+    if (.not. allocated(problem%gap_upper)) return
+    problem%gap_upper = ieee_value(0.0_dp, ieee_positive_inf)
+    where (stops == TWO_SIDED) problem%gap_upper = play
+  end subroutine pose_problem
+
+  !> Prescribe the motions `motion` (m) where `held` (m) is not zero. Error: FUGE_ERR_MEMORY.
+  pure subroutine hold_motions(held, motion, problem, info)
+    integer, intent(in) :: held(:)
+    real(dp), intent(in) :: motion(:)
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (problem%prescribed(size(held)), problem%motion(size(held)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the prescribed motions')
+    else
+      problem%prescribed = held /= 0
+      problem%motion = motion
+    end if
+  end subroutine hold_motions
+
+  !> Solve for the matrix `alpha`, (n, n) or (lda, n), which is not copied. Errors as `set` of
+  !> `fuge_dense_operator` and `solve` of `fuge_solver`.
+  subroutine solve_matrix(alpha, problem, options, solution, info)
+    real(dp), intent(in), target :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_dense_operator) :: operator
+    type(fuge_solver) :: solver
+
+    call operator%set(alpha, info)
+    if (.not. info%failed()) call solver%solve(operator, problem, solution, info, options)
+  end subroutine solve_matrix
+
+  pure subroutine check_stops(stops, info)
+    integer, intent(in) :: stops(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    do k = 1, size(stops)
+      if (any(stops(k) == [EXCLUDED, ONE_SIDED, TWO_SIDED])) cycle
+      call report(info, FUGE_ERR_OPTION, 'NSTOP('//text(k)//') = '//text(stops(k))//': a point has 1 stop, or 2 ' &
+                  //'with play between them, or 0 if it takes no part')
+      return
+    end do
+  end subroutine check_stops
+
+end module fuge_legacy

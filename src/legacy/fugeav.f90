@@ -1,0 +1,26 @@
+!> FUGEAV, for callers without modules: the contact problem of one translation that is given.
+!> Arguments in doc/legacy.md; `alpha` is not copied.
+subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
+  use fuge_kinds, only: dp
+  use fuge_legacy, only: hold_motions, solve_matrix
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
+  use fuge_status, only: fuge_info
+  implicit none
+  integer, intent(in) :: n, lda
+  real(dp), intent(in) :: alpha(lda, n), gap(n), v0
+  real(dp), intent(inout) :: f(n), c(n), f0
+  integer, intent(out) :: info
+  type(fuge_problem) :: problem
+  type(fuge_solution) :: solution
+  type(fuge_info) :: found
+
+  call set_problem(gap, 0.0_dp, problem, found)
+  if (.not. found%failed()) call hold_motions([1], [v0], problem, found)
+  if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)
+  info = found%status
+  if (found%failed()) return
+  f = solution%force
+  c = solution%gap
+  f0 = sum(solution%force)
+end subroutine fugeav

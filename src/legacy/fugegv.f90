@@ -1,0 +1,26 @@
+!> FUGEGV, for callers without modules: general problems with rigid motions, two stops and
+!> points that take no part. Arguments in doc/legacy.md; `alpha` is not copied.
+subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
+  use fuge_kinds, only: dp
+  use fuge_legacy, only: check_counts, pose_problem, solve_matrix
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_status, only: fuge_info
+  implicit none
+  integer, intent(in) :: n, m, lda, ldr, nstop(n)
+  real(dp), intent(in) :: alpha(lda, n), gap(n), play(n), r(ldr, m), w(m)
+  real(dp), intent(inout) :: f(n), c(n), q(m)
+  integer, intent(out) :: info
+  type(fuge_problem) :: problem
+  type(fuge_solution) :: solution
+  type(fuge_info) :: found
+
+  call check_counts(n, m, ldr, found)
+  if (.not. found%failed()) call pose_problem(gap, nstop, play, r, w, problem, found)
+  if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)
+  info = found%status
+  if (found%failed()) return
+  f = solution%force
+  c = solution%gap
+  q = solution%rigid
+end subroutine fugegv

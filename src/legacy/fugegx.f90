@@ -1,0 +1,45 @@
+!> FUGEGX, for callers without modules: FUGEGV with prescribed motions and options, which
+!> gives the residual and the message too. Arguments in doc/legacy.md; `alpha` is not copied.
+subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, method, tol, maxit, &
+                  f, c, ncon, niter, resid, msg, info)
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+  use fuge_kinds, only: dp
+  use fuge_legacy, only: check_counts, hold_motions, pose_problem, solve_matrix
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_status, only: fuge_info
+  implicit none
+  integer, intent(in) :: n, m, lda, ldr, nstop(n), nheld(m), method, maxit
+  real(dp), intent(in) :: alpha(lda, n), gap(n), play(n), r(ldr, m), tol
+  real(dp), intent(inout) :: w(m), q(m), f(n), c(n), resid
+  integer, intent(inout) :: ncon, niter
+  character(len=*), intent(inout) :: msg
+  integer, intent(out) :: info
+  type(fuge_options) :: options
+  type(fuge_problem) :: problem
+  type(fuge_solution) :: solution
+  type(fuge_info) :: found
+
+  options%method = method
+  options%max_iterations = maxit
+  if (ieee_is_nan(tol)) then
+    ! Refused by the solver; a comparison might trap.
+    options%tolerance = tol
+  else if (tol > 0.0_dp) then
+    options%tolerance = tol
+  end if
+  call check_counts(n, m, ldr, found)
+  if (.not. found%failed()) call pose_problem(gap, nstop, play, r, w, problem, found)
+  if (.not. found%failed()) call hold_motions(nheld, q, problem, found)
+  if (.not. found%failed()) call solve_matrix(alpha, problem, options, solution, found)
+  info = found%status
+  msg = found%message
+  if (found%failed()) return
+  f = solution%force
+  c = solution%gap
+  where (nheld == 0) q = solution%rigid
+  where (nheld /= 0) w = matmul(solution%force, problem%modes)
+  ncon = found%contacts
+  niter = found%iterations
+  resid = found%residual
+end subroutine fugegx

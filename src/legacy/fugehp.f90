@@ -1,0 +1,16 @@
+!> FUGEHP, for callers without modules: the influence matrix of cells on a half-plane.
+!> Arguments in doc/legacy.md.
+subroutine fugehp(n, x, width, estar, nelem, nsym, alpha, lda, info)
+  use fuge_halfplane, only: fuge_halfplane_matrix
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info
+  implicit none
+  integer, intent(in) :: n, nelem, nsym, lda
+  real(dp), intent(in) :: x(n), width(n), estar
+  real(dp), intent(inout) :: alpha(lda, n)
+  integer, intent(out) :: info
+  type(fuge_info) :: found
+
+  call fuge_halfplane_matrix(x, width, estar, nelem, alpha, found, nsym /= 0)
+  info = found%status
+end subroutine fugehp
