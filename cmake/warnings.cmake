@@ -14,3 +14,13 @@ function(fuge_set_warnings target)
       "$<${is_gnu_fortran}:-Werror>" "$<${is_flang}:-Werror>" "$<${is_c}:-Werror>" "$<${is_cxx}:-Werror>")
   endif()
 endfunction()
+
+# fuge_set_legacy_warnings(target): FORTRAN 77 in fixed form, without interfaces.
+function(fuge_set_legacy_warnings target)
+  set(is_gnu_fortran "$<COMPILE_LANG_AND_ID:Fortran,GNU>")
+  set(is_flang "$<COMPILE_LANG_AND_ID:Fortran,LLVMFlang>")
+  target_compile_options(${target} PRIVATE "$<${is_gnu_fortran}:-std=legacy;-Wall;-Wextra>")
+  if(FUGE_WERROR)
+    target_compile_options(${target} PRIVATE "$<${is_gnu_fortran}:-Werror>" "$<${is_flang}:-Werror>")
+  endif()
+endfunction()

@@ -12,7 +12,7 @@ module fuge_legacy
   implicit none
   private
 
-  public :: check_counts, pose_problem, hold_motions, solve_matrix
+  public :: check_matrix, check_modes, pose_problem, hold_motions, solve_matrix
 
   !> Stops at a point.
   integer, parameter :: EXCLUDED = 0
@@ -21,23 +21,34 @@ module fuge_legacy
 
 contains
 
-  !> Refuse impossible numbers of points and motions: FUGE_ERR_SIZE, and FUGE_ERR_MODES for
-  !> more motions than points, which cannot be independent.
-  pure subroutine check_counts(n, m, ldr, info)
-    integer, intent(in) :: n, m, ldr
+  !> Refuse impossible sizes of an array `name` (lda, n) (FUGE_ERR_SIZE).
+  pure subroutine check_matrix(n, lda, name, info)
+    integer, intent(in) :: n, lda
+    character(len=*), intent(in) :: name
     type(fuge_info), intent(inout) :: info
 
     if (n < 1) then
       call report(info, FUGE_ERR_SIZE, 'N = '//text(n)//': at least one point is needed')
-    else if (m < 0) then
+    else if (lda < n) then
+      call report(info, FUGE_ERR_SIZE, name//' = '//text(lda)//' is less than N = '//text(n))
+    end if
+  end subroutine check_matrix
+
+  !> Refuse impossible numbers of motions: FUGE_ERR_SIZE, and FUGE_ERR_MODES for more than
+  !> points, which cannot be independent.
+  pure subroutine check_modes(n, m, ldr, info)
+    integer, intent(in) :: n, m, ldr
+    type(fuge_info), intent(inout) :: info
+
+    if (m < 0) then
       call report(info, FUGE_ERR_SIZE, 'M = '//text(m)//' is negative: it is the number of motions')
     else if (m > n) then
       call report(info, FUGE_ERR_MODES, text(m)//' motions of '//text(n)//' point(s) depend on each other: leave ' &
                   //text(m - n)//' out')
-    else if (m > 0 .and. ldr < n) then
-      call report(info, FUGE_ERR_SIZE, 'LDR = '//text(ldr)//' is less than N = '//text(n))
+    else if (m > 0) then
+      call check_matrix(n, ldr, 'LDR', info)
     end if
-  end subroutine check_counts
+  end subroutine check_modes
 
   !> A problem with all motions free: `gap` (n), `stops` (n) as above, `play` (n) read only
   !> where there are two stops, `modes` (ldr, m), ldr >= n, `resultant` (m).

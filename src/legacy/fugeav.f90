@@ -2,7 +2,7 @@
 !> Arguments in doc/legacy.md; `alpha` is not copied.
 subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
   use fuge_kinds, only: dp
-  use fuge_legacy, only: hold_motions, solve_matrix
+  use fuge_legacy, only: check_matrix, hold_motions, solve_matrix
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
   use fuge_status, only: fuge_info
@@ -15,7 +15,8 @@ subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
   type(fuge_solution) :: solution
   type(fuge_info) :: found
 
-  call set_problem(gap, 0.0_dp, problem, found)
+  call check_matrix(n, lda, 'LDA', found)
+  if (.not. found%failed()) call set_problem(gap, 0.0_dp, problem, found)
   if (.not. found%failed()) call hold_motions([1], [v0], problem, found)
   if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)
   info = found%status

@@ -2,7 +2,7 @@
 !> points that take no part. Arguments in doc/legacy.md; `alpha` is not copied.
 subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_counts, pose_problem, solve_matrix
+  use fuge_legacy, only: check_matrix, check_modes, pose_problem, solve_matrix
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info
@@ -15,7 +15,8 @@ subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
   type(fuge_solution) :: solution
   type(fuge_info) :: found
 
-  call check_counts(n, m, ldr, found)
+  call check_matrix(n, lda, 'LDA', found)
+  if (.not. found%failed()) call check_modes(n, m, ldr, found)
   if (.not. found%failed()) call pose_problem(gap, nstop, play, r, w, problem, found)
   if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)
   info = found%status

@@ -4,7 +4,7 @@ subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, metho
                   f, c, ncon, niter, resid, msg, info)
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_counts, hold_motions, pose_problem, solve_matrix
+  use fuge_legacy, only: check_matrix, check_modes, hold_motions, pose_problem, solve_matrix
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info
@@ -28,7 +28,8 @@ subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, metho
   else if (tol > 0.0_dp) then
     options%tolerance = tol
   end if
-  call check_counts(n, m, ldr, found)
+  call check_matrix(n, lda, 'LDA', found)
+  if (.not. found%failed()) call check_modes(n, m, ldr, found)
   if (.not. found%failed()) call pose_problem(gap, nstop, play, r, w, problem, found)
   if (.not. found%failed()) call hold_motions(nheld, q, problem, found)
   if (.not. found%failed()) call solve_matrix(alpha, problem, options, solution, found)

@@ -3,6 +3,7 @@
 subroutine fugehp(n, x, width, estar, nelem, nsym, alpha, lda, info)
   use fuge_halfplane, only: fuge_halfplane_matrix
   use fuge_kinds, only: dp
+  use fuge_legacy, only: check_matrix
   use fuge_status, only: fuge_info
   implicit none
   integer, intent(in) :: n, nelem, nsym, lda
@@ -11,6 +12,7 @@ subroutine fugehp(n, x, width, estar, nelem, nsym, alpha, lda, info)
   integer, intent(out) :: info
   type(fuge_info) :: found
 
-  call fuge_halfplane_matrix(x, width, estar, nelem, alpha, found, nsym /= 0)
+  call check_matrix(n, lda, 'LDA', found)
+  if (.not. found%failed()) call fuge_halfplane_matrix(x, width, estar, nelem, alpha, found, nsym /= 0)
   info = found%status
 end subroutine fugehp

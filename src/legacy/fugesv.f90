@@ -2,6 +2,7 @@
 !> Arguments in doc/legacy.md; `alpha` is not copied.
 subroutine fugesv(n, alpha, lda, gap, f0, f, c, v0, info)
   use fuge_kinds, only: dp
+  use fuge_legacy, only: check_matrix
   use fuge_solver_type, only: fuge_solve_dense
   use fuge_status, only: fuge_info
   implicit none
@@ -11,6 +12,7 @@ subroutine fugesv(n, alpha, lda, gap, f0, f, c, v0, info)
   integer, intent(out) :: info
   type(fuge_info) :: found
 
-  call fuge_solve_dense(alpha, gap, f0, f, c, v0, found)
+  call check_matrix(n, lda, 'LDA', found)
+  if (.not. found%failed()) call fuge_solve_dense(alpha, gap, f0, f, c, v0, found)
   info = found%status
 end subroutine fugesv
