@@ -21,16 +21,16 @@ module fuge_legacy
 
 contains
 
-  !> Refuse impossible sizes of an array `name` (lda, n) (FUGE_ERR_SIZE).
-  pure subroutine check_matrix(n, lda, name, info)
-    integer, intent(in) :: n, lda
-    character(len=*), intent(in) :: name
+  !> Refuse a count `n` below one, and a leading dimension `lead` below that (FUGE_ERR_SIZE).
+  pure subroutine check_matrix(n, n_name, lead, lead_name, info)
+    integer, intent(in) :: n, lead
+    character(len=*), intent(in) :: n_name, lead_name
     type(fuge_info), intent(inout) :: info
 
     if (n < 1) then
-      call report(info, FUGE_ERR_SIZE, 'N = '//text(n)//': at least one point is needed')
-    else if (lda < n) then
-      call report(info, FUGE_ERR_SIZE, name//' = '//text(lda)//' is less than N = '//text(n))
+      call report(info, FUGE_ERR_SIZE, n_name//' = '//text(n)//': it has to be 1 at least')
+    else if (lead < n) then
+      call report(info, FUGE_ERR_SIZE, lead_name//' = '//text(lead)//' is less than '//n_name//' = '//text(n))
     end if
   end subroutine check_matrix
 
@@ -46,7 +46,7 @@ contains
       call report(info, FUGE_ERR_MODES, text(m)//' motions of '//text(n)//' point(s) depend on each other: leave ' &
                   //text(m - n)//' out')
     else if (m > 0) then
-      call check_matrix(n, ldr, 'LDR', info)
+      call check_matrix(n, 'N', ldr, 'LDR', info)
     end if
   end subroutine check_modes
 

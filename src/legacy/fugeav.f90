@@ -15,7 +15,7 @@ subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
   type(fuge_solution) :: solution
   type(fuge_info) :: found
 
-  call check_matrix(n, lda, 'LDA', found)
+  call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call set_problem(gap, 0.0_dp, problem, found)
   if (.not. found%failed()) call hold_motions([1], [v0], problem, found)
   if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)

@@ -15,7 +15,7 @@ subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
   type(fuge_solution) :: solution
   type(fuge_info) :: found
 
-  call check_matrix(n, lda, 'LDA', found)
+  call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call check_modes(n, m, ldr, found)
   if (.not. found%failed()) call pose_problem(gap, nstop, play, r, w, problem, found)
   if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)

@@ -28,7 +28,7 @@ subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, metho
   else if (tol > 0.0_dp) then
     options%tolerance = tol
   end if
-  call check_matrix(n, lda, 'LDA', found)
+  call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call check_modes(n, m, ldr, found)
   if (.not. found%failed()) call pose_problem(gap, nstop, play, r, w, problem, found)
   if (.not. found%failed()) call hold_motions(nheld, q, problem, found)

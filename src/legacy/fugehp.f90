@@ -12,7 +12,7 @@ subroutine fugehp(n, x, width, estar, nelem, nsym, alpha, lda, info)
   integer, intent(out) :: info
   type(fuge_info) :: found
 
-  call check_matrix(n, lda, 'LDA', found)
+  call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call fuge_halfplane_matrix(x, width, estar, nelem, alpha, found, nsym /= 0)
   info = found%status
 end subroutine fugehp

@@ -12,7 +12,7 @@ subroutine fugesv(n, alpha, lda, gap, f0, f, c, v0, info)
   integer, intent(out) :: info
   type(fuge_info) :: found
 
-  call check_matrix(n, lda, 'LDA', found)
+  call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call fuge_solve_dense(alpha, gap, f0, f, c, v0, found)
   info = found%status
 end subroutine fugesv

@@ -1,0 +1,233 @@
+!> What the external procedures for FORTRAN 77 share: an elastic body from plain arrays, its
+!> condensation, and the recovery of its displacements from a new factorisation.
+module fuge_legacy_body
+  use fuge_body_type, only: fuge_body, check_body
+  use fuge_check, only: check_finite
+  use fuge_condensation, only: fuge_condense, fuge_condensed
+  use fuge_contact_points, only: add_contact_forces
+  use fuge_felt_motions, only: STILL
+  use fuge_kinds, only: dp
+  use fuge_legacy, only: check_modes
+  use fuge_problem_type, only: fuge_solution
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_OPTION, &
+    FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_stiffness_band, only: fuge_band_stiffness
+  use fuge_stiffness_dense, only: fuge_dense_stiffness
+  use fuge_stiffness_type, only: fuge_stiffness
+  use fuge_text, only: text
+  implicit none
+  private
+
+  public :: check_body_sizes, make_body, condense_dense, condense_band, recover_dense, recover_band, give_condensed
+
+contains
+
+  !> Refuse impossible sizes: FUGE_ERR_SIZE, and FUGE_ERR_MODES for more motions than points.
+  pure subroutine check_body_sizes(nd, nfix, m, ldz, n, nw, info)
+    integer, intent(in) :: nd, nfix, m, ldz, n, nw
+    type(fuge_info), intent(inout) :: info
+
+    if (nd < 1) then
+      call report(info, FUGE_ERR_SIZE, 'ND = '//text(nd)//': at least one degree of freedom is needed')
+    else if (nfix < 0 .or. nfix > nd) then
+      call report(info, FUGE_ERR_SIZE, 'NFIX = '//text(nfix)//' of '//text(nd)//' degrees of freedom cannot be held')
+    else if (n < 1 .or. nw < 1) then
+      call report(info, FUGE_ERR_SIZE, 'N = '//text(n)//', NW = '//text(nw)//': at least one contact point with one ' &
+                  //'degree of freedom is needed')
+    else
+      call check_modes(n, m, n, info)
+      if (.not. info%failed() .and. m > 0 .and. ldz < nd) call report(info, FUGE_ERR_SIZE, 'LDZ = '//text(ldz) &
+        //' is less than ND = '//text(nd))
+    end if
+  end subroutine check_body_sizes
+
+  !> The body with supports `fixed` that are moved by `given`, external load `load` (nd),
+  !> rigid motions `motions` (ldz, m), contact points `dof` and `normal` (nw, n).
+  !> Error: FUGE_ERR_MEMORY.
+  pure subroutine make_body(fixed, given, load, motions, dof, normal, body, info)
+    integer, intent(in) :: fixed(:), dof(:, :)
+    real(dp), intent(in) :: given(:), load(:), motions(:, :), normal(:, :)
+    type(fuge_body), intent(inout) :: body
+    type(fuge_info), intent(inout) :: info
+    integer :: m, stat
+
+    m = size(motions, 2)
+    allocate (body%fixed(size(fixed)), body%displacement(size(given)), body%load(size(load)), &
+              body%dof(size(dof, 1), size(dof, 2)), body%normal(size(dof, 1), size(dof, 2)), stat=stat)
+    if (stat == 0 .and. m > 0) allocate (body%modes(size(load), m), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of supports, load, motions and contact points')
+      return
+    end if
+    body%fixed = fixed
+    body%displacement = given
+    body%load = load
+    body%dof = dof
+    body%normal = normal
+    if (m > 0) body%modes = motions(:size(load), :)
+  end subroutine make_body
+
+  !> Condense a body with the stiffness matrix `matrix`, (lda, nd), which is not copied but
+  !> for its factor. Errors as `set` of `fuge_dense_stiffness` and `fuge_condense`.
+  subroutine condense_dense(matrix, body, condensed, info)
+    real(dp), intent(in), target :: matrix(:, :)
+    type(fuge_body), intent(in) :: body
+    type(fuge_condensed), intent(inout) :: condensed
+    type(fuge_info), intent(out) :: info
+    type(fuge_dense_stiffness) :: stiffness
+
+    call stiffness%set(matrix, info)
+    if (.not. info%failed()) call condense(stiffness, body, condensed, info)
+  end subroutine condense_dense
+
+  !> The same for the triangle `uplo` in LAPACK's band storage, (ldab, nd), with `kd`
+  !> diagonals beside the main one.
+  subroutine condense_band(uplo, kd, band, body, condensed, info)
+    character(len=1), intent(in) :: uplo
+    integer, intent(in) :: kd
+    real(dp), intent(in), target :: band(:, :)
+    type(fuge_body), intent(in) :: body
+    type(fuge_condensed), intent(inout) :: condensed
+    type(fuge_info), intent(out) :: info
+    type(fuge_band_stiffness) :: stiffness
+
+    call take_band(uplo, kd, band, stiffness, info)
+    if (.not. info%failed()) call condense(stiffness, body, condensed, info)
+  end subroutine condense_band
+
+  !> Displacements `u` (nd) under the contact forces `force` (n) and motions `rigid` (m), as
+  !> `recover` below.
+  subroutine recover_dense(matrix, body, force, rigid, u, info)
+    real(dp), intent(in), target :: matrix(:, :)
+    type(fuge_body), intent(in) :: body
+    real(dp), intent(in) :: force(:), rigid(:)
+    real(dp), intent(inout) :: u(:)
+    type(fuge_info), intent(out) :: info
+    type(fuge_dense_stiffness) :: stiffness
+
+    call stiffness%set(matrix, info)
+    if (.not. info%failed()) call recover(stiffness, body, force, rigid, u, info)
+  end subroutine recover_dense
+
+  subroutine recover_band(uplo, kd, band, body, force, rigid, u, info)
+    character(len=1), intent(in) :: uplo
+    integer, intent(in) :: kd
+    real(dp), intent(in), target :: band(:, :)
+    type(fuge_body), intent(in) :: body
+    real(dp), intent(in) :: force(:), rigid(:)
+    real(dp), intent(inout) :: u(:)
+    type(fuge_info), intent(out) :: info
+    type(fuge_band_stiffness) :: stiffness
+
+    call take_band(uplo, kd, band, stiffness, info)
+    if (.not. info%failed()) call recover(stiffness, body, force, rigid, u, info)
+  end subroutine recover_band
+
+  !> Copy what has been condensed to the caller's arrays: `alpha` (lda, n), `b` (n), `modes`
+  !> (ldr, m), `resultant` (m).
+  pure subroutine give_condensed(condensed, alpha, b, modes, resultant)
+    type(fuge_condensed), intent(in) :: condensed
+    real(dp), intent(inout) :: alpha(:, :), b(:), modes(:, :), resultant(:)
+    integer :: n
+
+    n = size(b)
+    alpha(:n, :) = condensed%alpha
+    b = condensed%displacement
+    if (size(resultant) < 1) return
+    modes(:n, :) = condensed%modes
+    resultant = condensed%resultant
+  end subroutine give_condensed
+
+  !> Errors beside those of `set`: FUGE_ERR_OPTION for another triangle.
+  subroutine take_band(uplo, kd, band, stiffness, info)
+    character(len=1), intent(in) :: uplo
+    integer, intent(in) :: kd
+    real(dp), intent(in), target :: band(:, :)
+    type(fuge_band_stiffness), intent(inout) :: stiffness
+    type(fuge_info), intent(out) :: info
+
+    if (scan(uplo, 'UuLl') < 1) then
+      call report(info, FUGE_ERR_OPTION, 'UPLO = '''//uplo//''': use U for the upper triangle, L for the lower one')
+    else
+      call stiffness%set(band, scan(uplo, 'Uu') > 0, info, kd)
+    end if
+  end subroutine take_band
+
+  !> Condense; all given motions have to be felt, so that their number stays the caller's
+  !> (FUGE_ERR_MODES).
+  subroutine condense(stiffness, body, condensed, info)
+    class(fuge_stiffness), intent(in) :: stiffness
+    type(fuge_body), intent(in) :: body
+    type(fuge_condensed), intent(inout) :: condensed
+    type(fuge_info), intent(out) :: info
+    integer :: m
+
+    call fuge_condense(stiffness, body, condensed, info)
+    if (info%failed()) return
+    m = 0
+    if (allocated(body%modes)) m = size(body%modes, 2)
+    if (size(condensed%resultant) < m) call report(info, FUGE_ERR_MODES, 'the contact points feel only ' &
+      //text(size(condensed%resultant))//' of '//text(m)//' rigid motions: fix a degree of freedom that stops the ' &
+      //'motion which moves none of them, and leave it out')
+  end subroutine condense
+
+  !> The contact forces are known: as loads of the body they take one solve, while all its
+  !> contact points would take one each. A contact point there has to be; without a force it
+  !> changes nothing, and the pins depend on the motions only.
+  subroutine recover(stiffness, body, force, rigid, u, info)
+    class(fuge_stiffness), intent(in) :: stiffness
+    type(fuge_body), intent(in) :: body
+    real(dp), intent(in) :: force(:), rigid(:)
+    real(dp), intent(inout) :: u(:)
+    type(fuge_info), intent(out) :: info
+    type(fuge_body) :: loaded
+    type(fuge_condensed) :: condensed
+    type(fuge_solution) :: idle
+
+    call check_body(body, size(u), info)
+    if (.not. info%failed()) call check_equilibrium(body, force, rigid, info)
+    if (info%failed()) return
+    loaded = body
+    call add_contact_forces(body, force, loaded%load)
+    loaded%dof = body%dof(:, :1)
+    loaded%normal = body%normal(:, :1)
+    call fuge_condense(stiffness, loaded, condensed, info)
+    if (info%failed()) return
+    idle%force = [0.0_dp]
+    idle%rigid = 0.0_dp*rigid
+    call condensed%recover(idle, u, info)
+    if (.not. info%failed() .and. size(rigid) > 0) u = u + matmul(body%modes, rigid)
+  end subroutine recover
+
+  !> Refuse forces and motions that are not finite (FUGE_ERR_NOT_FINITE), and forces that the
+  !> load does not balance in a rigid motion (FUGE_ERR_NO_EQUILIBRIUM).
+  pure subroutine check_equilibrium(body, force, rigid, info)
+    type(fuge_body), intent(in) :: body
+    real(dp), intent(in) :: force(:), rigid(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: pressed(:)
+    real(dp) :: work, parts
+    integer :: j, stat
+
+    call check_finite(force, 'F', info)
+    if (.not. info%failed()) call check_finite(rigid, 'Q', info)
+    if (info%failed() .or. size(rigid) < 1) return
+    allocate (pressed(size(body%load)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to check the equilibrium')
+      return
+    end if
+    pressed = 0.0_dp
+    call add_contact_forces(body, force, pressed)
+    do j = 1, size(rigid)
+      work = dot_product(body%modes(:, j), body%load + pressed)
+      parts = dot_product(abs(body%modes(:, j)), abs(body%load) + abs(pressed))
+      if (abs(work) > STILL*parts) then
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load and contact forces drive rigid motion '//text(j)//': take the ' &
+                    //'forces of the problem with the resultants W, or fix a degree of freedom')
+        return
+      end if
+    end do
+  end subroutine check_equilibrium
+
+end module fuge_legacy_body

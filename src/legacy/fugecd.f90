@@ -1,0 +1,31 @@
+!> FUGECD, for callers without modules: influence matrix of the contact points of an elastic
+!> body whose stiffness matrix is in full storage. Arguments in doc/legacy.md.
+subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
+                  alpha, lda, b, r, ldr, w, msg, info)
+  use fuge_body_type, only: fuge_body
+  use fuge_condensation, only: fuge_condensed
+  use fuge_kinds, only: dp
+  use fuge_legacy, only: check_matrix, check_modes
+  use fuge_legacy_body, only: check_body_sizes, condense_dense, give_condensed, make_body
+  use fuge_status, only: fuge_info
+  implicit none
+  integer, intent(in) :: nd, lds, nfix, m, ldz, n, nw, lda, ldr
+  integer, intent(in) :: ifix(nfix), idof(nw, n)
+  real(dp), intent(in) :: s(lds, nd), ufix(nfix), p(nd), z(ldz, m), dn(nw, n)
+  real(dp), intent(inout) :: alpha(lda, n), b(n), r(ldr, m), w(m)
+  character(len=*), intent(inout) :: msg
+  integer, intent(out) :: info
+  type(fuge_body) :: body
+  type(fuge_condensed) :: condensed
+  type(fuge_info) :: found
+
+  call check_body_sizes(nd, nfix, m, ldz, n, nw, found)
+  if (.not. found%failed()) call check_matrix(nd, 'ND', lds, 'LDS', found)
+  if (.not. found%failed()) call check_matrix(n, 'N', lda, 'LDA', found)
+  if (.not. found%failed()) call check_modes(n, m, ldr, found)
+  if (.not. found%failed()) call make_body(ifix, ufix, p, z, idof, dn, body, found)
+  if (.not. found%failed()) call condense_dense(s, body, condensed, found)
+  info = found%status
+  msg = found%message
+  if (.not. found%failed()) call give_condensed(condensed, alpha, b, r, w)
+end subroutine fugecd

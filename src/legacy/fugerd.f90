@@ -1,0 +1,27 @@
+!> FUGERD, for callers without modules: displacements of the body of FUGECD under its load and
+!> the contact forces. Arguments in doc/legacy.md.
+subroutine fugerd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
+                  f, q, u, resid, msg, info)
+  use fuge_body_type, only: fuge_body
+  use fuge_kinds, only: dp
+  use fuge_legacy, only: check_matrix
+  use fuge_legacy_body, only: check_body_sizes, make_body, recover_dense
+  use fuge_status, only: fuge_info
+  implicit none
+  integer, intent(in) :: nd, lds, nfix, m, ldz, n, nw
+  integer, intent(in) :: ifix(nfix), idof(nw, n)
+  real(dp), intent(in) :: s(lds, nd), ufix(nfix), p(nd), z(ldz, m), dn(nw, n), f(n), q(m)
+  real(dp), intent(inout) :: u(nd), resid
+  character(len=*), intent(inout) :: msg
+  integer, intent(out) :: info
+  type(fuge_body) :: body
+  type(fuge_info) :: found
+
+  call check_body_sizes(nd, nfix, m, ldz, n, nw, found)
+  if (.not. found%failed()) call check_matrix(nd, 'ND', lds, 'LDS', found)
+  if (.not. found%failed()) call make_body(ifix, ufix, p, z, idof, dn, body, found)
+  if (.not. found%failed()) call recover_dense(s, body, f, q, u, found)
+  info = found%status
+  msg = found%message
+  if (.not. found%failed()) resid = found%residual
+end subroutine fugerd

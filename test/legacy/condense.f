@@ -1,0 +1,290 @@
+C     The external procedures that condense and recover, called without
+C     any interface: springs in a row, answers by hand.
+      PROGRAM CONDNS
+      CALL HELD
+      CALL FLOATS
+      CALL SLIDES
+      CALL REFUSE
+      CALL VERDCT
+      END
+
+C     Three nodes in a row, two springs of stiffness 2, in full storage
+C     and in bands of both triangles. What is 9.D99 is not to be read.
+      SUBROUTINE SPRING(S, UP, LOW)
+      DOUBLE PRECISION S(4,3), UP(3,3), LOW(2,3)
+      INTEGER I, J
+      DO 20 J = 1, 3
+        DO 10 I = 1, 4
+          S(I,J) = 0.D0
+          IF (I .EQ. J) S(I,J) = 2.D0
+          IF (I .EQ. 2 .AND. J .EQ. 2) S(I,J) = 4.D0
+          IF (ABS(I - J) .EQ. 1) S(I,J) = -2.D0
+          IF (I .EQ. 4) S(I,J) = 9.D99
+   10   CONTINUE
+        UP(1,J) = -2.D0
+        UP(2,J) = S(J,J)
+        UP(3,J) = 9.D99
+        LOW(1,J) = S(J,J)
+        LOW(2,J) = -2.D0
+   20 CONTINUE
+      UP(1,1) = 9.D99
+      LOW(2,3) = 9.D99
+      END
+
+C     Node 1 is moved by 0.5, node 3 loaded by 3, both towards the stops
+C     before nodes 2 and 3, which push back: DN = -1.
+      SUBROUTINE HELD
+      DOUBLE PRECISION S(4,3), UP(3,3), LOW(2,3), P(3), DN(1,2)
+      DOUBLE PRECISION ALPHA(3,2), B(2), F(2), U(3), Q(1), RESID, EPS
+      DOUBLE PRECISION R(1,1), W(1), Z(1,1), UFIX(1)
+      INTEGER IFIX(1), IDOF(1,2), INFO, K
+      CHARACTER*80 MSG
+      PARAMETER (EPS=1.D-14)
+      DATA IFIX /1/
+      DATA UFIX /0.5D0/
+      DATA IDOF /2, 3/
+      DATA DN /-1.D0, -1.D0/
+      DATA P /0.D0, 0.D0, 3.D0/
+      DATA F /1.D0, 2.D0/
+      CALL SPRING(S, UP, LOW)
+      DO 10 K = 1, 3
+        MSG = 'old'
+        ALPHA(3,1) = 7.D0
+        IF (K .EQ. 1) CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 1,
+     $    2, 1, IDOF, DN, ALPHA, 3, B, R, 1, W, MSG, INFO)
+        IF (K .EQ. 2) CALL FUGECB('U', 3, 1, UP, 3, 1, IFIX, UFIX, P,
+     $    0, Z, 1, 2, 1, IDOF, DN, ALPHA, 3, B, R, 1, W, MSG, INFO)
+        IF (K .EQ. 3) CALL FUGECB('l', 3, 1, LOW, 2, 1, IFIX, UFIX, P,
+     $    0, Z, 1, 2, 1, IDOF, DN, ALPHA, 3, B, R, 1, W, MSG, INFO)
+        CALL STATUS('FUGEC', INFO, 0)
+        CALL STATUS('FUGEC blank MSG', INDEX(MSG, 'old'), 0)
+        CALL NUMBER('ALPHA(1,1)', ALPHA(1,1), 0.5D0, EPS)
+        CALL NUMBER('ALPHA(2,1)', ALPHA(2,1), 0.5D0, EPS)
+        CALL NUMBER('ALPHA(1,2)', ALPHA(1,2), 0.5D0, EPS)
+        CALL NUMBER('ALPHA(2,2)', ALPHA(2,2), 1.D0, EPS)
+        CALL NUMBER('ALPHA padding', ALPHA(3,1), 7.D0, 0.D0)
+        CALL NUMBER('B(1)', B(1), -2.D0, 4*EPS)
+        CALL NUMBER('B(2)', B(2), -3.5D0, 4*EPS)
+C       With 1 and 2 on the stops the springs carry 0 and 1.
+        IF (K .EQ. 1) CALL FUGERD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 1,
+     $    2, 1, IDOF, DN, F, Q, U, RESID, MSG, INFO)
+        IF (K .EQ. 2) CALL FUGERB('U', 3, 1, UP, 3, 1, IFIX, UFIX, P,
+     $    0, Z, 1, 2, 1, IDOF, DN, F, Q, U, RESID, MSG, INFO)
+        IF (K .EQ. 3) CALL FUGERB('L', 3, 1, LOW, 2, 1, IFIX, UFIX, P,
+     $    0, Z, 1, 2, 1, IDOF, DN, F, Q, U, RESID, MSG, INFO)
+        CALL STATUS('FUGER', INFO, 0)
+        CALL NUMBER('U(1)', U(1), 0.5D0, 0.D0)
+        CALL NUMBER('U(2)', U(2), 0.5D0, 4*EPS)
+        CALL NUMBER('U(3)', U(3), 1.D0, 4*EPS)
+        CALL NUMBER('RESID', RESID, 0.D0, EPS)
+   10 CONTINUE
+      END
+
+C     Nothing holds the row; node 1 is loaded by 4 and drives it against
+C     stops before node 3, at once, and before node 1, at 1. Then the
+C     springs are shortened by 1 and carry 1: F = (3, 1), U = (1, .5, 0).
+      SUBROUTINE FLOATS
+      DOUBLE PRECISION S(4,3), UP(3,3), LOW(2,3), P(3), DN(1,2), Z(4,1)
+      DOUBLE PRECISION ALPHA(2,2), B(2), GAP(2), F(2), C(2), U(3), Q(1)
+      DOUBLE PRECISION R(3,1), W(1), PLAY(2), UFIX(1), RESID, EPS
+      INTEGER IFIX(1), IDOF(1,2), NSTOP(2), INFO, K
+      CHARACTER*80 MSG
+      PARAMETER (EPS=1.D-14)
+      DATA IDOF /1, 3/
+      DATA DN /-1.D0, -1.D0/
+      DATA P /4.D0, 0.D0, 0.D0/
+      DATA Z /1.D0, 1.D0, 1.D0, 9.D99/
+      DATA NSTOP /1, 1/
+      CALL SPRING(S, UP, LOW)
+      DO 10 K = 1, 2
+        R(3,1) = 7.D0
+        IF (K .EQ. 1) CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 1, Z, 4,
+     $    2, 1, IDOF, DN, ALPHA, 2, B, R, 3, W, MSG, INFO)
+        IF (K .EQ. 2) CALL FUGECB('U', 3, 1, UP, 3, 0, IFIX, UFIX, P,
+     $    1, Z, 4, 2, 1, IDOF, DN, ALPHA, 2, B, R, 3, W, MSG, INFO)
+        CALL STATUS('FUGEC floats', INFO, 0)
+        CALL NUMBER('R(1)', R(1,1), 1.D0, 0.D0)
+        CALL NUMBER('R(2)', R(2,1), 1.D0, 0.D0)
+        CALL NUMBER('R padding', R(3,1), 7.D0, 0.D0)
+        CALL NUMBER('W', W(1), 4.D0, 0.D0)
+        GAP(1) = 1.D0 + B(1)
+        GAP(2) = B(2)
+        CALL FUGEGV(2, 1, ALPHA, 2, GAP, NSTOP, PLAY, R, 3, W, F, C, Q,
+     $              INFO)
+        CALL STATUS('FUGEGV floats', INFO, 0)
+        CALL NUMBER('F(1) floats', F(1), 3.D0, 16*EPS)
+        CALL NUMBER('F(2) floats', F(2), 1.D0, 16*EPS)
+        IF (K .EQ. 1) CALL FUGERD(3, S, 4, 0, IFIX, UFIX, P, 1, Z, 4,
+     $    2, 1, IDOF, DN, F, Q, U, RESID, MSG, INFO)
+        IF (K .EQ. 2) CALL FUGERB('U', 3, 1, UP, 3, 0, IFIX, UFIX, P,
+     $    1, Z, 4, 2, 1, IDOF, DN, F, Q, U, RESID, MSG, INFO)
+        CALL STATUS('FUGER floats', INFO, 0)
+        CALL NUMBER('U(1) floats', U(1), 1.D0, 16*EPS)
+        CALL NUMBER('U(2) floats', U(2), 0.5D0, 16*EPS)
+        CALL NUMBER('U(3) floats', U(3), 0.D0, 16*EPS)
+   10 CONTINUE
+C     Forces that do not balance the load.
+      F(1) = 0.D0
+      U(1) = 7.D0
+      CALL FUGERD(3, S, 4, 0, IFIX, UFIX, P, 1, Z, 4, 2, 1, IDOF, DN,
+     $            F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERD out of balance', INFO, -10)
+      CALL HASTXT('FUGERD out of balance', MSG, 'rigid motion 1')
+      CALL NUMBER('FUGERD out of balance, U', U(1), 7.D0, 0.D0)
+C     It does float.
+      CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 0, Z, 4, 2, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 3, W, MSG, INFO)
+      CALL STATUS('FUGECD without motions', INFO, -9)
+      END
+
+C     Two springs at a right angle to each other: the contact feels one
+C     of the two motions only.
+      SUBROUTINE SLIDES
+      DOUBLE PRECISION S(4,4), P(4), Z(4,2), DN(1,2), UFIX(1)
+      DOUBLE PRECISION ALPHA(2,2), B(2), R(2,2), W(2)
+      INTEGER IFIX(1), IDOF(1,2), INFO
+      CHARACTER*80 MSG
+      DATA S /1.D0, -1.D0, 0.D0, 0.D0,  -1.D0, 1.D0, 0.D0, 0.D0,
+     $        0.D0, 0.D0, 1.D0, -1.D0,  0.D0, 0.D0, -1.D0, 1.D0/
+      DATA Z /1.D0, 1.D0, 0.D0, 0.D0,  0.D0, 0.D0, 1.D0, 1.D0/
+      DATA P /0.D0, 0.D0, 0.D0, 1.D0/
+      DATA IDOF /3, 4/
+      DATA DN /-1.D0, -1.D0/
+      DATA W /7.D0, 7.D0/
+      CALL FUGECD(4, S, 4, 0, IFIX, UFIX, P, 2, Z, 4, 2, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD slides', INFO, -21)
+      CALL HASTXT('FUGECD slides', MSG, 'only 1 of 2')
+      CALL NUMBER('FUGECD slides, W', W(1) + W(2), 14.D0, 0.D0)
+C     Held in the first direction it is well.
+      IFIX(1) = 1
+      UFIX(1) = 0.D0
+      CALL FUGECD(4, S, 4, 1, IFIX, UFIX, P, 1, Z(1,2), 4, 2, 1, IDOF,
+     $            DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD slides no more', INFO, 0)
+      CALL NUMBER('FUGECD slides no more, W', W(1), 1.D0, 0.D0)
+      END
+
+C     Every refusal leaves the outputs alone.
+      SUBROUTINE REFUSE
+      DOUBLE PRECISION S(4,3), UP(3,3), LOW(2,3), P(3), DN(1,2), Z(3,1)
+      DOUBLE PRECISION ALPHA(2,2), B(2), R(2,1), W(1), UFIX(1), RESID
+      DOUBLE PRECISION F(2), Q(1), U(3), BAD, KEEP
+      INTEGER IFIX(1), IDOF(1,2), INFO, I, N, NBITS(2)
+      CHARACTER*80 MSG
+      EQUIVALENCE (BAD, NBITS)
+      DATA NBITS /-1, -1/
+      DATA IFIX /1/
+      DATA UFIX /0.D0/
+      DATA IDOF /2, 3/
+      DATA DN /-1.D0, -1.D0/
+      DATA P /0.D0, 0.D0, 3.D0/
+      DATA Z /1.D0, 1.D0, 1.D0/
+      DATA F /1.D0, 2.D0/
+      DATA Q /0.D0/
+      DATA ALPHA, B, R, W, U, RESID /13*7.D0/
+      CALL SPRING(S, UP, LOW)
+      N = 2
+C     Sizes.
+      CALL FUGECD(0, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, ND = 0', INFO, -1)
+      CALL HASTXT('FUGECD, ND = 0', MSG, 'ND = 0')
+      CALL FUGECD(3, S, 2, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, LDS < ND', INFO, -1)
+      CALL HASTXT('FUGECD, LDS < ND', MSG, 'LDS = 2')
+      CALL FUGECD(3, S, 4, -1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, NFIX < 0', INFO, -1)
+      CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 1, Z, 2, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, LDZ < ND', INFO, -1)
+      CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, -1, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, M < 0', INFO, -1)
+      CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 3, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, M > N', INFO, -21)
+      CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, 0, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, N = 0', INFO, -1)
+      CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 0, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, NW = 0', INFO, -1)
+      CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 1, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, LDA < N', INFO, -1)
+      CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 1, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 1, W, MSG, INFO)
+      CALL STATUS('FUGECD, LDR < N', INFO, -1)
+      CALL FUGECB('U', 3, 1, UP, 1, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECB, LDAB < KD + 1', INFO, -1)
+      CALL FUGECB('U', 3, -1, UP, 3, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECB, KD < 0', INFO, -1)
+      CALL FUGECB('X', 3, 1, UP, 3, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECB, UPLO = X', INFO, -14)
+      CALL FUGERB('U', 3, 1, UP, 1, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
+     $            IDOF, DN, F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERB, LDAB < KD + 1', INFO, -1)
+      CALL FUGERD(3, S, 2, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERD, LDS < ND', INFO, -1)
+C     Degrees of freedom that there are not.
+      IFIX(1) = 4
+      CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, IFIX = 4', INFO, -22)
+      IFIX(1) = 1
+      IDOF(1,2) = -1
+      CALL FUGERD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERD, IDOF = -1', INFO, -22)
+      IDOF(1,2) = 3
+C     NaN, one after the other.
+      UFIX(1) = BAD
+      CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, UFIX NaN', INFO, -3)
+      UFIX(1) = 0.D0
+      KEEP = DN(1,2)
+      DN(1,2) = BAD
+      CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, DN NaN', INFO, -3)
+      DN(1,2) = KEEP
+      F(2) = BAD
+      CALL FUGERD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERD, F NaN', INFO, -3)
+      F(2) = 2.D0
+      P(2) = BAD
+      CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECD, P NaN', INFO, -3)
+      CALL FUGERD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
+     $            F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERD, P NaN', INFO, -3)
+      P(2) = 0.D0
+      UP(2,2) = BAD
+      CALL FUGECB('U', 3, 1, UP, 3, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECB, AB NaN', INFO, -3)
+      CALL FUGERB('U', 3, 1, UP, 3, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
+     $            IDOF, DN, F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERB, AB NaN', INFO, -3)
+      DO 10 I = 1, 2
+        CALL NUMBER('ALPHA untouched', ALPHA(I,1), 7.D0, 0.D0)
+        CALL NUMBER('ALPHA untouched', ALPHA(I,2), 7.D0, 0.D0)
+        CALL NUMBER('B untouched', B(I), 7.D0, 0.D0)
+        CALL NUMBER('R untouched', R(I,1), 7.D0, 0.D0)
+   10 CONTINUE
+      DO 20 I = 1, 3
+        CALL NUMBER('U untouched', U(I), 7.D0, 0.D0)
+   20 CONTINUE
+      CALL NUMBER('W untouched', W(1), 7.D0, 0.D0)
+      CALL NUMBER('RESID untouched', RESID, 7.D0, 0.D0)
+      END
