@@ -72,7 +72,8 @@ contains
       return
     end if
     problem%gap = gap
-    problem%modes = modes(:n, :)
+    ! Without modes their array need not have n rows.
+    if (m > 0) problem%modes = modes(:n, :)
     problem%resultant = resultant
     if (allocated(problem%excluded)) problem%excluded = stops == EXCLUDED
     if (.not. allocated(problem%gap_upper)) return

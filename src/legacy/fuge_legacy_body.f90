@@ -223,8 +223,8 @@ contains
       work = dot_product(body%modes(:, j), body%load + pressed)
       parts = dot_product(abs(body%modes(:, j)), abs(body%load) + abs(pressed))
       if (abs(work) > STILL*parts) then
-        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load and contact forces drive rigid motion '//text(j)//': take the ' &
-                    //'forces of the problem with the resultants W, or fix a degree of freedom')
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load and contact forces drive rigid motion '//text(j)//': take ' &
+                    //'the forces of the problem with the resultants W, or fix a degree of freedom')
         return
       end if
     end do
