@@ -4,6 +4,8 @@ C     any interface: springs in a row, answers by hand.
       CALL HELD
       CALL FLOATS
       CALL SLIDES
+      CALL PAIR
+      CALL BEAM
       CALL REFUSE
       CALL VERDCT
       END
@@ -163,6 +165,90 @@ C     Held in the first direction it is well.
      $            DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
       CALL STATUS('FUGECD slides no more', INFO, 0)
       CALL NUMBER('FUGECD slides no more, W', W(1), 1.D0, 0.D0)
+      END
+
+C     Two bodies on springs of stiffness 2 and 4 in one matrix, between
+C     them one contact of both: DN = -1 and 1. A load of 3 on the first
+C     moves both by 0.5 and leaves a contact force of 2.
+      SUBROUTINE PAIR
+      DOUBLE PRECISION S(2,2), P(2), DN(2,1), ALPHA(1,1), B(1), F(1)
+      DOUBLE PRECISION Z(1,1), R(1,1), W(1), Q(1), UFIX(1), U(2), C(1)
+      DOUBLE PRECISION PLAY(1), RESID, EPS
+      INTEGER IFIX(1), IDOF(2,1), NSTOP(1), INFO
+      CHARACTER*80 MSG
+      PARAMETER (EPS=1.D-14)
+      DATA S /2.D0, 0.D0, 0.D0, 4.D0/
+      DATA P /3.D0, 0.D0/
+      DATA IDOF /1, 2/
+      DATA DN /-1.D0, 1.D0/
+      DATA NSTOP /1/
+      CALL FUGECD(2, S, 2, 0, IFIX, UFIX, P, 0, Z, 1, 1, 2, IDOF, DN,
+     $            ALPHA, 1, B, R, 1, W, MSG, INFO)
+      CALL STATUS('FUGECD of a pair', INFO, 0)
+      CALL NUMBER('ALPHA of a pair', ALPHA(1,1), 0.75D0, EPS)
+      CALL NUMBER('B of a pair', B(1), -1.5D0, EPS)
+      CALL FUGEGV(1, 0, ALPHA, 1, B, NSTOP, PLAY, R, 1, W, F, C, Q,
+     $            INFO)
+      CALL NUMBER('F of a pair', F(1), 2.D0, 2*EPS)
+      CALL FUGERD(2, S, 2, 0, IFIX, UFIX, P, 0, Z, 1, 1, 2, IDOF, DN,
+     $            F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERD of a pair', INFO, 0)
+      CALL NUMBER('U(1) of a pair', U(1), 0.5D0, EPS)
+      CALL NUMBER('U(2) of a pair', U(2), 0.5D0, EPS)
+      END
+
+C     A free beam of two elements, length 2, EI = 1: deflections and
+C     rotations of three nodes. A force of 1 in the middle presses it on
+C     stops at its ends, 0.25 and 0.5 below it: half each, and the middle
+C     sinks by 0.375 and by 2**3/48.
+      SUBROUTINE BEAM
+      DOUBLE PRECISION AB(4,6), E(4,4), P(6), Z(6,2), DN(1,2), UFIX(1)
+      DOUBLE PRECISION ALPHA(2,2), B(2), R(2,2), W(2), GAP(2), PLAY(2)
+      DOUBLE PRECISION F(2), C(2), Q(2), U(6), RESID, EPS
+      INTEGER IFIX(1), IDOF(1,2), NSTOP(2), INFO, I, J, L
+      CHARACTER*80 MSG
+      PARAMETER (EPS=1.D-13)
+      DATA E /12.D0, 6.D0, -12.D0, 6.D0,  6.D0, 4.D0, -6.D0, 2.D0,
+     $       -12.D0, -6.D0, 12.D0, -6.D0,  6.D0, 2.D0, -6.D0, 4.D0/
+      DATA AB /24*0.D0/
+      DATA P /0.D0, 0.D0, 1.D0, 0.D0, 0.D0, 0.D0/
+      DATA Z /1.D0, 0.D0, 1.D0, 0.D0, 1.D0, 0.D0,
+     $        0.D0, 1.D0, 1.D0, 1.D0, 2.D0, 1.D0/
+      DATA IDOF /1, 5/
+      DATA DN /-1.D0, -1.D0/
+      DATA NSTOP /1, 1/
+      DO 30 L = 0, 2, 2
+        DO 20 J = 1, 4
+          DO 10 I = J, 4
+            AB(1+I-J,L+J) = AB(1+I-J,L+J) + E(I,J)
+   10     CONTINUE
+   20   CONTINUE
+   30 CONTINUE
+      CALL FUGECB('L', 6, 3, AB, 4, 0, IFIX, UFIX, P, 2, Z, 6, 2, 1,
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+      CALL STATUS('FUGECB of a beam', INFO, 0)
+      CALL NUMBER('R(2,1) of a beam', R(2,1), 1.D0, EPS)
+      CALL NUMBER('R(1,2) of a beam', R(1,2), 0.D0, EPS)
+      CALL NUMBER('R(2,2) of a beam', R(2,2), 2.D0, EPS)
+      CALL NUMBER('W(1) of a beam', W(1), 1.D0, EPS)
+      CALL NUMBER('W(2) of a beam', W(2), 1.D0, EPS)
+      GAP(1) = 0.25D0 + B(1)
+      GAP(2) = 0.5D0 + B(2)
+      CALL FUGEGV(2, 2, ALPHA, 2, GAP, NSTOP, PLAY, R, 2, W, F, C, Q,
+     $            INFO)
+      CALL STATUS('FUGEGV of a beam', INFO, 0)
+      CALL NUMBER('F(1) of a beam', F(1), 0.5D0, EPS)
+      CALL NUMBER('F(2) of a beam', F(2), 0.5D0, EPS)
+      CALL FUGERB('L', 6, 3, AB, 4, 0, IFIX, UFIX, P, 2, Z, 6, 2, 1,
+     $            IDOF, DN, F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERB of a beam', INFO, 0)
+      CALL NUMBER('U(1) of a beam', U(1), 0.25D0, EPS)
+      CALL NUMBER('U(2) of a beam', U(2), 0.125D0 + 0.25D0, EPS)
+      CALL NUMBER('U(3) of a beam', U(3), 0.375D0 + 1.D0/6.D0, EPS)
+      CALL NUMBER('U(4) of a beam', U(4), 0.125D0, EPS)
+      CALL NUMBER('U(5) of a beam', U(5), 0.5D0, EPS)
+      CALL NUMBER('U(6) of a beam', U(6), 0.125D0 - 0.25D0, EPS)
+      CALL NUMBER('RESID of a beam', RESID, 0.D0, EPS)
       END
 
 C     Every refusal leaves the outputs alone.
