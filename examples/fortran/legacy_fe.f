@@ -98,14 +98,15 @@ C     supports hold the beam.
       COMMON /STIFF/ AB(LDAB,ND), P(ND), UFIX(2), IFIX(2)
       COMMON /STOPS/ DN(N), ALPHA(N,N), B(N), IDOF(N)
       CHARACTER*256 MSG
-      DIMENSION Z(1,1), R(1,1), W(1), IHAND(N,N)
+      DIMENSION Z(1,1), R(1,1), W(1), NHELD(1), IHAND(N,N)
       DATA IHAND /9, 11, 7, 11, 16, 11, 7, 11, 9/
       DO 10 I = 1, N
         IDOF(I) = 2*(1 + I*NE/4) - 1
         DN(I) = -1.D0
    10 CONTINUE
       CALL FUGECB('U', ND, KD, AB, LDAB, 2, IFIX, UFIX, P, 0, Z, 1,
-     $            N, 1, IDOF, DN, ALPHA, N, B, R, 1, W, MSG, INFO)
+     $            N, 1, IDOF, DN, ALPHA, N, B, R, 1, W, NHELD, MSG,
+     $            INFO)
       IF (INFO .NE. 0) CALL QUIT('FUGECB', INFO, MSG)
       WRITE (*, 100)
       DO 20 I = 1, N

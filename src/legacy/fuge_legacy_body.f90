@@ -4,12 +4,11 @@ module fuge_legacy_body
   use fuge_body_type, only: fuge_body, check_body
   use fuge_check, only: check_finite
   use fuge_condensation, only: fuge_condense, fuge_condensed
-  use fuge_contact_points, only: add_contact_forces
-  use fuge_felt_motions, only: STILL
+  use fuge_contact_points, only: add_contact_forces, moved
   use fuge_kinds, only: dp
   use fuge_legacy, only: check_modes
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_OPTION, &
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_NO_EQUILIBRIUM
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
@@ -19,6 +18,9 @@ module fuge_legacy_body
   private
 
   public :: check_body_sizes, make_body, condense_dense, condense_band, recover_dense, recover_band, give_condensed
+
+  !> Forces that drive a rigid motion by less of their parts are in equilibrium.
+  real(dp), parameter :: BALANCED = 1.0e-8_dp
 
 contains
 
@@ -77,7 +79,7 @@ contains
     type(fuge_dense_stiffness) :: stiffness
 
     call stiffness%set(matrix, info)
-    if (.not. info%failed()) call condense(stiffness, body, condensed, info)
+    if (.not. info%failed()) call fuge_condense(stiffness, body, condensed, info)
   end subroutine condense_dense
 
   !> The same for the triangle `uplo` in LAPACK's band storage, (ldab, nd), with `kd`
@@ -92,7 +94,7 @@ contains
     type(fuge_band_stiffness) :: stiffness
 
     call take_band(uplo, kd, band, stiffness, info)
-    if (.not. info%failed()) call condense(stiffness, body, condensed, info)
+    if (.not. info%failed()) call fuge_condense(stiffness, body, condensed, info)
   end subroutine condense_band
 
   !> Displacements `u` (nd) under the contact forces `force` (n) and motions `rigid` (m), as
@@ -124,18 +126,33 @@ contains
   end subroutine recover_band
 
   !> Copy what has been condensed to the caller's arrays: `alpha` (lda, n), `b` (n), `modes`
-  !> (ldr, m), `resultant` (m).
-  pure subroutine give_condensed(condensed, alpha, b, modes, resultant)
+  !> (ldr, m), `resultant` (m). Motions that the contact points do not feel are left out by
+  !> `fuge_condense`, but have to keep their places here: `held` (m) is 1 for them, else 0.
+  pure subroutine give_condensed(body, condensed, alpha, b, modes, resultant, held)
+    type(fuge_body), intent(in) :: body
     type(fuge_condensed), intent(in) :: condensed
     real(dp), intent(inout) :: alpha(:, :), b(:), modes(:, :), resultant(:)
-    integer :: n
+    integer, intent(inout) :: held(:)
+    integer :: i, j, kept, n
 
     n = size(b)
     alpha(:n, :) = condensed%alpha
     b = condensed%displacement
-    if (size(resultant) < 1) return
-    modes(:n, :) = condensed%modes
-    resultant = condensed%resultant
+    kept = 0
+    do j = 1, size(held)
+      do i = 1, n
+        modes(i, j) = -moved(body%dof(:, i), body%normal(:, i), body%modes(:, j))
+      end do
+      resultant(j) = dot_product(body%modes(:, j), body%load)
+      held(j) = 1
+      if (kept == size(condensed%resultant)) cycle
+      ! Those kept are the same, in the same order.
+      associate (next => condensed%modes(:, kept + 1))
+        if (maxval(abs(modes(:n, j) - next)) > sqrt(epsilon(1.0_dp))*maxval(abs(next))) cycle
+      end associate
+      held(j) = 0
+      kept = kept + 1
+    end do
   end subroutine give_condensed
 
   !> Errors beside those of `set`: FUGE_ERR_OPTION for another triangle.
@@ -152,24 +169,6 @@ contains
       call stiffness%set(band, scan(uplo, 'Uu') > 0, info, kd)
     end if
   end subroutine take_band
-
-  !> Condense; all given motions have to be felt, so that their number stays the caller's
-  !> (FUGE_ERR_MODES).
-  subroutine condense(stiffness, body, condensed, info)
-    class(fuge_stiffness), intent(in) :: stiffness
-    type(fuge_body), intent(in) :: body
-    type(fuge_condensed), intent(inout) :: condensed
-    type(fuge_info), intent(out) :: info
-    integer :: m
-
-    call fuge_condense(stiffness, body, condensed, info)
-    if (info%failed()) return
-    m = 0
-    if (allocated(body%modes)) m = size(body%modes, 2)
-    if (size(condensed%resultant) < m) call report(info, FUGE_ERR_MODES, 'the contact points feel only ' &
-      //text(size(condensed%resultant))//' of '//text(m)//' rigid motions: fix a degree of freedom that stops the ' &
-      //'motion which moves none of them, and leave it out')
-  end subroutine condense
 
   !> The contact forces are known: as loads of the body they take one solve, while all its
   !> contact points would take one each. A contact point there has to be; without a force it
@@ -222,7 +221,7 @@ contains
     do j = 1, size(rigid)
       work = dot_product(body%modes(:, j), body%load + pressed)
       parts = dot_product(abs(body%modes(:, j)), abs(body%load) + abs(pressed))
-      if (abs(work) > STILL*parts) then
+      if (abs(work) > BALANCED*parts) then
         call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load and contact forces drive rigid motion '//text(j)//': take ' &
                     //'the forces of the problem with the resultants W, or fix a degree of freedom')
         return

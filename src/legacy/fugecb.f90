@@ -2,7 +2,7 @@
 !> body whose stiffness matrix is in LAPACK's symmetric band storage. Arguments in
 !> doc/legacy.md.
 subroutine fugecb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
-                  alpha, lda, b, r, ldr, w, msg, info)
+                  alpha, lda, b, r, ldr, w, nheld, msg, info)
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
   use fuge_kinds, only: dp
@@ -15,6 +15,7 @@ subroutine fugecb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
   integer, intent(in) :: ifix(nfix), idof(nw, n)
   real(dp), intent(in) :: ab(ldab, nd), ufix(nfix), p(nd), z(ldz, m), dn(nw, n)
   real(dp), intent(inout) :: alpha(lda, n), b(n), r(ldr, m), w(m)
+  integer, intent(inout) :: nheld(m)
   character(len=*), intent(inout) :: msg
   integer, intent(out) :: info
   type(fuge_body) :: body
@@ -29,5 +30,5 @@ subroutine fugecb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
   if (.not. found%failed()) call condense_band(uplo, kd, ab, body, condensed, found)
   info = found%status
   msg = found%message
-  if (.not. found%failed()) call give_condensed(condensed, alpha, b, r, w)
+  if (.not. found%failed()) call give_condensed(body, condensed, alpha, b, r, w, nheld)
 end subroutine fugecb

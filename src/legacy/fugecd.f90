@@ -1,7 +1,7 @@
 !> FUGECD, for callers without modules: influence matrix of the contact points of an elastic
 !> body whose stiffness matrix is in full storage. Arguments in doc/legacy.md.
 subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
-                  alpha, lda, b, r, ldr, w, msg, info)
+                  alpha, lda, b, r, ldr, w, nheld, msg, info)
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
   use fuge_kinds, only: dp
@@ -13,6 +13,7 @@ subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
   integer, intent(in) :: ifix(nfix), idof(nw, n)
   real(dp), intent(in) :: s(lds, nd), ufix(nfix), p(nd), z(ldz, m), dn(nw, n)
   real(dp), intent(inout) :: alpha(lda, n), b(n), r(ldr, m), w(m)
+  integer, intent(inout) :: nheld(m)
   character(len=*), intent(inout) :: msg
   integer, intent(out) :: info
   type(fuge_body) :: body
@@ -27,5 +28,5 @@ subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
   if (.not. found%failed()) call condense_dense(s, body, condensed, found)
   info = found%status
   msg = found%message
-  if (.not. found%failed()) call give_condensed(condensed, alpha, b, r, w)
+  if (.not. found%failed()) call give_condensed(body, condensed, alpha, b, r, w, nheld)
 end subroutine fugecd

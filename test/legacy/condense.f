@@ -39,7 +39,7 @@ C     before nodes 2 and 3, which push back: DN = -1.
       DOUBLE PRECISION S(4,3), UP(3,3), LOW(2,3), P(3), DN(1,2)
       DOUBLE PRECISION ALPHA(3,2), B(2), F(2), U(3), Q(1), RESID, EPS
       DOUBLE PRECISION R(1,1), W(1), Z(1,1), UFIX(1)
-      INTEGER IFIX(1), IDOF(1,2), INFO, K
+      INTEGER IFIX(1), IDOF(1,2), NHELD(1), INFO, K
       CHARACTER*80 MSG
       PARAMETER (EPS=1.D-14)
       DATA IFIX /1/
@@ -53,11 +53,14 @@ C     before nodes 2 and 3, which push back: DN = -1.
         MSG = 'old'
         ALPHA(3,1) = 7.D0
         IF (K .EQ. 1) CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 1,
-     $    2, 1, IDOF, DN, ALPHA, 3, B, R, 1, W, MSG, INFO)
+     $    2, 1, IDOF, DN, ALPHA, 3, B, R, 1, W, NHELD,
+     $    MSG, INFO)
         IF (K .EQ. 2) CALL FUGECB('U', 3, 1, UP, 3, 1, IFIX, UFIX, P,
-     $    0, Z, 1, 2, 1, IDOF, DN, ALPHA, 3, B, R, 1, W, MSG, INFO)
+     $    0, Z, 1, 2, 1, IDOF, DN, ALPHA, 3, B, R, 1, W, NHELD,
+     $    MSG, INFO)
         IF (K .EQ. 3) CALL FUGECB('l', 3, 1, LOW, 2, 1, IFIX, UFIX, P,
-     $    0, Z, 1, 2, 1, IDOF, DN, ALPHA, 3, B, R, 1, W, MSG, INFO)
+     $    0, Z, 1, 2, 1, IDOF, DN, ALPHA, 3, B, R, 1, W, NHELD,
+     $    MSG, INFO)
         CALL STATUS('FUGEC', INFO, 0)
         CALL STATUS('FUGEC blank MSG', INDEX(MSG, 'old'), 0)
         CALL NUMBER('ALPHA(1,1)', ALPHA(1,1), 0.5D0, EPS)
@@ -89,7 +92,7 @@ C     springs are shortened by 1 and carry 1: F = (3, 1), U = (1, .5, 0).
       DOUBLE PRECISION S(4,3), UP(3,3), LOW(2,3), P(3), DN(1,2), Z(4,1)
       DOUBLE PRECISION ALPHA(2,2), B(2), GAP(2), F(2), C(2), U(3), Q(1)
       DOUBLE PRECISION R(3,1), W(1), PLAY(2), UFIX(1), RESID, EPS
-      INTEGER IFIX(1), IDOF(1,2), NSTOP(2), INFO, K
+      INTEGER IFIX(1), IDOF(1,2), NSTOP(2), NHELD(1), INFO, K
       CHARACTER*80 MSG
       PARAMETER (EPS=1.D-14)
       DATA IDOF /1, 3/
@@ -101,14 +104,17 @@ C     springs are shortened by 1 and carry 1: F = (3, 1), U = (1, .5, 0).
       DO 10 K = 1, 2
         R(3,1) = 7.D0
         IF (K .EQ. 1) CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 1, Z, 4,
-     $    2, 1, IDOF, DN, ALPHA, 2, B, R, 3, W, MSG, INFO)
+     $    2, 1, IDOF, DN, ALPHA, 2, B, R, 3, W, NHELD,
+     $    MSG, INFO)
         IF (K .EQ. 2) CALL FUGECB('U', 3, 1, UP, 3, 0, IFIX, UFIX, P,
-     $    1, Z, 4, 2, 1, IDOF, DN, ALPHA, 2, B, R, 3, W, MSG, INFO)
+     $    1, Z, 4, 2, 1, IDOF, DN, ALPHA, 2, B, R, 3, W, NHELD,
+     $    MSG, INFO)
         CALL STATUS('FUGEC floats', INFO, 0)
         CALL NUMBER('R(1)', R(1,1), 1.D0, 0.D0)
         CALL NUMBER('R(2)', R(2,1), 1.D0, 0.D0)
         CALL NUMBER('R padding', R(3,1), 7.D0, 0.D0)
         CALL NUMBER('W', W(1), 4.D0, 0.D0)
+        CALL STATUS('NHELD', NHELD(1), 0)
         GAP(1) = 1.D0 + B(1)
         GAP(2) = B(2)
         CALL FUGEGV(2, 1, ALPHA, 2, GAP, NSTOP, PLAY, R, 3, W, F, C, Q,
@@ -135,36 +141,99 @@ C     Forces that do not balance the load.
       CALL NUMBER('FUGERD out of balance, U', U(1), 7.D0, 0.D0)
 C     It does float.
       CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 0, Z, 4, 2, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 3, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 3, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD without motions', INFO, -9)
       END
 
-C     Two springs at a right angle to each other: the contact feels one
-C     of the two motions only.
+C     A square frame with diagonals, on stops 0.25 below its two lower
+C     nodes: they feel that it sinks and turns, not that it slides. Loads
+C     of 3 and 1 on the upper nodes go down to the lower ones.
       SUBROUTINE SLIDES
-      DOUBLE PRECISION S(4,4), P(4), Z(4,2), DN(1,2), UFIX(1)
-      DOUBLE PRECISION ALPHA(2,2), B(2), R(2,2), W(2)
-      INTEGER IFIX(1), IDOF(1,2), INFO
+      DOUBLE PRECISION S(8,8), P(8), Z(8,3), X(2,4), DN(1,3), UFIX(1)
+      DOUBLE PRECISION ALPHA(3,3), B(3), R(3,3), W(3), GAP(3), PLAY(3)
+      DOUBLE PRECISION F(3), C(3), Q(3), U(8), RESID, D, EPS
+      INTEGER IFIX(1), IDOF(1,3), NSTOP(3), NHELD(3), NCON, NITER, INFO
+      INTEGER I, J, K, L
       CHARACTER*80 MSG
-      DATA S /1.D0, -1.D0, 0.D0, 0.D0,  -1.D0, 1.D0, 0.D0, 0.D0,
-     $        0.D0, 0.D0, 1.D0, -1.D0,  0.D0, 0.D0, -1.D0, 1.D0/
-      DATA Z /1.D0, 1.D0, 0.D0, 0.D0,  0.D0, 0.D0, 1.D0, 1.D0/
-      DATA P /0.D0, 0.D0, 0.D0, 1.D0/
-      DATA IDOF /3, 4/
-      DATA DN /-1.D0, -1.D0/
-      DATA W /7.D0, 7.D0/
-      CALL FUGECD(4, S, 4, 0, IFIX, UFIX, P, 2, Z, 4, 2, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
-      CALL STATUS('FUGECD slides', INFO, -21)
-      CALL HASTXT('FUGECD slides', MSG, 'only 1 of 2')
-      CALL NUMBER('FUGECD slides, W', W(1) + W(2), 14.D0, 0.D0)
-C     Held in the first direction it is well.
-      IFIX(1) = 1
-      UFIX(1) = 0.D0
-      CALL FUGECD(4, S, 4, 1, IFIX, UFIX, P, 1, Z(1,2), 4, 2, 1, IDOF,
-     $            DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
-      CALL STATUS('FUGECD slides no more', INFO, 0)
-      CALL NUMBER('FUGECD slides no more, W', W(1), 1.D0, 0.D0)
+      PARAMETER (EPS=1.D-13)
+      DATA X /0.D0, 0.D0,  1.D0, 0.D0,  1.D0, 1.D0,  0.D0, 1.D0/
+      DATA IDOF /2, 4, 6/
+      DATA DN /3*1.D0/
+      DATA NSTOP /3*1/
+      DATA S /64*0.D0/
+      DATA P /5*0.D0, -3.D0, 0.D0, -1.D0/
+      DO 40 I = 1, 3
+        DO 30 J = I + 1, 4
+          D = (X(1,I) - X(1,J))**2 + (X(2,I) - X(2,J))**2
+          DO 20 K = 1, 2
+            DO 10 L = 1, 2
+              CALL ADDBAR(S, I, J, K, L, (X(K,I) - X(K,J))
+     $                    *(X(L,I) - X(L,J))/D)
+   10       CONTINUE
+   20     CONTINUE
+   30   CONTINUE
+   40 CONTINUE
+      CALL FUGERM(2, 4, X, Z, 8, INFO)
+      CALL STATUS('FUGERM', INFO, 0)
+      CALL NUMBER('FUGERM Z(1,1)', Z(1,1), 1.D0, 0.D0)
+      CALL NUMBER('FUGERM Z(2,1)', Z(2,1), 0.D0, 0.D0)
+      CALL NUMBER('FUGERM Z(2,2)', Z(2,2), 1.D0, 0.D0)
+      CALL NUMBER('FUGERM Z(3,3)', Z(3,3), 0.5D0, 0.D0)
+      CALL NUMBER('FUGERM Z(4,3)', Z(4,3), 0.5D0, 0.D0)
+C     The third point is out of reach: three motions need three points.
+      CALL FUGECD(8, S, 8, 0, IFIX, UFIX, P, 3, Z, 8, 3, 1, IDOF, DN,
+     $            ALPHA, 3, B, R, 3, W, NHELD, MSG, INFO)
+      CALL STATUS('FUGECD slides', INFO, 0)
+      CALL STATUS('NHELD(1) slides', NHELD(1), 1)
+      CALL STATUS('NHELD(2) slides', NHELD(2), 0)
+      CALL STATUS('NHELD(3) slides', NHELD(3), 0)
+      CALL NUMBER('W(2) slides', W(2), -4.D0, EPS)
+      CALL NUMBER('W(3) slides', W(3), -1.D0, EPS)
+      DO 50 I = 1, 3
+        GAP(I) = 0.25D0 + B(I)
+        Q(I) = 0.D0
+   50 CONTINUE
+      GAP(3) = 9.D0
+      CALL FUGEGX(3, 3, ALPHA, 3, GAP, NSTOP, PLAY, R, 3, NHELD, W, Q,
+     $            0, 0.D0, 0, F, C, NCON, NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGEGX slides', INFO, 0)
+      CALL NUMBER('F(1) slides', F(1), 1.D0, EPS)
+      CALL NUMBER('F(2) slides', F(2), 3.D0, EPS)
+      CALL FUGERD(8, S, 8, 0, IFIX, UFIX, P, 3, Z, 8, 3, 1, IDOF, DN,
+     $            F, Q, U, RESID, MSG, INFO)
+      CALL STATUS('FUGERD slides', INFO, 0)
+      CALL NUMBER('U(2) slides', U(2), -0.25D0, EPS)
+      CALL NUMBER('U(4) slides', U(4), -0.25D0, EPS)
+      CALL NUMBER('RESID slides', RESID, 0.D0, EPS)
+C     A load that drives it along.
+      P(1) = 1.D0
+      NHELD(1) = 7
+      CALL FUGECD(8, S, 8, 0, IFIX, UFIX, P, 3, Z, 8, 3, 1, IDOF, DN,
+     $            ALPHA, 3, B, R, 3, W, NHELD, MSG, INFO)
+      CALL STATUS('FUGECD driven along', INFO, -10)
+      CALL STATUS('FUGECD driven along, NHELD', NHELD(1), 7)
+C     What FUGERM refuses.
+      Z(1,1) = 7.D0
+      CALL FUGERM(1, 4, X, Z, 8, INFO)
+      CALL STATUS('FUGERM, NDIM = 1', INFO, -1)
+      CALL FUGERM(2, 0, X, Z, 8, INFO)
+      CALL STATUS('FUGERM, NN = 0', INFO, -1)
+      CALL FUGERM(2, 4, X, Z, 7, INFO)
+      CALL STATUS('FUGERM, LDZ < 2 NN', INFO, -1)
+      CALL FUGERM(3, 2000000000, X, Z, 8, INFO)
+      CALL STATUS('FUGERM, NN large', INFO, -1)
+      CALL NUMBER('FUGERM untouched', Z(1,1), 7.D0, 0.D0)
+      END
+
+C     A spring between nodes I and J in the stiffness matrix of a plane
+C     frame, its part along axes K and L.
+      SUBROUTINE ADDBAR(S, I, J, K, L, C)
+      DOUBLE PRECISION S(8,8), C
+      INTEGER I, J, K, L
+      S(2*I-2+K,2*I-2+L) = S(2*I-2+K,2*I-2+L) + C
+      S(2*J-2+K,2*J-2+L) = S(2*J-2+K,2*J-2+L) + C
+      S(2*I-2+K,2*J-2+L) = S(2*I-2+K,2*J-2+L) - C
+      S(2*J-2+K,2*I-2+L) = S(2*J-2+K,2*I-2+L) - C
       END
 
 C     Two bodies on springs of stiffness 2 and 4 in one matrix, between
@@ -174,7 +243,7 @@ C     moves both by 0.5 and leaves a contact force of 2.
       DOUBLE PRECISION S(2,2), P(2), DN(2,1), ALPHA(1,1), B(1), F(1)
       DOUBLE PRECISION Z(1,1), R(1,1), W(1), Q(1), UFIX(1), U(2), C(1)
       DOUBLE PRECISION PLAY(1), RESID, EPS
-      INTEGER IFIX(1), IDOF(2,1), NSTOP(1), INFO
+      INTEGER IFIX(1), IDOF(2,1), NSTOP(1), NHELD(1), INFO
       CHARACTER*80 MSG
       PARAMETER (EPS=1.D-14)
       DATA S /2.D0, 0.D0, 0.D0, 4.D0/
@@ -183,7 +252,7 @@ C     moves both by 0.5 and leaves a contact force of 2.
       DATA DN /-1.D0, 1.D0/
       DATA NSTOP /1/
       CALL FUGECD(2, S, 2, 0, IFIX, UFIX, P, 0, Z, 1, 1, 2, IDOF, DN,
-     $            ALPHA, 1, B, R, 1, W, MSG, INFO)
+     $            ALPHA, 1, B, R, 1, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD of a pair', INFO, 0)
       CALL NUMBER('ALPHA of a pair', ALPHA(1,1), 0.75D0, EPS)
       CALL NUMBER('B of a pair', B(1), -1.5D0, EPS)
@@ -205,7 +274,7 @@ C     sinks by 0.375 and by 2**3/48.
       DOUBLE PRECISION AB(4,6), E(4,4), P(6), Z(6,2), DN(1,2), UFIX(1)
       DOUBLE PRECISION ALPHA(2,2), B(2), R(2,2), W(2), GAP(2), PLAY(2)
       DOUBLE PRECISION F(2), C(2), Q(2), U(6), RESID, EPS
-      INTEGER IFIX(1), IDOF(1,2), NSTOP(2), INFO, I, J, L
+      INTEGER IFIX(1), IDOF(1,2), NSTOP(2), NHELD(2), INFO, I, J, L
       CHARACTER*80 MSG
       PARAMETER (EPS=1.D-13)
       DATA E /12.D0, 6.D0, -12.D0, 6.D0,  6.D0, 4.D0, -6.D0, 2.D0,
@@ -225,11 +294,12 @@ C     sinks by 0.375 and by 2**3/48.
    20   CONTINUE
    30 CONTINUE
       CALL FUGECB('L', 6, 3, AB, 4, 0, IFIX, UFIX, P, 2, Z, 6, 2, 1,
-     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECB of a beam', INFO, 0)
       CALL NUMBER('R(2,1) of a beam', R(2,1), 1.D0, EPS)
       CALL NUMBER('R(1,2) of a beam', R(1,2), 0.D0, EPS)
       CALL NUMBER('R(2,2) of a beam', R(2,2), 2.D0, EPS)
+      CALL STATUS('NHELD of a beam', NHELD(1) + NHELD(2), 0)
       CALL NUMBER('W(1) of a beam', W(1), 1.D0, EPS)
       CALL NUMBER('W(2) of a beam', W(2), 1.D0, EPS)
       GAP(1) = 0.25D0 + B(1)
@@ -256,7 +326,7 @@ C     Every refusal leaves the outputs alone.
       DOUBLE PRECISION S(4,3), UP(3,3), LOW(2,3), P(3), DN(1,2), Z(3,1)
       DOUBLE PRECISION ALPHA(2,2), B(2), R(2,1), W(1), UFIX(1), RESID
       DOUBLE PRECISION F(2), Q(1), U(3), BAD, KEEP
-      INTEGER IFIX(1), IDOF(1,2), INFO, I, N, NBITS(2)
+      INTEGER IFIX(1), IDOF(1,2), NHELD(1), INFO, I, N, NBITS(2)
       CHARACTER*80 MSG
       EQUIVALENCE (BAD, NBITS)
       DATA NBITS /-1, -1/
@@ -269,49 +339,50 @@ C     Every refusal leaves the outputs alone.
       DATA F /1.D0, 2.D0/
       DATA Q /0.D0/
       DATA ALPHA, B, R, W, U, RESID /13*7.D0/
+      DATA NHELD /7/
       CALL SPRING(S, UP, LOW)
       N = 2
 C     Sizes.
       CALL FUGECD(0, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, ND = 0', INFO, -1)
       CALL HASTXT('FUGECD, ND = 0', MSG, 'ND = 0')
       CALL FUGECD(3, S, 2, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, LDS < ND', INFO, -1)
       CALL HASTXT('FUGECD, LDS < ND', MSG, 'LDS = 2')
       CALL FUGECD(3, S, 4, -1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, NFIX < 0', INFO, -1)
       CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 1, Z, 2, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, LDZ < ND', INFO, -1)
       CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, -1, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, M < 0', INFO, -1)
       CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 3, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, M > N', INFO, -21)
       CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, 0, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, N = 0', INFO, -1)
       CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 0, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, NW = 0', INFO, -1)
       CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 1, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 1, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, LDA < N', INFO, -1)
       CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 1, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 1, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 1, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, LDR < N', INFO, -1)
       CALL FUGECB('U', 3, 1, UP, 1, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
-     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECB, LDAB < KD + 1', INFO, -1)
       CALL FUGECB('U', 3, -1, UP, 3, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
-     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECB, KD < 0', INFO, -1)
       CALL FUGECB('X', 3, 1, UP, 3, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
-     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECB, UPLO = X', INFO, -14)
       CALL FUGERB('U', 3, 1, UP, 1, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
      $            IDOF, DN, F, Q, U, RESID, MSG, INFO)
@@ -322,7 +393,7 @@ C     Sizes.
 C     Degrees of freedom that there are not.
       IFIX(1) = 4
       CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, IFIX = 4', INFO, -22)
       IFIX(1) = 1
       IDOF(1,2) = -1
@@ -333,13 +404,13 @@ C     Degrees of freedom that there are not.
 C     NaN, one after the other.
       UFIX(1) = BAD
       CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, UFIX NaN', INFO, -3)
       UFIX(1) = 0.D0
       KEEP = DN(1,2)
       DN(1,2) = BAD
       CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, DN NaN', INFO, -3)
       DN(1,2) = KEEP
       F(2) = BAD
@@ -349,7 +420,7 @@ C     NaN, one after the other.
       F(2) = 2.D0
       P(2) = BAD
       CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
-     $            ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECD, P NaN', INFO, -3)
       CALL FUGERD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
      $            F, Q, U, RESID, MSG, INFO)
@@ -357,7 +428,7 @@ C     NaN, one after the other.
       P(2) = 0.D0
       UP(2,2) = BAD
       CALL FUGECB('U', 3, 1, UP, 3, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
-     $            IDOF, DN, ALPHA, 2, B, R, 2, W, MSG, INFO)
+     $            IDOF, DN, ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
       CALL STATUS('FUGECB, AB NaN', INFO, -3)
       CALL FUGERB('U', 3, 1, UP, 3, 1, IFIX, UFIX, P, 0, Z, 3, N, 1,
      $            IDOF, DN, F, Q, U, RESID, MSG, INFO)
@@ -372,5 +443,6 @@ C     NaN, one after the other.
         CALL NUMBER('U untouched', U(I), 7.D0, 0.D0)
    20 CONTINUE
       CALL NUMBER('W untouched', W(1), 7.D0, 0.D0)
+      CALL STATUS('NHELD untouched', NHELD(1), 7)
       CALL NUMBER('RESID untouched', RESID, 7.D0, 0.D0)
       END
