@@ -402,6 +402,11 @@ C     Degrees of freedom that there are not.
       CALL STATUS('FUGERD, IDOF = -1', INFO, -22)
       IDOF(1,2) = 3
 C     NaN, one after the other.
+      U(2) = BAD
+      CALL FUGERM(3, 1, U, Z, 3, INFO)
+      CALL STATUS('FUGERM, X NaN', INFO, -3)
+      U(2) = 7.D0
+      CALL NUMBER('FUGERM, X NaN, Z', Z(1,1), 1.D0, 0.D0)
       UFIX(1) = BAD
       CALL FUGECD(3, S, 4, 1, IFIX, UFIX, P, 0, Z, 3, N, 1, IDOF, DN,
      $            ALPHA, 2, B, R, 2, W, NHELD, MSG, INFO)
