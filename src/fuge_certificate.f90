@@ -103,6 +103,10 @@ contains
     call operator%magnitude(solution%force, error, length)
     error = (problem%gap - moved) + error - solution%gap
     length = abs(problem%gap - moved) + length
+    if (allocated(problem%modes)) then
+      ! Motions are found together: each rounds like the largest length of its body.
+      terms = terms + largest_of_bodies(problem%modes, merge(abs(problem%gap) + terms, 0.0_dp, counts))
+    end if
     violation%gap_equation = gap_violation(error, length, solution%force, problem%gap, terms, counts, &
                                            .not. allocated(problem%modes))
     call contact_violations(problem, solution, length, counts, violation)
@@ -142,8 +146,6 @@ contains
     violation = 0.0_dp
     if (.not. any(counts)) return
     reference = minloc(gap, dim=1, mask=counts)
-    ! Without forces the motions round like the largest of them.
-    if (.not. translation) reference = maxloc(abs(gap) + terms, dim=1, mask=counts)
     ! A force that may be rounding is no contact.
     if (any(abs(force) > 0.0_dp)) reference = minloc(length, dim=1, mask=counts .and. &
                                                      abs(force) > sqrt(epsilon(shared))*maxval(abs(force)))
@@ -154,7 +156,6 @@ contains
       if (.not. abs(error(k)) <= huge(violation)) violation = huge(violation)
       ! Half a unit in the last place of the gap and of the motions, and as much for their sum.
       rounding = abs(gap(k)) + abs(gap(reference)) + terms(k)
-      if (.not. translation) rounding = rounding + terms(reference)
       excess = max(abs(error(k) - shared) - 2.0_dp*epsilon(shared)*rounding, 0.0_dp)
       violation = max(violation, relative(excess, length(k) + length(reference)))
     end do
@@ -169,17 +170,19 @@ contains
     real(dp), intent(in) :: length(:)
     logical, intent(in) :: counts(:)
     type(fuge_violation), intent(inout) :: violation
-    real(dp) :: largest, own, noise, upper, stop_distance
+    real(dp) :: largest, own, noise, upper, stop_distance, of_body(size(length))
     integer :: k
 
     violation%sign = 0.0_dp
     violation%complementarity = 0.0_dp
     largest = maxval(abs(solution%force))
     noise = ROUNDINGS*epsilon(noise)*largest
-    own = largest
     upper = huge(upper)
+    of_body = largest
+    if (allocated(problem%modes)) of_body = largest_of_bodies(problem%modes, abs(solution%force))
     do k = 1, size(length)
-      if (allocated(problem%modes)) own = largest_of_body(problem%modes, solution%force, k)
+      own = of_body(k)
+      if (.not. own > 0.0_dp) own = largest
       associate (f => solution%force(k), c => solution%gap(k))
         if (.not. counts(k)) then
           violation%sign = max(violation%sign, relative(abs(f), largest))
@@ -201,19 +204,18 @@ contains
     end do
   end subroutine contact_violations
 
-  !> The largest force among the points that a motion moves together with this one.
-  pure function largest_of_body(modes, force, point) result(largest)
-    real(dp), intent(in) :: modes(:, :), force(:)
-    integer, intent(in) :: point
-    real(dp) :: largest
+  !> For each point the largest of the values >= 0 among the points that a motion moves
+  !> together with it; 0 for a point that none moves.
+  pure function largest_of_bodies(modes, values) result(largest)
+    real(dp), intent(in) :: modes(:, :), values(:)
+    real(dp) :: largest(size(values))
     integer :: j
 
     largest = 0.0_dp
     do j = 1, size(modes, 2)
-      if (abs(modes(point, j)) > 0.0_dp) largest = max(largest, maxval(abs(force), mask=abs(modes(:, j)) > 0.0_dp))
+      where (abs(modes(:, j)) > 0.0_dp) largest = max(largest, maxval(values, mask=abs(modes(:, j)) > 0.0_dp))
     end do
-    if (.not. largest > 0.0_dp) largest = maxval(abs(force))
-  end function largest_of_body
+  end function largest_of_bodies
 
   !> Equation (11) for the free motions; the others must be as prescribed. Forces count as
   !> parts of the largest one here too: a resultant of zero may rest on rounding alone.
