@@ -21,6 +21,9 @@ module fuge
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_profiles, only: fuge_read_profile, fuge_sample_profile, fuge_level_profile, &
     FUGE_LEVEL_MEAN, FUGE_LEVEL_LINE
+  use fuge_smooth_contact_type, only: fuge_smooth_contact
+  use fuge_smooth_profile_type, only: fuge_smooth_profile, fuge_polynomial_profile, fuge_sampled_profile
+  use fuge_smooth_punch, only: fuge_solve_smooth_punch
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense
   use fuge_status, only: fuge_info, fuge_status_text, FUGE_MESSAGE_LENGTH, &
     FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, &

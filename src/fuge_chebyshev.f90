@@ -1,0 +1,191 @@
+!> Chebyshev series on -1 <= t <= 1: coefficients from values and back, derivative, sums.
+!>
+!> A series of degree n is sum_k a_k T_k(t), k = 0 .. n; its values are given at the points
+!> t_j = cos(pi j/n), j = 0 .. n, from 1 down to -1, those of twice the degree containing
+!> them. All is pure, and a power of two in the values is one in the results.
+!> Source: L. N. Trefethen, Approximation Theory and Approximation Practice, 2013,
+!> chapters 2 to 4; C. W. Clenshaw, Math. Comp. 9, 1955.
+module fuge_chebyshev
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  public :: chebyshev_points, chebyshev_coefficients, chebyshev_values, chebyshev_derivative, chebyshev_sum, &
+    second_kind_sum, second_to_first
+
+  real(dp), parameter :: PI = acos(-1.0_dp)
+
+contains
+
+  !> cos(pi j/n), j = 0 .. n, exactly symmetric about 0.
+  pure function chebyshev_points(n) result(t)
+    integer, intent(in) :: n
+    real(dp) :: t(0:n)
+    integer :: j
+
+    do j = 0, n
+      t(j) = sin(0.5_dp*PI*real(n - 2*j, dp)/real(n, dp))
+    end do
+  end function chebyshev_points
+
+  !> Coefficients a_0 .. a_n from the values at the points, n a power of two.
+  pure function chebyshev_coefficients(values) result(a)
+    real(dp), intent(in) :: values(0:)
+    real(dp) :: a(0:size(values) - 1)
+    integer :: n
+
+    n = size(values) - 1
+    a = even_transform(values)/real(n, dp)
+    a(0) = 0.5_dp*a(0)
+    a(n) = 0.5_dp*a(n)
+  end function chebyshev_coefficients
+
+  !> Values at the points of degree n, a power of two, of a series of degree n or less.
+  pure function chebyshev_values(a, n) result(values)
+    real(dp), intent(in) :: a(0:)
+    integer, intent(in) :: n
+    real(dp) :: values(0:n)
+    real(dp) :: halved(0:n)
+
+    halved = 0.0_dp
+    halved(:size(a) - 1) = 0.5_dp*a
+    halved(0) = 2.0_dp*halved(0)
+    halved(n) = 2.0_dp*halved(n)
+    values = even_transform(halved)
+  end function chebyshev_values
+
+  !> sum_j v_j cos(pi j k/n) over j = 0 .. 2 n - 1, v continued evenly beyond n.
+  pure function even_transform(v) result(s)
+    real(dp), intent(in) :: v(0:)
+    real(dp) :: s(0:size(v) - 1)
+    complex(dp) :: z(0:2*size(v) - 3)
+    integer :: n
+
+    n = size(v) - 1
+    z(:n) = cmplx(v, 0.0_dp, dp)
+    z(n + 1:) = cmplx(v(n - 1:1:-1), 0.0_dp, dp)
+    call transform(z)
+    s = real(z(:n), dp)
+  end function even_transform
+
+  !> Discrete Fourier transform in place, the length a power of two. Few values at a time:
+  !> for long ones there is `fuge_fft`.
+  pure subroutine transform(z)
+    complex(dp), intent(inout) :: z(0:)
+    complex(dp) :: turn(0:size(z)/2 - 1), odd
+    integer :: n, span, stride, first, k
+
+    n = size(z)
+    do k = 0, n/2 - 1
+      turn(k) = cmplx(cos(2.0_dp*PI*real(k, dp)/real(n, dp)), -sin(2.0_dp*PI*real(k, dp)/real(n, dp)), dp)
+    end do
+    call reverse_bits(z)
+    span = 1
+    do while (span < n)
+      stride = n/(2*span)
+      do first = 0, n - 1, 2*span
+        do k = 0, span - 1
+          odd = turn(k*stride)*z(first + span + k)
+          z(first + span + k) = z(first + k) - odd
+          z(first + k) = z(first + k) + odd
+        end do
+      end do
+      span = 2*span
+    end do
+  end subroutine transform
+
+  !> Each value to the place whose number has the same bits in reverse order.
+  pure subroutine reverse_bits(z)
+    complex(dp), intent(inout) :: z(0:)
+    complex(dp) :: moved
+    integer :: k, reversed, bit
+
+    reversed = 0
+    do k = 0, size(z) - 1
+      if (k < reversed) then
+        moved = z(k)
+        z(k) = z(reversed)
+        z(reversed) = moved
+      end if
+      ! Add one to the number whose lowest bit stands first.
+      bit = size(z)/2
+      do while (bit > 0 .and. iand(reversed, bit) /= 0)
+        reversed = reversed - bit
+        bit = bit/2
+      end do
+      reversed = reversed + bit
+    end do
+  end subroutine reverse_bits
+
+  !> Coefficients of the derivative, one degree less.
+  pure function chebyshev_derivative(a) result(d)
+    real(dp), intent(in) :: a(0:)
+    real(dp) :: d(0:max(0, size(a) - 2))
+    real(dp) :: next, after
+    integer :: k
+
+    d = 0.0_dp
+    next = 0.0_dp
+    after = 0.0_dp
+    do k = size(a) - 1, 1, -1
+      ! d_(k-1) = d_(k+1) + 2 k a_k
+      d(k - 1) = after + 2.0_dp*real(k, dp)*a(k)
+      after = next
+      next = d(k - 1)
+    end do
+    d(0) = 0.5_dp*d(0)
+  end function chebyshev_derivative
+
+  !> sum_k a_k T_k(t) by Clenshaw's recurrence.
+  pure function chebyshev_sum(a, t) result(values)
+    real(dp), intent(in) :: a(0:), t(:)
+    real(dp) :: values(size(t))
+    real(dp) :: next(size(t)), after(size(t))
+
+    call recur(a, t, next, after)
+    values = a(0) + t*next - after
+  end function chebyshev_sum
+
+  !> sum_k c_k U_k(t), the polynomials of the second kind.
+  pure function second_kind_sum(c, t) result(values)
+    real(dp), intent(in) :: c(0:), t(:)
+    real(dp) :: values(size(t))
+    real(dp) :: next(size(t)), after(size(t))
+
+    call recur(c, t, next, after)
+    values = c(0) + 2.0_dp*t*next - after
+  end function second_kind_sum
+
+  !> The recurrence down to its values for k = 1 and k = 2.
+  pure subroutine recur(a, t, next, after)
+    real(dp), intent(in) :: a(0:), t(:)
+    real(dp), intent(out) :: next(:), after(:)
+    real(dp) :: now
+    integer :: j, k
+
+    next = 0.0_dp
+    after = 0.0_dp
+    do k = size(a) - 1, 1, -1
+      do j = 1, size(t)
+        now = a(k) + 2.0_dp*t(j)*next(j) - after(j)
+        after(j) = next(j)
+        next(j) = now
+      end do
+    end do
+  end subroutine recur
+
+  !> The same polynomial in T_k instead of U_k: U_k = 2 (T_k + T_(k-2) + ..), the last
+  !> T_0 once.
+  pure function second_to_first(c) result(a)
+    real(dp), intent(in) :: c(0:)
+    real(dp) :: a(0:size(c) - 1)
+    integer :: k
+
+    a = c
+    do k = size(c) - 3, 0, -1
+      a(k) = a(k) + a(k + 2)
+    end do
+    a(1:) = 2.0_dp*a(1:)
+  end function second_to_first
+
+end module fuge_chebyshev
