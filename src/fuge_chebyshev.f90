@@ -23,8 +23,13 @@ contains
     real(dp) :: t(0:n)
     integer :: j
 
-    do j = 0, n
+    t = 0.0_dp
+    t(0) = 1.0_dp
+    do j = 1, (n - 1)/2
       t(j) = sin(0.5_dp*PI*real(n - 2*j, dp)/real(n, dp))
+    end do
+    do j = 0, (n - 1)/2
+      t(n - j) = -t(j)
     end do
   end function chebyshev_points
 

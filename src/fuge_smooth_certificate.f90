@@ -31,7 +31,7 @@ contains
   !>   |gap + displacement - approach - tilt x| at places in the contact, relative to the
   !>     height of the profile there over its lowest of these places and F/E*, less the
   !>     rounding of gap, approach and x;
-  !>   the integral of the pressure less the force, relative to it;
+  !>   the integral of the pressure less the force, relative to it, less the rounding of x;
   !>   the integral of x times the pressure less the moment, relative to the force times
   !>     the half width, less the rounding of x.
   !> No unit. One call of the profile; `info` gets its errors.
@@ -62,10 +62,11 @@ contains
                  - unit*dot_product(log_distance(PI*ANGLES(k), t), force)
     end do
     height = abs((gap - minval(gap)) - contact%tilt*(x - x(minloc(gap, 1))))
-    rounding = abs(gap) + abs(contact%approach) + (abs(contact%tilt) + abs(slope))*abs(x)
+    rounding = abs(gap) + abs(contact%approach) + (abs(contact%tilt) + abs(slope))*abs(x) &
+               + unit*contact%force*abs(centre)/contact%half_width
     lever = sum(contact%half_width*t*(force/contact%force)) + centre - contact%moment/contact%force
     residual = max(maxval(beyond(error, rounding)/(height + contact%force/contact%e_star)), &
-                   abs(sum(force)/contact%force - 1.0_dp), &
+                   beyond(sum(force)/contact%force - 1.0_dp, abs(centre)/contact%half_width), &
                    beyond(lever, abs(centre) + contact%half_width)/contact%half_width)
     if (.not. residual <= huge(residual)) residual = huge(residual)
   end subroutine certify_contact

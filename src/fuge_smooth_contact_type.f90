@@ -18,8 +18,9 @@ module fuge_smooth_contact_type
   type, public :: fuge_smooth_contact
     !> Left and right end of the contact; length.
     real(dp) :: ends(2) = 0.0_dp
-    !> Half of its length, with more digits than the ends have where they are far from 0.
-    real(dp) :: half_width = 0.0_dp
+    !> Half of its length, and in two parts, anchor + offset, its middle: with more digits than
+    !> the ends have where these are far from 0.
+    real(dp) :: half_width = 0.0_dp, anchor = 0.0_dp, offset = 0.0_dp
     !> Force per depth, and its moment about x = 0.
     real(dp) :: force = 0.0_dp, moment = 0.0_dp
     !> The punch moves by approach + tilt x; length, no unit. The displacement by a line
@@ -63,13 +64,12 @@ contains
     class(fuge_smooth_contact), intent(in) :: self
     real(dp), intent(in) :: x(:)
     real(dp) :: pressure(size(x))
-    real(dp) :: t(size(x)), root(size(x))
+    real(dp) :: t(size(x))
 
     pressure = 0.0_dp
     if (.not. allocated(self%coefficients)) return
-    root = sqrt(max(0.0_dp, (x - self%ends(1)))*max(0.0_dp, self%ends(2) - x))/self%half_width
-    t = max(-1.0_dp, min(1.0_dp, ((x - self%ends(1)) - (self%ends(2) - x))/(2.0_dp*self%half_width)))
-    pressure = root*second_kind_sum(self%coefficients, t)
+    t = max(-1.0_dp, min(1.0_dp, ((x - self%anchor) - self%offset)/self%half_width))
+    pressure = sqrt((1.0_dp - t)*(1.0_dp + t))*second_kind_sum(self%coefficients, t)
   end function pressures_at
 
   pure function gap_at(self, x, initial_gap) result(gap)

@@ -7,7 +7,7 @@
 module fuge_smooth_ends
   use fuge_kinds, only: dp
   use fuge_smooth_profile_type, only: fuge_smooth_profile
-  use fuge_smooth_slope, only: slope_series, expand_slope
+  use fuge_smooth_slope, only: expand_slope, place_interval, slope_series
   use fuge_status, only: fuge_info
   implicit none
   private
@@ -34,20 +34,23 @@ module fuge_smooth_ends
   !> The series need not be exact before steps are this small.
   real(dp), parameter :: COARSE_STEP = 1.0e-2_dp, COARSE_GOAL = 1.0e-5_dp, FINE_GOAL = 0.1_dp*epsilon(1.0_dp)
 
+  !> A step that there is not.
+  real(dp), parameter :: UNSOLVABLE = 0.25_dp*huge(1.0_dp)
+
 contains
 
-  !> From the interval `middle` -+ `half` to one that carries what it has to, `series` the
-  !> slope on it, if `found`, with its errors relative to a_1, the first one as a change of the
+  !> From an interval to one that carries what it has to, `series` the slope on it, if `found`, with its errors relative to a_1, the first one as a change of the
   !> interval in half lengths. `steps` counts the series formed.
-  subroutine find_ends(profile, task, middle, half, series, found, steps, info)
+  subroutine find_ends(profile, task, first, series, found, steps, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(pressing), intent(in) :: task
-    real(dp), intent(inout) :: middle, half
+    type(place_interval), intent(in) :: first
     type(slope_series), intent(out) :: series
     logical, intent(out) :: found
     integer, intent(inout) :: steps
     type(fuge_info), intent(inout) :: info
-    real(dp) :: change(2), residual(2), size_now, size_before, step, step_before, goal, start(2), left
+    real(dp) :: change(2), residual(2), size_now, size_before, step, step_before, goal, left
+    type(place_interval) :: interval, start
     integer :: k
 
     found = .false.
@@ -56,9 +59,10 @@ contains
     step_before = huge(step_before)
     change = 0.0_dp
     step = huge(step)
-    start = [middle, half]
+    interval = first
+    start = first
     do k = 1, MOST_STEPS
-      call expand_slope(profile, middle, half, goal, DEGREES, series, info)
+      call expand_slope(profile, interval, goal, DEGREES, series, info)
       steps = steps + 1
       if (info%failed()) return
       size_now = huge(size_now)
@@ -71,12 +75,12 @@ contains
         change = 0.5_dp*change
       else
         if (maxval(abs(change)) <= LAST_STEP .and. k > 1 .and. goal <= FINE_GOAL) exit
-        start = [middle, half]
+        start = interval
         size_before = size_now
         step_before = step
         change = newton_step(series, task, residual)
         step = maxval(abs(change))
-        if (step >= huge(step)) return
+        if (step >= UNSOLVABLE) return
         if (step <= COARSE_STEP .and. goal > FINE_GOAL) then
           goal = FINE_GOAL
           size_before = huge(size_before)
@@ -85,8 +89,8 @@ contains
         change = [max(-LONGEST_MOVE, min(LONGEST_MOVE, change(1))), &
                   max(-LONGEST_SCALING, min(LONGEST_SCALING, change(2)))]
       end if
-      call move(profile, start, change, middle, half)
-      if (.not. half > 0.0_dp) return
+      interval = moved(profile, start, change)
+      if (.not. interval%half > 0.0_dp) return
     end do
     found = k <= MOST_STEPS
     if (.not. found) return
@@ -104,26 +108,28 @@ contains
     logical :: too_far
 
     too_far = size_now >= huge(size_now) &
-              .or. (size_now > 2.0_dp*size_before .and. maxval(abs(change)) >= ROUNDING_STEP)
+              .or. (0.5_dp*size_now > size_before .and. maxval(abs(change)) >= ROUNDING_STEP)
   end function too_far
 
-  !> The change of `start` = middle and half length, within the profile.
-  pure subroutine move(profile, start, change, middle, half)
+  !> An interval changed by a step, within the profile.
+  pure function moved(profile, start, change) result(interval)
     class(fuge_smooth_profile), intent(in) :: profile
-    real(dp), intent(in) :: start(2), change(2)
-    real(dp), intent(out) :: middle, half
+    type(place_interval), intent(in) :: start
+    real(dp), intent(in) :: change(2)
+    type(place_interval) :: interval
     real(dp) :: left, right
 
-    half = start(2)*exp(change(2))
-    middle = start(1) + min(start(2), half)*change(1)
-    left = middle - half
-    right = middle + half
-    if (left >= profile%lower .and. right <= profile%upper) return
-    left = min(max(left, profile%lower), profile%upper)
-    right = min(max(right, profile%lower), profile%upper)
-    middle = 0.5_dp*(left + right)
-    half = 0.5_dp*(right - left)
-  end subroutine move
+    interval = start
+    interval%half = start%half*exp(change(2))
+    interval%offset = start%offset + min(start%half, interval%half)*change(1)
+    left = interval%offset - interval%half
+    right = interval%offset + interval%half
+    if (start%anchor + left >= profile%lower .and. start%anchor + right <= profile%upper) return
+    left = min(max(left, profile%lower - start%anchor), profile%upper - start%anchor)
+    right = min(max(right, profile%lower - start%anchor), profile%upper - start%anchor)
+    interval%offset = 0.5_dp*(left + right)
+    interval%half = 0.5_dp*(right - left)
+  end function moved
 
   !> Of the middle (tilt, or moment) and of the load; no unit.
   pure function residual_of(series, task) result(residual)
@@ -133,10 +139,19 @@ contains
 
     associate (a => series%a)
       residual(1) = a(1)/a(2)
-      if (task%tilts) residual(1) = (series%middle - task%line)/series%half + 0.5_dp*a(3)/a(2)
-      residual(2) = log(series%half*a(2)/task%load)
+      if (task%tilts) residual(1) = off_line(series, task) + 0.5_dp*a(3)/a(2)
+      residual(2) = log(series%interval%half*a(2)/task%load)
     end associate
   end function residual_of
+
+  !> Distance of the middle from where the force acts, in half lengths.
+  pure function off_line(series, task) result(distance)
+    type(slope_series), intent(in) :: series
+    type(pressing), intent(in) :: task
+    real(dp) :: distance
+
+    distance = ((series%interval%anchor - task%line) + series%interval%offset)/series%interval%half
+  end function off_line
 
   !> Derivatives of the residual by the middle over the half length, and by the logarithm
   !> of that: those of the a_k are d_k, and the coefficients of t sum_k d_k T_k.
@@ -154,7 +169,7 @@ contains
       if (task%tilts) then
         matrix(1, :) = 0.5_dp*(a_change(2, :)*a(2) - a(3)*a_change(1, :))/a(2)**2
         matrix(1, 1) = matrix(1, 1) + 1.0_dp
-        matrix(1, 2) = matrix(1, 2) - (series%middle - task%line)/series%half
+        matrix(1, 2) = matrix(1, 2) - off_line(series, task)
       else
         matrix(1, :) = (a_change(0, :)*a(2) - a(1)*a_change(1, :))/a(2)**2
       end if
@@ -163,7 +178,7 @@ contains
     end associate
   end function jacobian
 
-  !> Infinite where the matrix is singular.
+  !> UNSOLVABLE where the matrix is singular.
   pure function newton_step(series, task, residual) result(change)
     type(slope_series), intent(in) :: series
     type(pressing), intent(in) :: task
@@ -173,7 +188,7 @@ contains
 
     m = jacobian(series, task)
     determinant = m(1, 1)*m(2, 2) - m(1, 2)*m(2, 1)
-    change = huge(change)
+    change = UNSOLVABLE
     if (abs(determinant) <= epsilon(determinant)*maxval(abs(m))**2) return
     change(1) = -(m(2, 2)*residual(1) - m(1, 2)*residual(2))/determinant
     change(2) = -(m(1, 1)*residual(2) - m(2, 1)*residual(1))/determinant

@@ -68,6 +68,8 @@ contains
     if (status > FUGE_DONE) then
       call report(info, FUGE_ERR_CALLBACK, 'the profile returned the status '//text(status)//' at '//text(size(x)) &
                   //' point(s) from x = '//text(x(1)))
+    else if (status == FUGE_ERR_CALL_ORDER) then
+      call report(info, status, 'the profile has no data: set it first')
     else if (status < FUGE_DONE) then
       call report(info, status, 'the profile could not be evaluated at x = '//text(x(1)))
     end if

@@ -156,7 +156,7 @@ contains
                   //text(worst)//': the profile is not smooth in the contact, or its slope is not that of its gap')
     else if (worst > defaults%tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'the estimated error is '//text(worst) &
-                  //': the profile is not smooth in the contact, or this too narrow for its distance from x = 0')
+                  //': the profile is not smooth in the contact')
     end if
   end subroutine judge
 

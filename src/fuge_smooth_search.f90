@@ -19,7 +19,7 @@ module fuge_smooth_search
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
   use fuge_smooth_samples, only: lowest_place
   use fuge_smooth_signs, only: check_signs, sign_violation
-  use fuge_smooth_slope, only: expand_slope, slope_series
+  use fuge_smooth_slope, only: expand_slope, place_interval, slope_series
   use fuge_status, only: fuge_info
   implicit none
   private
@@ -29,12 +29,12 @@ module fuge_smooth_search
   !> Why there is no answer, or that there is one.
   integer, parameter, public :: FOUND = 0, NOT_FOUND = 1, PULLS = 2, OVERLAPS = 3, AT_END = 4
 
-  !> Course of a search: the contact, or why the last interval tried is none.
+  !> Course of a search: the contact, or why the best interval tried is none.
   type, public :: interval_search
     integer :: outcome = NOT_FOUND
     type(fuge_smooth_contact) :: contact
     type(sign_violation) :: violation
-    !> The interval that was refused.
+    !> The interval that was refused with the least violation.
     real(dp) :: refused(2) = 0.0_dp
     !> Series formed so far.
     integer :: steps = 0
@@ -61,11 +61,11 @@ contains
     type(pressing), intent(in) :: task
     type(interval_search), intent(out) :: search
     type(fuge_info), intent(inout) :: info
-    real(dp) :: middle, half
+    type(place_interval) :: first
 
-    call guess(profile, task, start, middle, half, info)
+    call guess(profile, task, start, first, info)
     if (info%failed()) return
-    call try_interval(profile, e_star, task, middle, half, search, info)
+    call try_interval(profile, e_star, task, first, search, info)
     if (info%failed() .or. search%outcome == FOUND) return
     if (task%tilts) then
       call try_many(profile, e_star, task, search, info)
@@ -76,18 +76,17 @@ contains
 
   !> The interval around `start` in which the profile, turned to be level there if it tilts, is
   !> low.
-  subroutine guess(profile, task, start, middle, half, info)
+  subroutine guess(profile, task, start, first, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(pressing), intent(in) :: task
     real(dp), intent(in) :: start
-    real(dp), intent(out) :: middle, half
+    type(place_interval), intent(out) :: first
     type(fuge_info), intent(inout) :: info
     real(dp) :: distance(HALVINGS + 1, 2), x(HALVINGS + 1), gap(HALVINGS + 1), slope(HALVINGS + 1), level(1), turn(1)
     real(dp) :: reach(2)
     integer :: side, k
 
-    middle = start
-    half = 0.0_dp
+    first%anchor = start
     call sample_profile(profile, [start], level, turn, info)
     if (info%failed()) return
     if (.not. task%tilts) turn = 0.0_dp
@@ -105,42 +104,42 @@ contains
         if (gap(k) - level(1) <= 0.5_dp*task%load) reach(side) = distance(k, side)
       end do
     end do
-    middle = start + 0.5_dp*(reach(1) + reach(2))
-    half = 0.5_dp*(reach(2) - reach(1))
+    first%offset = 0.5_dp*(reach(1) + reach(2))
+    first%half = 0.5_dp*(reach(2) - reach(1))
   end subroutine guess
 
   !> Newton's method from an interval; its end is the answer if the signs are right.
-  subroutine try_interval(profile, e_star, task, first_middle, first_half, search, info)
+  subroutine try_interval(profile, e_star, task, first, search, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    real(dp), intent(in) :: e_star, first_middle, first_half
+    real(dp), intent(in) :: e_star
     type(pressing), intent(in) :: task
+    type(place_interval), intent(in) :: first
     type(interval_search), intent(inout) :: search
     type(fuge_info), intent(inout) :: info
     type(slope_series) :: series
     type(sign_violation) :: violation
     type(fuge_smooth_contact) :: contact
-    real(dp) :: middle, half, allowed
+    real(dp) :: allowed
     logical :: converged
 
-    middle = first_middle
-    half = first_half
-    call find_ends(profile, task, middle, half, series, converged, search%steps, info)
+    call find_ends(profile, task, first, series, converged, search%steps, info)
     if (info%failed() .or. .not. converged) return
     call make_contact(profile, e_star, task, series, contact, info)
     if (info%failed()) return
     call check_signs(profile, contact, violation, info)
     if (info%failed()) return
-    search%violation = violation
-    search%refused = contact%ends
     allowed = max(SIGN_TOLERANCE, ERRORS*contact%pressure_error)
-    if (violation%pull > allowed) then
-      search%outcome = PULLS
-    else if (violation%overlap > allowed) then
-      search%outcome = OVERLAPS
-    else
+    if (max(violation%pull, violation%overlap) <= allowed) then
       search%outcome = FOUND
       search%contact = contact
+    else if (search%outcome /= NOT_FOUND) then
+      ! The interval that comes closest is the one to be told of.
+      if (max(violation%pull, violation%overlap) &
+          >= max(search%violation%pull, search%violation%overlap)) return
     end if
+    search%violation = violation
+    search%refused = contact%ends
+    if (search%outcome /= FOUND) search%outcome = merge(PULLS, OVERLAPS, violation%pull > violation%overlap)
   end subroutine try_interval
 
   !> The contact on the interval of `series`.
@@ -153,21 +152,25 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: gap(3), slope(3), x(3)
 
-    associate (a => series%a, half => series%half, middle => series%middle)
+    associate (a => series%a, anchor => series%interval%anchor, offset => series%interval%offset, &
+               half => series%interval%half)
       contact%e_star = e_star
+      contact%anchor = anchor
+      contact%offset = offset
       contact%half_width = half
-      contact%ends = [max(profile%lower, middle - half), min(profile%upper, middle + half)]
+      contact%ends = anchor + [offset - half, offset + half]
+      contact%ends = max(profile%lower, min(profile%upper, contact%ends))
       contact%force = 0.25_dp*PI*e_star*task%load
-      contact%moment = contact%force*(middle + 0.5_dp*half*a(3)/a(2))
+      contact%moment = contact%force*(anchor + (offset + 0.5_dp*half*a(3)/a(2)))
       if (task%tilts) contact%moment = contact%force*task%line
       if (task%tilts) contact%tilt = a(1)
       contact%coefficients = 0.5_dp*e_star*a(2:)
       contact%end_error = series%first_error
       contact%pressure_error = series%sum_error
-      x = [contact%ends(1), middle, contact%ends(2)]
+      x = [contact%ends(1), anchor + offset, contact%ends(2)]
       call sample_profile(profile, x, gap, slope, info)
       contact%end_gaps = [gap(1), gap(3)]
-      contact%approach = gap(2) - contact%tilt*middle &
+      contact%approach = gap(2) - contact%tilt*x(2) &
                          + middle_displacement(series, task, 2.0_dp*(profile%upper - profile%lower))
     end associate
   end subroutine make_contact
@@ -191,7 +194,8 @@ contains
       side = -side
       displacement = displacement + side*(c(k) - c(k - 2))/(2.0_dp*real(k, dp))
     end do
-    displacement = 0.5_dp*task%load*log(2.0_dp*datum/series%half) + 2.0_dp*series%half*displacement
+    displacement = 0.5_dp*task%load*log(2.0_dp*datum/series%interval%half) &
+                   + 2.0_dp*series%interval%half*displacement
   end function middle_displacement
 
   !> From intervals of all lengths around the line of action.
@@ -208,7 +212,7 @@ contains
     do k = 1, HALVINGS
       left = max(profile%lower, task%line - half)
       right = min(profile%upper, task%line + half)
-      call try_interval(profile, e_star, task, 0.5_dp*(left + right), 0.5_dp*(right - left), search, info)
+      call try_interval(profile, e_star, task, interval_of([left, right]), search, info)
       if (info%failed() .or. search%outcome == FOUND) return
       half = 0.5_dp*half
       if (half <= spacing(abs(task%line))) return
@@ -238,14 +242,13 @@ contains
       do while (search%steps < MOST_SERIES)
         if (part(2) - part(1) <= WORTH_A_TRY*tried) then
           tried = part(2) - part(1)
-          call try_interval(profile, e_star, task, 0.5_dp*(part(1) + part(2)), 0.5_dp*tried, search, info)
+          call try_interval(profile, e_star, task, interval_of(part), search, info)
           if (info%failed() .or. search%outcome == FOUND) return
         end if
-        call expand_slope(profile, 0.5_dp*(part(1) + part(2)), 0.5_dp*(part(2) - part(1)), COARSE_GOAL, &
-                          COARSE_DEGREES, series, info)
+        call expand_slope(profile, interval_of(part), COARSE_GOAL, COARSE_DEGREES, series, info)
         search%steps = search%steps + 1
         if (info%failed()) return
-        pushing = pushing_parts(series, task)
+        pushing = pushing_parts(series, task, part)
         if (size(pushing, 2) /= 1) exit
         if (pushing(2, 1) - pushing(1, 1) > SHRINKING*(part(2) - part(1))) exit
         part = pushing(:, 1)
@@ -255,7 +258,7 @@ contains
         whole = .false.
         call add_parts(pushing, waiting, parts)
       else
-        call try_interval(profile, e_star, task, 0.5_dp*(part(1) + part(2)), 0.5_dp*(part(2) - part(1)), search, info)
+        call try_interval(profile, e_star, task, interval_of(part), search, info)
         if (info%failed() .or. search%outcome == FOUND) return
         ! What is closed by pressure alone as far as an end of the profile is the answer.
         if (whole .and. (part(1) <= profile%lower .or. part(2) >= profile%upper)) then
@@ -265,6 +268,14 @@ contains
       end if
     end do
   end subroutine exclude
+
+  pure function interval_of(ends) result(interval)
+    real(dp), intent(in) :: ends(2)
+    type(place_interval) :: interval
+
+    interval%anchor = 0.5_dp*(ends(1) + ends(2))
+    interval%half = 0.5_dp*(ends(2) - ends(1))
+  end function interval_of
 
   !> The longest part last, to be tried first.
   pure subroutine add_parts(pushing, waiting, parts)
@@ -283,13 +294,14 @@ contains
     waiting(:, parts) = pushing(:, longest)
   end subroutine add_parts
 
-  !> The stretches in which the pressure that keeps the whole interval closed pushes,
-  !> wider by a point of the sampling.
-  pure function pushing_parts(series, task) result(stretches)
+  !> The stretches in which the pressure that keeps the whole interval, with these
+  !> `ends`, pushes, wider by a point of the sampling.
+  pure function pushing_parts(series, task, ends) result(stretches)
     type(slope_series), intent(in) :: series
     type(pressing), intent(in) :: task
+    real(dp), intent(in) :: ends(2)
     real(dp), allocatable :: stretches(:, :)
-    real(dp), allocatable :: t(:), push(:)
+    real(dp), allocatable :: x(:), push(:)
     logical, allocatable :: pushes(:)
     integer :: n, k, found
 
@@ -297,8 +309,10 @@ contains
     do while (n < DENSITY*size(series%a))
       n = 2*n
     end do
-    allocate (t(0:n), push(0:n), pushes(-1:n + 1))
-    t = chebyshev_points(n)
+    allocate (x(0:n), push(0:n), pushes(-1:n + 1))
+    x = series%interval%anchor + (series%interval%offset + series%interval%half*chebyshev_points(n))
+    x(0) = ends(2)
+    x(n) = ends(1)
     push = chebyshev_values(closed_pressure(series, task), n)
     pushes = .false.
     pushes(0:n) = push > 0.0_dp
@@ -306,12 +320,12 @@ contains
     found = size(stretches, 2) + 1
     do k = 0, n
       if (.not. pushes(k)) cycle
-      ! t falls from point to point.
+      ! x falls from point to point.
       if (.not. pushes(k - 1)) then
         found = found - 1
-        stretches(2, found) = series%middle + series%half*t(max(0, k - 1))
+        stretches(2, found) = x(max(0, k - 1))
       end if
-      if (.not. pushes(k + 1)) stretches(1, found) = series%middle + series%half*t(min(n, k + 1))
+      if (.not. pushes(k + 1)) stretches(1, found) = x(min(n, k + 1))
     end do
   end function pushing_parts
 
@@ -326,7 +340,7 @@ contains
     a = 0.0_dp
     a(:size(series%a) - 1) = series%a
     a(0) = 2.0_dp*a(0)
-    b(0) = 0.25_dp*task%load/series%half
+    b(0) = 0.25_dp*task%load/series%interval%half
     b(1:) = -0.25_dp*(a(:size(series%a) - 1) - a(2:))
   end function closed_pressure
 

@@ -1,6 +1,6 @@
 !> The slope of a punch on an interval as a Chebyshev series of just enough terms.
 module fuge_smooth_slope
-  use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points
+  use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points, chebyshev_values
   use fuge_kinds, only: dp
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
   use fuge_status, only: fuge_info
@@ -9,9 +9,15 @@ module fuge_smooth_slope
 
   public :: expand_slope
 
-  !> g'(middle + half t) = sum_k a_k T_k(t).
+  !> An interval: anchor + offset -+ half. The sum of the first two has more digits than one
+  !> number where the interval is far from 0 compared with its length.
+  type, public :: place_interval
+    real(dp) :: anchor = 0.0_dp, offset = 0.0_dp, half = 0.0_dp
+  end type place_interval
+
+  !> g'(x) = sum_k a_k T_k(t) at x = anchor + offset + half t.
   type, public :: slope_series
-    real(dp) :: middle = 0.0_dp, half = 0.0_dp
+    type(place_interval) :: interval
     !> a_0 .. a_n, n >= 3.
     real(dp), allocatable :: a(:)
     !> d_0 .. of the derivative by t.
@@ -32,9 +38,10 @@ contains
   !> `goal`: the part of the range of the slope that may be missing; rounding is the limit
   !> for less. `degrees`: the highest degree, a power of two. Where that does not do the
   !> series is what it can be, and its errors say so. Errors: those of the profile.
-  subroutine expand_slope(profile, middle, half, goal, degrees, series, info)
+  subroutine expand_slope(profile, interval, goal, degrees, series, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    real(dp), intent(in) :: middle, half, goal
+    type(place_interval), intent(in) :: interval
+    real(dp), intent(in) :: goal
     integer, intent(in) :: degrees
     type(slope_series), intent(out) :: series
     type(fuge_info), intent(inout) :: info
@@ -42,20 +49,20 @@ contains
     real(dp) :: tail, last_tail, noise, range
     integer :: n
 
-    series%middle = middle
-    series%half = half
+    series%interval = interval
     tail = huge(tail)
     n = FIRST_DEGREE
     do
-      call refine(profile, middle, half, n, slope, info)
+      call refine(profile, interval, n, slope, info)
       if (info%failed()) return
       if (allocated(a)) deallocate (a)
       allocate (a(n + 1))
       a = chebyshev_coefficients(slope)
+      if (abs(interval%anchor) > interval%half) a = a + place_correction(interval, a)
       last_tail = tail
       tail = maxval(abs(a(3*n/4 + 2:)))
       range = maxval(slope) - minval(slope)
-      noise = roundings(slope, middle, half, range)
+      noise = roundings(slope, interval)
       if (tail <= max(goal*range, noise) .or. n >= degrees) exit
       if (n >= PLATEAU_DEGREE .and. tail <= PLATEAU_SIZE*range .and. tail > PLATEAU_RATIO*last_tail) exit
       n = 2*n
@@ -70,17 +77,16 @@ contains
   end subroutine expand_slope
 
   !> Values at the points of degree n; every other one is there already.
-  subroutine refine(profile, middle, half, n, slope, info)
+  subroutine refine(profile, interval, n, slope, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    real(dp), intent(in) :: middle, half
+    type(place_interval), intent(in) :: interval
     integer, intent(in) :: n
     real(dp), allocatable, intent(inout) :: slope(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: all_slopes(:)
-    real(dp) :: t(0:n)
+    real(dp) :: x(0:n), gap(0:n), values(0:n)
     integer :: first, step
 
-    t = chebyshev_points(n)
     allocate (all_slopes(0:n))
     first = 0
     step = 1
@@ -89,28 +95,47 @@ contains
       first = 1
       step = 2
     end if
-    call slopes_at(profile, middle + half*t(first:n:step), all_slopes(first:n:step), info)
+    ! The ends may be outside by a rounding.
+    x = max(profile%lower, min(profile%upper, places(interval, n)))
+    call sample_profile(profile, x(first:n:step), gap(first:n:step), values(first:n:step), info)
+    all_slopes(first:n:step) = values(first:n:step)
     call move_alloc(all_slopes, slope)
   end subroutine refine
 
-  subroutine slopes_at(profile, x, slope, info)
-    class(fuge_smooth_profile), intent(in) :: profile
-    real(dp), intent(in) :: x(:)
-    real(dp), intent(out) :: slope(:)
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: gap(size(x)), values(size(x))
+  !> The points of degree n, rounded to one number each.
+  pure function places(interval, n) result(x)
+    type(place_interval), intent(in) :: interval
+    integer, intent(in) :: n
+    real(dp) :: x(0:n)
 
-    ! The ends may be outside by a rounding.
-    call sample_profile(profile, max(profile%lower, min(profile%upper, x)), gap, values, info)
-    slope = values
-  end subroutine slopes_at
+    x = interval%anchor + (interval%offset + interval%half*chebyshev_points(n))
+  end function places
 
-  !> What rounding does to a coefficient: of the slope itself, and of the place.
-  pure function roundings(slope, middle, half, range) result(noise)
-    real(dp), intent(in) :: slope(:), middle, half, range
+  !> What the rounding of the places has done to the coefficients `a` of the slope, to first
+  !> order: the distance lost times the derivative.
+  pure function place_correction(interval, a) result(change)
+    type(place_interval), intent(in) :: interval
+    real(dp), intent(in) :: a(:)
+    real(dp) :: change(size(a))
+    real(dp) :: lost(size(a))
+    integer :: n
+
+    n = size(a) - 1
+    lost = (interval%offset + interval%half*chebyshev_points(n)) - (places(interval, n) - interval%anchor)
+    change = chebyshev_coefficients(lost/interval%half*chebyshev_values(chebyshev_derivative(a), n))
+  end function place_correction
+
+  !> What rounding does to a coefficient: of the slope itself, of the place within the
+  !> interval, and of the anchor what the first order leaves.
+  pure function roundings(slope, interval) result(noise)
+    real(dp), intent(in) :: slope(:)
+    type(place_interval), intent(in) :: interval
     real(dp) :: noise
+    real(dp) :: range
 
-    noise = epsilon(noise)*(2.0_dp*maxval(abs(slope)) + range*abs(middle)/half)
+    range = maxval(slope) - minval(slope)
+    noise = epsilon(noise)*(2.0_dp*maxval(abs(slope)) + 2.0_dp*range*(1.0_dp + abs(interval%offset)/interval%half))
+    noise = noise + real(size(slope), dp)*range*(epsilon(noise)*interval%anchor/interval%half)**2
   end function roundings
 
   !> Leave out the last coefficients, none of them above `least`.
@@ -121,7 +146,7 @@ contains
 
     terms = size(a)
     do while (terms > 4)
-      if (abs(a(terms)) > 0.25_dp*least) exit
+      if (abs(a(terms)) > least) exit
       terms = terms - 1
     end do
     allocate (trimmed, source=a(:terms))
