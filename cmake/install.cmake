@@ -7,7 +7,7 @@ install(TARGETS fuge EXPORT fuge-targets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-install(FILES include/fuge.h include/fuge_fe.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(FILES include/fuge.h include/fuge_fe.h include/fuge_smooth.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(DIRECTORY "${PROJECT_BINARY_DIR}/modules/" DESTINATION "${FUGE_MODULE_DIR}"
   FILES_MATCHING PATTERN "*.mod" PATTERN "*.smod")
 install(EXPORT fuge-targets NAMESPACE fuge:: DESTINATION "${package_dir}")

@@ -499,5 +499,6 @@ int fuge_last_message(const fuge_solver *s, char *buf, size_t len);
 #endif
 
 #include "fuge_fe.h"
+#include "fuge_smooth.h"
 
 #endif
