@@ -25,8 +25,12 @@ module fuge_smooth_ends
   end type pressing
 
   !> Highest degree of the series.
-  integer, parameter :: DEGREES = 1024
+  integer, parameter, public :: DEGREES = 1024
+  !> The same for steps that need not be exact.
+  integer, parameter :: COARSE_DEGREES = 128
   integer, parameter :: MOST_STEPS = 60
+  !> Steps one after the other that would leave the profile.
+  integer, parameter :: MOST_CUTS = 5
   !> Largest change of the half length, in its logarithm, and of the middle, in half lengths.
   real(dp), parameter :: LONGEST_SCALING = 3.0_dp, LONGEST_MOVE = 1.0_dp
   !> The error is the square of the last step's; steps this small may be rounding.
@@ -39,21 +43,26 @@ module fuge_smooth_ends
 
 contains
 
-  !> From an interval to one that carries what it has to, `series` the slope on it, if `found`, with its errors relative to a_1, the first one as a change of the
-  !> interval in half lengths. `steps` counts the series formed.
-  subroutine find_ends(profile, task, first, series, found, steps, info)
+  !> From an interval to one that carries what it has to. `least`: the lowest degree of the
+  !> series, a power of two up to DEGREES. `series`, if `found`: the slope on
+  !> it, with its errors relative to a_1, the first one as a change of the interval in half
+  !> lengths. `steps` counts the series formed.
+  subroutine find_ends(profile, task, first, least, series, found, steps, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(pressing), intent(in) :: task
     type(place_interval), intent(in) :: first
+    integer, intent(in) :: least
     type(slope_series), intent(out) :: series
     logical, intent(out) :: found
     integer, intent(inout) :: steps
     type(fuge_info), intent(inout) :: info
     real(dp) :: change(2), residual(2), size_now, size_before, step, step_before, goal, left
     type(place_interval) :: interval, start
-    integer :: k
+    logical :: cut
+    integer :: k, cuts
 
     found = .false.
+    cuts = 0
     goal = COARSE_GOAL
     size_before = huge(size_before)
     step_before = huge(step_before)
@@ -62,7 +71,8 @@ contains
     interval = first
     start = first
     do k = 1, MOST_STEPS
-      call expand_slope(profile, interval, goal, DEGREES, series, info)
+      call expand_slope(profile, interval, goal, [least, merge(DEGREES, max(least, COARSE_DEGREES), goal <= FINE_GOAL)], &
+                        series, info)
       steps = steps + 1
       if (info%failed()) return
       size_now = huge(size_now)
@@ -89,8 +99,10 @@ contains
         change = [max(-LONGEST_MOVE, min(LONGEST_MOVE, change(1))), &
                   max(-LONGEST_SCALING, min(LONGEST_SCALING, change(2)))]
       end if
-      interval = moved(profile, start, change)
+      call move(profile, start, change, interval, cut)
       if (.not. interval%half > 0.0_dp) return
+      cuts = merge(cuts + 1, 0, cut)
+      if (cuts > MOST_CUTS) return
     end do
     found = k <= MOST_STEPS
     if (.not. found) return
@@ -111,12 +123,13 @@ contains
               .or. (0.5_dp*size_now > size_before .and. maxval(abs(change)) >= ROUNDING_STEP)
   end function too_far
 
-  !> An interval changed by a step, within the profile.
-  pure function moved(profile, start, change) result(interval)
+  !> An interval changed by a step; `cut` if that has to be shorter to stay in the profile.
+  pure subroutine move(profile, start, change, interval, cut)
     class(fuge_smooth_profile), intent(in) :: profile
     type(place_interval), intent(in) :: start
     real(dp), intent(in) :: change(2)
-    type(place_interval) :: interval
+    type(place_interval), intent(out) :: interval
+    logical, intent(out) :: cut
     real(dp) :: left, right
 
     interval = start
@@ -124,12 +137,13 @@ contains
     interval%offset = start%offset + min(start%half, interval%half)*change(1)
     left = interval%offset - interval%half
     right = interval%offset + interval%half
-    if (start%anchor + left >= profile%lower .and. start%anchor + right <= profile%upper) return
+    cut = start%anchor + left < profile%lower .or. start%anchor + right > profile%upper
+    if (.not. cut) return
     left = min(max(left, profile%lower - start%anchor), profile%upper - start%anchor)
     right = min(max(right, profile%lower - start%anchor), profile%upper - start%anchor)
     interval%offset = 0.5_dp*(left + right)
     interval%half = 0.5_dp*(right - left)
-  end function moved
+  end subroutine move
 
   !> Of the middle (tilt, or moment) and of the load; no unit.
   pure function residual_of(series, task) result(residual)

@@ -10,7 +10,7 @@ module fuge_smooth_punch
   use fuge_smooth_certificate, only: certify_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_ends, only: pressing
-  use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
+  use fuge_smooth_profile_type, only: fuge_smooth_profile
   use fuge_smooth_samples, only: lowest_place
   use fuge_smooth_search, only: find_interval, interval_search, FOUND, PULLS, OVERLAPS, AT_END
   use fuge_status, only: fuge_info, report, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_NO_EQUILIBRIUM, &
@@ -177,8 +177,8 @@ contains
       reason = 'the contact is not one interval: in '//between(search%refused)//' pressure would pull at x = ' &
                //text(search%violation%pull_place)
     case (OVERLAPS)
-      reason = 'the contact is not one interval: beside '//between(search%refused)//' the bodies would overlap at x = ' &
-               //text(search%violation%overlap_place)
+      reason = 'the contact is not one interval: beside '//between(search%refused) &
+               //' the bodies would overlap at x = '//text(search%violation%overlap_place)
     case default
       reason = 'no contact in one interval between the ends of the profile was found'
     end select

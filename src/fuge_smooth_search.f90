@@ -15,11 +15,11 @@ module fuge_smooth_search
   use fuge_chebyshev, only: chebyshev_points, chebyshev_values
   use fuge_kinds, only: dp
   use fuge_smooth_contact_type, only: fuge_smooth_contact
-  use fuge_smooth_ends, only: find_ends, pressing
+  use fuge_smooth_ends, only: find_ends, pressing, DEGREES
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
-  use fuge_smooth_samples, only: lowest_place
   use fuge_smooth_signs, only: check_signs, sign_violation
-  use fuge_smooth_slope, only: expand_slope, place_interval, slope_series
+  use fuge_smooth_samples, only: sample_places
+  use fuge_smooth_slope, only: compare_slope, expand_slope, place_interval, slope_series, FIRST_DEGREE
   use fuge_status, only: fuge_info
   implicit none
   private
@@ -122,7 +122,7 @@ contains
     real(dp) :: allowed
     logical :: converged
 
-    call find_ends(profile, task, first, series, converged, search%steps, info)
+    call find_resolved(profile, task, first, series, converged, search%steps, info)
     if (info%failed() .or. .not. converged) return
     call make_contact(profile, e_star, task, series, contact, info)
     if (info%failed()) return
@@ -141,6 +141,36 @@ contains
     search%refused = contact%ends
     if (search%outcome /= FOUND) search%outcome = merge(PULLS, OVERLAPS, violation%pull > violation%overlap)
   end subroutine try_interval
+
+  !> Newton's method with a series that is held against the samples of the profile as well:
+  !> what lies between few points would be overlooked. Where it differs the degree rises.
+  subroutine find_resolved(profile, task, first, series, converged, steps, info)
+    class(fuge_smooth_profile), intent(in) :: profile
+    type(pressing), intent(in) :: task
+    type(place_interval), intent(in) :: first
+    type(slope_series), intent(out) :: series
+    logical, intent(out) :: converged
+    integer, intent(inout) :: steps
+    type(fuge_info), intent(inout) :: info
+    type(place_interval) :: start
+    real(dp) :: difference
+    integer :: least
+
+    start = first
+    least = FIRST_DEGREE
+    do
+      call find_ends(profile, task, start, least, series, converged, steps, info)
+      if (info%failed() .or. .not. converged) return
+      call compare_slope(profile, series, sample_places(profile), difference, info)
+      difference = difference/series%a(2)
+      if (info%failed() .or. difference <= max(SIGN_TOLERANCE, ERRORS*series%sum_error)) return
+      if (least >= DEGREES) exit
+      least = 8*least
+      if (least > DEGREES) least = DEGREES
+      start = series%interval
+    end do
+    series%sum_error = max(series%sum_error, difference)
+  end subroutine find_resolved
 
   !> The contact on the interval of `series`.
   subroutine make_contact(profile, e_star, task, series, contact, info)
@@ -245,7 +275,8 @@ contains
           call try_interval(profile, e_star, task, interval_of(part), search, info)
           if (info%failed() .or. search%outcome == FOUND) return
         end if
-        call expand_slope(profile, interval_of(part), COARSE_GOAL, COARSE_DEGREES, series, info)
+        call expand_slope(profile, interval_of(part), COARSE_GOAL, [FIRST_DEGREE, COARSE_DEGREES], &
+                          series, info)
         search%steps = search%steps + 1
         if (info%failed()) return
         pushing = pushing_parts(series, task, part)

@@ -1,13 +1,14 @@
 !> The slope of a punch on an interval as a Chebyshev series of just enough terms.
 module fuge_smooth_slope
-  use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points, chebyshev_values
+  use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points, chebyshev_sum, &
+    chebyshev_values
   use fuge_kinds, only: dp
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
   use fuge_status, only: fuge_info
   implicit none
   private
 
-  public :: expand_slope
+  public :: expand_slope, compare_slope
 
   !> An interval: anchor + offset -+ half. The sum of the first two has more digits than one
   !> number where the interval is far from 0 compared with its length.
@@ -27,22 +28,26 @@ module fuge_smooth_slope
   end type slope_series
 
   !> Degree that is tried first; degrees are doubled.
-  integer, parameter :: FIRST_DEGREE = 16
+  integer, parameter, public :: FIRST_DEGREE = 16
   !> From here on coefficients that no longer fall are taken for rounding, if they are
   !> this part of the largest.
   integer, parameter :: PLATEAU_DEGREE = 64
   real(dp), parameter :: PLATEAU_SIZE = 1.0e-7_dp, PLATEAU_RATIO = 0.7_dp
 
+  !> Places of a comparison, beside those given.
+  integer, parameter :: COMPARISONS = 61
+
 contains
 
   !> `goal`: the part of the range of the slope that may be missing; rounding is the limit
-  !> for less. `degrees`: the highest degree, a power of two. Where that does not do the
-  !> series is what it can be, and its errors say so. Errors: those of the profile.
+  !> for less. `degrees`: the lowest and the highest one, powers of two, FIRST_DEGREE or more.
+  !> Where the highest does not do the series is what it can be, and its errors say so.
+  !> Errors: those of the profile.
   subroutine expand_slope(profile, interval, goal, degrees, series, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(place_interval), intent(in) :: interval
     real(dp), intent(in) :: goal
-    integer, intent(in) :: degrees
+    integer, intent(in) :: degrees(2)
     type(slope_series), intent(out) :: series
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: slope(:), a(:)
@@ -51,7 +56,7 @@ contains
 
     series%interval = interval
     tail = huge(tail)
-    n = FIRST_DEGREE
+    n = degrees(1)
     do
       call refine(profile, interval, n, slope, info)
       if (info%failed()) return
@@ -63,7 +68,7 @@ contains
       tail = maxval(abs(a(3*n/4 + 2:)))
       range = maxval(slope) - minval(slope)
       noise = roundings(slope, interval)
-      if (tail <= max(goal*range, noise) .or. n >= degrees) exit
+      if (tail <= max(goal*range, noise) .or. n >= degrees(2)) exit
       if (n >= PLATEAU_DEGREE .and. tail <= PLATEAU_SIZE*range .and. tail > PLATEAU_RATIO*last_tail) exit
       n = 2*n
     end do
@@ -75,6 +80,31 @@ contains
     ! What is left out falls like a power of its number.
     if (tail > noise) series%sum_error = noise + 0.5_dp*real(n, dp)*tail
   end subroutine expand_slope
+
+  !> How far the series is from the slope at places `x` of the profile within its interval,
+  !> and at others between them; no unit.
+  subroutine compare_slope(profile, series, x, difference, info)
+    class(fuge_smooth_profile), intent(in) :: profile
+    type(slope_series), intent(in) :: series
+    real(dp), intent(in) :: x(:)
+    real(dp), intent(out) :: difference
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: t(:), places_there(:), gap(:), slope(:)
+    integer :: k
+
+    associate (interval => series%interval)
+      allocate (t(size(x) + COMPARISONS))
+      t(:size(x)) = ((x - interval%anchor) - interval%offset)/interval%half
+      t(size(x) + 1:) = [(2.0_dp*(real(k, dp) - 0.4_dp)/real(COMPARISONS, dp) - 1.0_dp, k=1, COMPARISONS)]
+      t = pack(t, abs(t) < 1.0_dp)
+      allocate (places_there(size(t)), gap(size(t)), slope(size(t)))
+      places_there = interval%anchor + (interval%offset + interval%half*t)
+      places_there = max(profile%lower, min(profile%upper, places_there))
+      call sample_profile(profile, places_there, gap, slope, info)
+      difference = maxval(abs(slope - chebyshev_sum(series%a, ((places_there - interval%anchor) - interval%offset) &
+                                                    /interval%half)))
+    end associate
+  end subroutine compare_slope
 
   !> Values at the points of degree n; every other one is there already.
   subroutine refine(profile, interval, n, slope, info)
@@ -88,9 +118,10 @@ contains
     integer :: first, step
 
     allocate (all_slopes(0:n))
+    all_slopes = 0.0_dp
     first = 0
     step = 1
-    if (n > FIRST_DEGREE) then
+    if (allocated(slope)) then
       all_slopes(0:n:2) = slope
       first = 1
       step = 2

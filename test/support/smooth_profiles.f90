@@ -93,6 +93,8 @@ contains
         where (x > p) gap = ieee_value(p, ieee_quiet_nan)
       case (FAILS_BEYOND)
         if (any(x > p)) status = 7
+      case default
+        status = 8
       end select
     end associate
   end subroutine evaluate
