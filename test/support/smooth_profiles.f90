@@ -20,9 +20,9 @@ module smooth_profiles
     procedure :: evaluate
   end type numbered_profile
 
-  !> x**2 with a dent at x = 4.
+  !> x**2 with a dent at a `place`.
   type, extends(fuge_smooth_profile), public :: dented_parabola
-    real(dp) :: depth = 0.0_dp
+    real(dp) :: depth = 0.0_dp, place = 4.0_dp, sharpness = 25.0_dp
   contains
     procedure :: evaluate => evaluate_dented
   end type dented_parabola
@@ -37,9 +37,9 @@ contains
     real(dp) :: dent(size(x))
 
     status = 0
-    dent = self%depth*exp(-25.0_dp*(x - 4.0_dp)**2)
+    dent = self%depth*exp(-self%sharpness*(x - self%place)**2)
     gap = x**2 - dent
-    slope = 2.0_dp*x + 50.0_dp*(x - 4.0_dp)*dent
+    slope = 2.0_dp*x + 2.0_dp*self%sharpness*(x - self%place)*dent
   end subroutine evaluate_dented
 
   !> x**power on -reach .. reach.
