@@ -59,7 +59,7 @@ contains
     real(dp) :: change(2), residual(2), size_now, size_before, step, step_before, goal, left
     type(place_interval) :: interval, start
     logical :: cut
-    integer :: k, cuts
+    integer :: k, cuts, most
 
     found = .false.
     cuts = 0
@@ -71,8 +71,8 @@ contains
     interval = first
     start = first
     do k = 1, MOST_STEPS
-      call expand_slope(profile, interval, goal, [least, merge(DEGREES, max(least, COARSE_DEGREES), goal <= FINE_GOAL)], &
-                        series, info)
+      most = merge(DEGREES, max(least, COARSE_DEGREES), goal <= FINE_GOAL)
+      call expand_slope(profile, interval, goal, [least, most], series, info)
       steps = steps + 1
       if (info%failed()) return
       size_now = huge(size_now)

@@ -1,8 +1,8 @@
 !> Smooth punches on an elastic half-plane, to rounding with a few dozen coefficients.
 !>
-!> The ends of the contact are unknowns of their own, and the pressure is a Chebyshev series times
-!> the square root of the distances from both: for a smooth profile the error falls
-!> faster than any power of the number of coefficients. See doc/theory.md, "Smooth punches".
+!> The ends of the contact are unknowns of their own, and the pressure is a Chebyshev
+!> series times the square root of the distances from both: for a smooth profile the error
+!> falls faster than any power of the number of coefficients. See doc/theory.md, "Smooth punches".
 module fuge_smooth_punch
   use fuge_check, only: check_finite
   use fuge_kinds, only: dp
@@ -33,13 +33,14 @@ contains
   !>
   !> `profile`: its initial gap; `e_star` > 0 as in `fuge_halfplane_matrix`, force per
   !> length squared; `force` >= 0 per depth; out: `contact`. With `moment`, the force times
-  !> its distance from x = 0, the punch may tilt as well; without, it only sinks. The contact is one interval
-  !> within the profile: the answer is checked to push everywhere and to overlap nowhere,
-  !> up to samples at a 512th of the profile. info%iterations counts the series formed, info%residual is the
-  !> certificate, from quadratures of the pressure. No force: the punch touches at its
-  !> lowest place (any tilt will do: FUGE_WARN_NOT_UNIQUE if it may tilt).
-  !> FUGE_WARN_RESIDUAL: residual or the estimated error are above the default tolerance
-  !> of `fuge_options`, as for a profile that is not smooth.
+  !> its distance from x = 0, the punch may tilt as well; without, it only sinks. No force: it
+  !> touches at its lowest place (any tilt will do: FUGE_WARN_NOT_UNIQUE if it may tilt).
+  !>
+  !> The contact is one interval within the profile: the answer is checked to push
+  !> everywhere and to overlap nowhere, up to samples at a 512th of the profile.
+  !> info%iterations counts the series formed, info%residual is the certificate, from
+  !> quadratures of the pressure. FUGE_WARN_RESIDUAL: it or the estimated error are above the
+  !> default tolerance of `fuge_options`, as for a profile that is not smooth.
   !> Errors, `contact` untouched: FUGE_ERR_UNSUPPORTED if the contact is not one interval or
   !> reaches an end of the profile, where the message says who can; FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_WIDTH unless lower < upper, FUGE_ERR_MODULUS,
