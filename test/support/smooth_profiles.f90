@@ -9,9 +9,9 @@ module smooth_profiles
 
   !> What `form` is, p the `parameter`: 1 - cos(p x), |x|**3, exp(x) - x, x**4 - p x**2,
   !> x**2 + p cos(20 x), sqrt(1 + (p x)**2), |x|; x**2 whose slope is wrong by the part p,
-  !> NaN for x > p, or fails there.
+  !> NaN for x > p, or fails there, or beyond the ends of the profile.
   integer, parameter, public :: COSINE = 1, ABSOLUTE_CUBE = 2, EXPONENTIAL = 3, TWO_WELLS = 4, WAVY = 5, &
-    HYPERBOLA = 6, WEDGE = 7, SLOPE_TOO_LARGE = 8, NAN_BEYOND = 9, FAILS_BEYOND = 10
+    HYPERBOLA = 6, WEDGE = 7, SLOPE_TOO_LARGE = 8, NAN_BEYOND = 9, FAILS_BEYOND = 10, FAILS_OUTSIDE = 11
 
   type, extends(fuge_smooth_profile), public :: numbered_profile
     integer :: form = 0
@@ -93,6 +93,8 @@ contains
         where (x > p) gap = ieee_value(p, ieee_quiet_nan)
       case (FAILS_BEYOND)
         if (any(x > p)) status = 7
+      case (FAILS_OUTSIDE)
+        if (any(x < self%lower .or. x > self%upper)) status = 7
       case default
         status = 8
       end select
