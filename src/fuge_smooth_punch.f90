@@ -22,6 +22,7 @@ module fuge_smooth_punch
   public :: fuge_solve_smooth_punch
 
   real(dp), parameter :: PI = acos(-1.0_dp)
+  type(fuge_options), parameter :: DEFAULTS = fuge_options()
   !> Larger powers of two could overflow when multiplied.
   integer, parameter :: LARGEST_EXPONENT = maxexponent(1.0_dp)/4
   character(len=*), parameter :: OTHER_ENGINES = &
@@ -145,17 +146,16 @@ contains
     class(fuge_smooth_profile), intent(in) :: profile
     type(interval_search), intent(in) :: search
     type(fuge_info), intent(inout) :: info
-    type(fuge_options) :: defaults
     real(dp) :: worst
 
     call certify_contact(profile, search%contact, info%residual, info)
     if (info%failed()) return
     worst = max(search%contact%end_error, search%contact%pressure_error)
     info%residual = max(info%residual, search%violation%pull, search%violation%overlap)
-    if (info%residual > defaults%tolerance) then
+    if (info%residual > DEFAULTS%tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'the residual is '//text(info%residual)//', the estimated error ' &
                   //text(worst)//': the profile is not smooth in the contact, or its slope is not that of its gap')
-    else if (worst > defaults%tolerance) then
+    else if (worst > DEFAULTS%tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'the estimated error is '//text(worst) &
                   //': the profile is not smooth in the contact')
     end if
