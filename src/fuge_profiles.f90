@@ -3,13 +3,13 @@
 !> Heights are positive upwards. The initial gap of two profiles that face each other,
 !> sampled at the same points, is upper - lower; its datum is free, it moves v_0 only.
 module fuge_profiles
-  use, intrinsic :: iso_fortran_env, only: int64
   use fuge_check, only: check_finite, LARGEST_EXPONENT
   use fuge_kinds, only: dp
   use fuge_profile_text, only: read_point, LINE_EMPTY, LINE_POINT, LINE_WORDS
-  use fuge_status, only: fuge_info, report, FUGE_MESSAGE_LENGTH, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_OPTION, &
-    FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_FILE
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, &
+    FUGE_ERR_MEMORY
   use fuge_text, only: text
+  use fuge_text_file, only: text_file
   implicit none
   private
 
@@ -21,10 +21,6 @@ module fuge_profiles
 
   !> A point this part of the profile's length beyond its end is taken as the end.
   real(dp), parameter :: END_TOLERANCE = 1.0e-12_dp
-  !> Of a path a message shows no more than its end.
-  integer, parameter :: PATH_LENGTH = 100
-  character, parameter :: LINE_FEED = achar(10)
-  character(len=*), parameter :: BYTE_ORDER_MARK = char(239)//char(187)//char(191)
 
 contains
 
@@ -41,22 +37,22 @@ contains
     character(len=*), intent(in) :: path
     real(dp), allocatable, intent(inout) :: x(:), z(:)
     type(fuge_info), intent(out) :: info
-    character(len=:), allocatable :: content
+    type(text_file) :: file
     real(dp), allocatable :: read_x(:), read_z(:)
     integer :: points, status
 
-    call read_file(path, content, info)
+    call file%load(path, info)
     if (info%failed()) return
     ! Room for as many points as there are lines.
-    points = count_lines(content)
+    points = file%count_lines()
     allocate (read_x(points), read_z(points), stat=status)
     if (status == 0) then
-      call read_points(path, content, read_x, read_z, points, info)
+      call read_points(file, read_x, read_z, points, info)
       if (info%failed()) return
-      deallocate (content)
+      deallocate (file%content)
       call hand_over(read_x, points, x, read_z, z, status)
     end if
-    if (status /= 0) call report(info, FUGE_ERR_MEMORY, named(path)//': no memory for '//text(points)//' points')
+    if (status /= 0) call report(info, FUGE_ERR_MEMORY, file%name//': no memory for '//text(points)//' points')
   end subroutine fuge_read_profile
 
   !> Both or none.
@@ -75,107 +71,36 @@ contains
     call move_alloc(new_z, z)
   end subroutine hand_over
 
-  !> The whole file at once; it is closed again in any case.
-  subroutine read_file(path, content, info)
-    character(len=*), intent(in) :: path
-    character(len=:), allocatable, intent(out) :: content
-    type(fuge_info), intent(inout) :: info
-    character(len=FUGE_MESSAGE_LENGTH) :: reason
-    integer(int64) :: bytes
-    integer :: file, status
-
-    content = ''
-    if (len_trim(path) == 0) then
-      call report(info, FUGE_ERR_FILE, 'the path is blank: give the name of a file')
-      return
-    end if
-    reason = ''
-    open (newunit=file, file=path, status='old', action='read', access='stream', form='unformatted', &
-          iostat=status, iomsg=reason)
-    if (status /= 0) then
-      call report(info, FUGE_ERR_FILE, named(path)//' cannot be opened: '//trim(reason))
-      return
-    end if
-    inquire (unit=file, size=bytes)
-    if (bytes < 0_int64) then
-      call report(info, FUGE_ERR_FILE, named(path)//' has no size: only a regular file can be read')
-    else if (bytes > 0_int64) then
-      deallocate (content)
-      allocate (character(len=bytes) :: content, stat=status)
-      if (status == 0) then
-        read (file, iostat=status, iomsg=reason) content
-        if (status /= 0) call report(info, FUGE_ERR_FILE, named(path)//' cannot be read: '//trim(reason))
-      else
-        call report(info, FUGE_ERR_MEMORY, named(path)//': no memory for its '//text(real(bytes, dp))//' bytes')
-      end if
-    end if
-    close (file, iostat=status)
-    if (status /= 0 .and. .not. info%failed()) call report(info, FUGE_ERR_FILE, named(path)//' cannot be closed')
-  end subroutine read_file
-
-  pure function count_lines(content) result(lines)
-    character(len=*), intent(in) :: content
-    integer :: lines
-    integer(int64) :: k
-
-    lines = 1
-    do k = 1_int64, len(content, kind=int64)
-      if (content(k:k) == LINE_FEED) lines = lines + 1
-    end do
-  end function count_lines
-
   !> All lines; at the end `points` of them are in `x` and `z`.
-  pure subroutine read_points(path, content, x, z, points, info)
-    character(len=*), intent(in) :: path, content
+  pure subroutine read_points(file, x, z, points, info)
+    type(text_file), intent(inout) :: file
     real(dp), intent(inout) :: x(:), z(:)
     integer, intent(out) :: points
     type(fuge_info), intent(inout) :: info
-    integer(int64) :: first, last
-    integer :: line
-    logical :: header
+    logical :: found, header
 
     points = 0
-    line = 0
     header = .false.
-    first = 1_int64
-    if (index(content, BYTE_ORDER_MARK) == 1) first = 4_int64
-    do while (first <= len(content, kind=int64))
-      last = line_end(content, first)
-      line = line + 1
-      call read_line(content(first:last), x, z, points, header, path, line, info)
+    do
+      call file%advance(found)
+      if (.not. found) exit
+      call read_line(file, x, z, points, header, info)
       if (info%failed()) return
-      first = last + 2_int64
     end do
-    if (points < 2) call report(info, FUGE_ERR_FILE, named(path)//', line '//text(line)//': the file ends after ' &
-                                //text(points)//' point(s), a profile needs 2 or more')
+    if (points < 2) call file%refuse('the file ends after '//text(points)//' point(s), a profile needs 2 or more', info)
   end subroutine read_points
 
-  !> Last letter of the line that begins at `first`.
-  pure function line_end(content, first) result(last)
-    character(len=*), intent(in) :: content
-    integer(int64), intent(in) :: first
-    integer(int64) :: last
-
-    last = first
-    do while (last <= len(content, kind=int64))
-      if (content(last:last) == LINE_FEED) exit
-      last = last + 1_int64
-    end do
-    last = last - 1_int64
-  end function line_end
-
-  pure subroutine read_line(content, x, z, points, header, path, line, info)
-    character(len=*), intent(in) :: content, path
+  pure subroutine read_line(file, x, z, points, header, info)
+    type(text_file), intent(in) :: file
     real(dp), intent(inout) :: x(:), z(:)
     integer, intent(inout) :: points
     logical, intent(inout) :: header
-    integer, intent(in) :: line
     type(fuge_info), intent(inout) :: info
     character(len=:), allocatable :: reason
     real(dp) :: next_x, next_z
     integer :: kind
 
-    call read_point(content, kind, next_x, next_z, reason)
+    call read_point(file%content(file%first:file%last), kind, next_x, next_z, reason)
     if (kind == LINE_EMPTY) return
     if (kind == LINE_WORDS .and. points == 0 .and. .not. header) then
       header = .true.
@@ -193,23 +118,9 @@ contains
       x(points) = next_x
       z(points) = next_z
     else
-      call report(info, FUGE_ERR_FILE, named(path)//', line '//text(line)//': '//reason)
+      call file%refuse(reason, info)
     end if
   end subroutine read_line
-
-  !> The path for a message: its end, in quotes.
-  pure function named(path) result(name)
-    character(len=*), intent(in) :: path
-    character(len=:), allocatable :: name
-    integer :: length
-
-    length = len_trim(path)
-    if (length > PATH_LENGTH) then
-      name = '"..'//path(length - PATH_LENGTH + 1:length)//'"'
-    else
-      name = '"'//path(:length)//'"'
-    end if
-  end function named
 
   !> Heights of a profile at other points, by linear interpolation.
   !>
