@@ -12,6 +12,8 @@ module fuge
   use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
+  use fuge_matrix_reader, only: fuge_read_matrix, fuge_read_sparse
+  use fuge_matrix_writer, only: fuge_write_matrix, fuge_write_sparse
   use fuge_monitor_type, only: fuge_monitor
   use fuge_node_motions, only: fuge_rigid_modes
   use fuge_operator_type, only: fuge_operator

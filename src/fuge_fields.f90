@@ -9,7 +9,7 @@ module fuge_fields
   implicit none
   private
 
-  public :: after_blanks, describe_field, find_field, is_blank, read_number, read_whole
+  public :: after_blanks, describe_field, find_field, is_blank, quoted, read_number, read_whole
 
   !> What a field is.
   integer, parameter, public :: FIELD_NUMBER = 0
@@ -253,23 +253,31 @@ contains
     if (field(1:1) == '-') value = -value
   end subroutine read_whole
 
-  !> What is wrong with a field that is no number; strange letters are shown as ?.
+  !> What is wrong with a field that is no number.
   pure function describe_field(field, kind) result(reason)
     character(len=*), intent(in) :: field
     integer, intent(in) :: kind
     character(len=:), allocatable :: reason
-    integer :: k
 
-    reason = field(:min(len(field), QUOTE_LENGTH))
-    do k = 1, len(reason)
-      if (iachar(reason(k:k)) < 32 .or. iachar(reason(k:k)) > 126) reason(k:k) = '?'
-    end do
-    if (len(field) > QUOTE_LENGTH) reason = reason//'..'
     if (kind == FIELD_NOT_FINITE) then
-      reason = '"'//reason//'" is not a finite number'
+      reason = quoted(field)//' is not a finite number'
     else
-      reason = '"'//reason//'" is not a number'
+      reason = quoted(field)//' is not a number'
     end if
   end function describe_field
+
+  !> A field for a message: its begin, strange letters shown as ?.
+  pure function quoted(field) result(quote)
+    character(len=*), intent(in) :: field
+    character(len=:), allocatable :: quote
+    integer :: k
+
+    quote = field(:min(len(field), QUOTE_LENGTH))
+    do k = 1, len(quote)
+      if (iachar(quote(k:k)) < 32 .or. iachar(quote(k:k)) > 126) quote(k:k) = '?'
+    end do
+    if (len(field) > QUOTE_LENGTH) quote = quote//'..'
+    quote = '"'//quote//'"'
+  end function quoted
 
 end module fuge_fields
