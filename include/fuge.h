@@ -83,7 +83,7 @@ enum {
   FUGE_ERR_OVERFLOW = -16,      /* magnitudes leave double precision           */
   FUGE_ERR_CALLBACK = -17,      /* an operator's callback failed or gave NaN   */
   FUGE_ERR_CANCELLED = -18,     /* the progress callback ended the solve       */
-  FUGE_ERR_FILE = -19,          /* a file cannot be read                       */
+  FUGE_ERR_FILE = -19,          /* a file cannot be read or written            */
   FUGE_ERR_GAP = -20,           /* gap_upper < 0                               */
   FUGE_ERR_MODES = -21,         /* rigid motions that depend on each other, or move no point */
   FUGE_ERR_DOF = -22            /* a degree of freedom out of range or named twice */

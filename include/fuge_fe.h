@@ -94,6 +94,42 @@ int fuge_body_recover(const fuge_body *body, const double *force, const double *
 /* Message of the last call, cut to len - 1 characters and ended by NUL. */
 int fuge_body_message(const fuge_body *body, char *buf, size_t len);
 
+/* ---- matrix files -------------------------------------------------------
+ *
+ * Matrices, and vectors as matrices of one column, in files of the Matrix Market format:
+ * real or integer, array or coordinate, general or symmetric.  FUGE_ERR_FILE: the message
+ * (at most len bytes, ended by NUL; may be NULL) has the file, the line and the reason.
+ * Unlike in the files, rows and columns count from 0 here. */
+
+/* Read a dense matrix.
+ *   path           in   name of the file
+ *   lda, capacity  in   matrix has room for lda rows and capacity columns
+ *   matrix         out  element (i,j) at i + j*lda; a symmetric one whole; may be NULL
+ *   rows, columns  out  of the file; only what fits is written to matrix
+ * To ask for the sizes first, give no matrix, lda = capacity = 0. */
+int fuge_read_matrix(const char *path, int lda, int capacity, double *matrix, int *rows, int *columns,
+                     char *message, size_t len);
+
+/* Read a matrix into compressed columns: column j holds row[p] and value[p] for
+ * column[j] <= p < column[j+1], rows ascending; a symmetric one whole, entries of the same
+ * place added.
+ *   columns_room   in   column has room for columns_room + 1 elements
+ *   entries_room   in   row and value have room for so many
+ *   column, row, value      out  each may be NULL
+ *   rows, columns, entries  out  of the matrix; only what fits is written to the arrays */
+int fuge_read_sparse(const char *path, int columns_room, int entries_room, int *column, int *row, double *value,
+                     int *rows, int *columns, int *entries, char *message, size_t len);
+
+/* Write a dense matrix (lda >= rows) to a file in array format, with 17 digits; a file that
+ * is there is replaced.  symmetric: 1 for a square matrix of which only the lower triangle
+ * counts.  FUGE_ERR_NOT_FINITE for NaN and infinity. */
+int fuge_write_matrix(const char *path, int rows, int columns, const double *matrix, int lda, int symmetric,
+                      char *message, size_t len);
+
+/* The same for compressed columns, in coordinate format; rows in any order. */
+int fuge_write_sparse(const char *path, int rows, int columns, const int *column, const int *row,
+                      const double *value, int symmetric, char *message, size_t len);
+
 #ifdef __cplusplus
 }
 #endif

@@ -44,7 +44,7 @@ module fuge_status
     'a degree of freedom is out of range or named twice', &
     'rigid motions depend on each other', &
     'an upper stop lies below the lower one', &
-    'a file cannot be read', &
+    'a file cannot be read or written', &
     'the progress callback cancelled the solve', &
     'a callback failed or returned NaN', &
     'the magnitudes of the data overflow double precision', &

@@ -1,20 +1,11 @@
 !> C bindings, section "profiles".
 module fuge_c_profiles
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_ptr, c_size_t, c_associated, &
-    c_f_pointer
-  use fuge_c_types, only: copy_string, copy_reals
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
+  use fuge_c_types, only: copy_string, copy_reals, from_c_string
   use fuge_profiles, only: fuge_read_profile, fuge_sample_profile, fuge_level_profile
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
   implicit none
   private
-
-  interface
-    pure function c_strlen(string) bind(c, name='strlen') result(length)
-      import :: c_ptr, c_size_t
-      type(c_ptr), intent(in), value :: string
-      integer(c_size_t) :: length
-    end function c_strlen
-  end interface
 
 contains
 
@@ -88,19 +79,5 @@ contains
     call copy_string(info%message, message, length)
     status = int(info%status, c_int)
   end function c_level_profile
-
-  function from_c_string(source) result(string)
-    type(c_ptr), intent(in) :: source
-    character(len=:), allocatable :: string
-    character(kind=c_char), pointer :: bytes(:)
-    integer :: k, length
-
-    length = int(c_strlen(source))
-    call c_f_pointer(source, bytes, [length])
-    allocate (character(len=length) :: string)
-    do k = 1, length
-      string(k:k) = bytes(k)
-    end do
-  end function from_c_string
 
 end module fuge_c_profiles

@@ -12,7 +12,7 @@ module fuge_c_types
   implicit none
   private
 
-  public :: from_c, to_c, copy_string, copy_reals, copy_integers
+  public :: from_c, to_c, copy_string, copy_reals, copy_integers, from_c_string
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
@@ -52,6 +52,14 @@ module fuge_c_types
     !> A solve has been tried, so that `info` means something.
     logical :: tried = .false.
   end type solver_handle
+
+  interface
+    pure function c_strlen(string) bind(c, name='strlen') result(length)
+      import :: c_ptr, c_size_t
+      type(c_ptr), intent(in), value :: string
+      integer(c_size_t) :: length
+    end function c_strlen
+  end interface
 
 contains
 
@@ -119,5 +127,20 @@ contains
     call c_f_pointer(destination, array, [size(values)])
     array = int(values, c_int)
   end subroutine copy_integers
+
+  !> A string of C, ended by NUL.
+  function from_c_string(source) result(string)
+    type(c_ptr), intent(in) :: source
+    character(len=:), allocatable :: string
+    character(kind=c_char), pointer :: bytes(:)
+    integer :: k, length
+
+    length = int(c_strlen(source))
+    call c_f_pointer(source, bytes, [length])
+    allocate (character(len=length) :: string)
+    do k = 1, length
+      string(k:k) = bytes(k)
+    end do
+  end function from_c_string
 
 end module fuge_c_types
