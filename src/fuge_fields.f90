@@ -17,8 +17,9 @@ module fuge_fields
   integer, parameter, public :: FIELD_WORD = 2
   integer, parameter, public :: FIELD_WRONG = 3
 
-  !> The largest double, 1.79..e308, has 309 places and these first digits.
-  integer, parameter :: LARGEST_PLACES = 309
+  !> The largest double, 1.79..e308, has 309 places and these first digits; numbers with
+  !> fewer places than the least, 4.9e-324, are 0.
+  integer, parameter :: LARGEST_PLACES = 309, LEAST_PLACES = -323
   integer(int64), parameter :: LARGEST_DIGITS = 179769313486231570_int64
   !> Larger exponents are all the same to a double.
   integer, parameter :: EXPONENT_LIMIT = 100000
@@ -86,14 +87,13 @@ contains
 
     value = 0.0_dp
     call read_decimal(field, number, kind)
-    if (kind /= FIELD_NUMBER .or. number%digits == 0_int64) return
-    if (number%exponent + number%count < -330) return
+    if (kind /= FIELD_NUMBER) return
     if (is_beyond(number)) then
       kind = FIELD_NOT_FINITE
       return
     end if
-    certain = .false.
-    if (number%complete) call round_decimal(number%digits, number%exponent, value, certain)
+    certain = number%digits == 0_int64 .or. number%exponent + number%count < LEAST_PLACES
+    if (number%complete .and. .not. certain) call round_decimal(number%digits, number%exponent, value, certain)
     if (certain) then
       if (number%negative) value = -value
     else
@@ -110,6 +110,7 @@ contains
     integer :: places
 
     places = number%exponent + number%count
+    if (number%digits == 0_int64) places = 0
     beyond = places > LARGEST_PLACES
     if (places == LARGEST_PLACES) beyond = number%digits*10_int64**(MOST_DIGITS - number%count) > LARGEST_DIGITS
   end function is_beyond
