@@ -76,7 +76,9 @@ contains
     call file%load(path, info)
     if (.not. info%failed()) call read_header(file, layout, info)
     if (info%failed()) return
-    call make_room(layout, i, j, entry, status)
+    status = 1
+    ! Compressed columns count with default integers.
+    if (room(layout) < int(huge(1), int64)) allocate (i(room(layout)), j(room(layout)), entry(room(layout)), stat=status)
     if (status == 0) then
       if (layout%coordinate) then
         call read_triplets(file, layout, i, j, entry, count, info)
@@ -122,8 +124,8 @@ contains
     end if
     ! Do not ask for memory that a wrong number says.
     bytes = len(file%content, kind=int64) - file%last
-    if (layout%entries > bytes/merge(SHORTEST_ENTRY, SHORTEST_VALUE, layout%coordinate) + 1_int64) &
-      call count_entries(file, layout, info)
+    bytes = bytes/merge(SHORTEST_ENTRY, SHORTEST_VALUE, layout%coordinate)
+    if (layout%entries > bytes + 1_int64) call count_entries(file, layout, info)
   end subroutine read_header
 
   !> Go to the next line that is not skipped.
@@ -249,19 +251,13 @@ contains
   end subroutine read_scattered
 
   !> For all entries, in a symmetric file for their mirror images too.
-  pure subroutine make_room(layout, i, j, entry, status)
+  pure function room(layout)
     type(matrix_layout), intent(in) :: layout
-    integer, allocatable, intent(out) :: i(:), j(:)
-    real(dp), allocatable, intent(out) :: entry(:)
-    integer, intent(out) :: status
-    integer(int64) :: most
+    integer(int64) :: room
 
-    most = layout%entries
-    if (layout%symmetric) most = 2_int64*most
-    status = 1
-    ! Compressed columns count with default integers.
-    if (most < int(huge(1), int64)) allocate (i(most), j(most), entry(most), stat=status)
-  end subroutine make_room
+    room = layout%entries
+    if (layout%symmetric) room = 2_int64*room
+  end function room
 
   pure subroutine read_triplets(file, layout, i, j, entry, count, info)
     type(text_file), intent(inout) :: file

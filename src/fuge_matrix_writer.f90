@@ -151,12 +151,13 @@ contains
     integer :: j, k, last
 
     last = min(size(row), size(value))
-    if (column(1) /= 1) call report(info, FUGE_ERR_SIZE, 'column(1) = '//text(column(1))//': the first column begins at 1')
+    if (column(1) /= 1) call report(info, FUGE_ERR_SIZE, 'column(1) = '//text(column(1)) &
+                                    //': the first column begins at 1')
     do j = 1, size(column) - 1
       if (info%failed()) return
       if (column(j + 1) < column(j) .or. column(j + 1) - 1 > last) then
         call report(info, FUGE_ERR_SIZE, 'column('//text(j + 1)//') = '//text(column(j + 1))//' is outside ' &
-                    //text(column(j))//' .. '//text(last + 1)//', from the column before to the length of row and value')
+                    //text(column(j))//' .. '//text(last + 1)//', from the column before to the end of row and value')
         return
       end if
       do k = column(j), column(j + 1) - 1

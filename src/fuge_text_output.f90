@@ -14,7 +14,7 @@ module fuge_text_output
   type, public :: text_output
     private
     integer :: unit = 0
-    integer :: status = 0
+    integer :: failure = 0
     integer :: used = 0
     integer(int64) :: bytes = 0_int64
     character(len=:), allocatable :: path
@@ -34,6 +34,7 @@ contains
     class(text_output), intent(out) :: self
     character(len=*), intent(in) :: path
     type(fuge_info), intent(inout) :: info
+    integer :: status
 
     self%path = path
     if (len_trim(path) == 0) then
@@ -41,8 +42,8 @@ contains
       return
     end if
     open (newunit=self%unit, file=path, status='replace', action='write', access='stream', form='unformatted', &
-          iostat=self%status, iomsg=self%reason)
-    if (self%status /= 0) call report(info, FUGE_ERR_FILE, named(self%path)//' cannot be opened: '//trim(self%reason))
+          iostat=status, iomsg=self%reason)
+    if (status /= 0) call report(info, FUGE_ERR_FILE, named(self%path)//' cannot be opened: '//trim(self%reason))
   end subroutine create
 
   !> A line, shorter than a piece, without the blanks before and after it.
@@ -61,8 +62,12 @@ contains
 
   subroutine write_buffer(self)
     class(text_output), intent(inout) :: self
+    integer :: status
 
-    if (self%status == 0) write (self%unit, iostat=self%status, iomsg=self%reason) self%buffer(:self%used)
+    if (self%failure == 0) then
+      write (self%unit, iostat=status, iomsg=self%reason) self%buffer(:self%used)
+      if (status /= 0) self%failure = status
+    end if
     self%bytes = self%bytes + int(self%used, int64)
     self%used = 0
   end subroutine write_buffer
@@ -77,17 +82,17 @@ contains
 
     call self%write_buffer()
     close (self%unit, iostat=status, iomsg=reason)
-    if (self%status == 0 .and. status /= 0) then
-      self%status = status
+    if (self%failure == 0 .and. status /= 0) then
+      self%failure = status
       self%reason = reason
     end if
     there = 0_int64
-    if (self%status == 0) inquire (file=self%path, size=there)
-    if (self%status == 0 .and. there /= self%bytes) then
-      self%status = 1
+    if (self%failure == 0) inquire (file=self%path, size=there)
+    if (self%failure == 0 .and. there /= self%bytes) then
+      self%failure = 1
       self%reason = 'it has not the size that it should have, the disk may be full'
     end if
-    if (self%status /= 0) call report(info, FUGE_ERR_FILE, named(self%path)//' cannot be written: '//trim(self%reason))
+    if (self%failure /= 0) call report(info, FUGE_ERR_FILE, named(self%path)//' cannot be written: '//trim(self%reason))
   end subroutine finish
 
 end module fuge_text_output

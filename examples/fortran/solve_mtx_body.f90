@@ -35,8 +35,9 @@ contains
     self%body%floats = given%has('floats')
     call read_contact(given%file('contact'), self%degrees, self%body, info)
     if (given%has('fixed') .and. .not. info%failed()) call read_fixed(given%file('fixed'), self%body, info)
-    if (given%has('external') .and. .not. info%failed()) &
+    if (given%has('external') .and. .not. info%failed()) then
       call read_vector(given%file('external'), self%degrees, self%body%load, info)
+    end if
     if (.not. info%failed()) call fuge_condense(self%stored%stiffness, self%body, self%condensed, info)
   end subroutine read_body
 

@@ -16,8 +16,9 @@ contains
 
     call fuge_read_matrix(path, matrix, info)
     if (info%failed()) return
-    if (size(matrix, 1) /= size(matrix, 2) .or. size(matrix) == 0) &
+    if (size(matrix, 1) /= size(matrix, 2) .or. size(matrix) == 0) then
       call refuse_size(path, shape(matrix), 'a square one is needed', info)
+    end if
   end subroutine read_square
 
   !> A matrix of n rows and one column, or of one row and n columns.

@@ -53,7 +53,8 @@ contains
     integer :: height, shown
 
     height = 0
-    if (.not. (c_associated(path) .and. c_associated(rows) .and. c_associated(columns) .and. c_associated(entries))) then
+    if (.not. (c_associated(path) .and. c_associated(rows) .and. c_associated(columns) &
+               .and. c_associated(entries))) then
       call report(info, FUGE_ERR_POINTER, 'path, rows, columns or entries is NULL')
     else if (columns_room < 0 .or. entries_room < 0) then
       call report(info, FUGE_ERR_SIZE, 'columns_room or entries_room is negative: they are the room in the arrays')
