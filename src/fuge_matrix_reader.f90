@@ -71,6 +71,7 @@ contains
     type(matrix_layout) :: layout
     integer, allocatable :: i(:), j(:), order(:), begin(:)
     real(dp), allocatable :: entry(:)
+    integer(int64) :: most
     integer :: count, status
 
     call file%load(path, info)
@@ -78,7 +79,8 @@ contains
     if (info%failed()) return
     status = 1
     ! Compressed columns count with default integers.
-    if (room(layout) < int(huge(1), int64)) allocate (i(room(layout)), j(room(layout)), entry(room(layout)), stat=status)
+    most = room(layout)
+    if (most < int(huge(1), int64)) allocate (i(most), j(most), entry(most), stat=status)
     if (status == 0) then
       if (layout%coordinate) then
         call read_triplets(file, layout, i, j, entry, count, info)

@@ -34,7 +34,7 @@
 !>
 !> Units are yours. Tables are CSV with comments after #: status, residual, rigid motions and
 !> their resultants. Exit status 0: done (a warning goes to standard error and to the
-!> table); 1: an error, the message is on standard error and no table is written.
+!> table); 1: an error, the message is on standard error and the table of forces is not written.
 program solve_mtx
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use, intrinsic :: iso_c_binding, only: c_int
@@ -95,30 +95,38 @@ contains
     type(elastic_body), target :: body
     type(fuge_problem) :: problem
     type(fuge_solution) :: solution
-    type(fuge_info) :: info, of_body
+    type(fuge_info) :: info, of_body, of_field
     real(dp), allocatable :: field(:)
 
-    call body%read(given, info)
-    call warn(info)
-    of_body = info
-    if (.not. info%failed()) call read_vector(given%file('gap'), body%points(), problem%gap, info)
+    call body%read(given, of_body)
+    if (of_body%failed()) call give_up(of_body)
+    call read_vector(given%file('gap'), body%points(), problem%gap, info)
     if (.not. info%failed()) call take_play(given, problem, info)
     if (.not. info%failed()) call take_motion(given, problem, info)
     if (.not. info%failed()) call body%pose(problem, info)
     if (info%failed()) call give_up(info)
     call solve(body%condensed%alpha, problem, solution, info)
-    if (info%status == 0) then
-      info%status = of_body%status
-      info%message = of_body%message
+    call take_warning(of_body, info)
+    if (given%has('field')) then
+      call body%recover(solution, field, of_field)
+      if (.not. of_field%failed()) call write_field(given%file('field'), field, of_field)
+      if (of_field%failed()) call give_up(of_field)
+      call take_warning(of_field, info)
     end if
     call write_contact(given%file('output'), problem, solution, info)
-    if (.not. info%failed() .and. given%has('field')) then
-      call body%recover(solution, field, info)
-      call warn(info)
-      if (.not. info%failed()) call write_field(given%file('field'), field, info)
-    end if
     if (info%failed()) call give_up(info)
   end subroutine solve_body
+
+  !> A warning on the way is one of the whole.
+  subroutine take_warning(part, info)
+    type(fuge_info), intent(in) :: part
+    type(fuge_info), intent(inout) :: info
+
+    call warn(part)
+    if (info%status /= 0 .or. part%status == 0) return
+    info%status = part%status
+    info%message = part%message
+  end subroutine take_warning
 
   !> Second stops; -1 is none.
   subroutine take_play(given, problem, info)
