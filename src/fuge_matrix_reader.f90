@@ -108,7 +108,7 @@ contains
 
     call file%advance(found)
     if (.not. found) then
-      call report(info, FUGE_ERR_FILE, file%name//' is empty')
+      call report(info, FUGE_ERR_FILE, file%name//' is empty, or no regular file')
       return
     end if
     call read_banner(file%content(file%first:file%last), layout, reason)

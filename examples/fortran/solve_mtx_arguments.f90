@@ -64,7 +64,7 @@ contains
 
     call get_command_argument(k, length=length)
     allocate (character(len=length) :: word)
-    call get_command_argument(k, word)
+    call get_command_argument(k, word(:))
   end function argument
 
   !> Number of the option --name; 0 for another word.
