@@ -75,7 +75,7 @@ contains
 
   subroutine solve_influence(given)
     type(arguments), intent(in) :: given
-    real(dp), allocatable :: alpha(:, :)
+    real(dp), allocatable, target :: alpha(:, :)
     type(fuge_problem) :: problem
     type(fuge_solution) :: solution
     type(fuge_info) :: info
