@@ -1,0 +1,187 @@
+!> Runs CalculiX and reads what it writes.
+module calculix_files
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge, only: dp
+  implicit none
+  private
+
+  public :: wall_clock, run_job, read_stiffness, read_degrees, read_table, count_iterations
+
+contains
+
+  !> Wall time, s.
+  function wall_clock() result(seconds)
+    real(dp) :: seconds
+    integer(int64) :: ticks, rate
+
+    call system_clock(ticks, rate)
+    seconds = real(ticks, dp)/real(rate, dp)
+  end function wall_clock
+
+  !> Run `command -i job` and say how long it took, s. What it prints goes to job.log. That
+  !> it has done its work shows in the file `result`, because it may fail and return 0.
+  subroutine run_job(command, job, result, seconds)
+    character(len=*), intent(in) :: command, job, result
+    real(dp), intent(out) :: seconds
+    integer :: file, status, failed
+    logical :: exists
+
+    open (newunit=file, file=result, status='unknown')
+    close (file, status='delete')
+    seconds = wall_clock()
+    call execute_command_line(command//' -i '//job//' >'//job//'.log 2>&1', exitstat=status, cmdstat=failed)
+    seconds = wall_clock() - seconds
+    inquire (file=result, exist=exists)
+    if (failed == 0 .and. status == 0 .and. exists) return
+    print '(a)', command//' -i '//job//' has failed: see '//job//'.log'
+    error stop 'no result from CalculiX'
+  end subroutine run_job
+
+  !> Node and direction (1 to 3) of each row of the matrix: job.dof, lines such as 17.3.
+  subroutine read_degrees(job, node, direction)
+    character(len=*), intent(in) :: job
+    integer, allocatable, intent(out) :: node(:), direction(:)
+    character(len=32) :: line
+    integer :: file, dot, k
+
+    allocate (node(lines_of(job//'.dof')))
+    allocate (direction(size(node)))
+    open (newunit=file, file=job//'.dof', status='old', action='read')
+    do k = 1, size(node)
+      read (file, '(a)') line
+      dot = index(line, '.')
+      read (line(:dot - 1), *) node(k)
+      read (line(dot + 1:), *) direction(k)
+    end do
+    close (file)
+  end subroutine read_degrees
+
+  !> The matrix as compressed columns: job.sti, a line with row, column and value for each
+  !> entry of one triangle, column by column.
+  subroutine read_stiffness(job, degrees, column, row, value)
+    character(len=*), intent(in) :: job
+    integer, intent(in) :: degrees
+    integer, allocatable, intent(out) :: column(:), row(:)
+    real(dp), allocatable, intent(out) :: value(:)
+    integer :: file, j, k, last
+
+    allocate (row(lines_of(job//'.sti')))
+    allocate (column(degrees + 1), value(size(row)))
+    column = size(row) + 1
+    open (newunit=file, file=job//'.sti', status='old', action='read')
+    last = 0
+    do k = 1, size(row)
+      read (file, *) row(k), j, value(k)
+      if (j < last) error stop 'the entries of the .sti file are not column by column'
+      column(last + 1:j) = k
+      last = j
+    end do
+    close (file)
+  end subroutine read_stiffness
+
+  pure function filled(text)
+    character(len=*), intent(in) :: text
+    logical :: filled
+
+    filled = len_trim(text) > 0
+  end function filled
+
+  function lines_of(path) result(lines)
+    character(len=*), intent(in) :: path
+    integer :: lines
+    integer :: file, status
+
+    open (newunit=file, file=path, status='old', action='read')
+    lines = -1
+    status = 0
+    do while (status == 0)
+      lines = lines + 1
+      read (file, *, iostat=status)
+    end do
+    close (file)
+  end function lines_of
+
+  !> A table of job.dat: node and three values on each line. Of those whose heading begins
+  !> with `heading`, the one with number `table`, or the last one.
+  subroutine read_table(job, heading, node, value, table)
+    character(len=*), intent(in) :: job, heading
+    integer, allocatable, intent(out) :: node(:)
+    real(dp), allocatable, intent(out) :: value(:, :)
+    integer, intent(in), optional :: table
+    character(len=256) :: line
+    real(dp), allocatable :: values(:)
+    real(dp) :: three(3)
+    integer :: file, number, status
+
+    open (newunit=file, file=job//'.dat', status='old', action='read')
+    if (present(table)) then
+      call skip_headings(file, heading, table)
+    else
+      call skip_headings(file, heading, headings(file, heading))
+    end if
+    allocate (node(0), values(0))
+    read (file, '(a)') line
+    do
+      read (file, '(a)', iostat=status) line
+      if (status /= 0 .or. .not. filled(line)) exit
+      read (line, *) number, three
+      node = [node, number]
+      values = [values, three]
+    end do
+    close (file)
+    value = reshape(values, [3, size(node)])
+  end subroutine read_table
+
+  !> How many there are; the file is then at its beginning.
+  function headings(file, heading)
+    integer, intent(in) :: file
+    character(len=*), intent(in) :: heading
+    integer :: headings
+    character(len=256) :: line
+    integer :: status
+
+    headings = 0
+    do
+      read (file, '(a)', iostat=status) line
+      if (status /= 0) exit
+      if (index(line, ' '//heading) == 1) headings = headings + 1
+    end do
+    rewind (file)
+    if (headings == 0) error stop 'a table is missing in the .dat file'
+  end function headings
+
+  subroutine skip_headings(file, heading, count)
+    integer, intent(in) :: file, count
+    character(len=*), intent(in) :: heading
+    character(len=256) :: line
+    integer :: found
+
+    found = 0
+    do while (found < count)
+      read (file, '(a)') line
+      if (index(line, ' '//heading) == 1) found = found + 1
+    end do
+  end subroutine skip_headings
+
+  !> Increments and all iterations of a job, those of failed attempts included: job.sta.
+  subroutine count_iterations(job, increments, iterations)
+    character(len=*), intent(in) :: job
+    integer, intent(out) :: increments, iterations
+    character(len=256) :: line
+    character(len=16) :: attempt
+    integer :: file, status, step, increment, times
+
+    increments = 0
+    iterations = 0
+    open (newunit=file, file=job//'.sta', status='old', action='read')
+    read (file, '(/,a)') line
+    do
+      read (file, *, iostat=status) step, increment, attempt, times
+      if (status /= 0) exit
+      increments = max(increments, increment)
+      iterations = iterations + times
+    end do
+    close (file)
+  end subroutine count_iterations
+
+end module calculix_files
