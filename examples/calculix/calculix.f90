@@ -24,8 +24,8 @@ program calculix
   real(dp), parameter :: SPACING = 0.025_dp, GROWTH = 1.2_dp, SIDE = 7.5_dp
   !> Penalty stiffnesses over Young's modulus, 1/mm. CalculiX advises 5 to 50.
   real(dp), parameter :: PENALTY(4) = [5.0_dp, 50.0_dp, 500.0_dp, 5.0e3_dp]
-  !> What a number with seven digits may be off, relative.
-  real(dp), parameter :: SEVEN_DIGITS = 5.0e-7_dp
+  !> What a number printed with seven digits may be off, relative, and a little of its own.
+  real(dp), parameter :: SEVEN_DIGITS = 6.0e-7_dp
   real(dp), parameter :: PI = acos(-1.0_dp)
   real(dp), parameter :: E_STAR = YOUNG/(1.0_dp - POISSON**2)
   real(dp), parameter :: HERTZ_WIDTH = sqrt(8.0_dp*LOAD/THICKNESS*RADIUS/(PI*E_STAR))
@@ -48,8 +48,9 @@ contains
     print '(a)', 'Stiffness by CalculiX, contact by fuge'
     print '(i8,a,i0,a,i0,a)', size(block%node), ' degrees of freedom, ', size(solution%force), ' points, ', &
       count(solution%force > 0.0_dp), ' touch'
-    print '(f8.3,a)', block%assembling, ' s  ccx -i stiffness', block%reading, ' s  reading stiffness.sti and .dof', &
-      block%condensing, ' s  influence matrix: fuge_condense', solving, ' s  contact'
+    print '(f9.4,a)', block%assembling, ' s  ccx -i stiffness', block%reading, ' s  reading stiffness.sti and .dof', &
+      block%condensing, ' s  fuge_condense: the influence matrix', solving, ' s  contact', &
+      block%assembling + block%reading + block%condensing + solving, ' s  together'
     call compare_influence(command, mesh, block)
     call compare_penalties(command, mesh, block, solution)
     call compare_blocks(command)
@@ -73,7 +74,7 @@ contains
   subroutine solve_by_fuge(command, mesh, block, solution, seconds)
     character(len=*), intent(in) :: command
     type(block_mesh), intent(in) :: mesh
-    type(elastic_block), intent(out) :: block
+    type(elastic_block), intent(out), target :: block
     type(fuge_solution), intent(out) :: solution
     real(dp), intent(out) :: seconds
     type(fuge_dense_operator) :: operator
@@ -105,13 +106,13 @@ contains
       allocate (printed(size(alpha, 1), mesh%lines))
       call influence_by_unit_loads(command, mesh%contact_nodes(), mesh%node([(k, k=1, mesh%lines)], 1, 1), &
                                    printed, seconds)
-      asymmetry = maxval(abs(alpha - transpose(alpha)))/maxval(alpha)
+      asymmetry = maxval(abs(printed(1::2, :)/transpose(printed(1::2, :)) - 1.0_dp))
       difference = maxval(abs(printed/alpha(:, 1::2) - 1.0_dp))
     end associate
-    print '(f8.3,a)', seconds, ' s  ccx -i unit: every other column by a unit load'
-    print '(a,es8.1,a,es8.1)', '          they differ by', difference, ', asymmetry', asymmetry
-    if (asymmetry > 1.0e-12_dp) error stop 'the influence matrix is not symmetric'
-    if (difference > 1.2_dp*SEVEN_DIGITS) error stop 'the influence matrix is not that of CalculiX'
+    print '(f9.4,a)', seconds, ' s  ccx -i unit: every other column by a unit load'
+    print '(a,es8.1,a,es8.1)', '           largest relative difference', difference, ', asymmetry of these', asymmetry
+    if (asymmetry > 2.0_dp*SEVEN_DIGITS) error stop 'the influence matrix is not symmetric'
+    if (difference > SEVEN_DIGITS) error stop 'the influence matrix is not that of CalculiX'
   end subroutine compare_influence
 
   subroutine compare_penalties(command, mesh, block, solution)
@@ -123,9 +124,9 @@ contains
     real(dp) :: difference(size(PENALTY))
     integer :: k
 
-    print '(/,a)', 'CalculiX''s own contact, penalty K: differences from fuge relative to the largest value'
-    print '(a)', '     K/E   time incr. iter. touching  penetration      forces      approach   displ.    forces with'
-    print '(a)', '  [1/mm]    [s]                       /approach      largest                            fuge''s + 1/K'
+    print '(/,a)', 'CalculiX''s own contact with a penalty K: differences from fuge'
+    print '(a)', '     K/E    time incre- itera- nodes in  penetration  approach   displace-  forces     forces, fuge'
+    print '(a)', '  [1/mm]     [s]  ments  tions  contact    /approach             ments                 with 1/K too'
     do k = 1, size(PENALTY)
       call solve_by_penalty(command, PENALTY(k)*YOUNG, mesh%contact_nodes(), mesh%place(), answer(k))
       difference(k) = maxval(abs(answer(k)%force - solution%force))/maxval(solution%force)
@@ -145,9 +146,9 @@ contains
     real(dp) :: springs
 
     springs = spring_difference(answer, block, mesh)
-    print '(f8.0,f7.2,i5,i6,i8,es15.1,4es12.1)', answer%stiffness/YOUNG, answer%seconds, answer%increments, &
-      answer%iterations, count(answer%gap < 0.0_dp), maxval(-answer%gap)/solution%rigid(1), difference, &
-      answer%approach/solution%rigid(1) - 1.0_dp, field_difference(answer, block, solution), springs
+    print '(f8.0,f8.2,2i7,i9,es13.1,es10.1,es12.1,es8.1,es17.1)', answer%stiffness/YOUNG, answer%seconds, &
+      answer%increments, answer%iterations, count(answer%gap < 0.0_dp), maxval(-answer%gap)/solution%rigid(1), &
+      answer%approach/solution%rigid(1) - 1.0_dp, field_difference(answer, block, solution), difference, springs
     if (abs(sum(answer%force)/LOAD - 1.0_dp) > 1.0e-5_dp) error stop 'the forces of CalculiX are not the load'
     if (springs > 1.0e-5_dp) error stop 'CalculiX does not solve the same model'
   end subroutine show_penalty
@@ -240,17 +241,17 @@ contains
     integer :: k
 
     print '(/,a,f7.4,a,f7.2,a)', 'Against Hertz: a =', HERTZ_WIDTH, ' mm, p_0 =', HERTZ_PRESSURE, ' N/mm2'
-    print '(a)', '   block  element   half-width   error   pressure   error   degrees of   fuge with ccx -i stiffness'
-    print '(a)', '    [a]     [a]        [mm]               [N/mm2]            freedom     [s]'
+    print '(a)', '   block  element  half-width    error    pressure    error degrees of   all, with'
+    print '(a)', '     [a]      [a]        [mm]              [N/mm2]            freedom     ccx [s]'
     do k = 1, size(SIZES)
       mesh = make_block(SIZES(k), SPACING*FINER(k), GROWTH**FINER(k))
       seconds = wall_clock()
       call solve_by_fuge(command, mesh, block, solution, pressure)
       seconds = wall_clock() - seconds
       call fit_ellipse(mesh, solution, width, pressure)
-      print '(f8.1,f9.4,f12.5,f8.2,a,f10.3,f8.2,a,i10,f12.2)', SIZES(k)/HERTZ_WIDTH, SPACING*FINER(k)/HERTZ_WIDTH, width, &
-        100.0_dp*(width/HERTZ_WIDTH - 1.0_dp), ' %', pressure, 100.0_dp*(pressure/HERTZ_PRESSURE - 1.0_dp), ' %', &
-        size(block%node), seconds
+      print '(f8.1,f9.4,2(f12.4,f8.2,a),i10,f12.2)', SIZES(k)/HERTZ_WIDTH, SPACING*FINER(k)/HERTZ_WIDTH, &
+        width, 100.0_dp*(width/HERTZ_WIDTH - 1.0_dp), ' %', &
+        pressure, 100.0_dp*(pressure/HERTZ_PRESSURE - 1.0_dp), ' %', size(block%node), seconds
     end do
     if (abs(width/HERTZ_WIDTH - 1.0_dp) > 2.0e-3_dp) error stop 'the half-width is not that of Hertz'
     if (abs(pressure/HERTZ_PRESSURE - 1.0_dp) > 2.0e-3_dp) error stop 'the pressure is not that of Hertz'

@@ -29,7 +29,7 @@ contains
     open (newunit=file, file=result, status='unknown')
     close (file, status='delete')
     seconds = wall_clock()
-    call execute_command_line(command//' -i '//job//' >'//job//'.log 2>&1', exitstat=status, cmdstat=failed)
+    call execute_command_line('"'//command//'" -i '//job//' >'//job//'.log 2>&1', exitstat=status, cmdstat=failed)
     seconds = wall_clock() - seconds
     inquire (file=result, exist=exists)
     if (failed == 0 .and. status == 0 .and. exists) return
@@ -92,11 +92,11 @@ contains
     integer :: file, status
 
     open (newunit=file, file=path, status='old', action='read')
-    lines = -1
-    status = 0
-    do while (status == 0)
-      lines = lines + 1
+    lines = 0
+    do
       read (file, *, iostat=status)
+      if (status /= 0) exit
+      lines = lines + 1
     end do
     close (file)
   end function lines_of
