@@ -38,7 +38,7 @@ contains
   subroutine run()
     character(len=:), allocatable :: command
     type(block_mesh) :: mesh
-    type(elastic_block) :: block
+    type(elastic_block), target :: block
     type(fuge_solution) :: solution
     real(dp) :: solving
 
@@ -60,15 +60,12 @@ contains
   !> The command given, or ccx.
   function argument() result(command)
     character(len=:), allocatable :: command
-    integer :: length
+    character(len=1024) :: given
 
-    if (command_argument_count() < 1) then
-      command = 'ccx'
-    else
-      call get_command_argument(1, length=length)
-      allocate (character(len=length) :: command)
-      call get_command_argument(1, command)
-    end if
+    command = 'ccx'
+    if (command_argument_count() < 1) return
+    call get_command_argument(1, given)
+    command = trim(given)
   end function argument
 
   subroutine solve_by_fuge(command, mesh, block, solution, seconds)
@@ -235,7 +232,7 @@ contains
     real(dp), parameter :: SIZES(5) = [3.75_dp, 7.5_dp, 15.0_dp, 30.0_dp, 30.0_dp]
     real(dp), parameter :: FINER(5) = [1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 0.5_dp]
     type(block_mesh) :: mesh
-    type(elastic_block) :: block
+    type(elastic_block), target :: block
     type(fuge_solution) :: solution
     real(dp) :: width, pressure, seconds
     integer :: k
