@@ -4,7 +4,7 @@ module fuge_sparse
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_associated
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY
-  use fuge_stiffness_check, only: check_entries, check_pair
+  use fuge_stiffness_check, only: check_entry, check_pair
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   use fuge_text, only: text
   implicit none
@@ -143,7 +143,7 @@ contains
         return
       end do
       do p = column(j), column(j + 1) - 1
-        call check_entries(value(p:p), row(p), j, info)
+        call check_entry(value(p), row(p), j, info)
         if (info%failed()) return
       end do
     end do

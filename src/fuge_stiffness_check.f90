@@ -8,7 +8,7 @@ module fuge_stiffness_check
   implicit none
   private
 
-  public :: check_entries, check_pair
+  public :: check_entries, check_entry, check_pair
 
   !> Largest asymmetry taken for rounding, relative to the two diagonal terms.
   real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
@@ -28,16 +28,24 @@ contains
       if (exponent(maxval(abs(entries))) <= LARGEST_EXPONENT) return
     end if
     do k = 1, size(entries)
-      if (.not. ieee_is_finite(entries(k))) then
-        call report(info, FUGE_ERR_NOT_FINITE, place(first + k - 1, j)//' = '//text(entries(k)) &
-                    //' is not a finite number')
-      else if (exponent(entries(k)) > LARGEST_EXPONENT) then
-        call report(info, FUGE_ERR_OVERFLOW, place(first + k - 1, j)//' = '//text(entries(k)) &
-                    //' is near overflow: choose units in which it is smaller')
-      end if
+      call check_entry(entries(k), first + k - 1, j, info)
       if (info%failed()) return
     end do
   end subroutine check_entries
+
+  !> The same for one entry, (i, j).
+  pure subroutine check_entry(entry, i, j, info)
+    real(dp), intent(in) :: entry
+    integer, intent(in) :: i, j
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. ieee_is_finite(entry)) then
+      call report(info, FUGE_ERR_NOT_FINITE, place(i, j)//' = '//text(entry)//' is not a finite number')
+    else if (exponent(entry) > LARGEST_EXPONENT) then
+      call report(info, FUGE_ERR_OVERFLOW, place(i, j)//' = '//text(entry) &
+                  //' is near overflow: choose units in which it is smaller')
+    end if
+  end subroutine check_entry
 
   !> Refuse entries (i, j) and (j, i) that differ by more than rounding
   !> (FUGE_ERR_NOT_SYMMETRIC), seen beside the diagonal terms of i and j.
