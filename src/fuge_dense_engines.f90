@@ -25,6 +25,8 @@ module fuge_dense_engines
   integer, parameter, public :: ITERATIONS_PER_ROW = 50
   !> A negative energy below this part of the coefficients is rounding.
   real(dp), parameter :: PAIR_TOLERANCE = 1.0e-12_dp
+  character(len=*), parameter :: PLAIN_FORCES = 'with zero sum'
+  character(len=*), parameter :: GENERAL_FORCES = 'without resultant in the free motions'
 
 contains
 
@@ -240,10 +242,10 @@ contains
 
   pure function kind_of_forces(scene) result(words)
     type(contact_scene), intent(in) :: scene
-    character(len=:), allocatable :: words
+    character(len=merge(len(PLAIN_FORCES), len(GENERAL_FORCES), scene%plain)) :: words
 
-    words = 'without resultant in the free motions'
-    if (scene%plain) words = 'with zero sum'
+    words = GENERAL_FORCES
+    if (scene%plain) words = PLAIN_FORCES
   end function kind_of_forces
 
   !> Refuse an alpha whose products with the load leave the range of double precision,

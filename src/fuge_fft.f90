@@ -1,9 +1,9 @@
 !> Products with a real, even spectrum by FFTW: the only place that names it.
 !>
-!> FFTW's planner is one for the whole process. Its own lock, which the first
-!> plan switches on, makes plans safe in any number of threads. The number of
-!> threads is a setting of the planner that this lock does not cover: make
-!> plans of more than one thread while no other plan is made.
+!> FFTW's planner is one for the whole process. Its own lock, which the first plan
+!> switches on, covers neither its start nor its number of threads: a lock of ours does.
+!> A host program that plans transforms itself, in another thread at the same time, calls
+!> fftw_make_planner_thread_safe before it starts threads.
 module fuge_fft
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t, c_associated
   use fuge_kinds, only: dp
@@ -48,6 +48,12 @@ module fuge_fft
   end type fft_plan
 
   interface
+    subroutine lock_planner() bind(c, name='fuge_lock_planner')
+    end subroutine lock_planner
+
+    subroutine unlock_planner() bind(c, name='fuge_unlock_planner')
+    end subroutine unlock_planner
+
     function fftw_malloc(bytes) bind(c, name='fftw_malloc') result(memory)
       import :: c_ptr, c_size_t
       integer(c_size_t), intent(in), value :: bytes
@@ -59,7 +65,6 @@ module fuge_fft
       type(c_ptr), intent(in), value :: memory
     end subroutine fftw_free
 
-    !> Safe to call from several threads, and more than once.
     subroutine fftw_make_planner_thread_safe() bind(c, name='fftw_make_planner_thread_safe')
     end subroutine fftw_make_planner_thread_safe
 
@@ -169,13 +174,29 @@ contains
   subroutine make_plans(plan, info)
     type(fft_plan), intent(inout) :: plan
     type(fuge_info), intent(inout) :: info
+    logical :: ready
+
+    call lock_planner()
+    ready = fftw_init_threads() /= 0
+    if (ready) call make_both(plan)
+    call unlock_planner()
+    if (.not. ready) then
+      call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads at all')
+    else if (c_associated(plan%forward) .and. c_associated(plan%backward)) then
+      call plan%settle()
+    else
+      call destroy(plan%forward, plan%backward)
+      call report(info, FUGE_ERR_MEMORY, 'out of memory: a transform of '//text(plan%length)//' values needs ' &
+                  //text(3.0_dp*real(buffer_bytes(plan%length), dp))//' bytes')
+    end if
+  end subroutine make_plans
+
+  !> Within the lock.
+  subroutine make_both(plan)
+    type(fft_plan), intent(inout) :: plan
     type(c_ptr) :: buffer
     integer(c_int) :: before, flags
 
-    if (fftw_init_threads() == 0) then
-      call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads at all')
-      return
-    end if
     call fftw_make_planner_thread_safe()
     ! The host program may have a number of its own.
     before = fftw_planner_nthreads()
@@ -190,14 +211,7 @@ contains
       call fftw_free(buffer)
     end if
     if (before /= plan%threads) call fftw_plan_with_nthreads(before)
-    if (c_associated(plan%forward) .and. c_associated(plan%backward)) then
-      call plan%settle()
-    else
-      call destroy(plan%forward, plan%backward)
-      call report(info, FUGE_ERR_MEMORY, 'out of memory: a transform of '//text(plan%length)//' values needs ' &
-                  //text(3.0_dp*real(buffer_bytes(plan%length), dp))//' bytes')
-    end if
-  end subroutine make_plans
+  end subroutine make_both
 
   !> Of the values, or in their place the complex numbers 0 .. length/2.
   pure function buffer_bytes(length) result(bytes)

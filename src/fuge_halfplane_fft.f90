@@ -72,8 +72,8 @@ contains
   !> two being one on a uniform grid. `boundary` FUGE_FREE (default): the matrix of
   !> `fuge_halfplane_matrix`; FUGE_PERIODIC: the period is n*spacing, and displacements
   !> count from the mean of the surface, so that A is singular: a force equal on all
-  !> cells moves nothing. `threads` (default 1) for each transform, see `fuge_fft` for
-  !> more than one; `measured` (default .false.): let FFTW try what is fastest.
+  !> cells moves nothing. `threads` (default 1) for each transform; `measured`
+  !> (default .false.): let FFTW try what is fastest.
   !> Errors, the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
   !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   subroutine set(self, n, spacing, e_star, info, element, boundary, threads, measured)

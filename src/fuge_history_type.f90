@@ -5,6 +5,9 @@ module fuge_history_type
   implicit none
   private
 
+  !> Of z at the end of a line.
+  integer, parameter :: OBJECTIVE_LENGTH = 18
+
   !> Steps 0 (the artificial start) to `recorded()` - 1.
   type, public :: fuge_history
     private
@@ -108,27 +111,6 @@ contains
     if (step >= 0 .and. step < self%steps) z = self%sums(step + 1)
   end function z
 
-  !> A step in the layout of the paper's Tabelle 2: the column numbers, then z.
-  pure function line(self, step) result(row)
-    class(fuge_history), intent(in) :: self
-    integer, intent(in) :: step
-    character(len=:), allocatable :: row
-    character(len=12) :: number
-    character(len=20) :: objective
-    integer :: k, width
-
-    row = ''
-    if (rows_at(self, step) == 0) return
-    ! All steps align: the largest number of all is in the artificial start.
-    width = digits_of(maxval(self%columns(:, 1))) + 1
-    do k = 1, size(self%columns, 1)
-      write (number, '(i12)') self%columns(k, step + 1)
-      row = row//number(13 - width:)
-    end do
-    write (objective, '(a,sp,es13.6)') '  Z= ', self%z(step)
-    row = row//trim(objective)
-  end function line
-
   pure function digits_of(value) result(digits)
     integer, intent(in) :: value
     integer :: digits
@@ -137,5 +119,40 @@ contains
     write (buffer, '(i0)') value
     digits = len_trim(buffer)
   end function digits_of
+
+  !> All steps align: the largest number of all is in the artificial start.
+  pure function column_width(self) result(width)
+    class(fuge_history), intent(in) :: self
+    integer :: width
+
+    width = digits_of(maxval(self%columns(:, 1))) + 1
+  end function column_width
+
+  !> 0 if there is no such step.
+  pure function line_length(self, step) result(length)
+    class(fuge_history), intent(in) :: self
+    integer, intent(in) :: step
+    integer :: length
+
+    length = 0
+    if (rows_at(self, step) > 0) length = size(self%columns, 1)*column_width(self) + OBJECTIVE_LENGTH
+  end function line_length
+
+  !> A step in the layout of the paper's Tabelle 2: the column numbers, then z.
+  pure function line(self, step) result(row)
+    class(fuge_history), intent(in) :: self
+    integer, intent(in) :: step
+    character(len=line_length(self, step)) :: row
+    character(len=12) :: number
+    integer :: k, width
+
+    if (len(row) == 0) return
+    width = column_width(self)
+    do k = 1, size(self%columns, 1)
+      write (number, '(i12)') self%columns(k, step + 1)
+      row(width*(k - 1) + 1:width*k) = number(13 - width:)
+    end do
+    write (row(len(row) - OBJECTIVE_LENGTH + 1:), '(a,sp,es13.6)') '  Z= ', self%z(step)
+  end function line
 
 end module fuge_history_type

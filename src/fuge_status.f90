@@ -67,6 +67,8 @@ module fuge_status
     'done, but the residual is above the tolerance asked for', &
     'done, but the answer is not unique: the message says in what']
 
+  character(len=*), parameter :: UNKNOWN_STATUS = 'unknown status'
+
   !> Length of a message; longer ones are cut.
   integer, parameter, public :: FUGE_MESSAGE_LENGTH = 256
 
@@ -110,15 +112,23 @@ contains
     info%message = message
   end subroutine report
 
+  pure function meaning_length(status) result(length)
+    integer, intent(in) :: status
+    integer :: length
+
+    length = len(UNKNOWN_STATUS)
+    if (status >= LOWEST_STATUS .and. status <= HIGHEST_STATUS) length = len_trim(STATUS_MEANINGS(status))
+  end function meaning_length
+
   !> The general meaning of a status code, in English.
   pure function fuge_status_text(status) result(meaning)
     integer, intent(in) :: status
-    character(len=:), allocatable :: meaning
+    character(len=meaning_length(status)) :: meaning
 
     if (status < LOWEST_STATUS .or. status > HIGHEST_STATUS) then
-      meaning = 'unknown status'
+      meaning = UNKNOWN_STATUS
     else
-      meaning = trim(STATUS_MEANINGS(status))
+      meaning = STATUS_MEANINGS(status)
     end if
   end function fuge_status_text
 

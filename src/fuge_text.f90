@@ -1,4 +1,7 @@
 !> Numbers as text, for messages.
+!>
+!> Results have lengths that are known before the call: gfortran keeps the length of a
+!> deferred one (`len=:`) in a variable that all threads share.
 module fuge_text
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
@@ -15,29 +18,40 @@ module fuge_text
 
 contains
 
+  pure function integer_field(value) result(field)
+    integer, intent(in) :: value
+    character(len=12) :: field
+
+    write (field, '(i0)') value
+  end function integer_field
+
   pure function text_integer(value) result(string)
     integer, intent(in) :: value
-    character(len=:), allocatable :: string
-    character(len=12) :: buffer
+    character(len=len_trim(integer_field(value))) :: string
 
-    write (buffer, '(i0)') value
-    string = trim(buffer)
+    string = integer_field(value)
   end function text_integer
 
-  pure function text_real(value) result(string)
+  pure function real_field(value) result(field)
     real(dp), intent(in) :: value
-    character(len=:), allocatable :: string
-    character(len=24) :: buffer
+    character(len=24) :: field
 
     if (.not. ieee_is_finite(value)) then
       ! Apart, because a comparison with NaN may trap.
-      write (buffer, '(es13.5e3)') value
+      write (field, '(es13.5e3)') value
     else if (abs(value) >= 1.0e-3_dp .and. abs(value) < 1.0e5_dp) then
-      write (buffer, '(f14.6)') value
+      write (field, '(f14.6)') value
     else
-      write (buffer, '(es13.5e3)') value
+      write (field, '(es13.5e3)') value
     end if
-    string = trim(adjustl(buffer))
+    field = adjustl(field)
+  end function real_field
+
+  pure function text_real(value) result(string)
+    real(dp), intent(in) :: value
+    character(len=len_trim(real_field(value))) :: string
+
+    string = real_field(value)
   end function text_real
 
 end module fuge_text
