@@ -1,0 +1,27 @@
+# fuge_limit_symbols(target): a shared library shows its interface and nothing else.
+#
+# That are the names of C, the modules (gfortran: __fuge_.., flang: _QMfuge..), whose types bring
+# tables of procedures and default values along, and the documented external names. Other linkers than
+# those that know version scripts show all there is.
+include(CheckLinkerFlag)
+
+set(FUGE_SYMBOLS "fuge_*" "__fuge_*" "_QMfuge*")
+if(EXISTS "${PROJECT_SOURCE_DIR}/cmake/external_names.txt")
+  file(STRINGS cmake/external_names.txt external_names REGEX "^[a-z]")
+  list(APPEND FUGE_SYMBOLS ${external_names})
+endif()
+
+set(fuge_version_script "${PROJECT_BINARY_DIR}/symbols.map")
+list(JOIN FUGE_SYMBOLS ";\n    " global_symbols)
+file(CONFIGURE OUTPUT "${fuge_version_script}" CONTENT "{\n  global:\n    @global_symbols@;\n  local:\n    *;\n};\n" @ONLY)
+# Not as LINKER:.., which CMake 3.25 does not translate for flang.
+check_linker_flag(Fortran "-Wl,--version-script=${fuge_version_script}" FUGE_HAS_VERSION_SCRIPT)
+
+function(fuge_limit_symbols target)
+  set_target_properties(${target} PROPERTIES C_VISIBILITY_PRESET hidden)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY" AND FUGE_HAS_VERSION_SCRIPT)
+    target_link_options(${target} PRIVATE "-Wl,--version-script=${fuge_version_script}")
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${fuge_version_script}")
+  endif()
+endfunction()
