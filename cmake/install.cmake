@@ -1,51 +1,91 @@
-# Header, library, module files, CMake package and pkg-config file.
+# Headers, libraries, module files, CMake package, pkg-config files and documents.
+#
+# Both kinds of a library may live in one prefix: each has a file of targets of its own.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/fuge")
-
-install(TARGETS fuge EXPORT fuge-targets
-  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-  RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-install(FILES include/fuge.h include/fuge_fe.h include/fuge_smooth.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
-install(DIRECTORY "${PROJECT_BINARY_DIR}/modules/" DESTINATION "${FUGE_MODULE_DIR}"
-  FILES_MATCHING PATTERN "*.mod" PATTERN "*.smod")
-install(EXPORT fuge-targets NAMESPACE fuge:: DESTINATION "${package_dir}")
-
 get_target_property(library_type fuge TYPE)
+set(library_kind shared)
+if(library_type STREQUAL "STATIC_LIBRARY")
+  set(library_kind static)
+endif()
+set(for_programs COMPONENT fuge_runtime)
+set(for_developers COMPONENT fuge_development)
+set(for_readers COMPONENT fuge_documents)
+
 # What a C linker has to add for a static Fortran library.
 set(fortran_runtime ${CMAKE_Fortran_IMPLICIT_LINK_LIBRARIES})
 list(REMOVE_ITEM fortran_runtime gcc gcc_s c)
 list(REMOVE_DUPLICATES fortran_runtime)
 set(fortran_runtime_dirs ${CMAKE_Fortran_IMPLICIT_LINK_DIRECTORIES})
+set(fortran_compiler "${CMAKE_Fortran_COMPILER_ID}-${CMAKE_Fortran_COMPILER_VERSION}")
+
+# result: linker flags for what the `...` libraries are
+function(fuge_linker_flags result)
+  set(libraries ${ARGN})
+  list(TRANSFORM libraries PREPEND "-l" REGEX "^[^-/]")
+  # Directories that the C compiler does not search by itself.
+  set(dirs ${fortran_runtime_dirs})
+  list(REMOVE_ITEM dirs "" ${CMAKE_C_IMPLICIT_LINK_DIRECTORIES})
+  list(TRANSFORM dirs PREPEND "-L")
+  set(flags ${dirs} ${libraries})
+  list(REMOVE_DUPLICATES flags)
+  # All of the others may need it.
+  list(REMOVE_ITEM flags -lm)
+  list(APPEND flags -lm)
+  list(JOIN flags " " flags)
+  set(${result} "${flags}" PARENT_SCOPE)
+endfunction()
+
+# fuge_install_library(target package DESCRIPTION .. [REQUIRES package ..] [NEEDS library ..])
+#
+# Install the library, its targets file <package>-<kind>-targets.cmake and <package>.pc; NEEDS are the
+# libraries that a static copy is linked with.
+function(fuge_install_library target package)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "DESCRIPTION" "REQUIRES;NEEDS")
+  set(targets_file "${package}-${library_kind}-targets")
+  install(TARGETS ${target} EXPORT ${targets_file}
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${for_developers}
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${for_programs}
+      NAMELINK_COMPONENT fuge_development
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" ${for_programs})
+  install(EXPORT ${targets_file} NAMESPACE fuge:: DESTINATION "${package_dir}" ${for_developers})
+
+  set(pc_name ${package})
+  set(pc_description "${arg_DESCRIPTION}")
+  list(JOIN arg_REQUIRES " " pc_requires)
+  get_target_property(output_name ${target} OUTPUT_NAME)
+  if(NOT output_name)
+    set(output_name ${target})
+  endif()
+  set(pc_libs -l${output_name})
+  fuge_linker_flags(pc_private ${arg_NEEDS} ${fortran_runtime})
+  # A static library has no record of what it needs: then these are needed always.
+  if(library_kind STREQUAL "static")
+    string(APPEND pc_libs " ${pc_private}")
+    set(pc_private)
+  endif()
+  # The prefix seen from the .pc file, so that the installed tree can be moved.
+  file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+  string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
+  configure_file(cmake/fuge.pc.in ${package}.pc @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/${package}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" ${for_developers})
+endfunction()
+
+fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}"
+  NEEDS ${LAPACK_LIBRARIES} ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY})
+
+install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY "${PROJECT_BINARY_DIR}/modules/" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers}
+  FILES_MATCHING PATTERN "*.mod" PATTERN "*.smod")
 
 configure_package_config_file(cmake/fuge-config.cmake.in fuge-config.cmake
   INSTALL_DESTINATION "${package_dir}")
 write_basic_package_version_file(fuge-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/fuge-config.cmake" "${PROJECT_BINARY_DIR}/fuge-config-version.cmake"
-  DESTINATION "${package_dir}")
-if(library_type STREQUAL "STATIC_LIBRARY")
-  install(FILES cmake/FindFFTW.cmake DESTINATION "${package_dir}")
-endif()
+  cmake/FindFFTW.cmake DESTINATION "${package_dir}" ${for_developers})
 
-# A static library has no record of what it needs: then these are needed always.
-set(pc_libs -lfuge)
-if(library_type STREQUAL "STATIC_LIBRARY")
-  set(pc_libraries ${LAPACK_LIBRARIES} ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY} ${fortran_runtime})
-  list(TRANSFORM pc_libraries PREPEND "-l" REGEX "^[^-/]")
-  # Directories that the C compiler does not search by itself.
-  set(pc_dirs ${fortran_runtime_dirs})
-  list(REMOVE_ITEM pc_dirs "" ${CMAKE_C_IMPLICIT_LINK_DIRECTORIES})
-  list(TRANSFORM pc_dirs PREPEND "-L")
-  list(APPEND pc_libs ${pc_dirs} ${pc_libraries})
-  list(REMOVE_DUPLICATES pc_libs)
-  # All of the others may need it.
-  list(REMOVE_ITEM pc_libs -lm)
-  list(APPEND pc_libs -lm)
-endif()
-list(JOIN pc_libs " " pc_libs)
-# The prefix seen from the .pc file, so that the installed tree can be moved.
-file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
-string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
-configure_file(cmake/fuge.pc.in fuge.pc @ONLY)
-install(FILES "${PROJECT_BINARY_DIR}/fuge.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+file(GLOB documents CONFIGURE_DEPENDS doc/*.md doc/*.svg doc/*.png)
+install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc" ${for_readers})
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" ${for_readers})
+install(FILES doc/man/fuge.3 DESTINATION "${CMAKE_INSTALL_MANDIR}/man3" ${for_readers})

@@ -1,0 +1,32 @@
+# Sources compiled with what pkg-config says of the copy in PREFIX: C, C++, Fortran, and the man page's example.
+# ctest sets PREFIX, MANDIR, LIBDIR, KIND, SCRATCH, PKG_CONFIG, C_COMPILER, CXX_COMPILER and Fortran_COMPILER.
+cmake_minimum_required(VERSION 3.20)
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+
+file(REMOVE_RECURSE "${SCRATCH}")
+file(MAKE_DIRECTORY "${SCRATCH}")
+ask_pkg_config(flags "${PREFIX}" --cflags --libs fuge)
+string(FIND "${flags}" "-L${PREFIX}" place)
+if(place EQUAL -1)
+  message(FATAL_ERROR "pkg-config does not lead to the installed copy: ${flags}")
+endif()
+separate_arguments(flags UNIX_COMMAND "${flags}")
+
+file(READ "${PREFIX}/${MANDIR}/man3/fuge.3" page)
+string(REGEX MATCH "\n#include <fuge.h>\n.*" example "${page}")
+string(REGEX REPLACE "\n.EE.*" "\n" example "${example}")
+string(REPLACE "\\e" "\\" example "${example}")
+file(WRITE "${SCRATCH}/example.c" "${example}")
+
+foreach(source IN ITEMS c/main.c cxx/main.cxx fortran/main.f90 "${SCRATCH}/example.c")
+  set(language C)
+  if(source MATCHES "cxx$")
+    set(language CXX)
+  elseif(source MATCHES "f90$")
+    set(language Fortran)
+  endif()
+  set(what "${language} by pkg-config, ${KIND}")
+  get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_LIST_DIR}")
+  run("${what}: compile" "${${language}_COMPILER}" "${source}" -o "${SCRATCH}/${language}" ${flags})
+  expect_answer_in("${PREFIX}" "${what}" "${SCRATCH}/${language}")
+endforeach()

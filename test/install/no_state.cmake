@@ -1,0 +1,21 @@
+# The library has no variables that all threads would share, but for constants that the compiler does not
+# mark as such, and the lock of FFTW's planner.
+# cmake -DNM=nm -DARCHIVE=libfuge.a -P no_state.cmake
+#
+# gfortran makes such variables of `save`, of local variables with a value to begin with, and of the length
+# of a function's result that is `character(len=:), allocatable` (slen).
+cmake_minimum_required(VERSION 3.20)
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+
+set(constants "__fuge_.*_MOD___(vtab|def_init)_.*" "__fuge_c_general_MOD_(k|meanings|version)")
+set(locks "lock")
+
+run("nm" "${NM}" "${ARCHIVE}")
+string(REGEX MATCHALL "[0-9a-f]+ [bBdDC] [^\n]+" variables "${output}")
+list(TRANSFORM variables REPLACE ".* " "")
+list(JOIN constants "|" allowed)
+list(FILTER variables EXCLUDE REGEX "^(${allowed}|${locks})$")
+if(variables)
+  list(JOIN variables " " variables)
+  message(FATAL_ERROR "threads share these variables: ${variables}")
+endif()

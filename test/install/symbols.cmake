@@ -1,0 +1,48 @@
+# A shared library shows the names it should and no other.
+# cmake -DNM=nm -DLIBRARY=libfuge.so -DSYMBOLS=pattern;.. -DINCLUDE_DIR=include -P symbols.cmake
+# INCLUDE_DIR: all functions of the headers have to be there; only those of C are compared.
+cmake_minimum_required(VERSION 3.20)
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+
+run("nm" "${NM}" -D --defined-only "${LIBRARY}")
+string(REGEX MATCHALL "[^ \n]+\n" shown "${output}")
+list(TRANSFORM shown STRIP)
+# With a version of the whole library.
+list(TRANSFORM shown REPLACE "@.*" "")
+
+string(REPLACE "*" ".*" patterns "${SYMBOLS}")
+list(JOIN patterns "|" patterns)
+set(strange ${shown})
+list(FILTER strange EXCLUDE REGEX "^(${patterns})$")
+if(strange)
+  list(LENGTH strange number)
+  list(SUBLIST strange 0 10 strange)
+  list(JOIN strange " " strange)
+  message(SEND_ERROR "${LIBRARY} shows ${number} name(s) that are not its own: ${strange}")
+endif()
+
+set(text "")
+file(GLOB headers "${INCLUDE_DIR}/*.h")
+foreach(header IN LISTS headers)
+  file(READ "${header}" header)
+  string(APPEND text "${header}")
+endforeach()
+string(REPLACE ";" " " text "${text}")
+# Functions that another library holds are marked so.
+string(REGEX REPLACE "[^\n]*libfuge_sparse[^\n]*" "" text "${text}")
+string(REGEX REPLACE "/\\*[^*]*\\*+([^/*][^*]*\\*+)*/" "" text "${text}")
+string(REGEX MATCHALL "fuge_[a-z0-9_]+ *\\(" expected "${text}")
+list(TRANSFORM expected REPLACE " *\\(" "")
+list(REMOVE_DUPLICATES expected)
+list(LENGTH expected number)
+if(number EQUAL 0)
+  message(FATAL_ERROR "no functions found in ${headers}")
+endif()
+set(missing ${expected})
+list(REMOVE_ITEM missing ${shown})
+if(missing)
+  list(JOIN missing " " missing)
+  message(SEND_ERROR "${LIBRARY} does not show: ${missing}")
+endif()
+list(LENGTH shown all)
+message(STATUS "${all} names, ${number} functions of the headers")
