@@ -7,6 +7,7 @@
 module fuge_fft
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t, c_associated
   use fuge_kinds, only: dp
+  use fuge_locks, only: lock, unlock, LOCK_PLANNER
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_SIZE
   use fuge_text, only: text
@@ -48,12 +49,6 @@ module fuge_fft
   end type fft_plan
 
   interface
-    subroutine lock_planner() bind(c, name='fuge_lock_planner')
-    end subroutine lock_planner
-
-    subroutine unlock_planner() bind(c, name='fuge_unlock_planner')
-    end subroutine unlock_planner
-
     function fftw_malloc(bytes) bind(c, name='fftw_malloc') result(memory)
       import :: c_ptr, c_size_t
       integer(c_size_t), intent(in), value :: bytes
@@ -176,10 +171,10 @@ contains
     type(fuge_info), intent(inout) :: info
     logical :: ready
 
-    call lock_planner()
+    call lock(LOCK_PLANNER)
     ready = fftw_init_threads() /= 0
     if (ready) call make_both(plan)
-    call unlock_planner()
+    call unlock(LOCK_PLANNER)
     if (.not. ready) then
       call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads at all')
     else if (c_associated(plan%forward) .and. c_associated(plan%backward)) then

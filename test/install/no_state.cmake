@@ -8,7 +8,7 @@ cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
 set(constants "__fuge_.*_MOD___(vtab|def_init)_.*" "__fuge_c_general_MOD_(k|meanings|version)")
-set(locks "lock")
+set(locks "locks")
 
 run("nm" "${NM}" "${ARCHIVE}")
 string(REGEX MATCHALL "[0-9a-f]+ [bBdDC] [^\n]+" variables "${output}")

@@ -1,0 +1,22 @@
+/* Locks for the whole process, which Fortran 2008 does not have: fuge_locks.f90 numbers them. */
+#if defined(_WIN32)
+
+#include <windows.h>
+
+static SRWLOCK locks[2] = {SRWLOCK_INIT, SRWLOCK_INIT};
+
+void fuge_lock(int which) { AcquireSRWLockExclusive(&locks[which]); }
+
+void fuge_unlock(int which) { ReleaseSRWLockExclusive(&locks[which]); }
+
+#else
+
+#include <pthread.h>
+
+static pthread_mutex_t locks[2] = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER};
+
+void fuge_lock(int which) { pthread_mutex_lock(&locks[which]); }
+
+void fuge_unlock(int which) { pthread_mutex_unlock(&locks[which]); }
+
+#endif
