@@ -2,7 +2,7 @@
  * profiles and refusals.  All answers and messages must be those of a run alone, bit for bit.
  *
  * The threads go first, so that whatever is prepared at a first call is prepared by several at once.
- * `api_threads rounds` sets how often each thread does all of it. */
+ * `threads_pthreads rounds` sets how often each thread does all of it. */
 #define _POSIX_C_SOURCE 200112L
 #include <math.h>
 #include <pthread.h>
@@ -210,7 +210,7 @@ static void make_ground(void) {
   CHECK_STATUS(fuge_operator_dense(N, shared.alpha, N, &shared.dense), FUGE_DONE);
   CHECK_STATUS(fuge_operator_halfplane(CELLS, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &shared.cells), FUGE_DONE);
   CHECK_STATUS(fuge_operator_callback(N, spring, &flexibility, &shared.springs), FUGE_DONE);
-  snprintf(shared.path, sizeof shared.path, "api_threads_profile.txt");
+  snprintf(shared.path, sizeof shared.path, "threads_profile.txt");
   file = fopen(shared.path, "w");
   CHECK(file != NULL);
   if (!file) return;
