@@ -75,6 +75,11 @@ endfunction()
 fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}"
   NEEDS ${LAPACK_LIBRARIES} ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY})
 
+if(TARGET fuge_sparse)
+  fuge_install_library(fuge_sparse fuge-sparse DESCRIPTION "Condensation of sparse stiffness matrices for fuge, by CHOLMOD"
+    REQUIRES fuge NEEDS ${CHOLMOD_LIBRARY})
+endif()
+
 install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY "${PROJECT_BINARY_DIR}/modules/" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers}
   FILES_MATCHING PATTERN "*.mod" PATTERN "*.smod")
@@ -83,7 +88,7 @@ configure_package_config_file(cmake/fuge-config.cmake.in fuge-config.cmake
   INSTALL_DESTINATION "${package_dir}")
 write_basic_package_version_file(fuge-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/fuge-config.cmake" "${PROJECT_BINARY_DIR}/fuge-config-version.cmake"
-  cmake/FindFFTW.cmake DESTINATION "${package_dir}" ${for_developers})
+  cmake/FindFFTW.cmake cmake/FindCHOLMOD.cmake DESTINATION "${package_dir}" ${for_developers})
 
 file(GLOB documents CONFIGURE_DEPENDS doc/*.md doc/*.svg doc/*.png)
 install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc" ${for_readers})

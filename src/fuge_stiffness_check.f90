@@ -15,6 +15,20 @@ module fuge_stiffness_check
 
 contains
 
+  pure function place_length(i, j) result(length)
+    integer, intent(in) :: i, j
+    integer :: length
+
+    length = len('stiffness(,)') + len(text(i)) + len(text(j))
+  end function place_length
+
+  pure function place(i, j)
+    integer, intent(in) :: i, j
+    character(len=place_length(i, j)) :: place
+
+    place = 'stiffness('//text(i)//','//text(j)//')'
+  end function place
+
   !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE) and numbers near overflow
   !> (FUGE_ERR_OVERFLOW) in a part of column j that begins at row `first`.
   pure subroutine check_entries(entries, first, j, info)
@@ -60,12 +74,5 @@ contains
                 //text(below)//' differ: a stiffness matrix is symmetric; if that is rounding, pass (K + ' &
                 //'transpose(K))/2')
   end subroutine check_pair
-
-  pure function place(i, j)
-    integer, intent(in) :: i, j
-    character(len=:), allocatable :: place
-
-    place = 'stiffness('//text(i)//','//text(j)//')'
-  end function place
 
 end module fuge_stiffness_check

@@ -1,6 +1,8 @@
 # A shared library shows the names it should and no other.
-# cmake -DNM=nm -DLIBRARY=libfuge.so -DSYMBOLS=pattern;.. -DINCLUDE_DIR=include -P symbols.cmake
-# INCLUDE_DIR: all functions of the headers have to be there; only those of C are compared.
+# cmake -DNM=nm -DLIBRARY=libfuge.so -DSYMBOLS=pattern;.. -DINCLUDE_DIR=include [-DSPARSE=name;..]
+#   [-DONLY_SPARSE=1] -P symbols.cmake
+# All functions of the headers have to be there, but for those of SPARSE, which are in a library of their
+# own: with ONLY_SPARSE that is the one looked at.
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
@@ -28,12 +30,15 @@ foreach(header IN LISTS headers)
   string(APPEND text "${header}")
 endforeach()
 string(REPLACE ";" " " text "${text}")
-# Functions that another library holds are marked so.
-string(REGEX REPLACE "[^\n]*libfuge_sparse[^\n]*" "" text "${text}")
 string(REGEX REPLACE "/\\*[^*]*\\*+([^/*][^*]*\\*+)*/" "" text "${text}")
 string(REGEX MATCHALL "fuge_[a-z0-9_]+ *\\(" expected "${text}")
 list(TRANSFORM expected REPLACE " *\\(" "")
 list(REMOVE_DUPLICATES expected)
+if(ONLY_SPARSE)
+  list(FILTER expected INCLUDE REGEX "^(${SPARSE})$")
+else()
+  list(REMOVE_ITEM expected ${SPARSE})
+endif()
 list(LENGTH expected number)
 if(number EQUAL 0)
   message(FATAL_ERROR "no functions found in ${headers}")
