@@ -36,8 +36,12 @@
  * from 0.  Points in messages count from 1.  Every int function returns a status:
  * 0 done, > 0 done with a warning, < 0 an error that left all outputs untouched
  * (fuge_status_text says what each means).  Nothing is printed, nothing aborts,
- * there is no global state: use one solver in each thread.  NULL where it is not
- * allowed gives FUGE_ERR_POINTER.
+ * there is no global state.  NULL where it is not allowed gives FUGE_ERR_POINTER.
+ *
+ * THREADS.  Calls in different threads at once are safe if no two of them have the same
+ * solver or body, be it only to read results.  An operator may be shared by the solvers
+ * of several threads, unless one makes, changes or frees it meanwhile; it and its matrix
+ * are only read.
  *
  * CALL ORDER.  Either fuge_solve_dense alone, or
  *     fuge_operator_dense, _halfplane or _callback -> fuge_solver_new
