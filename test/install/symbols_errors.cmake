@@ -27,4 +27,5 @@ set(both "int fuge_one(void) { return 1; }\nint fuge_two(int n) { return n; }\n"
 expect_finding("${both}" "")
 expect_finding("${both}int solve(void) { return 2; }\n" "not its own: solve")
 expect_finding("${both}int the_fuge_counter;\n" "not its own: the_fuge_counter")
+expect_finding("${both}int fuge_three(void) { return 3; }\n" "no header has: fuge_three")
 expect_finding("int fuge_one(void) { return 1; }\n" "does not show: fuge_two")

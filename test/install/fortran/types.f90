@@ -51,10 +51,11 @@ contains
 end module own_types
 
 program types
-  use fuge, only: dp, fuge_contact_edges, fuge_dense_operator, fuge_follow_path, fuge_general_path, &
+  use fuge, only: dp, fuge_band_stiffness, fuge_body, fuge_condense, fuge_condensed, fuge_contact_edges, &
+    fuge_dense_operator, fuge_dense_stiffness, fuge_follow_path, fuge_general_path, &
     fuge_halfplane_matrix, fuge_halfplane_operator, fuge_history, fuge_info, fuge_interval, fuge_load_path, &
     fuge_operator, fuge_options, fuge_path, fuge_problem, fuge_residual, fuge_solution, fuge_solver, &
-    fuge_status_text, fuge_violation, FUGE_DONE, FUGE_ERR_UNSUPPORTED, FUGE_MEAN, FUGE_TABLEAU
+    fuge_status_text, fuge_stiffness, fuge_violation, FUGE_DONE, FUGE_ERR_UNSUPPORTED, FUGE_MEAN, FUGE_TABLEAU
   use own_types, only: counter, springs
   implicit none
 
@@ -87,6 +88,7 @@ contains
     call solve_with(springs(1.0_dp, N), gap, 'springs')
     call follow(dense, gap)
     call look_at_edges(dense, x, width, gap)
+    call condense()
     call expect(fuge_status_text(FUGE_DONE) == 'done', 'status text')
     print '(a)', 'all types are there'
   end subroutine run
@@ -160,6 +162,40 @@ contains
     call fuge_contact_edges(x, width, solution%force, FUGE_MEAN, intervals, info)
     call expect(size(intervals) == 1, 'edges: '//trim(info%message))
   end subroutine look_at_edges
+
+  subroutine condense()
+    real(dp), target :: matrix(3, 3), band(2, 3)
+    type(fuge_dense_stiffness) :: full
+    type(fuge_band_stiffness) :: narrow
+    type(fuge_info) :: info
+
+    band(1, :) = 2.0_dp
+    band(2, :) = -1.0_dp
+    matrix = 0.0_dp
+    matrix(:2, 1) = [2.0_dp, -1.0_dp]
+    matrix(:, 2) = [-1.0_dp, 2.0_dp, -1.0_dp]
+    matrix(2:, 3) = [-1.0_dp, 2.0_dp]
+    call full%set(matrix, info)
+    call expect(info%status == FUGE_DONE, 'dense stiffness: '//trim(info%message))
+    call narrow%set(band, .false., info)
+    call expect(info%status == FUGE_DONE, 'band: '//trim(info%message))
+    call condense_to_the_middle(full)
+    call condense_to_the_middle(narrow)
+  end subroutine condense
+
+  subroutine condense_to_the_middle(stiffness)
+    class(fuge_stiffness), intent(in) :: stiffness
+    type(fuge_body) :: body
+    type(fuge_condensed) :: condensed
+    type(fuge_info) :: info
+
+    allocate (body%dof(1, 1), body%normal(1, 1))
+    body%dof = 2
+    body%normal = 1.0_dp
+    call fuge_condense(stiffness, body, condensed, info)
+    call expect(info%status == FUGE_DONE, 'condensation: '//trim(info%message))
+    call expect(abs(condensed%alpha(1, 1) - 1.0_dp) < 1.0e-12_dp, 'the middle of a chain')
+  end subroutine condense_to_the_middle
 
   subroutine expect(condition, message)
     logical, intent(in) :: condition
