@@ -76,8 +76,8 @@ fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}"
   NEEDS ${LAPACK_LIBRARIES} ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY})
 
 if(TARGET fuge_sparse)
-  fuge_install_library(fuge_sparse fuge-sparse DESCRIPTION "Condensation of sparse stiffness matrices for fuge, by CHOLMOD"
-    REQUIRES fuge NEEDS ${CHOLMOD_LIBRARY})
+  fuge_install_library(fuge_sparse fuge-sparse
+    DESCRIPTION "Condensation of sparse stiffness matrices for fuge, by CHOLMOD" REQUIRES fuge NEEDS ${CHOLMOD_LIBRARY})
 endif()
 
 install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")

@@ -13,7 +13,8 @@ endif()
 
 set(fuge_version_script "${PROJECT_BINARY_DIR}/symbols.map")
 list(JOIN FUGE_SYMBOLS ";\n    " global_symbols)
-file(CONFIGURE OUTPUT "${fuge_version_script}" CONTENT "{\n  global:\n    @global_symbols@;\n  local:\n    *;\n};\n" @ONLY)
+file(CONFIGURE OUTPUT "${fuge_version_script}" 
+  CONTENT "{\n  global:\n    @global_symbols@;\n  local:\n    *;\n};\n" @ONLY)
 # Not as LINKER:.., which CMake 3.25 does not translate for flang.
 check_linker_flag(Fortran "-Wl,--version-script=${fuge_version_script}" FUGE_HAS_VERSION_SCRIPT)
 

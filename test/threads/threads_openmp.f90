@@ -45,13 +45,19 @@ contains
       call solve_all(dense, cells, k, alone(:, k))
     end do
     do k = 1, PROBLEMS
-      if (any(transfer(together(:, k), 0_int64, VALUES) /= transfer(alone(:, k), 0_int64, VALUES))) &
-        call stop_with('an answer of several threads is not that of one')
+      if (.not. same(together(:, k), alone(:, k))) call stop_with('an answer of several threads is not that of one')
     end do
-    if (all(transfer(alone(:, 1), 0_int64, VALUES) == transfer(alone(:, 2), 0_int64, VALUES))) &
-      call stop_with('all problems have the same answer')
+    if (same(alone(:, 1), alone(:, 2))) call stop_with('all problems have the same answer')
     print '(i0,a,i0,a)', PROBLEMS, ' problems by ', team, ' threads, the same answers'
   end subroutine run
+
+  !> Bit for bit.
+  pure function same(a, b)
+    real(dp), intent(in) :: a(:), b(:)
+    logical :: same
+
+    same = all(transfer(a, 0_int64, size(a)) == transfer(b, 0_int64, size(b)))
+  end function same
 
   !> Problem `number` by every engine. The matrix and the cells are shared, and there are cells of its own.
   subroutine solve_all(dense, cells, number, value)
