@@ -7,13 +7,16 @@ include(CheckLinkerFlag)
 
 set(FUGE_SYMBOLS "fuge_*" "__fuge_*" "_QMfuge*")
 if(EXISTS "${PROJECT_SOURCE_DIR}/cmake/external_names.txt")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cmake/external_names.txt)
   file(STRINGS cmake/external_names.txt external_names REGEX "^[a-z]")
+  # As gfortran and flang write the name of an external procedure.
+  list(TRANSFORM external_names APPEND "_")
   list(APPEND FUGE_SYMBOLS ${external_names})
 endif()
 
 set(fuge_version_script "${PROJECT_BINARY_DIR}/symbols.map")
 list(JOIN FUGE_SYMBOLS ";\n    " global_symbols)
-file(CONFIGURE OUTPUT "${fuge_version_script}" 
+file(CONFIGURE OUTPUT "${fuge_version_script}"
   CONTENT "{\n  global:\n    @global_symbols@;\n  local:\n    *;\n};\n" @ONLY)
 # Not as LINKER:.., which CMake 3.25 does not translate for flang.
 check_linker_flag(Fortran "-Wl,--version-script=${fuge_version_script}" FUGE_HAS_VERSION_SCRIPT)
