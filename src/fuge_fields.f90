@@ -38,6 +38,44 @@ module fuge_fields
 
 contains
 
+  pure function quoted_length(field) result(length)
+    character(len=*), intent(in) :: field
+    integer :: length
+
+    length = min(len(field), QUOTE_LENGTH) + merge(4, 2, len(field) > QUOTE_LENGTH)
+  end function quoted_length
+
+  pure function description(kind) result(words)
+    integer, intent(in) :: kind
+    character(len=24) :: words
+
+    words = ' is not a number'
+    if (kind == FIELD_NOT_FINITE) words = ' is not a finite number'
+  end function description
+
+  !> A field for a message: its begin, strange letters shown as ?.
+  pure function quoted(field) result(quote)
+    character(len=*), intent(in) :: field
+    character(len=quoted_length(field)) :: quote
+    integer :: k
+
+    quote = '"'//field(:min(len(field), QUOTE_LENGTH))
+    if (len(field) > QUOTE_LENGTH) quote(QUOTE_LENGTH + 2:) = '..'
+    do k = 2, len(quote) - 1
+      if (iachar(quote(k:k)) < 32 .or. iachar(quote(k:k)) > 126) quote(k:k) = '?'
+    end do
+    quote(len(quote):) = '"'
+  end function quoted
+
+  !> What is wrong with a field that is no number.
+  pure function describe_field(field, kind) result(reason)
+    character(len=*), intent(in) :: field
+    integer, intent(in) :: kind
+    character(len=len_trim(description(kind)) + quoted_length(field)) :: reason
+
+    reason = quoted(field)//description(kind)
+  end function describe_field
+
   !> The field at or after letter `from`, between blanks: line(first:last); last < first if
   !> there is none.
   pure subroutine find_field(line, from, first, last)
@@ -253,32 +291,5 @@ contains
     if (number%exponent > 0) value = 10_int64**MOST_DIGITS
     if (field(1:1) == '-') value = -value
   end subroutine read_whole
-
-  !> What is wrong with a field that is no number.
-  pure function describe_field(field, kind) result(reason)
-    character(len=*), intent(in) :: field
-    integer, intent(in) :: kind
-    character(len=:), allocatable :: reason
-
-    if (kind == FIELD_NOT_FINITE) then
-      reason = quoted(field)//' is not a finite number'
-    else
-      reason = quoted(field)//' is not a number'
-    end if
-  end function describe_field
-
-  !> A field for a message: its begin, strange letters shown as ?.
-  pure function quoted(field) result(quote)
-    character(len=*), intent(in) :: field
-    character(len=:), allocatable :: quote
-    integer :: k
-
-    quote = field(:min(len(field), QUOTE_LENGTH))
-    do k = 1, len(quote)
-      if (iachar(quote(k:k)) < 32 .or. iachar(quote(k:k)) > 126) quote(k:k) = '?'
-    end do
-    if (len(field) > QUOTE_LENGTH) quote = quote//'..'
-    quote = '"'//quote//'"'
-  end function quoted
 
 end module fuge_fields

@@ -31,14 +31,25 @@ module fuge_matrix_text
 
 contains
 
-  !> The banner of a real matrix.
+  !> The banner of a real matrix, with blanks behind it.
+  pure function padded_banner(coordinate, symmetric) result(line)
+    logical, intent(in) :: coordinate, symmetric
+    character(len=52) :: line
+
+    line = '%%MatrixMarket matrix array real'
+    if (coordinate) line = '%%MatrixMarket matrix coordinate real'
+    if (symmetric) then
+      line = trim(line)//' symmetric'
+    else
+      line = trim(line)//' general'
+    end if
+  end function padded_banner
+
   pure function banner_line(coordinate, symmetric) result(line)
     logical, intent(in) :: coordinate, symmetric
-    character(len=:), allocatable :: line
+    character(len=len_trim(padded_banner(coordinate, symmetric))) :: line
 
-    line = '%%MatrixMarket matrix array real general'
-    if (coordinate) line = '%%MatrixMarket matrix coordinate real general'
-    if (symmetric) line = line(:len(line) - len('general'))//'symmetric'
+    line = padded_banner(coordinate, symmetric)
   end function banner_line
 
   !> Blank, or a comment.

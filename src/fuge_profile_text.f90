@@ -39,15 +39,15 @@ contains
       kind = LINE_POINT
     else if (of_x == FIELD_WORD .and. of_z == FIELD_WORD) then
       kind = LINE_WORDS
-      reason = wrong_column(line(first(1):last(1)), of_x)
+      call wrong_column(line(first(1):last(1)), of_x, reason)
     else
       kind = LINE_WRONG
       if (of_x /= FIELD_NUMBER) then
-        reason = wrong_column(line(first(1):last(1)), of_x)
+        call wrong_column(line(first(1):last(1)), of_x, reason)
       else if (fields == 1) then
         reason = 'only one column, x and z are needed'
       else if (of_z /= FIELD_NUMBER) then
-        reason = wrong_column(line(first(2):last(2)), of_z)
+        call wrong_column(line(first(2):last(2)), of_z, reason)
       else
         reason = 'more than two columns, x and z are needed (the decimal sign is the point)'
       end if
@@ -88,16 +88,16 @@ contains
     is_separator = letter == ',' .or. letter == ';'
   end function is_separator
 
-  pure function wrong_column(field, kind) result(reason)
+  pure subroutine wrong_column(field, kind, reason)
     character(len=*), intent(in) :: field
     integer, intent(in) :: kind
-    character(len=:), allocatable :: reason
+    character(len=:), allocatable, intent(out) :: reason
 
     if (len(field) == 0) then
       reason = 'an empty column, x and z are needed'
     else
       reason = describe_field(field, kind)
     end if
-  end function wrong_column
+  end subroutine wrong_column
 
 end module fuge_profile_text

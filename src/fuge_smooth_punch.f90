@@ -30,6 +30,20 @@ module fuge_smooth_punch
 
 contains
 
+  pure function between_length(ends) result(length)
+    real(dp), intent(in) :: ends(2)
+    integer :: length
+
+    length = len(text(ends(1))) + len(' .. ') + len(text(ends(2)))
+  end function between_length
+
+  pure function between(ends) result(words)
+    real(dp), intent(in) :: ends(2)
+    character(len=between_length(ends)) :: words
+
+    words = text(ends(1))//' .. '//text(ends(2))
+  end function between
+
   !> Press a smooth punch into a half-plane under a force.
   !>
   !> `profile`: its initial gap; `e_star` > 0 as in `fuge_halfplane_matrix`, force per
@@ -189,12 +203,5 @@ contains
       call report(info, FUGE_ERR_UNSUPPORTED, reason//OTHER_ENGINES)
     end if
   end subroutine refuse
-
-  pure function between(ends) result(words)
-    real(dp), intent(in) :: ends(2)
-    character(len=:), allocatable :: words
-
-    words = text(ends(1))//' .. '//text(ends(2))
-  end function between
 
 end module fuge_smooth_punch

@@ -2,6 +2,7 @@
 module fuge_text_file
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_kinds, only: dp
+  use fuge_locks, only: lock, unlock, LOCK_FILES
   use fuge_status, only: fuge_info, report, FUGE_MESSAGE_LENGTH, FUGE_ERR_FILE, FUGE_ERR_MEMORY
   use fuge_text, only: text
   implicit none
@@ -32,6 +33,20 @@ module fuge_text_file
 
 contains
 
+  !> The path for a message: its end, in quotes.
+  pure function named(path) result(name)
+    character(len=*), intent(in) :: path
+    character(len=merge(PATH_LENGTH + 4, len_trim(path) + 2, len_trim(path) > PATH_LENGTH)) :: name
+    integer :: length
+
+    length = len_trim(path)
+    if (length > PATH_LENGTH) then
+      name = '"..'//path(length - PATH_LENGTH + 1:length)//'"'
+    else
+      name = '"'//path(:length)//'"'
+    end if
+  end function named
+
   !> The whole file at once; it is closed again in any case. Errors: FUGE_ERR_FILE,
   !> FUGE_ERR_MEMORY.
   subroutine load(self, path, info)
@@ -49,9 +64,11 @@ contains
       return
     end if
     reason = ''
+    call lock(LOCK_FILES)
     open (newunit=file, file=path, status='old', action='read', access='stream', form='unformatted', &
           iostat=status, iomsg=reason)
     if (status /= 0) then
+      call unlock(LOCK_FILES)
       call report(info, FUGE_ERR_FILE, self%name//' cannot be opened: '//trim(reason))
       return
     end if
@@ -69,6 +86,7 @@ contains
       end if
     end if
     close (file, iostat=status)
+    call unlock(LOCK_FILES)
     if (status /= 0 .and. .not. info%failed()) call report(info, FUGE_ERR_FILE, self%name//' cannot be closed')
     if (info%failed()) return
     if (index(self%content, BYTE_ORDER_MARK) == 1) self%last = 2_int64
@@ -112,19 +130,5 @@ contains
 
     call report(info, FUGE_ERR_FILE, self%name//', line '//text(self%line)//': '//reason)
   end subroutine refuse
-
-  !> The path for a message: its end, in quotes.
-  pure function named(path) result(name)
-    character(len=*), intent(in) :: path
-    character(len=:), allocatable :: name
-    integer :: length
-
-    length = len_trim(path)
-    if (length > PATH_LENGTH) then
-      name = '"..'//path(length - PATH_LENGTH + 1:length)//'"'
-    else
-      name = '"'//path(:length)//'"'
-    end if
-  end function named
 
 end module fuge_text_file

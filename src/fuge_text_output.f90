@@ -2,6 +2,7 @@
 !> library may report nothing, and give the size that the file would have.
 module fuge_text_output
   use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_locks, only: lock, unlock, LOCK_FILES
   use fuge_status, only: fuge_info, report, FUGE_MESSAGE_LENGTH, FUGE_ERR_FILE
   use fuge_text_file, only: named
   implicit none
@@ -41,8 +42,10 @@ contains
       call report(info, FUGE_ERR_FILE, 'the path is blank: give the name of a file')
       return
     end if
+    call lock(LOCK_FILES)
     open (newunit=self%unit, file=path, status='replace', action='write', access='stream', form='unformatted', &
           iostat=status, iomsg=self%reason)
+    call unlock(LOCK_FILES)
     if (status /= 0) call report(info, FUGE_ERR_FILE, named(self%path)//' cannot be opened: '//trim(self%reason))
   end subroutine create
 
@@ -81,7 +84,9 @@ contains
     integer :: status
 
     call self%write_buffer()
+    call lock(LOCK_FILES)
     close (self%unit, iostat=status, iomsg=reason)
+    call unlock(LOCK_FILES)
     if (self%failure == 0 .and. status /= 0) then
       self%failure = status
       self%reason = reason

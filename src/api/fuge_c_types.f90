@@ -131,14 +131,12 @@ contains
   !> A string of C, ended by NUL.
   function from_c_string(source) result(string)
     type(c_ptr), intent(in) :: source
-    character(len=:), allocatable :: string
+    character(len=c_strlen(source)) :: string
     character(kind=c_char), pointer :: bytes(:)
-    integer :: k, length
+    integer :: k
 
-    length = int(c_strlen(source))
-    call c_f_pointer(source, bytes, [length])
-    allocate (character(len=length) :: string)
-    do k = 1, length
+    call c_f_pointer(source, bytes, [len(string)])
+    do k = 1, len(string)
       string(k:k) = bytes(k)
     end do
   end function from_c_string
