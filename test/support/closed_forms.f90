@@ -5,7 +5,8 @@
 !> 1/E* = 1/E1* + 1/E2*; the contact is |x| <= a. Sources:
 !> K. L. Johnson, Contact Mechanics, 1985, sections 2.8 (flat punches), 4.2 (cylinder), 13.2
 !> (waves, after H. M. Westergaard, Bearing pressures and cracks, J. Appl. Mech. 6, 1939);
-!> the punch A x**4 is the paper's.
+!> the punch A x**4 is the paper's. A flat punch that lifts off is one in full contact, at the
+!> limit of its moment, on what still touches.
 !>
 !> Pressure and slope of the gap are the two parts of one analytic function, so that gaps
 !> are integrals of the pressure's formula continued beyond the edge, times 2/E*.
@@ -14,7 +15,7 @@ module closed_forms
   implicit none
   private
 
-  public :: press_cylinder, press_quartic, press_flat, press_wave
+  public :: press_cylinder, press_quartic, press_flat, press_beside, press_wave
 
   real(dp), parameter :: PI = acos(-1.0_dp)
 
@@ -31,8 +32,13 @@ module closed_forms
     procedure(at_point), deferred :: initial_gap
     !> Gap under load, 0 in the contact: initial gap + displacement - approach.
     procedure(at_point), deferred :: gap
+    !> Mean of ln|x|, weighted by the pressure; for a wave of ln|2 sin(pi x/length)|.
+    procedure(of_contact), deferred :: mean_log
     !> Force on a cell, exactly: its mean pressure times its width.
     procedure, non_overridable :: cell_force
+    !> Approach, if a line load at distance r moves the surface by -2 F/(pi E*) ln(r/datum);
+    !> for a wave with datum 1 it counts from the mean of the surface.
+    procedure, non_overridable :: approach
   end type closed_form
 
   abstract interface
@@ -42,6 +48,12 @@ module closed_forms
       real(dp), intent(in) :: x
       real(dp) :: value
     end function at_point
+
+    elemental function of_contact(self) result(value)
+      import :: closed_form, dp
+      class(closed_form), intent(in) :: self
+      real(dp) :: value
+    end function of_contact
   end interface
 
   !> Hertz's line contact, initial gap x**2/(2 R).
@@ -52,6 +64,7 @@ module closed_forms
     procedure :: force_to => cylinder_force_to
     procedure :: initial_gap => cylinder_initial_gap
     procedure :: gap => cylinder_gap
+    procedure :: mean_log => cylinder_mean_log
   end type cylinder
 
   !> Initial gap A x**4, A the `factor`.
@@ -62,20 +75,24 @@ module closed_forms
     procedure :: force_to => quartic_force_to
     procedure :: initial_gap => quartic_initial_gap
     procedure :: gap => quartic_gap
+    procedure :: mean_log => quartic_mean_log
   end type quartic_punch
 
-  !> A flat rigid face |x| <= a, in full contact under load and moment.
+  !> A flat rigid face under load and moment, in contact for |x| <= a.
   !>
-  !> `gap` is measured from the plane of the face: beside the punch it is negative, the
+  !> `gap` is measured from the plane of the face: beside a corner it is negative, the
   !> surface stands higher.
   type, extends(closed_form), public :: flat_punch
     !> Sum of force times x; the face sinks by `tilt` x.
     real(dp) :: moment = 0.0_dp, tilt = 0.0_dp
+    !> Middle of the contact, seen from that of the face.
+    real(dp) :: middle = 0.0_dp
   contains
     procedure :: pressure => flat_pressure
     procedure :: force_to => flat_force_to
     procedure :: initial_gap => flat_initial_gap
     procedure :: gap => flat_gap
+    procedure :: mean_log => flat_mean_log
   end type flat_punch
 
   !> Initial gap Delta (1 - cos(2 pi x/lambda)): amplitude Delta, from crest to trough
@@ -89,6 +106,7 @@ module closed_forms
     procedure :: force_to => wave_force_to
     procedure :: initial_gap => wave_initial_gap
     procedure :: gap => wave_gap
+    procedure :: mean_log => wave_mean_log
     procedure :: is_full
   end type sinusoidal_wave
 
@@ -101,6 +119,14 @@ contains
 
     force = self%force_to(x + 0.5_dp*width) - self%force_to(x - 0.5_dp*width)
   end function cell_force
+
+  elemental function approach(self, datum)
+    class(closed_form), intent(in) :: self
+    real(dp), intent(in) :: datum
+    real(dp) :: approach
+
+    approach = self%initial_gap(0.0_dp) + 2.0_dp*self%load/(PI*self%e_star)*(log(datum) - self%mean_log())
+  end function approach
 
   !> x within the contact.
   elemental function clamped(x, a) result(inside)
@@ -172,6 +198,14 @@ contains
     value = root_integral(abs(x), self%a)/self%radius
   end function cylinder_gap
 
+  !> With x = a sin(t) the series of ln|2 sin(t)|, -sum cos(2 k t)/k, against cos(t)**2.
+  elemental function cylinder_mean_log(self) result(value)
+    class(cylinder), intent(in) :: self
+    real(dp) :: value
+
+    value = log(0.5_dp*self%a) - 0.5_dp
+  end function cylinder_mean_log
+
   !> F = (3 pi/4) E* A a**4.
   pure function press_quartic(e_star, load, factor) result(form)
     real(dp), intent(in) :: e_star, load, factor
@@ -219,6 +253,14 @@ contains
     value = self%factor*(s*root(s, self%a)**3 + 3.0_dp*self%a**2*root_integral(s, self%a))
   end function quartic_gap
 
+  !> The same: two thirds of the load are like a cylinder's, one third has +1/4.
+  elemental function quartic_mean_log(self) result(value)
+    class(quartic_punch), intent(in) :: self
+    real(dp) :: value
+
+    value = log(0.5_dp*self%a) - 0.25_dp
+  end function quartic_mean_log
+
   !> Face of half width a; |moment| <= load a/2, or it would lift off at one edge.
   pure function press_flat(e_star, load, a, moment) result(form)
     real(dp), intent(in) :: e_star, load, a
@@ -231,6 +273,17 @@ contains
     if (present(moment)) form%moment = moment
     form%tilt = 4.0_dp*form%moment/(PI*e_star*a**2)
   end function press_flat
+
+  !> The same face under a force at the distance `arm` from its middle, a/2 <= arm < a: it
+  !> lifts off on the left, and what still touches, of half width 2 (a - `arm`), is in full
+  !> contact under a force at half of its own half width.
+  pure function press_beside(e_star, load, a, arm) result(form)
+    real(dp), intent(in) :: e_star, load, a, arm
+    type(flat_punch) :: form
+
+    form = press_flat(e_star, load, 2.0_dp*(a - arm), load*(a - arm))
+    form%middle = 2.0_dp*arm - a
+  end function press_beside
 
   !> p = (F + 2 M x/a**2)/(pi sqrt(a**2 - x**2)), infinite at the edges; 0 is given there.
   elemental function flat_pressure(self, x) result(value)
@@ -271,6 +324,14 @@ contains
     if (abs(x) > self%a) value = -2.0_dp*self%load/(PI*self%e_star)*acosh(abs(x)/self%a) &
                                  - self%tilt*sign(root(abs(x), self%a), x)
   end function flat_gap
+
+  !> The load's part has nothing but the constant of the series, the moment's is odd.
+  elemental function flat_mean_log(self) result(value)
+    class(flat_punch), intent(in) :: self
+    real(dp) :: value
+
+    value = log(0.5_dp*self%a)
+  end function flat_mean_log
 
   !> `mean` pressure p = p* sin(pi a/lambda)**2; from p* on the contact is full.
   pure function press_wave(e_star, mean, length, amplitude) result(form)
@@ -341,5 +402,18 @@ contains
     if (self%is_full()) return
     value = 4.0_dp*self%amplitude*root_integral(abs(sin(PI*x/self%length)), sin(PI*self%a/self%length))
   end function wave_gap
+
+  !> The cylinder's, in sin(pi x/length).
+  elemental function wave_mean_log(self) result(value)
+    class(sinusoidal_wave), intent(in) :: self
+    real(dp) :: value
+
+    if (self%is_full()) then
+      ! The surface moves to its mean, by the amplitude.
+      value = -0.5_dp*PI*self%e_star*self%amplitude/self%load
+    else
+      value = log(sin(PI*self%a/self%length)) - 0.5_dp
+    end if
+  end function wave_mean_log
 
 end module closed_forms
