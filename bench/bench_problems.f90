@@ -1,37 +1,50 @@
-!> The problems of the benchmark: two profiles on a half-plane with known answers, rough
-!> periodic ones, and random positive definite matrices.
+!> The problems of the benchmark: contacts of a half-plane with known answers, rough
+!> profiles, and random positive definite matrices.
 module bench_problems
   use, intrinsic :: iso_fortran_env, only: int64
   use bench_lapack, only: dsyrk
   use bench_waves, only: sum_of_waves
-  use closed_forms, only: cylinder, press_cylinder, press_quartic, quartic_punch
-  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, &
-    fuge_solver, FUGE_CENTRE
+  use closed_forms, only: closed_form, flat_punch, press_beside, press_cylinder, press_flat, press_quartic, press_wave
+  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_halfplane_operator, fuge_info, fuge_problem, &
+    fuge_solution, fuge_solver, FUGE_CENTRE, FUGE_FREE, FUGE_HAT, FUGE_MEAN, FUGE_PERIODIC
   implicit none
   private
 
-  public :: make_punch, make_cylinder, make_random, make_rough, add_matrix
+  public :: make_known, make_random, make_rough, add_matrix, contact_problem, uniform_edges, graded_edges, whole
+
+  !> Contacts with known answers.
+  character(len=*), parameter, public :: KNOWN(6) = ['quartic ', 'cylinder', 'flat    ', 'wave    ', 'tilted  ', 'lifted  ']
 
   type, public :: bench_problem
     character(len=16) :: name = ''
     real(dp), allocatable :: alpha(:, :), gap(:)
     real(dp) :: load = 0.0_dp
-    !> On the half-plane: modulus and element; centres (n), width of the cells; does the
-    !> surface repeat?
-    real(dp) :: e_star = 0.0_dp, width = 0.0_dp
-    integer :: element = FUGE_CENTRE
-    logical :: periodic = .false.
-    real(dp), allocatable :: x(:)
-    !> Exact forces of the cells (n) and exact half width; not allocated where not known.
-    real(dp), allocatable :: exact(:)
-    real(dp) :: half_width = 0.0_dp
+    !> Beside the translation, a tilt x under a moment; not allocated: none.
+    real(dp), allocatable :: modes(:, :), resultant(:)
+    !> On the half-plane: modulus; centres and widths of the cells, (n); not allocated elsewhere.
+    real(dp) :: e_star = 0.0_dp
+    real(dp), allocatable :: x(:), width(:)
+    integer :: element = FUGE_MEAN, boundary = FUGE_FREE
+    !> Are all cells equal?
+    logical :: uniform = .true.
+    !> The known answer and where the middle of its contact is.
+    class(closed_form), allocatable :: form
+    real(dp) :: middle = 0.0_dp
+  contains
+    procedure :: points
+    procedure :: exact_forces
+    procedure :: singular
   end type bench_problem
 
   real(dp), parameter :: PI = acos(-1.0_dp)
   !> Half-plane, per unit depth: mm and N.
   real(dp), parameter :: E_STAR = 1.0e6_dp/(1.0_dp - 0.25_dp**2)
-  real(dp), parameter :: REACH = 0.8_dp, LOAD = 30.0e3_dp
+  real(dp), parameter, public :: REACH = 0.8_dp
+  real(dp), parameter :: LOAD = 30.0e3_dp
   real(dp), parameter :: QUARTIC = 0.05_dp, RADIUS = 7.0_dp
+  !> Part of the load that closes the wave; distance of the force from the middle of the face, in
+  !> half faces, within the kern and beyond it.
+  real(dp), parameter :: OPEN_PART = 0.4_dp, ARM_INSIDE = 0.25_dp, ARM_BESIDE = 0.72_dp
   !> Rough profiles.
   integer, parameter :: LONGEST_WAVE = 4
   real(dp), parameter :: HURST = 0.8_dp, SLOPE_RMS = 0.1_dp
@@ -40,64 +53,183 @@ module bench_problems
 
 contains
 
-  !> P1: rigid punch y = 0.05 x**4, |x| <= 0.8, `n` equal cells; no matrix yet.
-  subroutine make_punch(n, element, problem)
-    integer, intent(in) :: n, element
+  pure function points(self) result(n)
+    class(bench_problem), intent(in) :: self
+    integer :: n
+
+    n = size(self%gap)
+  end function points
+
+  !> Does the contact end at a corner, so that its edge is known?
+  pure function singular(self)
+    class(bench_problem), intent(in) :: self
+    logical :: singular
+
+    singular = any(self%name == [character(len=8) :: 'flat', 'tilted'])
+  end function singular
+
+  !> What the element should say, (n): forces of the cells, or the pressure at the top of a hat.
+  pure function exact_forces(self) result(force)
+    class(bench_problem), intent(in) :: self
+    real(dp) :: force(size(self%gap))
+
+    if (self%element == FUGE_HAT) then
+      force = self%form%pressure(self%x - self%middle)*self%width
+    else
+      force = self%form%cell_force(self%x - self%middle, self%width)
+    end if
+  end function exact_forces
+
+  !> A contact of `KNOWN` on cells between `edges` (n + 1), ascending; no matrix yet.
+  subroutine make_known(name, element, edges, problem)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: element
+    real(dp), intent(in) :: edges(:)
     type(bench_problem), intent(out) :: problem
-    type(quartic_punch) :: form
+    integer :: n
 
-    call place_cells(n, element, problem)
-    problem%name = 'P1_'//whole(n)
-    problem%gap = QUARTIC*problem%x**4
-    ! What sees the mean displacement of a cell sees the mean gap.
-    if (element /= FUGE_CENTRE) problem%gap = problem%gap + QUARTIC*problem%width**2*(0.5_dp*problem%x**2 &
-                                                                                     + problem%width**2/80.0_dp)
-    form = press_quartic(E_STAR, LOAD, QUARTIC)
-    problem%half_width = form%a
-    problem%exact = form%cell_force(problem%x, problem%width)
-  end subroutine make_punch
+    n = size(edges) - 1
+    problem%name = name
+    problem%element = element
+    problem%e_star = E_STAR
+    problem%load = LOAD
+    problem%width = edges(2:) - edges(:n)
+    problem%x = 0.5_dp*(edges(2:) + edges(:n))
+    call set_form(problem)
+    allocate (problem%gap(n))
+    ! A force that is away from the middle tilts the face: it has no gaps of its own.
+    problem%gap = 0.0_dp
+    if (allocated(problem%modes)) return
+    if (element == FUGE_MEAN) then
+      problem%gap = mean_gap(problem%form, problem%x, problem%width)
+    else
+      problem%gap = problem%form%initial_gap(problem%x)
+    end if
+  end subroutine make_known
 
-  !> P2: cylinder of radius 7 as the parabola x**2/14, `n` equal cells; no matrix yet.
-  subroutine make_cylinder(n, element, problem)
-    integer, intent(in) :: n, element
-    type(bench_problem), intent(out) :: problem
-    type(cylinder) :: form
-
-    call place_cells(n, element, problem)
-    problem%name = 'P2_'//whole(n)
-    problem%gap = problem%x**2/(2.0_dp*RADIUS)
-    if (element /= FUGE_CENTRE) problem%gap = problem%gap + problem%width**2/(24.0_dp*RADIUS)
-    form = press_cylinder(E_STAR, LOAD, RADIUS)
-    problem%half_width = form%a
-    problem%exact = form%cell_force(problem%x, problem%width)
-  end subroutine make_cylinder
-
-  subroutine place_cells(n, element, problem)
-    integer, intent(in) :: n, element
+  subroutine set_form(problem)
     type(bench_problem), intent(inout) :: problem
+    type(flat_punch) :: face
+    real(dp) :: arm
+
+    select case (problem%name)
+    case ('quartic')
+      allocate (problem%form, source=press_quartic(E_STAR, LOAD, QUARTIC))
+    case ('cylinder')
+      allocate (problem%form, source=press_cylinder(E_STAR, LOAD, RADIUS))
+    case ('flat')
+      allocate (problem%form, source=press_flat(E_STAR, LOAD, REACH))
+    case ('wave')
+      problem%boundary = FUGE_PERIODIC
+      allocate (problem%form, source=press_wave(E_STAR, 0.5_dp*LOAD/REACH, 2.0_dp*REACH, LOAD/(OPEN_PART*PI*E_STAR)))
+    case ('tilted', 'lifted')
+      if (problem%name == 'tilted') then
+        arm = ARM_INSIDE*REACH
+        face = press_flat(E_STAR, LOAD, REACH, LOAD*arm)
+      else
+        arm = ARM_BESIDE*REACH
+        face = press_beside(E_STAR, LOAD, REACH, arm)
+      end if
+      problem%middle = face%middle
+      allocate (problem%form, source=face)
+      allocate (problem%modes(size(problem%x), 2))
+      problem%modes(:, 1) = 1.0_dp
+      problem%modes(:, 2) = problem%x
+      problem%resultant = LOAD*[1.0_dp, arm]
+    case default
+      error stop 'no such contact'
+    end select
+  end subroutine set_form
+
+  !> Mean of the initial gap over cells, by three points of Gauss: exact for all but the wave.
+  elemental function mean_gap(form, x, width) result(mean)
+    class(closed_form), intent(in) :: form
+    real(dp), intent(in) :: x, width
+    real(dp) :: mean, outer
+
+    outer = 0.5_dp*sqrt(0.6_dp)*width
+    mean = (5.0_dp*(form%initial_gap(x - outer) + form%initial_gap(x + outer)) + 8.0_dp*form%initial_gap(x))/18.0_dp
+  end function mean_gap
+
+  !> n equal cells, |x| <= REACH.
+  pure function uniform_edges(n) result(edges)
+    integer, intent(in) :: n
+    real(dp) :: edges(n + 1)
     integer :: k
 
-    problem%e_star = E_STAR
-    problem%element = element
-    problem%load = LOAD
-    problem%width = 2.0_dp*REACH/real(n, dp)
-    allocate (problem%x(n))
-    do k = 1, n
-      problem%x(k) = problem%width*(real(k, dp) - 0.5_dp*real(n + 1, dp))
-    end do
-  end subroutine place_cells
+    edges = [(REACH*real(2*k - n, dp)/real(n, dp), k=0, n)]
+  end function uniform_edges
+
+  !> `n` cells from `left` to `right`, by a cosine finer towards both; beside each end that is
+  !> `open` some more, each wider than the one before, in case that the contact is wider.
+  pure function graded_edges(left, right, n, open) result(edges)
+    real(dp), intent(in) :: left, right
+    integer, intent(in) :: n
+    logical, intent(in) :: open(2)
+    real(dp), parameter :: MARGIN = 0.05_dp
+    real(dp), allocatable :: edges(:)
+    real(dp) :: last
+    integer :: k, beside
+
+    last = (right - left)*sin(0.5_dp*PI/real(n, dp))**2
+    beside = max(2, ceiling(log(MARGIN*(right - left)/last)/log(2.0_dp)))
+    edges = [(left + (right - left)*sin(0.5_dp*PI*real(k, dp)/real(n, dp))**2, k=0, n)]
+    if (open(1)) edges = [(left - last*(2.0_dp**k - 1.0_dp), k=beside, 1, -1), edges]
+    if (open(2)) edges = [edges, (right + last*(2.0_dp**k - 1.0_dp), k=1, beside)]
+  end function graded_edges
 
   !> The influence matrix of a problem on the half-plane.
   subroutine add_matrix(problem)
     type(bench_problem), intent(inout) :: problem
     type(fuge_info) :: info
-    real(dp) :: widths(size(problem%x))
 
-    widths = problem%width
-    allocate (problem%alpha(size(widths), size(widths)))
-    call fuge_halfplane_matrix(problem%x, widths, problem%e_star, problem%element, problem%alpha, info)
+    if (problem%boundary == FUGE_PERIODIC) then
+      call add_circulant(problem)
+      return
+    end if
+    if (.not. allocated(problem%alpha)) allocate (problem%alpha(problem%points(), problem%points()))
+    call fuge_halfplane_matrix(problem%x, problem%width, problem%e_star, problem%element, problem%alpha, info)
     if (info%failed()) error stop 'no influence matrix of the half-plane'
   end subroutine add_matrix
+
+  !> That of a periodic surface, with a datum that makes it definite.
+  subroutine add_circulant(problem)
+    type(bench_problem), intent(inout) :: problem
+    type(fuge_halfplane_operator) :: operator
+    type(fuge_info) :: info
+    real(dp), allocatable :: unit(:), column(:)
+    integer :: j, n, status
+
+    n = problem%points()
+    call operator%set(n, problem%width(1), problem%e_star, info, problem%element, FUGE_PERIODIC)
+    if (info%failed()) error stop 'no operator of the periodic half-plane'
+    allocate (unit(n), source=0.0_dp)
+    allocate (column(n), source=0.0_dp)
+    unit(1) = 1.0_dp
+    call operator%apply(unit, column, status)
+    if (status /= 0) error stop 'no product'
+    column = column + column(1)
+    if (.not. allocated(problem%alpha)) allocate (problem%alpha(n, n))
+    do j = 1, n
+      problem%alpha(:, j) = cshift(column, 1 - j)
+      ! Symmetric to the last digit.
+      problem%alpha(j, :j) = problem%alpha(:j, j)
+    end do
+  end subroutine add_circulant
+
+  !> What a solver takes.
+  pure function contact_problem(given) result(problem)
+    type(bench_problem), intent(in) :: given
+    type(fuge_problem) :: problem
+
+    allocate (problem%gap, source=given%gap)
+    if (allocated(given%modes)) then
+      allocate (problem%modes, source=given%modes)
+      allocate (problem%resultant, source=given%resultant)
+    else
+      allocate (problem%resultant, source=[given%load])
+    end if
+  end function contact_problem
 
   !> Periodic self-affine profile of length 1, E* = 1: wave numbers 4 .. n/16 with amplitudes
   !> k**(-1/2 - H), random phases, slope 0.1 (root mean square). `n` >= 128 a power of two;
@@ -120,13 +252,17 @@ contains
     allocate (problem%gap(n))
     call sum_of_waves(SLOPE_RMS/slope*amplitude, 2.0_dp*PI*phase, problem%gap)
     problem%gap = maxval(problem%gap) - problem%gap
+    problem%name = 'rough'
     problem%load = pressure
     problem%e_star = 1.0_dp
+    problem%element = FUGE_CENTRE
+    problem%boundary = FUGE_PERIODIC
+    problem%x = [((real(k, dp) - 0.5_dp)/real(n, dp), k=1, n)]
+    allocate (problem%width(n))
     problem%width = 1.0_dp/real(n, dp)
-    problem%periodic = .true.
   end subroutine make_rough
 
-  !> P3: alpha = G G^T/n + 1e-3 I with normal G, gaps uniform in (0, 1), and the load
+  !> alpha = G G^T/n + 1e-3 I with normal G, gaps uniform in (0, 1), and the load
   !> at which about 40 % of the points touch.
   subroutine make_random(n, problem)
     integer, intent(in) :: n
@@ -135,7 +271,7 @@ contains
     integer(int64) :: state
     integer :: i, j
 
-    problem%name = 'P3_'//whole(n)
+    problem%name = 'random'
     allocate (normal(n, n), problem%alpha(n, n), problem%gap(n))
     state = 1000 + n
     do j = 1, n

@@ -1,41 +1,40 @@
-!> What the benchmark writes: rows of a table, and problems as raw files for other solvers.
+!> What the benchmark writes: rows of one table, and problems as raw files that other solvers
+!> read and answer.
 module bench_records
-  use bench_problems, only: bench_problem
-  use fuge, only: dp
+  use bench_problems, only: bench_problem, whole
+  use fuge, only: dp, FUGE_CENTRE, FUGE_HAT
   implicit none
   private
 
-  public :: write_header, write_row, write_problem
-  public :: write_iterative_header, write_iterative_row, write_profile
+  public :: open_table, write_row, write_problem, element_name, number
 
-  !> One measurement. Negative: not known, an empty field.
+  !> One measurement; the columns are explained in doc/performance.md. Negative: not known, an
+  !> empty field.
   type, public :: bench_row
     character(len=16) :: problem = '', method = '', element = ''
-    integer :: n = 0, unknowns = 0, work = -1
-    real(dp) :: time = -1.0_dp, limit = -1.0_dp, residual = -1.0_dp
+    integer :: n = 0, unknowns = -1, work = -1
+    real(dp) :: time = -1.0_dp, residual = -1.0_dp
     real(dp) :: error_half_width = -1.0_dp, error_pressure = -1.0_dp, error_force = -1.0_dp
     real(dp) :: memory = -1.0_dp
-  end type bench_row
-
-  !> One measurement of the iterative engine, or of a part of it. Negative: not known.
-  type, public :: iterative_row
-    character(len=16) :: problem = '', method = '', element = ''
-    integer :: n = 0, unknowns = -1, products = -1, filters = -1, iterations = -1
-    real(dp) :: time = -1.0_dp, product_time = -1.0_dp, residual = -1.0_dp, tolerance = -1.0_dp
-    !> Largest resident memory, less what there was before the operator.
-    real(dp) :: memory = -1.0_dp
-    real(dp) :: error_half_width = -1.0_dp, error_pressure = -1.0_dp
+    real(dp) :: error_approach = -1.0_dp, error_solver = -1.0_dp
+    real(dp) :: tolerance = -1.0_dp, setup = -1.0_dp, limit = -1.0_dp
     character(len=60) :: failure = ''
-  end type iterative_row
+  end type bench_row
 
 contains
 
-  subroutine write_header(unit)
-    integer, intent(in) :: unit
+  !> DIRECTORY/results.csv, to append to; with a header if it is new.
+  subroutine open_table(directory, unit)
+    character(len=*), intent(in) :: directory
+    integer, intent(out) :: unit
+    logical :: exists
 
-    write (unit, '(a)') 'problem,method,element,n,unknowns,products_or_pivots,time_s,time_over_limit,residual,' &
-      //'error_halfwidth,error_pressure,error_force_max,memory_bytes'
-  end subroutine write_header
+    inquire (file=trim(directory)//'/results.csv', exist=exists)
+    open (newunit=unit, file=trim(directory)//'/results.csv', position='append', action='write')
+    if (.not. exists) write (unit, '(a)') 'problem,method,element,n,unknowns,products_or_pivots,time_s,' &
+      //'time_over_limit,residual,error_halfwidth,error_pressure,error_force_max,memory_bytes,error_approach,' &
+      //'error_solver,tolerance,setup_s,limit_s,failure'
+  end subroutine open_table
 
   subroutine write_row(unit, row)
     integer, intent(in) :: unit
@@ -45,33 +44,13 @@ contains
     ratio = -1.0_dp
     if (row%limit > 0.0_dp) ratio = row%time/row%limit
     write (unit, '(*(a))') trim(row%problem), ',', trim(row%method), ',', trim(row%element), ',', whole(row%n), &
-      ',', whole(row%unknowns), ',', whole(row%work), ',', number(row%time), ',', number(ratio), &
+      ',', count_or_blank(row%unknowns), ',', count_or_blank(row%work), ',', number(row%time), ',', number(ratio), &
       ',', number(row%residual), ',', number(row%error_half_width), ',', number(row%error_pressure), &
-      ',', number(row%error_force), ',', number(row%memory)
-    flush (unit)
-  end subroutine write_row
-
-  subroutine write_iterative_header(unit)
-    integer, intent(in) :: unit
-
-    write (unit, '(a)') 'problem,method,element,n,unknowns,products,filters,iterations,time_s,time_over_product,' &
-      //'residual,tolerance,memory_bytes,error_halfwidth,error_pressure,failure'
-  end subroutine write_iterative_header
-
-  subroutine write_iterative_row(unit, row)
-    integer, intent(in) :: unit
-    type(iterative_row), intent(in) :: row
-    real(dp) :: ratio
-
-    ratio = -1.0_dp
-    if (row%product_time > 0.0_dp .and. row%time >= 0.0_dp) ratio = row%time/row%product_time
-    write (unit, '(*(a))') trim(row%problem), ',', trim(row%method), ',', trim(row%element), ',', whole(row%n), &
-      ',', whole(row%unknowns), ',', whole(row%products), ',', whole(row%filters), ',', whole(row%iterations), &
-      ',', number(row%time), ',', number(ratio), ',', number(row%residual), ',', number(row%tolerance), &
-      ',', number(row%memory), ',', number(row%error_half_width), ',', number(row%error_pressure), &
+      ',', number(row%error_force), ',', number(row%memory), ',', number(row%error_approach), &
+      ',', number(row%error_solver), ',', number(row%tolerance), ',', number(row%setup), ',', number(row%limit), &
       ',', trim(without_commas(row%failure))
     flush (unit)
-  end subroutine write_iterative_row
+  end subroutine write_row
 
   pure function without_commas(words) result(field)
     character(len=*), intent(in) :: words
@@ -84,16 +63,13 @@ contains
     end do
   end function without_commas
 
-  pure function whole(value) result(field)
+  pure function count_or_blank(value) result(field)
     integer, intent(in) :: value
     character(len=:), allocatable :: field
-    character(len=12) :: buffer
 
     field = ''
-    if (value < 0) return
-    write (buffer, '(i0)') value
-    field = trim(buffer)
-  end function whole
+    if (value >= 0) field = whole(value)
+  end function count_or_blank
 
   pure function number(value) result(field)
     real(dp), intent(in) :: value
@@ -106,42 +82,44 @@ contains
     field = trim(adjustl(buffer))
   end function number
 
-  !> NAME.bin: alpha by columns, gaps, the forces that fuge found, 8 bytes each.
-  !> NAME.txt: number of points and load.
-  subroutine write_problem(directory, problem, force)
+  pure function element_name(element) result(name)
+    integer, intent(in) :: element
+    character(len=:), allocatable :: name
+
+    name = 'mean'
+    if (element == FUGE_CENTRE) name = 'centre'
+    if (element == FUGE_HAT) name = 'hat'
+  end function element_name
+
+  !> NAME.bin: gaps, the forces that fuge found, tilt and its resultant (if there is one), alpha by
+  !> columns (if there is one), 8 bytes each. NAME.txt: what they are.
+  subroutine write_problem(directory, problem, row, force)
     character(len=*), intent(in) :: directory
     type(bench_problem), intent(in) :: problem
+    type(bench_row), intent(in) :: row
     real(dp), intent(in) :: force(:)
+    character(len=:), allocatable :: path
     integer :: unit
 
-    open (newunit=unit, file=directory//'/'//trim(problem%name)//'.bin', access='stream', form='unformatted', &
-          status='replace', action='write')
-    write (unit) problem%alpha, problem%gap, force
-    close (unit)
-    open (newunit=unit, file=directory//'/'//trim(problem%name)//'.txt', status='replace', action='write')
-    write (unit, '(a,i0)') 'n ', size(problem%gap)
-    write (unit, '(a,es24.16)') 'load ', problem%load
-    close (unit)
-  end subroutine write_problem
-
-  !> NAME.bin: gaps, the forces that fuge found, 8 bytes each. NAME.txt: number of points,
-  !> load, modulus and width of the cells.
-  subroutine write_profile(directory, problem, force)
-    character(len=*), intent(in) :: directory
-    type(bench_problem), intent(in) :: problem
-    real(dp), intent(in) :: force(:)
-    integer :: unit
-
-    open (newunit=unit, file=directory//'/'//trim(problem%name)//'.bin', access='stream', form='unformatted', &
-          status='replace', action='write')
+    path = trim(directory)//'/'//trim(row%problem)//'_'//whole(problem%points())
+    open (newunit=unit, file=path//'.bin', access='stream', form='unformatted', status='replace', action='write')
     write (unit) problem%gap, force
+    if (allocated(problem%modes)) write (unit) problem%modes(:, 2), problem%resultant(2)
+    if (allocated(problem%alpha)) write (unit) problem%alpha
     close (unit)
-    open (newunit=unit, file=directory//'/'//trim(problem%name)//'.txt', status='replace', action='write')
-    write (unit, '(a,i0)') 'n ', size(problem%gap)
+    open (newunit=unit, file=path//'.txt', status='replace', action='write')
+    write (unit, '(2a)') 'problem ', trim(row%problem)
+    write (unit, '(2a)') 'element ', trim(row%element)
+    write (unit, '(a,i0)') 'n ', problem%points()
+    write (unit, '(a,i0)') 'tilts ', merge(1, 0, allocated(problem%modes))
+    write (unit, '(a,i0)') 'matrix ', merge(1, 0, allocated(problem%alpha))
+    write (unit, '(a,i0)') 'periodic ', problem%boundary
     write (unit, '(a,es24.16)') 'load ', problem%load
     write (unit, '(a,es24.16)') 'e_star ', problem%e_star
-    write (unit, '(a,es24.16)') 'width ', problem%width
+    write (unit, '(a,es24.16)') 'setup ', row%setup
+    write (unit, '(a,es24.16)') 'limit ', row%limit
+    if (allocated(problem%width)) write (unit, '(a,es24.16)') 'width ', problem%width(1)
     close (unit)
-  end subroutine write_profile
+  end subroutine write_problem
 
 end module bench_records

@@ -1,0 +1,161 @@
+!> What forces are worth, whoever found them: one residual and one set of errors for all.
+!> Sees nothing but the forces and shares nothing with the certificate but the product.
+module bench_judge
+  use bench_problems, only: bench_problem
+  use bench_records, only: bench_row
+  use fuge, only: dp, fuge_contact_edges, fuge_info, fuge_interval, fuge_operator, FUGE_EDGE_GRID_END, &
+    FUGE_EDGE_REFINED, FUGE_FREE, FUGE_HAT, FUGE_MEAN
+  implicit none
+  private
+
+  public :: judge, edge_interval
+
+  real(dp), parameter :: PI = acos(-1.0_dp)
+
+contains
+
+  !> Fill residual, errors and number of points in contact. `reference` (n): forces of the
+  !> same problem, solved to the end; size 0 if there are none.
+  subroutine judge(problem, operator, force, reference, row)
+    type(bench_problem), intent(in) :: problem
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: force(:), reference(:)
+    type(bench_row), intent(inout) :: row
+    real(dp) :: rigid(2)
+
+    row%unknowns = count(force > 0.0_dp)
+    call find_residual(problem, operator, force, row%residual, rigid)
+    row%error_solver = -1.0_dp
+    if (size(reference) == size(force)) row%error_solver = sum(abs(force - reference))/problem%load
+    call find_errors(problem, force, rigid, row)
+  end subroutine judge
+
+  !> The worst of negative gap, negative force, complementarity and equilibrium, each as a part of
+  !> the range of displacements (but at least load/E*), of the largest force, of the load; `rigid`: the motions that
+  !> make the gaps smallest where forces are, in the mean weighted by the force.
+  subroutine find_residual(problem, operator, force, residual, rigid)
+    type(bench_problem), intent(in) :: problem
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out) :: residual, rigid(2)
+    real(dp), allocatable :: open_gap(:)
+    real(dp) :: length, missing
+    integer :: status
+
+    allocate (open_gap(size(force)), source=0.0_dp)
+    call operator%apply(force, open_gap, status)
+    if (status /= 0) error stop 'no product'
+    length = max(maxval(open_gap) - minval(open_gap), 1.0e-3_dp*(maxval(problem%gap) - minval(problem%gap)))
+    ! Under a flat face all displacements are one.
+    if (problem%e_star > 0.0_dp) length = max(length, problem%load/problem%e_star)
+    open_gap = open_gap + problem%gap
+    rigid = motions_of(problem, max(force, 0.0_dp), open_gap)
+    missing = abs(sum(force) - problem%load)/problem%load
+    if (allocated(problem%modes)) then
+      open_gap = open_gap - matmul(problem%modes, rigid)
+      missing = max(missing, abs(dot_product(problem%modes(:, 2), force) - problem%resultant(2)) &
+                    /(problem%load*maxval(abs(problem%modes(:, 2)))))
+    else
+      open_gap = open_gap - rigid(1)
+    end if
+    ! `apply` leaves the datum out.
+    rigid(1) = rigid(1) + operator%datum()*sum(force)
+    residual = max(-minval(open_gap)/length, -minval(force)/maxval(force), &
+                   sum(abs(force*open_gap))/(problem%load*length), missing, 0.0_dp)
+  end subroutine find_residual
+
+  !> Least squares of gaps by translation and tilt, `weight` >= 0.
+  pure function motions_of(problem, weight, gap) result(rigid)
+    type(bench_problem), intent(in) :: problem
+    real(dp), intent(in) :: weight(:), gap(:)
+    real(dp) :: rigid(2)
+    real(dp) :: total, middle, mean
+    real(dp), allocatable :: arm(:)
+
+    total = sum(weight)
+    mean = sum(weight*gap)/total
+    rigid = [mean, 0.0_dp]
+    if (.not. allocated(problem%modes)) return
+    middle = sum(weight*problem%modes(:, 2))/total
+    arm = problem%modes(:, 2) - middle
+    rigid(2) = sum(weight*arm*(gap - mean))/sum(weight*arm**2)
+    rigid(1) = mean - middle*rigid(2)
+  end function motions_of
+
+  !> Against the closed form; negative where there is none.
+  subroutine find_errors(problem, force, rigid, row)
+    type(bench_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:), rigid(2)
+    type(bench_row), intent(inout) :: row
+    real(dp) :: exact(size(force)), difference
+
+    row%error_half_width = -1.0_dp
+    row%error_pressure = -1.0_dp
+    row%error_force = -1.0_dp
+    row%error_approach = -1.0_dp
+    if (.not. allocated(problem%form)) return
+    exact = problem%exact_forces()
+    row%error_pressure = sum(abs(force - exact))/problem%load
+    row%error_force = maxval(abs(force - exact))/maxval(exact)
+    row%error_half_width = half_width_error(problem, force)
+    difference = rigid(1) + problem%middle*rigid(2) - problem%form%approach(datum(problem))
+    ! Half of what makes a periodic matrix definite.
+    if (problem%boundary /= FUGE_FREE .and. allocated(problem%alpha)) difference = difference &
+      - 0.5_dp*problem%alpha(1, 1)*problem%load
+    row%error_approach = abs(difference)*0.5_dp*PI*problem%e_star/problem%load
+  end subroutine find_errors
+
+  !> That of `fuge_halfplane_matrix`; a periodic surface has its mean.
+  pure function datum(problem) result(length)
+    type(bench_problem), intent(in) :: problem
+    real(dp) :: length
+
+    length = 1.0_dp
+    if (problem%boundary == FUGE_FREE) length = 2.0_dp*sum(problem%width)
+  end function datum
+
+  !> By the edges that the library finds, on equal cells; else to the end of the last cell in
+  !> contact. Negative where a corner is the edge, or if contact is not one interval.
+  function half_width_error(problem, force) result(error)
+    type(bench_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:)
+    real(dp) :: error, half_width
+    type(fuge_interval) :: contact
+    logical :: found
+
+    error = -1.0_dp
+    if (problem%singular()) return
+    if (problem%uniform) then
+      call edge_interval(problem, force, contact, found)
+      if (.not. found) return
+      half_width = 0.5_dp*(contact%right - contact%left)
+    else
+      half_width = 0.5_dp*(maxval(problem%x + 0.5_dp*problem%width, mask=force > 0.0_dp) &
+                           - minval(problem%x - 0.5_dp*problem%width, mask=force > 0.0_dp))
+    end if
+    error = abs(half_width/problem%form%a - 1.0_dp)
+  end function half_width_error
+
+  !> The one interval of contact on equal cells.
+  subroutine edge_interval(problem, force, contact, found)
+    type(bench_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:)
+    type(fuge_interval), intent(out) :: contact
+    logical, intent(out) :: found
+    type(fuge_interval), allocatable :: intervals(:)
+    type(fuge_info) :: info
+    integer :: element
+
+    element = problem%element
+    ! A plane face has the same gap in the mean and at the centre.
+    if (element == FUGE_MEAN .and. allocated(problem%modes)) element = FUGE_HAT
+    call fuge_contact_edges(problem%x, problem%width, max(force, 0.0_dp), element, intervals, info)
+    found = .not. info%failed()
+    if (found) found = size(intervals) == 1
+    if (.not. found) return
+    contact = intervals(1)
+    found = all([contact%left_kind, contact%right_kind] == FUGE_EDGE_REFINED &
+                .or. [contact%left_kind, contact%right_kind] == FUGE_EDGE_GRID_END)
+  end subroutine edge_interval
+
+end module bench_judge

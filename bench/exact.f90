@@ -1,0 +1,219 @@
+!> Contacts with known answers by every engine, from coarse to fine.
+!>
+!>     exact DIRECTORY [quick] [write]
+!>
+!> appends to DIRECTORY/results.csv; `quick` leaves the finest grids out, `write` writes the
+!> problems for other solvers.
+program exact
+  use bench_judge, only: edge_interval
+  use bench_problems, only: bench_problem, add_matrix, graded_edges, make_known, uniform_edges, KNOWN, REACH
+  use bench_records, only: bench_row, open_table, write_problem, write_row
+  use bench_runs, only: new_row, run_by_products, run_dense, run_warm, solve_once
+  use bench_watch, only: stopwatch
+  use fuge, only: dp, fuge_halfplane_operator, fuge_info, fuge_interval, FUGE_ACTIVE_SET, FUGE_MEAN, FUGE_TABLEAU
+  implicit none
+
+  !> Cells: the grids of dense engines, powers of two up to this; of products only.
+  integer, parameter :: COARSEST = 16, FINEST = 4096, FINEST_QUICK = 512
+  integer, parameter :: COARSEST_FFT = 64, FINEST_FFT = 2**20, FINEST_FFT_QUICK = 2**14
+  !> Only one problem goes beyond this, and to other solvers.
+  integer, parameter :: FINEST_OF_ALL = 1024, FINEST_TABLEAU = 256
+  !> Tolerance of the iteration, that of the library's options.
+  real(dp), parameter :: TOLERANCE = 1.0e-10_dp
+  real(dp), parameter :: NONE(0) = [real(dp) ::]
+
+  !> What the command line asks for, and the unit of the table.
+  type :: settings
+    character(len=256) :: directory = ''
+    integer :: table = 0
+    logical :: quick = .false., writes = .false.
+  end type settings
+
+  call run()
+
+contains
+
+  subroutine run()
+    type(settings) :: chosen
+    integer :: k
+
+    call read_settings(chosen)
+    call open_table(chosen%directory, chosen%table)
+    do k = 1, size(KNOWN)
+      call run_uniform(trim(KNOWN(k)), chosen)
+      if (KNOWN(k) /= 'wave') call run_graded(trim(KNOWN(k)), chosen)
+      ! The iteration takes no tilts.
+      if (all(KNOWN(k) /= [character(len=8) :: 'tilted', 'lifted'])) call run_fft(trim(KNOWN(k)), chosen)
+    end do
+    close (chosen%table)
+  end subroutine run
+
+  subroutine read_settings(chosen)
+    type(settings), intent(inout) :: chosen
+    character(len=16) :: word
+    integer :: k
+
+    call get_command_argument(1, chosen%directory)
+    if (chosen%directory == '') error stop 'usage: exact DIRECTORY [quick] [write]'
+    do k = 2, command_argument_count()
+      call get_command_argument(k, word)
+      if (word == 'quick') chosen%quick = .true.
+      if (word == 'write') chosen%writes = .true.
+    end do
+  end subroutine read_settings
+
+  !> Equal cells and a matrix.
+  subroutine run_uniform(name, chosen)
+    character(len=*), intent(in) :: name
+    type(settings), intent(in) :: chosen
+    type(bench_problem) :: problem
+    type(bench_row) :: row
+    real(dp), allocatable :: force(:), other(:)
+    integer :: n, most
+
+    most = merge(FINEST_QUICK, merge(FINEST, FINEST_OF_ALL, name == 'quartic'), chosen%quick)
+    n = COARSEST
+    do while (n <= most)
+      call make_known(name, FUGE_MEAN, uniform_edges(n), problem)
+      row = new_row(problem, name)
+      row%setup = matrix_time(problem)
+      allocate (force(n), other(n))
+      call run_dense(problem, FUGE_ACTIVE_SET, NONE, row, force)
+      call write_row(chosen%table, row)
+      if (chosen%writes .and. n <= FINEST_OF_ALL) call write_problem(chosen%directory, problem, row, force)
+      if (name == 'quartic') then
+        call run_warm(problem, force, row)
+        call write_row(chosen%table, row)
+        if (n <= FINEST_TABLEAU) then
+          call run_dense(problem, FUGE_TABLEAU, force, row, other)
+          call write_row(chosen%table, row)
+        end if
+      end if
+      deallocate (force, other)
+      n = 2*n
+    end do
+  end subroutine run_uniform
+
+  function matrix_time(problem) result(time)
+    type(bench_problem), intent(inout) :: problem
+    real(dp) :: time
+    type(stopwatch) :: watch
+
+    do while (.not. watch%enough())
+      call watch%start()
+      call add_matrix(problem)
+      call watch%stop()
+    end do
+    time = watch%best
+  end function matrix_time
+
+  !> Cells that are finer towards the edges of a coarse solution, or towards the corners.
+  subroutine run_graded(name, chosen)
+    character(len=*), intent(in) :: name
+    type(settings), intent(in) :: chosen
+    type(bench_problem) :: problem
+    type(bench_row) :: row
+    type(stopwatch) :: watch
+    real(dp), allocatable :: force(:)
+    integer :: n
+
+    n = COARSEST
+    do while (n <= merge(FINEST_QUICK, FINEST_OF_ALL, chosen%quick))
+      watch = stopwatch()
+      do while (.not. watch%enough())
+        call watch%start()
+        call make_graded(name, n, problem)
+        call watch%stop()
+      end do
+      allocate (force(problem%points()))
+      row = new_row(problem, name)
+      row%setup = watch%best
+      call run_dense(problem, FUGE_ACTIVE_SET, NONE, row, force)
+      row%method = 'graded'
+      call write_row(chosen%table, row)
+      deallocate (force)
+      n = 2*n
+    end do
+  end subroutine run_graded
+
+  !> The whole way: coarse solution, its edges, grid and matrix; once more where the contact on
+  !> that grid ends elsewhere.
+  subroutine make_graded(name, n, problem)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: n
+    type(bench_problem), intent(out) :: problem
+    integer, parameter :: FEWEST = 32, ROUNDS = 4
+    real(dp) :: ends(2), found(2)
+    integer :: round
+
+    ends = [-REACH, REACH]
+    call make_known(name, FUGE_MEAN, uniform_edges(max(FEWEST, n/2)), problem)
+    if (.not. problem%singular()) ends = coarse_ends(problem)
+    do round = 1, ROUNDS
+      call make_known(name, FUGE_MEAN, graded_edges(ends(1), ends(2), n, abs(ends) < REACH), problem)
+      problem%uniform = .false.
+      call add_matrix(problem)
+      if (problem%singular()) exit
+      found = graded_ends(problem)
+      if (all(abs(found - ends) <= 2.0_dp*minval(problem%width))) exit
+      ends = found
+    end do
+  end subroutine make_graded
+
+  function coarse_ends(coarse) result(ends)
+    type(bench_problem), intent(inout) :: coarse
+    real(dp) :: ends(2)
+    type(fuge_interval) :: contact
+    real(dp) :: force(coarse%points())
+    logical :: found
+
+    call add_matrix(coarse)
+    call solve_once(coarse, force)
+    call edge_interval(coarse, force, contact, found)
+    if (.not. found) error stop 'no edges of a coarse contact'
+    ends = [contact%left, contact%right]
+  end function coarse_ends
+
+  function graded_ends(problem) result(ends)
+    type(bench_problem), intent(in) :: problem
+    real(dp) :: ends(2)
+    real(dp) :: force(problem%points())
+
+    call solve_once(problem, force)
+    ends = [minval(problem%x - 0.5_dp*problem%width, mask=force > 0.0_dp), &
+            maxval(problem%x + 0.5_dp*problem%width, mask=force > 0.0_dp)]
+  end function graded_ends
+
+  !> Equal cells by FFT.
+  subroutine run_fft(name, chosen)
+    character(len=*), intent(in) :: name
+    type(settings), intent(in) :: chosen
+    type(bench_problem) :: problem
+    type(bench_row) :: row
+    type(fuge_halfplane_operator) :: operator
+    type(fuge_info) :: info
+    type(stopwatch) :: watch
+    real(dp), allocatable :: force(:)
+    integer :: n
+
+    n = COARSEST_FFT
+    do while (n <= merge(FINEST_FFT_QUICK, FINEST_FFT, chosen%quick))
+      call make_known(name, FUGE_MEAN, uniform_edges(n), problem)
+      row = new_row(problem, name)
+      watch = stopwatch()
+      do while (.not. watch%enough())
+        call watch%start()
+        call operator%set(n, problem%width(1), problem%e_star, info, problem%element, problem%boundary)
+        call watch%stop()
+      end do
+      if (info%failed()) error stop 'no operator of the half-plane'
+      row%setup = watch%best
+      allocate (force(n))
+      call run_by_products(problem, operator, TOLERANCE, NONE, row, force)
+      call write_row(chosen%table, row)
+      deallocate (force)
+      n = 2*n
+    end do
+  end subroutine run_fft
+
+end program exact
