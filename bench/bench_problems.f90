@@ -161,22 +161,33 @@ contains
   end function uniform_edges
 
   !> `n` cells from `left` to `right`, by a cosine finer towards both; beside each end that is
-  !> `open` some more, each wider than the one before, in case that the contact is wider.
-  pure function graded_edges(left, right, n, open) result(edges)
+  !> `open` three more of the last width, or if the ends are not `known` well some that double.
+  pure function graded_edges(left, right, n, open, known) result(edges)
     real(dp), intent(in) :: left, right
     integer, intent(in) :: n
-    logical, intent(in) :: open(2)
+    logical, intent(in) :: open(2), known
+    integer, parameter :: FEW = 3
     real(dp), parameter :: MARGIN = 0.05_dp
     real(dp), allocatable :: edges(:)
     real(dp) :: last
     integer :: k, beside
 
     last = (right - left)*sin(0.5_dp*PI/real(n, dp))**2
-    beside = max(2, ceiling(log(MARGIN*(right - left)/last)/log(2.0_dp)))
+    beside = FEW
+    if (.not. known) beside = max(FEW, ceiling(log(MARGIN*(right - left)/last)/log(2.0_dp)))
     edges = [(left + (right - left)*sin(0.5_dp*PI*real(k, dp)/real(n, dp))**2, k=0, n)]
-    if (open(1)) edges = [(left - last*(2.0_dp**k - 1.0_dp), k=beside, 1, -1), edges]
-    if (open(2)) edges = [edges, (right + last*(2.0_dp**k - 1.0_dp), k=1, beside)]
+    if (open(1)) edges = [(left - last*steps(k, known), k=beside, 1, -1), edges]
+    if (open(2)) edges = [edges, (right + last*steps(k, known), k=1, beside)]
   end function graded_edges
+
+  !> How far cell k beside the contact reaches, in widths of the first.
+  elemental function steps(k, equal)
+    integer, intent(in) :: k
+    logical, intent(in) :: equal
+    real(dp) :: steps
+
+    steps = merge(real(k, dp), 2.0_dp**k - 1.0_dp, equal)
+  end function steps
 
   !> The influence matrix of a problem on the half-plane.
   subroutine add_matrix(problem)

@@ -172,6 +172,7 @@ contains
     end do
     call note(watch, product%best/real(BATCH, dp), info, row)
     row%work = info%products
+    row%filters = info%filters
     force = 0.0_dp
     if (info%failed()) return
     force = solution%force

@@ -17,7 +17,7 @@ program exact
   integer, parameter :: COARSEST = 16, FINEST = 4096, FINEST_QUICK = 512
   integer, parameter :: COARSEST_FFT = 64, FINEST_FFT = 2**20, FINEST_FFT_QUICK = 2**14
   !> Only one problem goes beyond this, and to other solvers.
-  integer, parameter :: FINEST_OF_ALL = 1024, FINEST_TABLEAU = 256
+  integer, parameter :: FINEST_OF_ALL = 1024, FINEST_TABLEAU = 256, FINEST_ITERATED = 256, FINEST_FOR_OTHERS = 2**16
   !> Tolerance of the iteration, that of the library's options.
   real(dp), parameter :: TOLERANCE = 1.0e-10_dp
   real(dp), parameter :: NONE(0) = [real(dp) ::]
@@ -115,10 +115,12 @@ contains
     type(bench_row) :: row
     type(stopwatch) :: watch
     real(dp), allocatable :: force(:)
-    integer :: n
+    integer :: n, most
 
     n = COARSEST
-    do while (n <= merge(FINEST_QUICK, FINEST_OF_ALL, chosen%quick))
+    most = merge(FINEST_QUICK, FINEST_OF_ALL, chosen%quick)
+    if (name == 'lifted') most = FINEST_ITERATED
+    do while (n <= most)
       watch = stopwatch()
       do while (.not. watch%enough())
         call watch%start()
@@ -136,24 +138,26 @@ contains
     end do
   end subroutine run_graded
 
-  !> The whole way: coarse solution, its edges, grid and matrix; once more where the contact on
-  !> that grid ends elsewhere.
+  !> The whole way: coarse solution, its edges, grid and matrix. Beside a corner the other edge is
+  !> not known well from equal cells: again where the contact on that grid ends elsewhere.
   subroutine make_graded(name, n, problem)
     character(len=*), intent(in) :: name
     integer, intent(in) :: n
     type(bench_problem), intent(out) :: problem
     integer, parameter :: FEWEST = 32, ROUNDS = 4
     real(dp) :: ends(2), found(2)
+    logical :: known
     integer :: round
 
+    known = name /= 'lifted'
     ends = [-REACH, REACH]
     call make_known(name, FUGE_MEAN, uniform_edges(max(FEWEST, n/2)), problem)
     if (.not. problem%singular()) ends = coarse_ends(problem)
     do round = 1, ROUNDS
-      call make_known(name, FUGE_MEAN, graded_edges(ends(1), ends(2), n, abs(ends) < REACH), problem)
+      call make_known(name, FUGE_MEAN, graded_edges(ends(1), ends(2), n, abs(ends) < REACH, known), problem)
       problem%uniform = .false.
       call add_matrix(problem)
-      if (problem%singular()) exit
+      if (known) exit
       found = graded_ends(problem)
       if (all(abs(found - ends) <= 2.0_dp*minval(problem%width))) exit
       ends = found
@@ -211,6 +215,9 @@ contains
       allocate (force(n))
       call run_by_products(problem, operator, TOLERANCE, NONE, row, force)
       call write_row(chosen%table, row)
+      ! For those who take profiles.
+      if (chosen%writes .and. name == 'wave' .and. n > FINEST_OF_ALL .and. n <= FINEST_FOR_OTHERS) &
+        call write_problem(chosen%directory, problem, row, force)
       deallocate (force)
       n = 2*n
     end do

@@ -177,7 +177,7 @@ contains
     type(fuge_info) :: info
 
     associate (problem => question%problem)
-      row%unknowns = count(force > 0.0_dp)
+      row%unknowns = count(force > 1.0e-9_dp*maxval(force))
       if (allocated(problem%form)) then
         call operator%set(problem%points(), problem%width(1), problem%e_star, info, problem%element, problem%boundary)
         call judge(problem, operator, force, [real(dp) ::], row)
