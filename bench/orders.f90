@@ -8,6 +8,7 @@ program orders
   use bench_problems, only: bench_problem, make_known, uniform_edges
   use bench_records, only: bench_row, open_table, write_row
   use bench_runs, only: new_row, patience, run_by_products
+  use bench_watch, only: stopwatch
   use fuge, only: dp, fuge_halfplane_operator, fuge_info, FUGE_CENTRE, FUGE_HAT, FUGE_MEAN
   implicit none
 
@@ -53,11 +54,18 @@ contains
     type(bench_row) :: row
     type(fuge_halfplane_operator) :: operator
     type(fuge_info) :: info
+    type(stopwatch) :: watch
     real(dp) :: force(n)
 
     call make_known(name, element, uniform_edges(n), problem)
     row = new_row(problem, name)
-    call operator%set(n, problem%width(1), problem%e_star, info, element)
+    watch%budget = patience
+    do while (.not. watch%enough())
+      call watch%start()
+      call operator%set(n, problem%width(1), problem%e_star, info, element)
+      call watch%stop()
+    end do
+    row%setup = watch%best
     if (info%failed()) error stop 'no operator of the half-plane'
     call run_by_products(problem, operator, TOLERANCE, NONE, row, force)
     row%method = 'order'

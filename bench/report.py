@@ -1,0 +1,344 @@
+"""Tables and the numbers of the pictures, from DIRECTORY/results.csv.
+
+    python report.py DIRECTORY [DOCUMENT]
+
+writes DIRECTORY/speed_error.csv, growth.csv and tables.md; with DOCUMENT it replaces what stands
+there between `<!-- NAME begin -->` and `<!-- NAME end -->`. Needs nothing but Python. What was not
+measured is left out.
+"""
+import csv
+import math
+import os
+import re
+import statistics
+import sys
+
+KNOWN = ("quartic", "cylinder", "wave", "flat", "tilted", "lifted")
+PEERS = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls", "tamaas")
+ENGINES = ("tableau", "active_set", "iterative_dense", "iterative_fft")
+# Errors nearer than this are rounding and what a solve leaves.
+ROUNDING = 2e-12
+# Less memory is that of the program itself.
+SMALL = 8e6
+
+
+class Table:
+    """The rows of results.csv, their figures as numbers or None."""
+
+    WORDS = ("problem", "method", "element", "failure")
+
+    def __init__(self, path):
+        with open(path) as table:
+            self.rows = [{key: value if key in self.WORDS else float(value) if value else None
+                          for key, value in row.items()} for row in csv.DictReader(table)]
+        for row in self.rows:
+            row["n"] = int(row["n"])
+
+    def where(self, **wanted):
+        return [row for row in self.rows if all(row[key] == value for key, value in wanted.items())]
+
+    def one(self, **wanted):
+        found = self.where(**wanted)
+        return found[0] if found else None
+
+
+def seconds(value):
+    if value is None:
+        return ""
+    if value >= 1.0:
+        return f"{value:.2g} s" if value < 9.95 else f"{value:.0f} s"
+    scale, unit = (1e3, "ms") if value >= 1e-3 else (1e6, "us")
+    value *= scale
+    return f"{value:.2g} {unit}" if value < 99.5 else f"{value:.0f} {unit}"
+
+
+def short(value):
+    """2e-5; 0 for what is nothing."""
+    if value is None:
+        return ""
+    return "0" if value == 0.0 else re.sub(r"e([+-])0*(\d+)", r"e\g<1>\2", f"{value:.0e}").replace("e+", "e")
+
+
+def power(n):
+    return f"2^{n.bit_length() - 1}" if n & (n - 1) == 0 and n > 4096 else str(n)
+
+
+def memory(value):
+    if value is None:
+        return ""
+    return f"{value / 1e9:.2g} GB" if value >= 1e9 else f"{value / 1e6:.2g} MB"
+
+
+def table(head, rows):
+    """Markdown, the first column to the left."""
+    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
+    return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
+
+
+def total(row):
+    return None if row["time_s"] is None else row["time_s"] + (row["setup_s"] or 0.0)
+
+
+def label(method):
+    return {"active_set": "active set, equal cells", "graded": "active set, graded cells",
+            "iterative_fft": "iteration, FFT", "order": "iteration, FFT", "smooth": "smooth punch"}[method]
+
+
+# The picture: panel, curve, n, error, time, failure.
+
+def known_points(data):
+    """Error of the pressure over the time from the profile to the answer."""
+    for problem in KNOWN:
+        grid = {row["n"]: row["error_pressure"] for row in data.where(problem=problem, method="active_set")}
+        for row in data.where(problem=problem):
+            method = row["method"]
+            if method in ("active_set", "graded", "iterative_fft", "smooth"):
+                yield problem, method, row["n"], row["error_pressure"], total(row), row["failure"]
+            elif method in PEERS and row["failure"]:
+                # A failure stands at the error that its grid would have had.
+                yield problem, method, row["n"], grid.get(row["n"]), None, row["failure"]
+            elif method in PEERS:
+                yield problem, method, row["n"], row["error_pressure"], total(row), ""
+
+
+def solver_points(data, problem, n):
+    """Residual over time; a failure stands at the tolerance asked for."""
+    for row in data.where(problem=problem, n=n):
+        method = row["method"]
+        if method not in ("active_set", "iterative_dense", "iterative_fft", *PEERS):
+            continue
+        if row["failure"] and method in PEERS:
+            yield problem, method, n, row["tolerance"] or 1e-15, None, row["failure"]
+        else:
+            yield problem, method, n, max(row["residual"], 1e-16), total(row), row["failure"]
+
+
+def largest(data, problem, most):
+    sizes = [row["n"] for row in data.where(problem=problem) if row["n"] <= most]
+    return max(sizes) if sizes else 0
+
+
+def write_picture(path, data):
+    points = list(known_points(data))
+    points += solver_points(data, "random", largest(data, "random", 800))
+    for problem in ("light", "heavy"):
+        points += solver_points(data, problem, largest(data, problem, 65536))
+    limit = {panel: max((p[4] for p in points if p[0] == panel and p[4]), default=1.0) for panel in {p[0] for p in points}}
+    with open(path, "w", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(["panel", "curve", "n", "error", "time_s", "outcome"])
+        order = {name: k for k, name in enumerate(("active_set", "graded", "iterative_dense", "iterative_fft", "smooth", *PEERS))}
+        for panel, curve, n, error, time, failure in sorted(points, key=lambda p: (p[0], order[p[1]], p[2], -(p[3] or 0.0))):
+            if error is None:
+                continue
+            found = re.match(r"more than (\d+) s", failure)
+            if time is None:
+                time = float(found.group(1)) if found else 2.0 * limit[panel]
+            writer.writerow([panel, curve, n, f"{error:.3e}", f"{time:.3e}", failure or "solved"])
+
+
+def write_growth(path, data):
+    with open(path, "w", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(["engine", "n", "time_s", "setup_s", "memory_bytes"])
+        for engine in ENGINES:
+            for row in sorted(data.where(problem="growth", method=engine), key=lambda row: row["n"]):
+                writer.writerow([engine, row["n"], f"{row['time_s']:.3e}", f"{row['setup_s']:.3e}",
+                                 "" if row["memory_bytes"] is None else f"{row['memory_bytes']:.3e}"])
+
+
+# The tables.
+
+def choice_table(data):
+    """For an error asked for, the fastest way to it: a curve counts from where it stays below."""
+    rows = []
+    for column, text in (("error_pressure", "pressure"), ("error_halfwidth", "half width")):
+        for target in (1e-3, 1e-6, 1e-9):
+            cells = [f"{text}, {short(target)}"]
+            for methods in (("active_set", "graded", "iterative_fft", "order"), ("smooth",)):
+                found = fastest(data, methods, column, target)
+                if found is None:
+                    cells += ["none", "", ""] if len(methods) > 1 else ["", ""]
+                elif len(methods) > 1:
+                    cells += [f"{label(found['method'])}, {found['element']}", power(found["n"]), seconds(total(found))]
+                else:
+                    cells += [str(found["n"]), seconds(total(found))]
+            rows.append(cells)
+    return table(["relative error", "with cells", "n", "time", "smooth punch: coefficients", "time"], rows)
+
+
+def fastest(data, methods, column, target):
+    best = None
+    for method in methods:
+        for element in ("centre", "mean", "hat", ""):
+            curve = sorted(data.where(problem="quartic", method=method, element=element), key=lambda row: -row["n"])
+            reached = None
+            for row in curve:
+                if row[column] is None or row["failure"] or row[column] > target:
+                    break
+                reached = row
+            if reached and (best is None or total(reached) < total(best)):
+                best = reached
+    return best
+
+
+def order_table(data):
+    """Slopes of logarithms by least squares, and the fit's value at 1000 cells."""
+    rows = []
+    for problem in ("quartic", "cylinder"):
+        for element in ("centre", "mean", "hat"):
+            cells = [f"{problem}, {element}"]
+            for column in ("error_halfwidth", "error_pressure", "error_approach"):
+                points = [(math.log(row["n"] / 1000.0), math.log(row[column]))
+                          for row in data.where(problem=problem, method="order", element=element)
+                          if row[column] and row[column] > ROUNDING]
+                cells += list(fit(points))
+            rows.append(cells)
+        cells = [f"{problem}, mean, graded", "", ""]
+        for column in ("error_pressure", "error_approach"):
+            points = [(math.log(row["unknowns"] / 1000.0), math.log(row[column]))
+                      for row in data.where(problem=problem, method="graded") if row[column]]
+            cells += list(fit(points))
+        rows.append(cells)
+    head = ["order, error at n = 1000", "half width", "", "pressure", "", "approach", ""]
+    return table(head, rows)
+
+
+def fit(points):
+    if len(points) < 4:
+        return "", ""
+    line = statistics.linear_regression(*zip(*points))
+    rest = [y - line.intercept - line.slope * x for x, y in points]
+    spread = math.sqrt(sum(r * r for r in rest) / (len(points) - 2)
+                       / sum((x - statistics.fmean(x for x, _ in points)) ** 2 for x, _ in points))
+    return f"{-line.slope:.2f} +- {spread:.2f}", short(math.exp(line.intercept))
+
+
+def dense_table(data):
+    """fuge's dense engines and the peers: time and residual; the limit."""
+    columns = [("quartic", n) for n in (64, 256, 1024)] + [("random", n) for n in (50, 200, 800, 2000)]
+    columns = [key for key in columns if data.one(problem=key[0], n=key[1], method="active_set")]
+    rows = []
+    for method, text in (("active_set", "**active set**"), ("active_set_warm", "active set, warm"), ("tableau", "tableau")):
+        rows.append([text, *[cell(data.one(problem=p, n=n, method=method)) for p, n in columns]])
+    for method, tolerance in (("daqp", None), ("piqp", 1e-12), ("proxqp", 1e-9), ("quadprog", None), ("scipy_nnls", None)):
+        found = [data.one(problem=p, n=n, method=method, tolerance=tolerance) for p, n in columns]
+        if any(found):
+            rows.append([NAMES[method], *map(cell, found)])
+    base = [data.one(problem=p, n=n, method="active_set") for p, n in columns]
+    warm = [data.one(problem=p, n=n, method="active_set_warm") for p, n in columns]
+    rows.append(["points in contact", *[f"{row['unknowns']:.0f}" for row in base]])
+    rows.append(["limit: one `dposv`", *[seconds(row["limit_s"]) for row in base]])
+    rows.append(["active set over the limit", *[f"{row['time_over_limit']:.1f}" for row in base]])
+    rows.append(["warm over the limit", *[f"{row['time_over_limit']:.1f}" if row else "" for row in warm]])
+    return table(["time, residual", *[f"{p} {n}" for p, n in columns]], rows)
+
+
+NAMES = {"daqp": "DAQP", "piqp": "PIQP, 1e-12", "proxqp": "ProxQP, 1e-9", "quadprog": "quadprog", "scipy_nnls": "scipy nnls"}
+
+
+def cell(row):
+    if row is None:
+        return ""
+    if row["time_s"] is None:
+        return row["failure"]
+    return f"{seconds(row['time_s'])} {short(row['residual'])}" + (f" ({row['failure'][:20]})" if row["failure"] else "")
+
+
+def products_table(data):
+    """Contacts by FFT at 1e-10, compact and rough, beside Tamaas."""
+    rows = []
+    for problem in ("quartic", "cylinder", "wave", "light", "heavy"):
+        for n in (2**12, 2**16, 2**20):
+            row = data.one(problem=problem, n=n, method="iterative_fft", tolerance=1e-10)
+            if row is None:
+                continue
+            peer = data.one(problem=problem, n=n, method="tamaas", tolerance=1e-8)
+            rows.append([f"{problem} 2^{n.bit_length() - 1}", f"{row['unknowns']:.0f}",
+                         f"{row['products_or_pivots']:.0f} + {row['filters'] or 0:.0f}", seconds(row["setup_s"]),
+                         seconds(row["time_s"]), f"{row['time_over_limit']:.0f}", short(row["residual"]), cell(peer)])
+    head = ["problem", "in contact", "products, filters", "operator", "solve", "over one product", "residual", "Tamaas, 1e-8"]
+    return table(head, rows)
+
+
+def growth_table(data):
+    rows = []
+    for engine in ENGINES:
+        curve = sorted(data.where(problem="growth", method=engine), key=lambda row: row["n"])
+        if len(curve) < 4:
+            continue
+        upper = curve[len(curve) // 2 - 1:]
+        last = curve[-1]
+        cells = [engine.replace("_", " "), f"{curve[0]['n']} .. {power(last['n'])}"]
+        for column in ("time_s", "memory_bytes"):
+            points = [(math.log(row["n"]), math.log(row[column])) for row in upper
+                      if row[column] and (column == "time_s" or row[column] > SMALL)]
+            cells.append(f"n^{statistics.linear_regression(*zip(*points)).slope:.1f}" if len(points) > 2 else "")
+        cells += [seconds(next((row["time_s"] for row in curve if row["n"] == n), None)) for n in (64, 256, 1024)]
+        cells += [seconds(last["time_s"]), seconds(last["setup_s"]), memory(last["memory_bytes"])]
+        rows.append(cells)
+    head = ["engine", "n", "time grows", "memory grows", "n = 64", "n = 256", "n = 1024", "largest n", "its set-up", "its memory"]
+    return table(head, rows)
+
+
+def crossing(data, slower, faster, cost):
+    """Smallest n of the growth curves from which on `faster` is faster."""
+    left = {row["n"]: cost(row) for row in data.where(problem="growth", method=slower)}
+    right = {row["n"]: cost(row) for row in data.where(problem="growth", method=faster)}
+    both = sorted(set(left) & set(right), reverse=True)
+    found = None
+    for n in both:
+        if right[n] >= left[n]:
+            break
+        found = n
+    return found, (both[0] if both else None)
+
+
+def crossing_list(data):
+    """Sentences, because some crossings are not there."""
+    lines = []
+    for slower, faster, what, cost in (
+            ("active_set", "iterative_fft", "equal cells of a half-plane, matrix and operator included", total),
+            ("active_set", "iterative_fft", "the same without matrix and operator", lambda row: row["time_s"]),
+            ("active_set", "iterative_dense", "a given matrix", lambda row: row["time_s"]),
+            ("tableau", "active_set", "a given matrix", lambda row: row["time_s"])):
+        found, most = crossing(data, slower, faster, cost)
+        if most is None:
+            continue
+        where = f"from n = {found} on" if found else f"nowhere up to n = {most}"
+        lines.append(f"- {faster.replace('_', ' ')} faster than {slower.replace('_', ' ')}, {what}: **{where}**\n")
+    return "".join(lines)
+
+
+def machine(directory):
+    path = os.path.join(directory, "machine.txt")
+    if not os.path.exists(path):
+        return ""
+    with open(path) as words:
+        return words.read()
+
+
+def main():
+    directory = sys.argv[1]
+    data = Table(os.path.join(directory, "results.csv"))
+    write_picture(os.path.join(directory, "speed_error.csv"), data)
+    write_growth(os.path.join(directory, "growth.csv"), data)
+    parts = {"machine": machine(directory), "choice": choice_table(data), "orders": order_table(data),
+             "dense": dense_table(data), "products": products_table(data), "growth": growth_table(data),
+             "crossings": crossing_list(data)}
+    with open(os.path.join(directory, "tables.md"), "w") as out:
+        out.write("\n".join(parts.values()))
+    if len(sys.argv) < 3:
+        return
+    with open(sys.argv[2]) as document:
+        words = document.read()
+    for name, part in parts.items():
+        mark = re.compile(f"(<!-- {name} begin -->\n).*?(<!-- {name} end -->)", re.S)
+        if len(mark.findall(words)) != 1:
+            sys.exit(f"{sys.argv[2]}: needs the marks of {name} once")
+        words = mark.sub(lambda found: found.group(1) + part + found.group(2), words)
+    with open(sys.argv[2], "w") as document:
+        document.write(words)
+
+
+main()
