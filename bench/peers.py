@@ -32,7 +32,6 @@ import tamaas
 # Seconds until a solver is stopped; a solve is repeated for some part of a second.
 TIMEOUT, TIMEOUT_QUICK = 20.0, 5.0
 PATIENCE = 0.1
-# Fewer points than this take no time worth a curve of its own.
 ROUGH_TOLERANCES = ["1e-2", "1e-4", "1e-6", "1e-8"]
 
 
@@ -200,6 +199,7 @@ class Answers:
     def __init__(self, directory, timeout):
         self.directory, self.timeout, self.given_up = directory, timeout, {}
         self.out = open(os.path.join(directory, "answers.csv"), "w")
+        self.log = open(os.path.join(directory, "peers.log"), "w")
 
     def add(self, name, method, tolerance, family, solver, problem, mean=1.0, judged=None):
         failure = self.given_up.get((family, method))
@@ -214,7 +214,7 @@ class Answers:
         fields = [name, method, tolerance, "" if failure else f"{seconds:.4e}", residual, failure]
         self.out.write(",".join(fields) + "\n")
         self.out.flush()
-        print(" ", *fields, flush=True)
+        print(*fields, file=self.log, flush=True)
 
 
 def measure(answers, directory, name):
@@ -237,8 +237,12 @@ def main():
     directory = sys.argv[1]
     names = [os.path.basename(path)[:-4] for path in glob.glob(os.path.join(directory, "*_*.txt"))]
     answers = Answers(directory, TIMEOUT_QUICK if "quick" in sys.argv[2:] else TIMEOUT)
+    family = ""
     # The smaller first.
     for name in sorted(names, key=lambda name: (name.split("_")[0], int(name.split("_")[1]))):
+        if name.split("_")[0] != family:
+            family = name.split("_")[0]
+            print(f"              {family}", flush=True)
         measure(answers, directory, name)
 
 
