@@ -1,9 +1,9 @@
 """Tables and the numbers of the pictures, from DIRECTORY/results.csv.
 
-    python report.py DIRECTORY [DOCUMENT]
+    python report.py DIRECTORY [DOCUMENT ...]
 
-writes DIRECTORY/speed_error.csv, growth.csv and tables.md; with DOCUMENT it replaces what stands
-there between `<!-- NAME begin -->` and `<!-- NAME end -->`. Needs nothing but Python. What was not
+writes DIRECTORY/speed_error.csv, growth.csv and tables.md; in each DOCUMENT it replaces what stands
+between `<!-- NAME begin -->` and `<!-- NAME end -->`. Needs nothing but Python. What was not
 measured is left out.
 """
 import csv
@@ -328,16 +328,26 @@ def main():
              "crossings": crossing_list(data)}
     with open(os.path.join(directory, "tables.md"), "w") as out:
         out.write("\n".join(parts.values()))
-    if len(sys.argv) < 3:
-        return
-    with open(sys.argv[2]) as document:
+    for path in sys.argv[2:]:
+        fill(path, parts | hard_tables(os.path.join(directory, "hard")))
+
+
+def hard_tables(directory):
+    """What `stability_table` and `hard` wrote."""
+    if not os.path.exists(os.path.join(directory, "hard.md")):
+        return {}
+    with open(os.path.join(directory, "scenes.md")) as scenes, open(os.path.join(directory, "hard.md")) as peers:
+        plain, general = scenes.read().split("\n\n")
+        return {"scenes": plain + "\n", "general": general, "peers": peers.read()}
+
+
+def fill(path, parts):
+    with open(path) as document:
         words = document.read()
     for name, part in parts.items():
         mark = re.compile(f"(<!-- {name} begin -->\n).*?(<!-- {name} end -->)", re.S)
-        if len(mark.findall(words)) != 1:
-            sys.exit(f"{sys.argv[2]}: needs the marks of {name} once")
         words = mark.sub(lambda found: found.group(1) + part + found.group(2), words)
-    with open(sys.argv[2], "w") as document:
+    with open(path, "w") as document:
         document.write(words)
 
 

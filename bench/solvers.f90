@@ -81,7 +81,8 @@ contains
     end do
   end subroutine run_random
 
-  !> From the smallest tolerance to the largest: the first answer is the reference.
+  !> From the smallest tolerance to the largest: the first answer is the reference. The largest
+  !> grid takes long, and is only there for its time.
   subroutine run_rough(which, n, directory, table, writes)
     integer, intent(in) :: which, n, table
     character(len=*), intent(in) :: directory
@@ -104,12 +105,15 @@ contains
     if (info%failed()) error stop 'no operator of the half-plane'
     row = new_row(problem, ROUGH(which))
     row%setup = watch%best
+    if (n > FINEST_FOR_OTHERS) then
+      call run_by_products(problem, operator, TOLERANCES(size(TOLERANCES)), NONE, row, force)
+      call write_row(table, row)
+      return
+    end if
     call run_by_products(problem, operator, LAST, NONE, row, force)
     call write_row(table, row)
-    if (writes .and. n <= FINEST_FOR_OTHERS) call write_problem(directory, problem, row, force)
+    if (writes) call write_problem(directory, problem, row, force)
     do k = size(TOLERANCES), 1, -1
-      ! Large ones take long, and their times hardly differ.
-      if (n > FINEST_FOR_OTHERS .and. mod(k, 2) == 0) cycle
       call run_by_products(problem, operator, TOLERANCES(k), force, row, other)
       call write_row(table, row)
     end do

@@ -6,7 +6,7 @@ module hard_reference
   implicit none
   private
 
-  public :: draw, integers, gauss, enumerate, violation, length_of, is_definite
+  public :: draw, integers, gauss, enumerate, violation, length_of, datum_of, deflection, is_definite
 
 contains
 

@@ -1,0 +1,167 @@
+!> The hard scenes of test/hard for other solvers, and what they make of them.
+!>
+!>     hard DIRECTORY write     writes the scenes
+!>     hard DIRECTORY           writes DIRECTORY/hard.md from the answers
+program hard
+  use bench_problems, only: bench_problem, whole
+  use bench_records, only: bench_row, write_problem
+  use fuge, only: dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET
+  use hard_reference, only: datum_of, deflection, violation
+  use hard_run, only: force_error, solve_scene
+  use hard_scenes, only: hard_scene, numbered_scene, SCENES
+  implicit none
+
+  character(len=10), parameter :: PEERS(5) = [character(len=10) :: 'daqp', 'piqp', 'proxqp', 'quadprog', 'scipy_nnls']
+
+  !> A residual above this is no answer.
+  real(dp), parameter :: WRONG = 1.0e-6_dp
+
+  !> A line of answers.csv.
+  type :: answer_line
+    character(len=60) :: field(6) = ''
+  end type answer_line
+
+  call run()
+
+contains
+
+  subroutine run()
+    character(len=256) :: directory
+    character(len=8) :: word
+    type(answer_line), allocatable :: answers(:)
+    integer :: number, unit
+
+    call get_command_argument(1, directory)
+    call get_command_argument(2, word)
+    if (directory == '') error stop 'usage: hard DIRECTORY [write]'
+    if (word == 'write') then
+      do number = 1, SCENES
+        call write_scene(trim(directory), number, numbered_scene(number))
+      end do
+      return
+    end if
+    call read_answers(trim(directory), answers)
+    open (newunit=unit, file=trim(directory)//'/hard.md', status='replace', action='write')
+    write (unit, '(a)') '| residual, error | n | fuge, active set | DAQP | PIQP | ProxQP | quadprog | scipy nnls |'
+    write (unit, '(a)') '| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |'
+    do number = 1, SCENES
+      call write_line(unit, trim(directory), number, numbered_scene(number), answers)
+    end do
+    close (unit)
+  end subroutine run
+
+  !> As scene_NUMBER; its name would not do for a file.
+  subroutine write_scene(directory, number, scene)
+    character(len=*), intent(in) :: directory
+    integer, intent(in) :: number
+    type(hard_scene), intent(in) :: scene
+    type(bench_problem) :: problem
+    type(bench_row) :: row
+    real(dp) :: nothing(size(scene%gap))
+
+    nothing = 0.0_dp
+    allocate (problem%alpha, source=scene%alpha)
+    allocate (problem%gap, source=scene%gap)
+    problem%load = scene%load
+    row%problem = 'scene'//whole(number)
+    call write_problem(directory, problem, row, nothing)
+  end subroutine write_scene
+
+  subroutine read_answers(directory, answers)
+    character(len=*), intent(in) :: directory
+    type(answer_line), allocatable, intent(out) :: answers(:)
+    type(answer_line) :: next
+    character(len=400) :: line
+    integer :: unit, stat, k, comma
+
+    allocate (answers(0))
+    open (newunit=unit, file=directory//'/answers.csv', status='old', action='read')
+    do
+      read (unit, '(a)', iostat=stat) line
+      if (stat /= 0) exit
+      do k = 1, size(next%field)
+        comma = index(line, ',')
+        if (comma == 0) comma = len(line)
+        next%field(k) = line(:comma - 1)
+        line = line(comma + 1:)
+      end do
+      answers = [answers, next]
+    end do
+    close (unit)
+  end subroutine read_answers
+
+  subroutine write_line(unit, directory, number, scene, answers)
+    integer, intent(in) :: unit, number
+    character(len=*), intent(in) :: directory
+    type(hard_scene), intent(in) :: scene
+    type(answer_line), intent(in) :: answers(:)
+    type(fuge_solution) :: solution
+    type(fuge_info) :: info
+    character(len=:), allocatable :: line, stem
+    real(dp) :: force(size(scene%gap))
+    integer :: k, peer, forces
+
+    stem = 'scene'//whole(number)//'_'//whole(size(scene%gap))
+    call solve_scene(scene, FUGE_ACTIVE_SET, solution, info)
+    line = '| '//trim(scene%name)//' | '//whole(size(scene%gap))//' | '
+    if (info%failed()) then
+      line = line//whole(info%status)
+    else
+      line = line//judged(scene, solution%force)
+    end if
+    do peer = 1, size(PEERS)
+      line = line//' | '
+      do k = 1, size(answers)
+        associate (field => answers(k)%field)
+          if (field(1) /= stem .or. field(2) /= PEERS(peer)) cycle
+          if (field(6) /= '') then
+            line = line//trim(field(6))
+          else
+            open (newunit=forces, file=directory//'/'//stem//'.'//trim(PEERS(peer))//trim(field(3)), access='stream', &
+                  form='unformatted', status='old', action='read')
+            read (forces) force
+            close (forces)
+            line = line//judged(scene, force)
+          end if
+        end associate
+      end do
+    end do
+    write (unit, '(a)') line//' |'
+  end subroutine write_line
+
+  !> Residual from the forces alone, and the error of the forces where they are known.
+  function judged(scene, force) result(cell)
+    type(hard_scene), intent(in) :: scene
+    real(dp), intent(in) :: force(:)
+    character(len=:), allocatable :: cell
+    real(dp), dimension(size(force)) :: opening, pushing
+    real(dp) :: datum, lowest, approach, residual
+
+    datum = datum_of(scene%alpha)
+    pushing = max(force, 0.0_dp)
+    lowest = minval(scene%gap)
+    opening = (scene%gap - lowest) + deflection(scene%alpha, datum, force)
+    approach = 0.0_dp
+    if (sum(pushing) > 0.0_dp) approach = sum(pushing*opening)/sum(pushing)
+    opening = opening - approach
+    residual = violation(scene%alpha, scene%gap, scene%load, force, opening, approach + lowest + datum*sum(force))
+    cell = short(residual)
+    if (allocated(scene%force)) cell = cell//', '//short(force_error(scene, scene%force, force))
+    if (.not. residual <= WRONG) cell = '**'//cell//'**'
+  end function judged
+
+  !> One digit and the power of ten.
+  function short(value) result(words)
+    real(dp), intent(in) :: value
+    character(len=:), allocatable :: words
+    character(len=12) :: buffer
+    integer :: power
+
+    words = '0'
+    if (.not. value > 0.0_dp) return
+    write (buffer, '(es8.0e3)') value
+    read (buffer(index(buffer, 'E') + 1:), *) power
+    words = trim(adjustl(buffer(:index(buffer, '.') - 1)))//'e'//whole(power)
+  end function short
+
+end program hard
