@@ -42,8 +42,8 @@ contains
     end if
     call read_answers(trim(directory), answers)
     open (newunit=unit, file=trim(directory)//'/hard.md', status='replace', action='write')
-    write (unit, '(a)') '| residual, error | n | fuge, active set | DAQP | PIQP | ProxQP | quadprog | scipy nnls |'
-    write (unit, '(a)') '| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |'
+    write (unit, '(a)') '| residual, error | n | what is hard | fuge, active set | DAQP | PIQP | ProxQP | quadprog | scipy nnls |'
+    write (unit, '(a)') '| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |'
     do number = 1, SCENES
       call write_line(unit, trim(directory), number, numbered_scene(number), answers)
     end do
@@ -103,7 +103,7 @@ contains
 
     stem = 'scene'//whole(number)//'_'//whole(size(scene%gap))
     call solve_scene(scene, FUGE_ACTIVE_SET, solution, info)
-    line = '| '//trim(scene%name)//' | '//whole(size(scene%gap))//' | '
+    line = '| '//trim(scene%name)//' | '//whole(size(scene%gap))//' | '//trim(scene%why)//' | '
     if (info%failed()) then
       line = line//whole(info%status)
     else
