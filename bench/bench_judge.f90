@@ -8,7 +8,7 @@ module bench_judge
   implicit none
   private
 
-  public :: judge, edge_interval
+  public :: judge, approach_error, edge_interval
 
   real(dp), parameter :: PI = acos(-1.0_dp)
   !> Solvers that do not know which points touch leave smaller forces on those that do not.
@@ -89,7 +89,7 @@ contains
     type(bench_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:), rigid(2)
     type(bench_row), intent(inout) :: row
-    real(dp) :: exact(size(force)), difference
+    real(dp) :: exact(size(force))
 
     row%error_half_width = -1.0_dp
     row%error_pressure = -1.0_dp
@@ -100,12 +100,21 @@ contains
     row%error_pressure = sum(abs(force - exact))/problem%load
     row%error_force = maxval(abs(force - exact))/maxval(exact)
     row%error_half_width = half_width_error(problem, force)
-    difference = rigid(1) + problem%middle*rigid(2) - problem%form%approach(datum(problem))
-    ! Half of what makes a periodic matrix definite.
-    if (problem%boundary /= FUGE_FREE .and. allocated(problem%alpha)) difference = difference &
-      - 0.5_dp*problem%alpha(1, 1)*problem%load
-    row%error_approach = abs(difference)*0.5_dp*PI*problem%e_star/problem%load
+    row%error_approach = approach_error(problem, rigid(1) + problem%middle*rigid(2))
   end subroutine find_errors
+
+  !> Of the approach in the middle of the contact, as a part of 2 F/(pi E*).
+  pure function approach_error(problem, approach) result(error)
+    type(bench_problem), intent(in) :: problem
+    real(dp), intent(in) :: approach
+    real(dp) :: error
+
+    error = approach - problem%form%approach(datum(problem))
+    ! Half of what makes a periodic matrix definite.
+    if (problem%boundary /= FUGE_FREE .and. allocated(problem%alpha)) &
+      error = error - 0.5_dp*problem%alpha(1, 1)*problem%load
+    error = abs(error)*0.5_dp*PI*problem%e_star/problem%load
+  end function approach_error
 
   !> That of `fuge_halfplane_matrix`; a periodic surface has its mean.
   pure function datum(problem) result(length)

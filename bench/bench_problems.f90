@@ -13,7 +13,8 @@ module bench_problems
   public :: make_known, make_random, make_rough, add_matrix, contact_problem, uniform_edges, graded_edges, whole
 
   !> Contacts with known answers.
-  character(len=*), parameter, public :: KNOWN(6) = ['quartic ', 'cylinder', 'flat    ', 'wave    ', 'tilted  ', 'lifted  ']
+  character(len=8), parameter, public :: KNOWN(6) = &
+    [character(len=8) :: 'quartic', 'cylinder', 'flat', 'wave', 'tilted', 'lifted']
 
   type, public :: bench_problem
     character(len=16) :: name = ''

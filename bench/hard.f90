@@ -42,7 +42,8 @@ contains
     end if
     call read_answers(trim(directory), answers)
     open (newunit=unit, file=trim(directory)//'/hard.md', status='replace', action='write')
-    write (unit, '(a)') '| residual, error | n | what is hard | fuge, active set | DAQP | PIQP | ProxQP | quadprog | scipy nnls |'
+    write (unit, '(a)') '| residual, error | n | what is hard '// &
+      '| fuge, active set | DAQP | PIQP | ProxQP | quadprog | scipy nnls |'
     write (unit, '(a)') '| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |'
     do number = 1, SCENES
       call write_line(unit, trim(directory), number, numbered_scene(number), answers)

@@ -93,7 +93,7 @@ def known_points(data):
         for row in data.where(problem=problem):
             method = row["method"]
             if method in ("active_set", "graded", "iterative_fft", "smooth"):
-                yield problem, method, row["n"], row["error_pressure"], total(row), row["failure"]
+                yield problem, method, row["n"], max(row["error_pressure"], 1e-16), total(row), row["failure"]
             elif method in PEERS and row["failure"]:
                 # A failure stands at the error that its grid would have had.
                 yield problem, method, row["n"], grid.get(row["n"]), None, row["failure"]

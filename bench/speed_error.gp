@@ -58,7 +58,7 @@ do for [k = 1:9] {
   set title heading[k] offset 0,-0.7
   set ylabel (column == 0 ? 'time, s' : '') offset 1.8,0
   set xlabel (row == 2 ? 'residual' : 'error of the pressure') offset 0,0.5
-  if (row == 0) { set xrange [2e-1:1e-14]; every = 3; last = -13; set yrange [5e-6:20] }
+  if (row == 0) { set xrange [2e-1:1e-17]; every = 4; last = -17; set yrange [5e-6:20] }
   if (row == 1) { set xrange [2e-1:1e-4]; every = 1; last = -4; set yrange [5e-6:20] }
   if (row == 2) { set xrange [2e-1:1e-17]; every = 4; last = -17; set yrange [3e-3:60] }
   set xtics ('10^{-1}' 0.1)
