@@ -111,8 +111,9 @@ contains
 
     error = approach - problem%form%approach(datum(problem))
     ! Half of what makes a periodic matrix definite.
-    if (problem%boundary /= FUGE_FREE .and. allocated(problem%alpha)) &
+    if (problem%boundary /= FUGE_FREE .and. allocated(problem%alpha)) then
       error = error - 0.5_dp*problem%alpha(1, 1)*problem%load
+    end if
     error = abs(error)*0.5_dp*PI*problem%e_star/problem%load
   end function approach_error
 

@@ -13,7 +13,7 @@ module bench_runs
   public :: solve_once, run_dense, run_warm, run_by_products, new_row
 
   !> Seconds that repetitions of one measurement may take together.
-  real(dp), public, save :: patience = 0.1_dp
+  real(dp), public :: patience = 0.1_dp
 
   !> Products in one sample: one alone is at the mercy of the clock.
   integer, parameter :: BATCH = 5

@@ -216,8 +216,9 @@ contains
       call run_by_products(problem, operator, TOLERANCE, NONE, row, force)
       call write_row(chosen%table, row)
       ! For those who take profiles.
-      if (chosen%writes .and. name == 'wave' .and. n > FINEST_OF_ALL .and. n <= FINEST_FOR_OTHERS) &
+      if (chosen%writes .and. name == 'wave' .and. n > FINEST_OF_ALL .and. n <= FINEST_FOR_OTHERS) then
         call write_problem(chosen%directory, problem, row, force)
+      end if
       deallocate (force)
       n = 2*n
     end do

@@ -104,6 +104,9 @@ contains
         read (word, *) question%setup
       case ('limit')
         read (word, *) question%limit
+      case default
+        ! The rest is for other solvers.
+        cycle
       end select
     end do
     close (unit)
