@@ -80,7 +80,7 @@ unset grid
 unset logscale
 set xrange [0:1]
 set yrange [0:1]
-array across[4] = [0.03, 0.32, 0.58, 0.74]
+array across[4] = [0.03, 0.345, 0.60, 0.76]
 x(c) = across[1 + (c - 1)/3]
 y(c) = 0.78 - 0.29*((c - 1)%3)
 do for [c = 1:11] { set label c title[c] at x(c) + 0.055, y(c) }
