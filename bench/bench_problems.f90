@@ -278,7 +278,7 @@ contains
   !> at which about 40 % of the points touch.
   subroutine make_random(n, problem)
     integer, intent(in) :: n
-    type(bench_problem), intent(out) :: problem
+    type(bench_problem), intent(out), target :: problem
     real(dp), allocatable :: normal(:, :)
     integer(int64) :: state
     integer :: i, j

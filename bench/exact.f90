@@ -66,7 +66,7 @@ contains
   subroutine run_uniform(name, chosen)
     character(len=*), intent(in) :: name
     type(settings), intent(in) :: chosen
-    type(bench_problem) :: problem
+    type(bench_problem), target :: problem
     type(bench_row) :: row
     real(dp), allocatable :: force(:), other(:)
     integer :: n, most
@@ -111,7 +111,7 @@ contains
   subroutine run_graded(name, chosen)
     character(len=*), intent(in) :: name
     type(settings), intent(in) :: chosen
-    type(bench_problem) :: problem
+    type(bench_problem), target :: problem
     type(bench_row) :: row
     type(stopwatch) :: watch
     real(dp), allocatable :: force(:)
@@ -143,7 +143,7 @@ contains
   subroutine make_graded(name, n, problem)
     character(len=*), intent(in) :: name
     integer, intent(in) :: n
-    type(bench_problem), intent(out) :: problem
+    type(bench_problem), intent(out), target :: problem
     integer, parameter :: FEWEST = 32, ROUNDS = 4
     real(dp) :: ends(2), found(2)
     logical :: known
@@ -165,7 +165,7 @@ contains
   end subroutine make_graded
 
   function coarse_ends(coarse) result(ends)
-    type(bench_problem), intent(inout) :: coarse
+    type(bench_problem), intent(inout), target :: coarse
     real(dp) :: ends(2)
     type(fuge_interval) :: contact
     real(dp) :: force(coarse%points())
@@ -179,7 +179,7 @@ contains
   end function coarse_ends
 
   function graded_ends(problem) result(ends)
-    type(bench_problem), intent(in) :: problem
+    type(bench_problem), intent(in), target :: problem
     real(dp) :: ends(2)
     real(dp) :: force(problem%points())
 
