@@ -267,7 +267,7 @@ def growth_table(data):
         curve = sorted(data.where(problem="growth", method=engine), key=lambda row: row["n"])
         if len(curve) < 4:
             continue
-        upper = curve[len(curve) // 2 - 1:]
+        upper = curve[-max(3, len(curve) // 2):]
         last = curve[-1]
         cells = [engine.replace("_", " "), f"{curve[0]['n']} .. {power(last['n'])}"]
         for column in ("time_s", "memory_bytes"):
@@ -296,17 +296,19 @@ def crossing(data, slower, faster, cost):
 
 def crossing_list(data):
     """Sentences, because some crossings are not there."""
+    names = {"tableau": "the tableau", "active_set": "the active set", "iterative_dense": "the iteration with a matrix",
+             "iterative_fft": "the iteration by FFT"}
     lines = []
     for slower, faster, what, cost in (
-            ("active_set", "iterative_fft", "equal cells of a half-plane, matrix and operator included", total),
-            ("active_set", "iterative_fft", "the same without matrix and operator", lambda row: row["time_s"]),
-            ("active_set", "iterative_dense", "a given matrix", lambda row: row["time_s"]),
-            ("tableau", "active_set", "a given matrix", lambda row: row["time_s"])):
+            ("active_set", "iterative_fft", "matrix and operator included", total),
+            ("active_set", "iterative_fft", "the solve alone", lambda row: row["time_s"]),
+            ("active_set", "iterative_dense", "the solve alone", lambda row: row["time_s"]),
+            ("tableau", "active_set", "the solve alone", lambda row: row["time_s"])):
         found, most = crossing(data, slower, faster, cost)
         if most is None:
             continue
         where = f"from n = {found} on" if found else f"nowhere up to n = {most}"
-        lines.append(f"- {faster.replace('_', ' ')} faster than {slower.replace('_', ' ')}, {what}: **{where}**\n")
+        lines.append(f"- {names[faster]} is faster than {names[slower]}, {what}: **{where}**\n")
     return "".join(lines)
 
 
