@@ -5,12 +5,14 @@
 !> appends to DIRECTORY/results.csv; `quick` leaves the finest grids out, `write` writes the
 !> problems for other solvers.
 program exact
-  use bench_judge, only: edge_interval
+  use bench_judge, only: approach_error, edge_interval
   use bench_problems, only: bench_problem, add_matrix, graded_edges, make_known, uniform_edges, KNOWN, REACH
   use bench_records, only: bench_row, open_table, write_problem, write_row
   use bench_runs, only: new_row, run_by_products, run_dense, run_warm, solve_once
   use bench_watch, only: stopwatch
-  use fuge, only: dp, fuge_halfplane_operator, fuge_info, fuge_interval, FUGE_ACTIVE_SET, FUGE_MEAN, FUGE_TABLEAU
+  use closed_forms, only: cylinder, quartic_punch
+  use fuge, only: dp, fuge_halfplane_operator, fuge_info, fuge_interval, fuge_polynomial_profile, &
+    fuge_smooth_contact, fuge_solve_smooth_punch, FUGE_ACTIVE_SET, FUGE_MEAN, FUGE_TABLEAU
   implicit none
 
   !> Cells: the grids of dense engines, powers of two up to this; of products only.
@@ -44,6 +46,7 @@ contains
       if (KNOWN(k) /= 'wave') call run_graded(trim(KNOWN(k)), chosen)
       ! The iteration takes no tilts.
       if (all(KNOWN(k) /= [character(len=8) :: 'tilted', 'lifted'])) call run_fft(trim(KNOWN(k)), chosen)
+      if (any(KNOWN(k) == [character(len=8) :: 'quartic', 'cylinder'])) call run_smooth(trim(KNOWN(k)), chosen)
     end do
     close (chosen%table)
   end subroutine run
@@ -223,5 +226,58 @@ contains
       n = 2*n
     end do
   end subroutine run_fft
+
+  !> No cells at all: the pressure as a series. Its errors are taken at the centres of many.
+  subroutine run_smooth(name, chosen)
+    character(len=*), intent(in) :: name
+    type(settings), intent(in) :: chosen
+    integer, parameter :: PLACES = 10000
+    type(bench_problem) :: problem
+    type(bench_row) :: row
+    type(fuge_polynomial_profile) :: profile
+    type(fuge_smooth_contact) :: contact
+    type(fuge_info) :: info
+    type(stopwatch) :: watch
+
+    call make_known(name, FUGE_MEAN, uniform_edges(PLACES), problem)
+    profile%lower = -REACH
+    profile%upper = REACH
+    select type (form => problem%form)
+    type is (quartic_punch)
+      allocate (profile%coefficients, source=[0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, form%factor])
+    type is (cylinder)
+      allocate (profile%coefficients, source=[0.0_dp, 0.0_dp, 0.5_dp/form%radius])
+    end select
+    do while (.not. watch%enough())
+      call watch%start()
+      call fuge_solve_smooth_punch(profile, problem%e_star, problem%load, contact, info)
+      call watch%stop()
+    end do
+    row = new_row(problem, name)
+    row%method = 'smooth'
+    row%element = ''
+    row%time = watch%best
+    if (info%status /= 0) row%failure = info%message(:len(row%failure))
+    if (.not. info%failed()) call judge_smooth(problem, contact, info, row)
+    call write_row(chosen%table, row)
+  end subroutine run_smooth
+
+  subroutine judge_smooth(problem, contact, info, row)
+    type(bench_problem), intent(in) :: problem
+    type(fuge_smooth_contact), intent(in) :: contact
+    type(fuge_info), intent(in) :: info
+    type(bench_row), intent(inout) :: row
+    real(dp), dimension(problem%points()) :: exact, difference
+
+    exact = problem%form%pressure(problem%x)
+    difference = abs(contact%pressure(problem%x) - exact)
+    row%n = size(contact%coefficients)
+    row%unknowns = row%n
+    row%residual = info%residual
+    row%error_half_width = abs(contact%half_width/problem%form%a - 1.0_dp)
+    row%error_pressure = dot_product(difference, problem%width)/problem%load
+    row%error_force = maxval(difference)/maxval(exact)
+    row%error_approach = approach_error(problem, contact%approach)
+  end subroutine judge_smooth
 
 end program exact
