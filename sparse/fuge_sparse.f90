@@ -19,6 +19,7 @@ module fuge_sparse
     real(dp), allocatable :: value(:)
   end type compressed_columns
 
+  !> A sparse stiffness matrix in compressed columns: `set` it, then condense.
   type, extends(fuge_stiffness), public :: fuge_sparse_stiffness
     !> The upper triangle, each entry once.
     type(compressed_columns), private :: upper
@@ -309,6 +310,7 @@ contains
     end do
   end subroutine find_diagonal
 
+  !> Number of degrees of freedom; 0 before `set`.
   pure function degrees(self)
     class(fuge_sparse_stiffness), intent(in) :: self
     integer :: degrees
@@ -317,6 +319,7 @@ contains
     if (allocated(self%upper%column)) degrees = size(self%upper%column) - 1
   end function degrees
 
+  !> The diagonal of K: `terms` (degrees), force per displacement.
   pure subroutine diagonal(self, terms)
     class(fuge_sparse_stiffness), intent(in) :: self
     real(dp), intent(out) :: terms(:)
@@ -324,6 +327,7 @@ contains
     call find_diagonal(self%upper, terms)
   end subroutine diagonal
 
+  !> `u` (degrees); `product` = K u and `magnitude` = |K| |u|, (degrees), force.
   pure subroutine multiply(self, u, product, magnitude)
     class(fuge_sparse_stiffness), intent(in) :: self
     real(dp), intent(in) :: u(:)
@@ -346,6 +350,7 @@ contains
     end do
   end subroutine multiply
 
+  !> Cholesky factor without the rows and columns `held`; arguments as in `fuge_stiffness_type`.
   subroutine factorise(self, held, shift, factor, pivot, weakest, status)
     class(fuge_sparse_stiffness), intent(in) :: self
     logical, intent(in) :: held(:)

@@ -15,8 +15,9 @@ module fuge_bodies
 
   public :: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
 
-  !> What is kept from moving out of the plane (`state`): a long or a thin body.
+  !> Plane strain (`state`): long bodies, no strain out of the plane.
   integer, parameter, public :: FUGE_PLANE_STRAIN = 0
+  !> Plane stress (`state`): thin bodies, no stress out of the plane.
   integer, parameter, public :: FUGE_PLANE_STRESS = 1
 
 contains

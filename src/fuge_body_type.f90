@@ -24,9 +24,9 @@ module fuge_body_type
     real(dp), allocatable :: displacement(:)
     !> External load, (nd), force. Not allocated: none.
     real(dp), allocatable :: load(:)
-    !> Rigid motions of the body on its supports, (nd, m). Not allocated: none, unless
+    !> The body floats, and its rigid motions on its supports are looked for.
     logical :: floats = .false.
-    !> is set: then they are looked for.
+    !> The rigid motions, if they are known, (nd, m). Not allocated: none, unless the body floats.
     real(dp), allocatable :: modes(:, :)
     !> Degrees of freedom of the contact points, (width, n); 0: none.
     integer, allocatable :: dof(:, :)

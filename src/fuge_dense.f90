@@ -17,6 +17,7 @@ module fuge_dense
   !> Side of the square tiles in which the matrix is compared with its transpose.
   integer, parameter :: TILE = 64
 
+  !> A symmetric influence matrix in full storage: `set` it, then solve.
   type, extends(fuge_operator), public :: fuge_dense_operator
     !> Columns of the caller's matrix; rows beyond n are padding.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
@@ -58,6 +59,7 @@ contains
     call c_f_pointer(c_loc(alpha(1, 1)), self%alpha, shape(alpha))
   end subroutine set
 
+  !> Number of points n; 0 before `set`.
   pure function points(self) result(n)
     class(fuge_dense_operator), intent(in) :: self
     integer :: n
@@ -66,6 +68,8 @@ contains
     if (associated(self%alpha)) n = size(self%alpha, 2)
   end function points
 
+  !> u = (A - datum) f: `force` (n), force; `displacement` (n), length; `status` is FUGE_DONE.
+  !>
   !> Column by column, not by BLAS: each coefficient loses the datum before it is
   !> multiplied, and points without force cost nothing.
   subroutine apply(self, force, displacement, status)
@@ -83,6 +87,7 @@ contains
     status = FUGE_DONE
   end subroutine apply
 
+  !> The coefficient nearest to zero, length per force; 0 if there are both signs.
   function datum(self)
     class(fuge_dense_operator), intent(in) :: self
     real(dp) :: datum
@@ -90,6 +95,7 @@ contains
     datum = self%constant
   end function datum
 
+  !> sum_j |A_ij - datum| |f_j| at each point, `length` (n); `force` (n).
   subroutine magnitude(self, force, displacement, length)
     class(fuge_dense_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)

@@ -25,11 +25,14 @@ module fuge_edges
 
   public :: fuge_contact_edges
 
-  !> What an edge is (`left_kind`, `right_kind`): better than the grid, or the outer
-  !> edge of the last cell in contact, and why.
+  !> What an edge is (`left_kind`, `right_kind`): better than the grid. The others are the
+  !> outer edge of the last cell in contact.
   integer, parameter, public :: FUGE_EDGE_REFINED = 0
+  !> The cell's edge, because fewer than five cells are in contact.
   integer, parameter, public :: FUGE_EDGE_FEW_CELLS = 1
+  !> The cell's edge, because the pressure does not fall like a square root, as under a corner.
   integer, parameter, public :: FUGE_EDGE_SINGULAR = 2
+  !> The cell's edge, because contact reaches the last cell of the grid.
   integer, parameter, public :: FUGE_EDGE_GRID_END = 3
 
   !> One run of cells in contact.

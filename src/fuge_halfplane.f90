@@ -24,9 +24,12 @@ module fuge_halfplane
 
   public :: fuge_halfplane_matrix, check_halfplane, mean_log
 
-  !> What a force and a displacement mean (`element`).
+  !> `element`: uniform pressure f/width on a cell, displacement at its centre; equal widths.
   integer, parameter, public :: FUGE_CENTRE = 0
+  !> `element`: uniform pressure f/width on a cell, mean displacement of a cell; any widths.
   integer, parameter, public :: FUGE_MEAN = 1
+  !> `element`: pressure a hat with peak f/width at x and base 2 width, displacement at x;
+  !> equal widths.
   integer, parameter, public :: FUGE_HAT = 2
 
   real(dp), parameter :: PI = acos(-1.0_dp)

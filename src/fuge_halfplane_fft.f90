@@ -19,8 +19,9 @@ module fuge_halfplane_fft
 
   public :: periodic_eigenvalue
 
-  !> What lies beyond the cells (`boundary`): a free surface, or the same again and again.
+  !> `boundary`: beyond the cells the surface is free.
   integer, parameter, public :: FUGE_FREE = 0
+  !> `boundary`: beyond the cells the same comes again and again.
   integer, parameter, public :: FUGE_PERIODIC = 1
 
   real(dp), parameter :: PI = acos(-1.0_dp)
@@ -31,6 +32,8 @@ module fuge_halfplane_fft
   !> Fewer points have no coarser grid: they are solved at once.
   integer, parameter :: FEWEST_CELLS = 32
 
+  !> Cells of one width side by side on a half-plane: `set` them, then solve.
+  !>
   !> Copy it by assignment, never by allocate(source=): it owns plans of FFTW.
   type, extends(fuge_operator), public :: fuge_halfplane_operator
     private
@@ -292,6 +295,7 @@ contains
     self%count = source%count
   end subroutine copy
 
+  !> Number of cells n; 0 before `set`.
   pure function points(self) result(n)
     class(fuge_halfplane_operator), intent(in) :: self
     integer :: n
@@ -345,6 +349,7 @@ contains
     if (self%boundary == FUGE_PERIODIC) length = max(length, MEAN_TERM*sum(abs(force))/self%e_star)
   end subroutine magnitude
 
+  !> True once it is set: `filter` is there.
   function has_filter(self) result(filtered)
     class(fuge_halfplane_operator), intent(in) :: self
     logical :: filtered
@@ -372,6 +377,7 @@ contains
     end if
   end subroutine filter
 
+  !> True once it is set: the cells are side by side in the order of their numbers.
   function in_row(self)
     class(fuge_halfplane_operator), intent(in) :: self
     logical :: in_row

@@ -8,7 +8,7 @@ module fuge_history_type
   !> Of z at the end of a line.
   integer, parameter :: OBJECTIVE_LENGTH = 18
 
-  !> Steps 0 (the artificial start) to `recorded()` - 1.
+  !> The pivots of a tableau solve: steps 0 (the artificial start) to `recorded()` - 1.
   type, public :: fuge_history
     private
     integer :: steps = 0
@@ -25,7 +25,7 @@ module fuge_history_type
 
 contains
 
-  !> Forget all steps; the next ones have `rows` rows.
+  !> Forget all steps; the next ones have `rows` rows. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
   pure subroutine start(self, rows, status)
     class(fuge_history), intent(inout) :: self
     integer, intent(in) :: rows
@@ -40,7 +40,7 @@ contains
   end subroutine start
 
   !> Append a step: `basis` holds a column number for each row, z is the sum of
-  !> the artificials in the caller's units.
+  !> the artificials in the caller's units. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
   pure subroutine record(self, basis, z, status)
     class(fuge_history), intent(inout) :: self
     integer, intent(in) :: basis(:)

@@ -8,6 +8,7 @@ module fuge_operator_type
   implicit none
   private
 
+  !> Extend it: `points` and `apply` are needed, the others have defaults that do.
   type, abstract, public :: fuge_operator
   contains
     !> Number of candidate points n; 0 while the operator is not set.
@@ -30,13 +31,14 @@ module fuge_operator_type
   end type fuge_operator
 
   abstract interface
+    !> Number of candidate points n; 0 while the operator is not set.
     pure function count_points(self) result(n)
       import :: fuge_operator
       class(fuge_operator), intent(in) :: self
       integer :: n
     end function count_points
 
-    !> `force` (n), force; `displacement` (n), length; `status` is 0, or ends the solve:
+    !> u = (A - datum) f: `force` (n), force; `displacement` (n), length; `status` is 0, or ends the solve:
     !> an error of `fuge_status` with its meaning, any other as FUGE_ERR_CALLBACK with the
     !> number in the message. NaN and infinity need no status, they are found.
     subroutine multiply(self, force, displacement, status)
@@ -50,6 +52,7 @@ module fuge_operator_type
 
 contains
 
+  !> False: there is no filter unless an extension brings one.
   function without_filter(self) result(filtered)
     class(fuge_operator), intent(in) :: self
     logical :: filtered
@@ -68,6 +71,7 @@ contains
     status = merge(FUGE_DONE, FUGE_ERR_SIZE, self%points() == size(length))
   end subroutine copy_through
 
+  !> False: nothing is known of the places of the points.
   function in_no_order(self) result(in_row)
     class(fuge_operator), intent(in) :: self
     logical :: in_row
@@ -86,6 +90,7 @@ contains
     if (self%points() < 0 .and. doublings < 0) allocate (coarse, source=self)
   end subroutine no_coarser
 
+  !> 0: nothing is taken out.
   function no_datum(self) result(datum)
     class(fuge_operator), intent(in) :: self
     real(dp) :: datum

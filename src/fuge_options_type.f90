@@ -9,21 +9,28 @@ module fuge_options_type
 
   public :: check_options
 
-  !> Engines (`method`).
+  !> `method`: for a matrix the active set, or the tableau if the history is kept; for any
+  !> other operator the iteration.
   integer, parameter, public :: FUGE_AUTO = 0
+  !> `method`: the paper's tableau, Phase I of the simplex method.
   integer, parameter, public :: FUGE_TABLEAU = 1
+  !> `method`: block principal pivoting, the fast one for a matrix.
   integer, parameter, public :: FUGE_ACTIVE_SET = 2
+  !> `method`: products only, the fast one for many points.
   integer, parameter, public :: FUGE_ITERATIVE = 3
 
-  !> Pricing of the tableau's entering column (`pivot_rule`).
+  !> `pivot_rule` of the tableau: drive an artificial out, then lowest column number.
   integer, parameter, public :: FUGE_PAPER_RULE = 0
+  !> `pivot_rule` of the tableau: most negative entry of the last row.
   integer, parameter, public :: FUGE_MOST_NEGATIVE = 1
+  !> `pivot_rule` of the tableau: greatest decrease of the sum of artificials.
   integer, parameter, public :: FUGE_GREATEST_DECREASE = 2
 
+  !> How to solve; a new variable has the defaults.
   type, public :: fuge_options
     !> Engine: FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET or FUGE_ITERATIVE.
     integer :: method = FUGE_AUTO
-    !> Pricing of the tableau.
+    !> Pricing of the tableau: FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE or FUGE_GREATEST_DECREASE.
     integer :: pivot_rule = FUGE_PAPER_RULE
     !> Most pivots or contact sets tried; 0 lets the engine choose (50 for each row).
     integer :: max_iterations = 0

@@ -1,4 +1,4 @@
-!> Profiles: heights z over positions x, from a file or from arrays.
+!> Profiles, heights z over positions x, from a file or from arrays.
 !>
 !> Heights are positive upwards. The initial gap of two profiles that face each other,
 !> sampled at the same points, is upper - lower; its datum is free, it moves v_0 only.
@@ -15,8 +15,9 @@ module fuge_profiles
 
   public :: fuge_read_profile, fuge_sample_profile, fuge_level_profile
 
-  !> What is taken off a profile (`form`).
+  !> What is taken off a profile (`form`): the mean height.
   integer, parameter, public :: FUGE_LEVEL_MEAN = 0
+  !> What is taken off a profile (`form`): the least-squares line.
   integer, parameter, public :: FUGE_LEVEL_LINE = 1
 
   !> A point this part of the profile's length beyond its end is taken as the end.

@@ -10,30 +10,55 @@ module fuge_status
 
   public :: fuge_status_text, report
 
+  !> Done, the residual is below the tolerance.
   integer, parameter, public :: FUGE_DONE = 0
+  !> Answer given, but its residual is above the tolerance.
   integer, parameter, public :: FUGE_WARN_RESIDUAL = 1
+  !> Answer given, one of many: the message says in what.
   integer, parameter, public :: FUGE_WARN_NOT_UNIQUE = 2
+  !> A size or range is impossible, or arrays do not fit together.
   integer, parameter, public :: FUGE_ERR_SIZE = -1
+  !> A matrix is not contiguous; in C a pointer is NULL.
   integer, parameter, public :: FUGE_ERR_POINTER = -2
+  !> NaN or infinity in an input.
   integer, parameter, public :: FUGE_ERR_NOT_FINITE = -3
+  !> A cell width or spacing is not positive, or a position is out of its range.
   integer, parameter, public :: FUGE_ERR_WIDTH = -4
+  !> An elastic modulus is not positive, or Poisson's ratio is out of its range.
   integer, parameter, public :: FUGE_ERR_MODULUS = -5
+  !> Unknown element.
   integer, parameter, public :: FUGE_ERR_ELEMENT = -6
+  !> The element is not symmetric on unequal widths, or the grid is not uniform.
   integer, parameter, public :: FUGE_ERR_GRID = -7
+  !> The matrix is not symmetric.
   integer, parameter, public :: FUGE_ERR_NOT_SYMMETRIC = -8
+  !> The matrix is not positive definite where it has to be.
   integer, parameter, public :: FUGE_ERR_NOT_DEFINITE = -9
+  !> No contact forces can be in equilibrium with these resultants.
   integer, parameter, public :: FUGE_ERR_NO_EQUILIBRIUM = -10
+  !> Pivots or contact sets are used up.
   integer, parameter, public :: FUGE_ERR_ITERATION_LIMIT = -11
+  !> An allocation failed.
   integer, parameter, public :: FUGE_ERR_MEMORY = -12
+  !> A call came before the one it needs.
   integer, parameter, public :: FUGE_ERR_CALL_ORDER = -13
+  !> An option has an impossible value.
   integer, parameter, public :: FUGE_ERR_OPTION = -14
+  !> This engine or operator cannot do that.
   integer, parameter, public :: FUGE_ERR_UNSUPPORTED = -15
+  !> Magnitudes leave double precision.
   integer, parameter, public :: FUGE_ERR_OVERFLOW = -16
+  !> An operator's callback failed or gave NaN.
   integer, parameter, public :: FUGE_ERR_CALLBACK = -17
+  !> The progress monitor ended the solve.
   integer, parameter, public :: FUGE_ERR_CANCELLED = -18
+  !> A file cannot be read.
   integer, parameter, public :: FUGE_ERR_FILE = -19
+  !> An upper stop lies below the lower one.
   integer, parameter, public :: FUGE_ERR_GAP = -20
+  !> Rigid motions depend on each other, or move no point.
   integer, parameter, public :: FUGE_ERR_MODES = -21
+  !> A degree of freedom is out of range or named twice.
   integer, parameter, public :: FUGE_ERR_DOF = -22
 
   integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_DOF
@@ -89,12 +114,12 @@ module fuge_status
     !> The certificate: largest scaled violation, see `fuge_residual`.
     real(dp) :: residual = 0.0_dp
   contains
-    !> True for an error: outputs were left untouched.
     procedure :: failed
   end type fuge_info
 
 contains
 
+  !> True for an error: outputs were left untouched.
   pure function failed(self)
     class(fuge_info), intent(in) :: self
     logical :: failed

@@ -11,6 +11,7 @@ module fuge_stiffness_band
   implicit none
   private
 
+  !> A stiffness matrix in LAPACK's symmetric band storage: `set` it, then condense.
   type, extends(fuge_stiffness), public :: fuge_band_stiffness
     private
     !> Columns of the caller's band; rows beyond width + 1 are padding.
@@ -80,6 +81,7 @@ contains
     self%upper = upper
   end subroutine set
 
+  !> Number of degrees of freedom; 0 before `set`.
   pure function degrees(self)
     class(fuge_band_stiffness), intent(in) :: self
     integer :: degrees
@@ -118,6 +120,7 @@ contains
     if (self%upper) offset = self%width + 1 - j
   end function offset
 
+  !> The diagonal of K: `terms` (degrees), force per displacement.
   pure subroutine diagonal(self, terms)
     class(fuge_band_stiffness), intent(in) :: self
     real(dp), intent(out) :: terms(:)
@@ -125,6 +128,7 @@ contains
     terms = self%band(1 + self%offset(1), :)
   end subroutine diagonal
 
+  !> `u` (degrees); `product` = K u and `magnitude` = |K| |u|, (degrees), force.
   pure subroutine multiply(self, u, product, magnitude)
     class(fuge_band_stiffness), intent(in) :: self
     real(dp), intent(in) :: u(:)
@@ -146,6 +150,7 @@ contains
     end do
   end subroutine multiply
 
+  !> Cholesky factor without the rows and columns `held`; arguments as in `fuge_stiffness_type`.
   subroutine factorise(self, held, shift, factor, pivot, weakest, status)
     class(fuge_band_stiffness), intent(in) :: self
     logical, intent(in) :: held(:)

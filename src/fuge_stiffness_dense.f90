@@ -14,6 +14,7 @@ module fuge_stiffness_dense
   !> Side of the square tiles in which the matrix is compared with its transpose.
   integer, parameter :: TILE = 64
 
+  !> A stiffness matrix in full storage: `set` it, then condense.
   type, extends(fuge_stiffness), public :: fuge_dense_stiffness
     !> Columns of the caller's matrix; rows beyond the degrees of freedom are padding.
     real(dp), pointer, contiguous, private :: matrix(:, :) => null()
@@ -59,6 +60,7 @@ contains
     call c_f_pointer(c_loc(matrix(1, 1)), self%matrix, shape(matrix))
   end subroutine set
 
+  !> Number of degrees of freedom; 0 before `set`.
   pure function degrees(self)
     class(fuge_dense_stiffness), intent(in) :: self
     integer :: degrees
@@ -67,6 +69,7 @@ contains
     if (associated(self%matrix)) degrees = size(self%matrix, 2)
   end function degrees
 
+  !> The diagonal of K: `terms` (degrees), force per displacement.
   pure subroutine diagonal(self, terms)
     class(fuge_dense_stiffness), intent(in) :: self
     real(dp), intent(out) :: terms(:)
@@ -77,6 +80,7 @@ contains
     end do
   end subroutine diagonal
 
+  !> `u` (degrees); `product` = K u and `magnitude` = |K| |u|, (degrees), force.
   pure subroutine multiply(self, u, product, magnitude)
     class(fuge_dense_stiffness), intent(in) :: self
     real(dp), intent(in) :: u(:)
@@ -93,6 +97,7 @@ contains
     end do
   end subroutine multiply
 
+  !> Cholesky factor without the rows and columns `held`; arguments as in `fuge_stiffness_type`.
   subroutine factorise(self, held, shift, factor, pivot, weakest, status)
     class(fuge_dense_stiffness), intent(in) :: self
     logical, intent(in) :: held(:)

@@ -26,18 +26,21 @@ module fuge_stiffness_type
   end type fuge_stiffness
 
   abstract interface
+    !> Number of degrees of freedom; 0 before the matrix is set.
     pure function count_degrees(self) result(degrees)
       import :: fuge_stiffness
       class(fuge_stiffness), intent(in) :: self
       integer :: degrees
     end function count_degrees
 
+    !> The diagonal of K: `terms` (degrees), force per displacement.
     pure subroutine get_diagonal(self, terms)
       import :: fuge_stiffness, dp
       class(fuge_stiffness), intent(in) :: self
       real(dp), intent(out) :: terms(:)
     end subroutine get_diagonal
 
+    !> `u` (degrees); `product` = K u and `magnitude` = |K| |u|, (degrees), force.
     pure subroutine multiply_vector(self, u, product, magnitude)
       import :: fuge_stiffness, dp
       class(fuge_stiffness), intent(in) :: self
@@ -45,7 +48,7 @@ module fuge_stiffness_type
       real(dp), intent(out) :: product(:), magnitude(:)
     end subroutine multiply_vector
 
-    !> Each diagonal term is taken 1 + `shift` times. `pivot` is the least pivot relative to
+    !> `held` (degrees): .true. for the rows and columns that are cut out. Each diagonal term is taken 1 + `shift` times. `pivot` is the least pivot relative to
     !> its diagonal term, at the degree of freedom `weakest`; where the matrix is not
     !> definite, pivot <= 0 and `factor` is not allocated. Status: FUGE_DONE or FUGE_ERR_MEMORY.
     subroutine factorise_free(self, held, shift, factor, pivot, weakest, status)
@@ -58,7 +61,7 @@ module fuge_stiffness_type
       integer, intent(out) :: weakest, status
     end subroutine factorise_free
 
-    !> Status: FUGE_DONE or FUGE_ERR_MEMORY.
+    !> `block` (degrees, any number): loads in, displacements out; status: FUGE_DONE or FUGE_ERR_MEMORY.
     subroutine solve_for_block(self, block, status)
       import :: stiffness_factor, dp
       class(stiffness_factor), intent(in) :: self

@@ -1,0 +1,201 @@
+"""Write what FORD makes the site of: prepare.py ROOT WORK
+
+WORK/src gets the public part of the sources, WORK/pages the pages: those of ROOT/doc with the
+front matter that FORD asks for and links that hold in the site, the C headers, the repository's
+files that pages link to, and a list of all names of module fuge.
+"""
+
+import pathlib
+import re
+import shutil
+import sys
+
+from links import LINK, outside_code, targets
+from reduce import PROCEDURE, TYPE, exports, own_exports, reduced
+
+# Modules in the order in which a reader meets them; others follow.
+FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_dense", "fuge_halfplane",
+         "fuge_halfplane_fft", "fuge_edges", "fuge_certificate", "fuge_parametric", "fuge_bodies", "fuge_profiles")
+ROOT_PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
+LANGUAGES = {".f90": "fortran", ".pf": "fortran", ".c": "c", ".h": "c", ".cpp": "cpp", ".py": "python", ".sh": "sh",
+             ".cmake": "cmake", ".md": "markdown"}
+
+
+class Site:
+    """The pages and where each file of the repository is among them."""
+
+    def __init__(self, root, work):
+        self.root, self.work = root, work
+        self.pages = work/"pages"
+        self.place = {}
+        for path in sorted((root/"doc").glob("*.md")):
+            self.place[path] = path.stem
+        for name in ROOT_PAGES:
+            self.place[root/name] = name[:-3].lower()
+        for path in sorted((root/"include").glob("*.h")):
+            self.place[path] = path.name.replace(".", "_")
+
+    def write(self):
+        """All pages; files that they link to become pages too."""
+        self.pages.mkdir(parents=True)
+        for path in list(self.place):
+            if path.suffix == ".h":
+                self.put(path, path.name, header(path.read_text()))
+            else:
+                title, body = split_title(path.read_text())
+                self.put(path, title, self.linked(path, body))
+        self.put_page("fortran", "Fortran interface", interface(self.root))
+        self.put_order()
+
+    def put(self, path, title, body):
+        self.put_page(self.place[path], title, body)
+
+    def put_page(self, name, title, body, more=""):
+        (self.pages/f"{name}.md").write_text(f"---\ntitle: {title}\n{more}---\n\n{body}")
+
+    def put_order(self):
+        """The start page, and the pages in the order in which it names them."""
+        start = self.root/"doc/index.md"
+        named = ["fortran"]
+        for target in targets(start.read_text()):
+            path = (start.parent/target.split("#")[0]).resolve()
+            if self.place.get(path) not in (None, "index", *named):
+                named.append(self.place[path])
+        order = [name for name in named if (self.pages/f"{name}.md").exists()]
+        for path, name in self.place.items():
+            if path.parent == start.parent and name not in order and path != start:
+                print(f"fuge: doc/index.md does not name {path.relative_to(self.root)}", file=sys.stderr)
+        title, body = split_title(start.read_text())
+        front = "".join(f"ordered_subpage: {name}.md\n" for name in order)
+        self.put_page("index", title, self.linked(start, body), front)
+        settings = (self.root/"doc/site/ford.md").read_text()
+        body = self.linked(start, body, "page/")
+        version = re.search(r'FUGE_VERSION "(.*)"', (self.root/"include/fuge.h").read_text()).group(1)
+        settings = settings.replace("project: fuge\n", f"project: fuge\nversion: {version}\n")
+        (self.work/"ford.md").write_text(settings + "\n" + body)
+
+    def linked(self, page, text, prefix=""):
+        """The text with links to files replaced by links to pages."""
+        def replace(match):
+            target, _, anchor = match.group(2).partition("#")
+            if "://" in target or not target:
+                return match.group(0)
+            path = (page.parent/target).resolve()
+            name = self.picture(path) if path.suffix in (".png", ".svg") else f"{self.page_of(path)}.html"
+            return f"{match.group(1)}({prefix}{name}{'#' + anchor if anchor else ''})"
+        return outside_code(text, lambda part: LINK.sub(replace, part))
+
+    def picture(self, path):
+        if path.exists():
+            shutil.copy(path, self.pages/path.name)
+        return path.name
+
+    def page_of(self, path):
+        """The page of a file; one with its text, or its names if it is a folder, is made where there is none."""
+        if path not in self.place:
+            short = str(path.relative_to(self.root))
+            name = "file_" + re.sub(r"\W", "_", short)
+            self.place[path] = name
+            if path.is_dir():
+                body = "".join(f"- {item.name}\n" for item in sorted(path.iterdir()))
+            elif path.exists():
+                body = code(path.read_text(), LANGUAGES.get(path.suffix, "text"))
+            else:
+                raise SystemExit(f"fuge: a page links to {short}, which is not there")
+            self.put(path, short, body)
+        return self.place[path]
+
+
+def split_title(text):
+    """The heading of a page, and what follows."""
+    title, _, body = text.partition("\n")
+    if not title.startswith("# "):
+        raise SystemExit(f"fuge: a page begins with '{title}' in place of a heading")
+    return title[2:].strip(), body
+
+
+def code(text, language):
+    return f"~~~{language}\n{text.rstrip()}\n~~~\n"
+
+
+def header(text):
+    """A C header: its sections as headings, between them the code as it is."""
+    parts = re.split(r"^/\* ---- (.*?) -+(?: \*/)?\n", text, flags=re.M)
+    body = "[TOC]\n\n" + code(parts[0], "c")
+    for name, part in zip(parts[1::2], parts[2::2]):
+        # A section's comment may go on below its heading.
+        opened = part.lstrip().startswith("*") and not part.lstrip().startswith("*/")
+        body += f"\n## {name[:1].upper() + name[1:]}\n\n" + code(("/*\n" if opened else "") + part.strip("\n"), "c")
+    return body
+
+
+def first_sentence(doc):
+    text = " ".join(line.strip()[2:].strip() for line in doc)
+    text = text.split("  ")[0]
+    return re.split(r"(?<=[.:;])\s", text)[0].rstrip(":;") if text else ""
+
+
+def described(source):
+    """What is said about each name of a source: kind and first sentence."""
+    found, doc, group = {}, [], []
+    for line in source.split("\n"):
+        if line.lstrip().startswith("!>"):
+            doc.append(line)
+            continue
+        constant = re.match(r"\s*integer, parameter, public\s*::\s*(\w+)", line)
+        if PROCEDURE.match(line):
+            found[PROCEDURE.match(line).group(2)] = (PROCEDURE.match(line).group(1), first_sentence(doc))
+        elif TYPE.match(line):
+            found[TYPE.match(line).group(1)] = ("type", first_sentence(doc))
+        elif constant:
+            group = doc or group
+            found[constant.group(1)] = ("constant", first_sentence(group))
+        elif re.match(r"module (\w+)", line):
+            found[""] = ("module", first_sentence(doc))
+        doc = []
+    return found
+
+
+def interface(root):
+    """A table for each module that module fuge takes names from, and for fuge_sparse."""
+    taken = exports((root/"src/fuge.f90").read_text())
+    order = [name for name in FIRST if name in taken] + [name for name in taken if name not in FIRST]
+    body = "`use fuge` gives all names of this page but those of fuge_sparse. Grouped by the module in which they stand.\n"
+    for module, path, names in public_modules(root, order, taken):
+        found = described(path.read_text())
+        body += f"\n## {module}\n\n{found[''][1]}\n\n| name | | |\n| --- | --- | --- |\n"
+        for name in names:
+            kind, text = found[name]
+            shown = f"[{name}](../module/{module}.html)" if kind == "constant" else f"[[{name}]]"
+            body += f"| {shown} | {kind} | {text} |\n"
+    return body
+
+
+def public_modules(root, order, taken):
+    for module in order:
+        yield module, root/f"src/{module}.f90", taken[module]
+    sparse = root/"sparse/fuge_sparse.f90"
+    yield "fuge_sparse", sparse, own_exports(sparse.read_text())
+
+
+def write_sources(root, work):
+    (work/"src").mkdir(parents=True)
+    facade = root/"src/fuge.f90"
+    taken = exports(facade.read_text())
+    shutil.copy(facade, work/"src")
+    for _, path, names in public_modules(root, list(taken), taken):
+        (work/"src"/path.name).write_text(reduced(path.read_text(), set(names)))
+
+
+def main():
+    root, work = (pathlib.Path(name).resolve() for name in sys.argv[1:3])
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    write_sources(root, work)
+    Site(root, work).write()
+    shutil.copytree(root/"doc/site/templates", work/"templates")
+    shutil.copy(root/"doc/site/site.css", work)
+
+
+if __name__ == "__main__":
+    main()
