@@ -32,6 +32,7 @@ class Site:
             self.place[path] = path.stem
         for name in ROOT_PAGES:
             self.place[root/name] = name[:-3].lower()
+        self.place[root/"src/fuge.f90"] = "fortran"
         for path in sorted((root/"include").glob("*.h")):
             self.place[path] = path.name.replace(".", "_")
 
@@ -39,12 +40,13 @@ class Site:
         """All pages; files that they link to become pages too."""
         self.pages.mkdir(parents=True)
         for path in list(self.place):
-            if path.suffix == ".h":
+            if path.suffix == ".f90":
+                self.put(path, "Fortran interface", interface(self.root))
+            elif path.suffix == ".h":
                 self.put(path, path.name, header(path.read_text()))
             else:
                 title, body = split_title(path.read_text())
                 self.put(path, title, self.linked(path, body))
-        self.put_page("fortran", "Fortran interface", interface(self.root))
         self.put_order()
 
     def put(self, path, title, body):
@@ -56,14 +58,15 @@ class Site:
     def put_order(self):
         """The start page, and the pages in the order in which it names them."""
         start = self.root/"doc/index.md"
-        named = ["fortran"]
+        named = []
         for target in targets(start.read_text()):
             path = (start.parent/target.split("#")[0]).resolve()
             if self.place.get(path) not in (None, "index", *named):
                 named.append(self.place[path])
-        order = [name for name in named if (self.pages/f"{name}.md").exists()]
+        # Files come last.
+        order = sorted(named, key=lambda name: name.startswith("file_"))
         for path, name in self.place.items():
-            if path.parent == start.parent and name not in order and path != start:
+            if path.parent == start.parent and path != start and name not in order:
                 print(f"fuge: doc/index.md does not name {path.relative_to(self.root)}", file=sys.stderr)
         title, body = split_title(start.read_text())
         front = "".join(f"ordered_subpage: {name}.md\n" for name in order)
@@ -132,12 +135,12 @@ def header(text):
 def first_sentence(doc):
     text = " ".join(line.strip()[2:].strip() for line in doc)
     text = text.split("  ")[0]
-    return re.split(r"(?<=[.:;])\s", text)[0].rstrip(":;") if text else ""
+    return re.split(r"(?<=\.)\s", text)[0].rstrip(":") if text else ""
 
 
 def described(source):
     """What is said about each name of a source: kind and first sentence."""
-    found, doc, group = {}, [], []
+    found, doc = {}, []
     for line in source.split("\n"):
         if line.lstrip().startswith("!>"):
             doc.append(line)
@@ -148,8 +151,7 @@ def described(source):
         elif TYPE.match(line):
             found[TYPE.match(line).group(1)] = ("type", first_sentence(doc))
         elif constant:
-            group = doc or group
-            found[constant.group(1)] = ("constant", first_sentence(group))
+            found[constant.group(1)] = ("constant", first_sentence(doc))
         elif re.match(r"module (\w+)", line):
             found[""] = ("module", first_sentence(doc))
         doc = []
