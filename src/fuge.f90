@@ -1,4 +1,4 @@
-!> fuge: frictionless elastic contact. This is the whole public interface.
+!> The whole public interface of fuge, frictionless elastic contact.
 module fuge
   use fuge_bodies, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
     FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS

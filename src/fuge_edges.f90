@@ -87,10 +87,12 @@ contains
   !> gap has to be the mean over the cell too; if it is the gap at the centre, say
   !> FUGE_HAT, whose forces are the same. Where an edge cannot be refined it is the
   !> outer edge of the last cell with a force, and its kind says why:
-  !>   FUGE_EDGE_FEW_CELLS  fewer than five cells in contact;
-  !>   FUGE_EDGE_SINGULAR   the pressure does not fall like a square root there, as
-  !>                        under a corner;
-  !>   FUGE_EDGE_GRID_END   contact reaches the last cell of the grid.
+  !>
+  !> - FUGE_EDGE_FEW_CELLS: fewer than five cells in contact;
+  !> - FUGE_EDGE_SINGULAR: the pressure does not fall like a square root there, as under
+  !>   a corner;
+  !> - FUGE_EDGE_GRID_END: contact reaches the last cell of the grid.
+  !>
   !> A grid is not taken as periodic. No force is no interval.
   !> Errors, `intervals` untouched: those of `fuge_halfplane_matrix` for the cells;
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE for force; FUGE_ERR_GRID for a grid not uniform.

@@ -9,10 +9,11 @@
 !>
 !> All elements are one function, the mean of ln|d + s - t| over s in a cell of
 !> one width and t in a cell of another:
-!>   FUGE_CENTRE  a uniform strip seen at a point: widths 0 and w;
-!>   FUGE_MEAN    a uniform strip seen by a cell: widths w_i and w_j;
-!>   FUGE_HAT     a hat of half-base w seen at a point: widths w and w, since the
-!>                hat is the convolution of two uniform strips.
+!>
+!> - FUGE_CENTRE: a uniform strip seen at a point, widths 0 and w;
+!> - FUGE_MEAN: a uniform strip seen by a cell, widths w_i and w_j;
+!> - FUGE_HAT: a hat of half-base w seen at a point, widths w and w, since the hat is the
+!>   convolution of two uniform strips.
 module fuge_halfplane
   use fuge_check, only: check_finite
   use fuge_kinds, only: dp

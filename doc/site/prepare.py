@@ -10,8 +10,9 @@ import re
 import shutil
 import sys
 
+from dialect import for_markdown
 from links import LINK, outside_code, targets
-from reduce import PROCEDURE, TYPE, exports, own_exports, reduced
+from reduce import PROCEDURE, TYPE, exports, own_exports, reduced, without_uses
 
 # Modules in the order in which a reader meets them; others follow.
 FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_dense", "fuge_halfplane",
@@ -86,7 +87,7 @@ class Site:
             path = (page.parent/target).resolve()
             name = self.picture(path) if path.suffix in (".png", ".svg") else f"{self.page_of(path)}.html"
             return f"{match.group(1)}({prefix}{name}{'#' + anchor if anchor else ''})"
-        return outside_code(text, lambda part: LINK.sub(replace, part))
+        return for_markdown(outside_code(text, lambda part: LINK.sub(replace, part)))
 
     def picture(self, path):
         if path.exists():
@@ -162,7 +163,8 @@ def interface(root):
     """A table for each module that module fuge takes names from, and for fuge_sparse."""
     taken = exports((root/"src/fuge.f90").read_text())
     order = [name for name in FIRST if name in taken] + [name for name in taken if name not in FIRST]
-    body = "`use fuge` gives all names of this page but those of fuge_sparse. Grouped by the module in which they stand.\n"
+    body = ("`use fuge` gives all names of this page but those of fuge_sparse. They are grouped by the module in which "
+            "they stand.\n")
     for module, path, names in public_modules(root, order, taken):
         found = described(path.read_text())
         body += f"\n## {module}\n\n{found[''][1]}\n\n| name | | |\n| --- | --- | --- |\n"
@@ -184,9 +186,12 @@ def write_sources(root, work):
     (work/"src").mkdir(parents=True)
     facade = root/"src/fuge.f90"
     taken = exports(facade.read_text())
-    shutil.copy(facade, work/"src")
+    more = "!> All names, by subject: [Fortran interface](|page|/fortran.html).\n"
+    text = facade.read_text().replace("\nmodule fuge\n", f"\n{more}module fuge\n")
+    (work/"src/fuge.f90").write_text(text)
     for _, path, names in public_modules(root, list(taken), taken):
-        (work/"src"/path.name).write_text(reduced(path.read_text(), set(names)))
+        text = without_uses(reduced(path.read_text(), set(names)), [*taken, "fuge_sparse"])
+        (work/"src"/path.name).write_text(for_markdown(text, "!>"))
 
 
 def main():

@@ -105,7 +105,15 @@ def reduced(source, keep):
             name = PROCEDURE.match(block[0]) if block else None
             if name and (name.group(2) in keep or name.group(2) in bound):
                 out += [""] + doc + block
-    return "\n".join(out + [""] + lines[end:])
+    return "\n".join(out + [""] + lines[end:]) + "\n"
+
+
+def without_uses(source, modules):
+    """The source without `use` of modules that have no page."""
+    def keep(match):
+        return match.group(0) if match.group(1) in modules else ""
+    return re.sub(r"^ *use\b(?:, *intrinsic *::)? *(\w+)[^\n]*(?:(?<=&)\n[^\n]*)*\n", keep, source, flags=re.M)
+
 
 
 def _specification(doc, block, keep):

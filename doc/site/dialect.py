@@ -1,0 +1,53 @@
+"""Text that Python's Markdown, which FORD uses, reads as forges do."""
+
+import re
+
+
+class _State:
+    """Where a line is."""
+
+    def __init__(self):
+        self.fenced = False   # in a block between ``` or ~~~
+        self.listed = False   # in a list
+        self.loose = False    # after an empty line in the present item
+        self.before = ""      # the line before, without empty lines in a block of code
+
+
+def for_markdown(text, mark=""):
+    """The text with an empty line before lists, four spaces below their items, and a language for formulas.
+
+    Elsewhere a list needs no empty line and an item two spaces; the language of indented blocks
+    would be guessed to colour them, but they are formulas. With a `mark` only lines that begin
+    with it are text, a docstring.
+    """
+    out, state = [], _State()
+    for line in text.split("\n"):
+        if not line.lstrip().startswith(mark):
+            state = _State()
+            out.append(line)
+            continue
+        head = line[:len(line) - len(line.lstrip()) + len(mark)] + " " if mark else ""
+        out.extend((head + body).rstrip() for body in _lines(line[len(head):], state))
+    return "\n".join(out)
+
+
+def _lines(body, state):
+    """A line of text, and what has to be before it."""
+    state.fenced ^= body.startswith(("```", "~~~"))
+    if state.fenced:
+        state.before = body
+        return [body]
+    added = []
+    item = bool(re.match(r"[-*] |1\. ", body) or (state.listed and re.match(r"\d+\. ", body)))
+    if item and state.before.strip() and (state.loose or not state.listed):
+        added.append("")
+    state.loose = not item and (state.loose or not body.strip())
+    state.listed = item or (state.listed and (body.startswith("  ") or not body.strip()))
+    if state.listed and body.startswith("  "):
+        body = "  " + body
+    code = "        " if state.listed else "    "
+    if body.startswith(code) and not state.before.strip():
+        added.append(code + ":::text")
+    if body.strip() or not state.before.startswith(code):
+        state.before = body
+    return [*added, body]
