@@ -48,9 +48,10 @@ module fuge_stiffness_type
       real(dp), intent(out) :: product(:), magnitude(:)
     end subroutine multiply_vector
 
-    !> `held` (degrees): .true. for the rows and columns that are cut out. Each diagonal term is taken 1 + `shift` times. `pivot` is the least pivot relative to
-    !> its diagonal term, at the degree of freedom `weakest`; where the matrix is not
-    !> definite, pivot <= 0 and `factor` is not allocated. Status: FUGE_DONE or FUGE_ERR_MEMORY.
+    !> `held` (degrees): .true. for the rows and columns that are cut out. Each diagonal term
+    !> is taken 1 + `shift` times. `pivot` is the least pivot relative to its diagonal term, at
+    !> the degree of freedom `weakest`; where the matrix is not definite, pivot <= 0 and
+    !> `factor` is not allocated. Status: FUGE_DONE or FUGE_ERR_MEMORY.
     subroutine factorise_free(self, held, shift, factor, pivot, weakest, status)
       import :: fuge_stiffness, stiffness_factor, dp
       class(fuge_stiffness), intent(in) :: self
