@@ -18,7 +18,7 @@ from reduce import PROCEDURE, TYPE, exports, own_exports, reduced, without_uses
 FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_dense", "fuge_halfplane",
          "fuge_halfplane_fft", "fuge_edges", "fuge_certificate", "fuge_parametric", "fuge_bodies", "fuge_profiles")
 ROOT_PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
-LANGUAGES = {".f90": "fortran", ".pf": "fortran", ".c": "c", ".h": "c", ".cpp": "cpp", ".py": "python", ".sh": "sh",
+LANGUAGES = {".f90": "fortran", ".f": "fortranfixed", ".pf": "fortran", ".c": "c", ".h": "c", ".cpp": "cpp", ".py": "python", ".sh": "sh",
              ".cmake": "cmake", ".md": "markdown"}
 
 
