@@ -14,9 +14,21 @@ import urllib.parse
 LINK = re.compile(r"(\[(?:[^\[\]]|\[[^\]]*\]\([^)]*\))*\])\(([^)\s]+)\)")
 
 
+BLOCK = r"^(?:```|~~~).*?^(?:```|~~~)[ \t]*$|^(?: {4}|\t)[^\n]*$"
+
+
 def outside_code(text, change):
     """The text with `change` applied to what is not code."""
-    parts = re.split(r"(^(?:```|~~~).*?^(?:```|~~~)[ \t]*$|^(?: {4}|\t)[^\n]*$|`[^`\n]*`)", text, flags=re.M | re.S)
+    return _outside(BLOCK + r"|`[^`\n]*`", text, change)
+
+
+def outside_blocks(text, change):
+    """The text with `change` applied to what is not a block of code."""
+    return _outside(BLOCK, text, change)
+
+
+def _outside(code, text, change):
+    parts = re.split(f"({code})", text, flags=re.M | re.S)
     return "".join(part if k % 2 else change(part) for k, part in enumerate(parts))
 
 

@@ -11,15 +11,17 @@ import shutil
 import sys
 
 from dialect import for_markdown
-from links import LINK, outside_code, targets
+from links import LINK, outside_blocks, outside_code, targets
 from reduce import PROCEDURE, TYPE, exports, own_exports, reduced, without_uses
 
 # Modules in the order in which a reader meets them; others follow.
 FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_dense", "fuge_halfplane",
          "fuge_halfplane_fft", "fuge_edges", "fuge_certificate", "fuge_parametric", "fuge_bodies", "fuge_profiles")
+# A name of fuge as code that is no link yet.
+NAME = re.compile(r"(?<!\[)`(fuge_\w+)`(?!\])")
 ROOT_PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
-LANGUAGES = {".f90": "fortran", ".f": "fortranfixed", ".pf": "fortran", ".c": "c", ".h": "c", ".cpp": "cpp", ".py": "python", ".sh": "sh",
-             ".cmake": "cmake", ".md": "markdown"}
+LANGUAGES = {".f90": "fortran", ".f": "fortranfixed", ".pf": "fortran", ".c": "c", ".h": "c", ".cpp": "cpp",
+             ".py": "python", ".sh": "sh", ".cmake": "cmake", ".md": "markdown"}
 
 
 class Site:
@@ -28,6 +30,7 @@ class Site:
     def __init__(self, root, work):
         self.root, self.work = root, work
         self.pages = work/"pages"
+        self.names = public_names(root)
         self.place = {}
         for path in sorted((root/"doc").glob("*.md")):
             self.place[path] = path.stem
@@ -87,7 +90,12 @@ class Site:
             path = (page.parent/target).resolve()
             name = self.picture(path) if path.suffix in (".png", ".svg") else f"{self.page_of(path)}.html"
             return f"{match.group(1)}({prefix}{name}{'#' + anchor if anchor else ''})"
-        return for_markdown(outside_code(text, lambda part: LINK.sub(replace, part)))
+        def refer(match):
+            name = match.group(1)
+            up = "" if prefix else "../"
+            return f"[`{name}`]({up}{self.names[name]}/{name}.html)" if name in self.names else match.group(0)
+        text = outside_code(text, lambda part: LINK.sub(replace, part))
+        return for_markdown(outside_blocks(text, lambda part: NAME.sub(refer, part)))
 
     def picture(self, path):
         if path.exists():
@@ -182,8 +190,24 @@ def public_modules(root, order, taken):
     yield "fuge_sparse", sparse, own_exports(sparse.read_text())
 
 
+def public_names(root):
+    """In which folder of the site each public procedure and type has its page."""
+    taken = exports((root/"src/fuge.f90").read_text())
+    found = {}
+    for _, path, names in public_modules(root, list(taken), taken):
+        said = described(path.read_text())
+        found.update({name: "type" if said[name][0] == "type" else "proc"
+                      for name in names if said[name][0] != "constant"})
+    return found
+
+
 def write_sources(root, work):
     (work/"src").mkdir(parents=True)
+    known = public_names(root)
+
+    def refer(match):
+        return f"[[{match.group(1)}]]" if match.group(1) in known else match.group(0)
+
     facade = root/"src/fuge.f90"
     taken = exports(facade.read_text())
     more = "!> All names, by subject: [Fortran interface](|page|/fortran.html).\n"
@@ -191,6 +215,7 @@ def write_sources(root, work):
     (work/"src/fuge.f90").write_text(text)
     for _, path, names in public_modules(root, list(taken), taken):
         text = without_uses(reduced(path.read_text(), set(names)), [*taken, "fuge_sparse"])
+        text = re.sub(r"^ *!>.*$", lambda line: NAME.sub(refer, line.group(0)), text, flags=re.M)
         (work/"src"/path.name).write_text(for_markdown(text, "!>"))
 
 
