@@ -50,6 +50,7 @@ module fuge_smooth_contact_type
 
 contains
 
+  !> At one `x`, length: force per length squared; 0 outside of the contact.
   pure function pressure_at(self, x) result(pressure)
     class(fuge_smooth_contact), intent(in) :: self
     real(dp), intent(in) :: x
@@ -60,6 +61,7 @@ contains
     pressure = one(1)
   end function pressure_at
 
+  !> At several `x`, length: (size(x)), force per length squared; 0 outside of the contact.
   pure function pressures_at(self, x) result(pressure)
     class(fuge_smooth_contact), intent(in) :: self
     real(dp), intent(in) :: x(:)
@@ -72,6 +74,7 @@ contains
     pressure = sqrt((1.0_dp - t)*(1.0_dp + t))*second_kind_sum(self%coefficients, t)
   end function pressures_at
 
+  !> At one `x`, length, where the initial gap is `initial_gap`, length.
   pure function gap_at(self, x, initial_gap) result(gap)
     class(fuge_smooth_contact), intent(in) :: self
     real(dp), intent(in) :: x, initial_gap
@@ -82,6 +85,8 @@ contains
     gap = one(1)
   end function gap_at
 
+  !> At several `x`, length, where the initial gaps are `initial_gap` (size(x)), length.
+  !>
   !> The slope of the gap outside is g' - tilt - sum_k (2 c_(k-1)/E*) w**k, k >= 1, whose
   !> integral over t from the end is known term by term.
   pure function gaps_at(self, x, initial_gap) result(gap)

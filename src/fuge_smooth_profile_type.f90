@@ -38,7 +38,9 @@ module fuge_smooth_profile_type
   !> Initial gap sum_k coefficients(k + 1) (x - centre)**k, k = 0, 1, ..; set the
   !> components by name.
   type, extends(fuge_smooth_profile), public :: fuge_polynomial_profile
+    !> Where the powers are zero; length.
     real(dp) :: centre = 0.0_dp
+    !> From the power 0 on, (degree + 1); length over its powers.
     real(dp), allocatable :: coefficients(:)
   contains
     procedure :: evaluate => evaluate_polynomial
@@ -82,6 +84,8 @@ contains
     end do
   end subroutine sample_profile
 
+  !> `x` length; `gap` (size(x)) length and `slope` (size(x)). `status`: FUGE_DONE or
+  !> FUGE_ERR_CALL_ORDER without coefficients.
   subroutine evaluate_polynomial(self, x, gap, slope, status)
     class(fuge_polynomial_profile), intent(in) :: self
     real(dp), intent(in) :: x(:)
@@ -139,6 +143,8 @@ contains
     self%derivative = chebyshev_derivative(self%height)
   end subroutine set_heights
 
+  !> `x` length; `gap` (size(x)) length and `slope` (size(x)). `status`: FUGE_DONE or
+  !> FUGE_ERR_CALL_ORDER before `set`.
   subroutine evaluate_samples(self, x, gap, slope, status)
     class(fuge_sampled_profile), intent(in) :: self
     real(dp), intent(in) :: x(:)
