@@ -71,7 +71,7 @@ int fuge_body_set_contact(fuge_body *body, int n, int width, const int *dof, con
 /* Condense: one Cholesky factorisation and n solves.  FUGE_ERR_DOF, FUGE_ERR_NOT_SYMMETRIC,
  * FUGE_ERR_NOT_DEFINITE (the message names the degree of freedom), FUGE_ERR_MODES,
  * FUGE_ERR_NO_EQUILIBRIUM (a load that no contact can hold); FUGE_WARN_RESIDUAL if K is so
- * near to singular that six or fewer digits of alpha are left. */
+ * near to singular that few digits of alpha may be left. */
 int fuge_condense(fuge_body *body);
 
 /* Influence matrix, n x n, lda >= n: for fuge_operator_dense. */

@@ -2,6 +2,7 @@
 module fuge_c_sparse
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_associated, c_f_pointer
   use fuge_c_body, only: stiffness_source, hand_over_body
+  use fuge_c_types, only: from_zero
   use fuge_sparse, only: fuge_sparse_stiffness
   use fuge_status, only: fuge_info, FUGE_ERR_POINTER, FUGE_ERR_SIZE
   use fuge_stiffness_type, only: fuge_stiffness
@@ -45,7 +46,7 @@ contains
     type(fuge_sparse_stiffness), allocatable :: sparse
 
     allocate (sparse)
-    call sparse%set(int(self%column) + 1, int(self%row) + 1, self%value, info)
+    call sparse%set(from_zero(self%column), from_zero(self%row), self%value, info)
     call move_alloc(sparse, stiffness)
   end subroutine take
 

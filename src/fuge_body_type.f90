@@ -1,9 +1,10 @@
 !> An elastic body beside its stiffness: supports, load, rigid motions, contact points; and
 !> the check of these data.
 module fuge_body_type
-  use fuge_check, only: check_finite
+  use fuge_check, only: check_finite, LARGEST_EXPONENT
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_OPTION
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
+    FUGE_ERR_OVERFLOW
   use fuge_text, only: text
   implicit none
   private
@@ -63,6 +64,7 @@ contains
                   //text(degrees)//' degrees of freedom')
     else
       call check_finite(load, 'load', info)
+      if (.not. info%failed()) call check_size(load, 'load', LARGEST_EXPONENT, info)
     end if
   end subroutine check_load_field
 
@@ -73,7 +75,9 @@ contains
     integer, allocatable :: place(:)
     integer :: k, stat
 
-    if (.not. allocated(body%fixed)) return
+    if (allocated(body%displacement) .and. .not. allocated(body%fixed)) call report(info, FUGE_ERR_SIZE, &
+      'displacement is given, but fixed is not: displacements belong to fixed degrees of freedom')
+    if (.not. allocated(body%fixed) .or. info%failed()) return
     if (allocated(body%displacement)) then
       if (size(body%displacement) /= size(body%fixed)) then
         call report(info, FUGE_ERR_SIZE, 'displacement has '//text(size(body%displacement))//' value(s): it needs ' &
@@ -135,6 +139,8 @@ contains
     integer :: k
 
     call check_finite(normal, 'contact point '//text(i)//': normal', info)
+    ! Squared in alpha.
+    if (.not. info%failed()) call check_size(normal, 'contact point '//text(i)//': normal', LARGEST_EXPONENT/4, info)
     if (info%failed()) return
     do k = 1, size(dof)
       if (dof(k) < 0 .or. dof(k) > degrees) then
@@ -149,6 +155,23 @@ contains
     if (.not. any(dof > 0 .and. abs(normal) > 0.0_dp)) call report(info, FUGE_ERR_DOF, 'contact point '//text(i) &
       //' moves with no degree of freedom: its dof or its normal is zero')
   end subroutine check_point
+
+  !> Refuse numbers that are not zero and out of the range of 2**-`most` .. 2**`most`
+  !> (FUGE_ERR_OVERFLOW).
+  pure subroutine check_size(values, name, most, info)
+    real(dp), intent(in) :: values(:)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: most
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    do k = 1, size(values)
+      if (.not. abs(values(k)) > 0.0_dp .or. abs(exponent(values(k))) <= most) cycle
+      call report(info, FUGE_ERR_OVERFLOW, name//'('//text(k)//') = '//text(values(k))//' is out of range: ' &
+                  //'choose other units')
+      return
+    end do
+  end subroutine check_size
 
   !> Refuse points that move alike: their forces could not be told apart. Only points with
   !> the same lowest degree of freedom are compared.
@@ -171,7 +194,8 @@ contains
       do while (j > 0)
         if (move_alike(body%dof(:, i), body%normal(:, i), body%dof(:, j), body%normal(:, j))) then
           call report(info, FUGE_ERR_DOF, 'contact points '//text(j)//' and '//text(i)//' are the same: both move ' &
-                      //'degree of freedom '//text(low)//' in the same direction; name the point once')
+                      //'degree of freedom '//text(low)//' along one line; name the point once, for two stops with ' &
+                      //'gap_upper')
           return
         end if
         j = before(j)

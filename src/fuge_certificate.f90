@@ -170,7 +170,8 @@ contains
     real(dp), intent(in) :: length(:)
     logical, intent(in) :: counts(:)
     type(fuge_violation), intent(inout) :: violation
-    real(dp) :: largest, own, noise, upper, stop_distance, of_body(size(length))
+    real(dp), allocatable :: of_body(:)
+    real(dp) :: largest, own, noise, upper, stop_distance
     integer :: k
 
     violation%sign = 0.0_dp
@@ -178,10 +179,10 @@ contains
     largest = maxval(abs(solution%force))
     noise = ROUNDINGS*epsilon(noise)*largest
     upper = huge(upper)
-    of_body = largest
+    own = largest
     if (allocated(problem%modes)) of_body = largest_of_bodies(problem%modes, abs(solution%force))
     do k = 1, size(length)
-      own = of_body(k)
+      if (allocated(of_body)) own = of_body(k)
       if (.not. own > 0.0_dp) own = largest
       associate (f => solution%force(k), c => solution%gap(k))
         if (.not. counts(k)) then

@@ -14,27 +14,30 @@
 !> as sliding along a flat one, is left out; nothing may drive it.
 module fuge_condensation
   use fuge_body_type, only: fuge_body, check_body, check_load_field
-  use fuge_contact_points, only: add_force, add_contact_forces, check_free_points, moved, &
-    softness
-  use fuge_felt_motions, only: split_motions
+  use fuge_check, only: check_finite, is_finite_everywhere
+  use fuge_contact_points, only: add_force, add_contact_forces, check_free_points, keep_off, &
+    moved, softness
+  use fuge_felt_motions, only: split_motions, modes_of_points, work_of_load, check_sliding, ROUNDED
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_rigid_motions, only: find_motions, check_motions, choose_pins, unit_at_pins
+  use fuge_softest_motion, only: find_softest_motion, unscale
   use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
-    FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_DONE
+    FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, FUGE_DONE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   use fuge_text, only: text
   implicit none
   private
 
-  public :: fuge_condense
+  public :: fuge_condense, condense_to_recover
 
   !> Right-hand sides that are solved together.
   integer, parameter :: BLOCK = 64
   !> A pivot below so many roundings of its diagonal term is none.
   real(dp), parameter :: NO_PIVOT = 16.0_dp*epsilon(1.0_dp)
-  !> Below, fewer than some six digits of the influence matrix are left.
-  real(dp), parameter :: WEAK_PIVOT = 1.0e6_dp*epsilon(1.0_dp)
+  !> Below, the softest motion lets less than some four digits be promised; often there
+  !> are two or three more.
+  real(dp), parameter :: SOFT = 1.0e4_dp*epsilon(1.0_dp)
   !> Largest residual of K u = forces that counts as solved, relative to its parts.
   real(dp), parameter :: SOLVED = 1.0e-10_dp
 
@@ -53,13 +56,13 @@ module fuge_condensation
     type(fuge_body), private :: body
     !> Supports and pins.
     logical, allocatable, private :: held(:)
-    !> Square root of the diagonal of K, by which degrees of freedom of any unit compare.
+    !> Square root of the diagonal of K, by which degrees of freedom of any unit compare; zero
+    !> where fixed.
     real(dp), allocatable, private :: scale(:)
     !> Z of `modes`, and those motions that move no contact point, (degrees, ..).
     real(dp), allocatable, private :: motions(:, :), sliding(:, :)
-    !> Motions of the contact points below this fraction of the body's are none, and so are
-    !> loads that drive them.
-    real(dp), private :: still = 1.0e-8_dp
+    !> Relative error of the motions.
+    real(dp), private :: error = ROUNDED
     !> u_p, (degrees).
     real(dp), allocatable, private :: by_load(:)
   contains
@@ -76,8 +79,8 @@ contains
   !> `stiffness` is any extension of fuge_stiffness, set before; of a dense or band matrix
   !> only the reference is kept, for `recover`. Cost: one Cholesky factorisation, and n
   !> solves with it in blocks of 64. `condensed` is replaced when done or warned.
-  !> Warning: FUGE_WARN_RESIDUAL where K is so near to singular that six or fewer digits of
-  !> alpha are left. Errors, which name the degree of freedom or the point:
+  !> Warning: FUGE_WARN_RESIDUAL where K is so near to singular that few digits of alpha may
+  !> be left. Errors, which name the degree of freedom or the point:
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MODES, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM for a
   !> load along a motion that no contact can hold, FUGE_ERR_MEMORY.
@@ -86,8 +89,30 @@ contains
     type(fuge_body), intent(in) :: body
     type(fuge_condensed), intent(inout) :: condensed
     type(fuge_info), intent(out) :: info
+
+    call condense(stiffness, body, .true., condensed, info)
+  end subroutine fuge_condense
+
+  !> The same without alpha and its n solves, for who knows the contact forces already and
+  !> wants `recover` only: the pins are those of `fuge_condense` for the same body.
+  subroutine condense_to_recover(stiffness, body, condensed, info)
+    class(fuge_stiffness), intent(in) :: stiffness
+    type(fuge_body), intent(in) :: body
+    type(fuge_condensed), intent(inout) :: condensed
+    type(fuge_info), intent(out) :: info
+
+    call condense(stiffness, body, .false., condensed, info)
+  end subroutine condense_to_recover
+
+  subroutine condense(stiffness, body, with_alpha, condensed, info)
+    class(fuge_stiffness), intent(in) :: stiffness
+    type(fuge_body), intent(in) :: body
+    logical, intent(in) :: with_alpha
+    type(fuge_condensed), intent(inout) :: condensed
+    type(fuge_info), intent(out) :: info
     type(fuge_condensed) :: made
     type(fuge_info) :: warning
+    integer, allocatable :: pins(:)
     integer :: stat
 
     if (stiffness%degrees() < 1) then
@@ -99,10 +124,13 @@ contains
     allocate (made%stiffness, source=stiffness, stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the stiffness')
     made%body = body
-    if (.not. info%failed()) call hold(made, info)
+    if (.not. info%failed()) call hold(made, pins, info)
     if (.not. info%failed()) call factorise(made, info)
     warning = info
-    if (.not. info%failed()) call find_alpha(made, info)
+    if (made%body%floats .and. .not. info%failed()) then
+      call unit_at_pins(made%stiffness, made%factor, made%held, pins, made%motions, info)
+    end if
+    if (with_alpha .and. .not. info%failed()) call find_alpha(made, info)
     if (.not. info%failed()) call find_modes(made, info)
     if (.not. info%failed()) call apply_load(made, info)
     if (.not. info%failed()) then
@@ -111,7 +139,7 @@ contains
       call take(made, condensed)
     end if
     call made%clear()
-  end subroutine fuge_condense
+  end subroutine condense
 
   !> Another external load on the same body: `displacement` and `resultant` follow, with one
   !> solve.
@@ -173,7 +201,7 @@ contains
     real(dp), intent(inout) :: u(:)
     type(fuge_info), intent(out) :: info
     real(dp), allocatable :: field(:, :), forces(:)
-    integer :: stat
+    integer :: j, stat
 
     call check_recovery(self, solution, size(u), info)
     if (info%failed()) return
@@ -188,9 +216,12 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
       return
     end if
-    u = self%by_load + field(:, 1)
-    if (size(self%motions, 2) > 0) u = u + matmul(self%motions, solution%rigid(:size(self%motions, 2)))
-    call find_residual(self, solution, u, info)
+    field(:, 1) = self%by_load + field(:, 1)
+    do j = 1, size(self%motions, 2)
+      field(:, 1) = field(:, 1) + self%motions(:, j)*solution%rigid(j)
+    end do
+    call find_residual(self, solution, field(:, 1), info)
+    if (.not. info%failed()) u = field(:, 1)
   end subroutine recover
 
   !> Give back the stiffness and its factor, by far the most of the memory; alpha and what
@@ -226,6 +257,9 @@ contains
     else if (degrees /= size(self%held)) then
       call report(info, FUGE_ERR_SIZE, 'u has '//text(degrees)//' value(s): it needs one for each of ' &
                   //text(size(self%held))//' degrees of freedom')
+    else
+      call check_finite(solution%force, 'force', info)
+      if (.not. info%failed()) call check_finite(solution%rigid(:m), 'motion', info)
     end if
   end subroutine check_recovery
 
@@ -235,8 +269,14 @@ contains
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: u(:)
     type(fuge_info), intent(inout) :: info
-    real(dp) :: forces(size(u)), left(size(u)), product(size(u)), magnitude(size(u))
+    real(dp), allocatable :: forces(:), left(:), product(:), magnitude(:)
+    integer :: stat
 
+    allocate (forces(size(u)), left(size(u)), product(size(u)), magnitude(size(u)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the residual')
+      return
+    end if
     forces = 0.0_dp
     call add_contact_forces(self%body, solution%force, forces)
     call self%stiffness%multiply(u, product, magnitude)
@@ -246,91 +286,90 @@ contains
       left = left - self%body%load
       magnitude = magnitude + abs(self%body%load)
     end if
-    if (allocated(self%body%fixed)) left(self%body%fixed) = 0.0_dp
-    where (self%scale > 0.0_dp)
-      left = left/self%scale
-      magnitude = magnitude/self%scale
-    end where
+    call unscale(left, self%scale)
+    call unscale(magnitude, self%scale)
     if (maxval(magnitude) > 0.0_dp) info%residual = maxval(abs(left))/maxval(magnitude)
     if (info%residual > SOLVED) call report(info, FUGE_WARN_RESIDUAL, 'displacements given, but degree of freedom ' &
       //text(maxloc(abs(left), 1))//' is out of balance by '//text(info%residual)//' of the largest force')
   end subroutine find_residual
 
-  !> Mark the supports, find or check the motions and pin them.
-  subroutine hold(made, info)
+  !> Mark the supports, find or check the motions and choose where to pin them.
+  subroutine hold(made, pins, info)
     type(fuge_condensed), intent(inout) :: made
+    integer, allocatable, intent(out) :: pins(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: free_scale(:)
-    real(dp) :: error
-    integer, allocatable :: pins(:)
+    real(dp), allocatable :: all_scale(:)
     integer :: degrees, stat
 
     degrees = made%stiffness%degrees()
-    allocate (made%held(degrees), made%scale(degrees), free_scale(degrees), stat=stat)
+    allocate (made%held(degrees), made%scale(degrees), all_scale(degrees), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(degrees)//' degrees of freedom')
       return
     end if
     made%held = .false.
     if (allocated(made%body%fixed)) made%held(made%body%fixed) = .true.
-    call find_scale(made, info)
+    call find_scale(made, all_scale, info)
     if (.not. info%failed()) call check_free_points(made%body, made%held, info)
     if (info%failed()) return
-    free_scale = merge(0.0_dp, made%scale, made%held)
     if (made%body%floats) then
-      call find_motions(made%stiffness, made%held, free_scale, made%motions, error, info)
-      made%still = max(made%still, 10.0_dp*error)
+      call find_motions(made%stiffness, made%held, made%scale, made%motions, info)
     else if (allocated(made%body%modes)) then
-      call check_motions(made%stiffness, made%held, made%scale, made%body%modes, info)
+      call check_motions(made%stiffness, made%held, all_scale, made%body%modes, info)
       if (.not. info%failed()) made%motions = made%body%modes
     else
       allocate (made%motions(degrees, 0))
     end if
-    if (info%failed()) return
-    call choose_pins(free_scale, made%motions, pins, info)
-    if (info%failed()) return
-    if (made%body%floats) call unit_at_pins(pins, made%motions, info)
-    made%held(pins) = .true.
+    if (.not. info%failed()) call choose_pins(keep_off(made%body, made%scale), made%motions, pins, info)
+    if (.not. info%failed()) made%held(pins) = .true.
   end subroutine hold
 
-  !> Square roots of the diagonal of K; refuse a free degree of freedom without stiffness.
-  subroutine find_scale(made, info)
+  !> Square roots of the diagonal of K, in made%scale zero where fixed; refuse a free degree
+  !> of freedom without stiffness.
+  subroutine find_scale(made, all_scale, info)
     type(fuge_condensed), intent(inout) :: made
+    real(dp), intent(out) :: all_scale(:)
     type(fuge_info), intent(inout) :: info
     integer :: j
 
-    call made%stiffness%diagonal(made%scale)
-    do j = 1, size(made%scale)
-      if (made%scale(j) > 0.0_dp) then
-        made%scale(j) = sqrt(made%scale(j))
+    call made%stiffness%diagonal(all_scale)
+    do j = 1, size(all_scale)
+      if (all_scale(j) > 0.0_dp) then
+        all_scale(j) = sqrt(all_scale(j))
       else if (made%held(j)) then
-        made%scale(j) = 0.0_dp
+        all_scale(j) = 0.0_dp
       else
         call report(info, FUGE_ERR_NOT_DEFINITE, 'degree of freedom '//text(j)//' has the stiffness ' &
-                    //text(made%scale(j))//' on the diagonal: it needs a positive one, or to be fixed')
+                    //text(all_scale(j))//' on the diagonal: it needs a positive one, or to be fixed')
         return
       end if
     end do
+    made%scale = merge(0.0_dp, all_scale, made%held)
   end subroutine find_scale
 
   !> Factorise what is free; refuse a body that still floats, and warn if it nearly does.
   subroutine factorise(made, info)
     type(fuge_condensed), intent(inout) :: made
     type(fuge_info), intent(inout) :: info
-    real(dp) :: pivot
+    real(dp) :: pivot, quotient
     integer :: status, weakest
 
     call made%stiffness%factorise(made%held, 0.0_dp, made%factor, pivot, weakest, status)
+    quotient = 0.0_dp
+    if (status == FUGE_DONE .and. pivot > NO_PIVOT) call find_softest_motion(made%stiffness, made%factor, &
+      merge(0.0_dp, made%scale, made%held), quotient, weakest, status)
+    ! Motions found by the factor are as exact as it is.
+    if (made%body%floats) made%error = max(made%error, epsilon(quotient)/max(quotient, epsilon(quotient)))
     if (status /= FUGE_DONE) then
-      call report(info, status, 'no memory for the factor of the stiffness matrix')
-    else if (.not. pivot > NO_PIVOT) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive definite at degree of freedom ' &
-                  //text(weakest)//' with '//text(count(made%held))//' held: fix the motion that is left, or set ' &
-                  //'floats (modes) if the body floats')
-    else if (pivot < WEAK_PIVOT) then
-      call report(info, FUGE_WARN_RESIDUAL, 'the stiffness matrix is nearly singular at degree of freedom ' &
-                  //text(weakest)//' (pivot '//text(pivot)//' of its diagonal): about ' &
-                  //text(nint(-log10(epsilon(1.0_dp)/pivot)))//' digits of alpha are left')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the factor of the stiffness matrix')
+    else if (.not. quotient > epsilon(quotient)) then
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive definite: with ' &
+                  //text(count(made%held))//' held, supports and pins, degree of freedom '//text(weakest) &
+                  //' still moves freely; fix that motion, or set floats (modes) if the body floats')
+    else if (quotient < SOFT) then
+      call report(info, FUGE_WARN_RESIDUAL, 'the stiffness matrix is nearly singular: the motion that moves ' &
+                  //'degree of freedom '//text(weakest)//' most has '//text(quotient)//' of the stiffness of its parts, ' &
+                  //'and as few as '//text(max(nint(-log10(epsilon(quotient)/quotient)), 0))//' digits of alpha may be left')
     end if
   end subroutine factorise
 
@@ -365,6 +404,12 @@ contains
         end do
       end do
     end do
+    do j = 1, n
+      if (is_finite_everywhere(made%alpha(:, j)) .and. made%alpha(j, j) < huge(1.0_dp)) cycle
+      call report(info, FUGE_ERR_OVERFLOW, 'the influence of contact point '//text(j)//' overflows: choose other ' &
+                  //'units, or normals of length one')
+      return
+    end do
     do j = 2, n
       do i = 1, j - 1
         made%alpha(i, j) = 0.5_dp*(made%alpha(i, j) + made%alpha(j, i))
@@ -380,24 +425,15 @@ contains
     logical :: felt(size(made%motions, 2))
     real(dp), allocatable :: kept(:, :)
     integer, allocatable :: columns(:)
-    integer :: i, j, m, n, stat
+    integer :: j, stat
 
-    m = size(made%motions, 2)
-    n = size(made%body%dof, 2)
-    allocate (made%modes(n, m), stat=stat)
-    if (stat == 0) then
-      do j = 1, m
-        do i = 1, n
-          made%modes(i, j) = -moved(made%body%dof(:, i), made%body%normal(:, i), made%motions(:, j))
-        end do
-      end do
-      call split_motions(made%motions, made%modes, made%scale, softness(made%body, made%scale), made%still, felt, &
-                         made%sliding, stat)
-    end if
+    call modes_of_points(made%body, made%motions, made%scale, made%error, made%modes, stat)
+    if (stat == 0) call split_motions(made%motions, made%modes, made%scale, softness(made%body, made%scale), &
+                                      made%error, felt, made%sliding, stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of the contact points')
     else if (.not. all(felt)) then
-      columns = pack([(j, j=1, m)], felt)
+      columns = pack([(j, j=1, size(felt))], felt)
       kept = made%modes(:, columns)
       call move_alloc(kept, made%modes)
       kept = made%motions(:, columns)
@@ -423,9 +459,9 @@ contains
     end if
     field = 0.0_dp
     if (allocated(made%body%load)) field(:, 1) = made%body%load
-    call check_sliding(made, field(:, 1), info)
+    call check_sliding(made%sliding, field(:, 1), made%scale, made%error, info)
     if (info%failed()) return
-    resultant = matmul(field(:, 1), made%motions)
+    resultant = work_of_load(made%motions, field(:, 1), made%scale, made%error)
     given = 0.0_dp
     if (allocated(made%body%displacement)) then
       given(made%body%fixed) = made%body%displacement
@@ -447,29 +483,6 @@ contains
     call move_alloc(resultant, made%resultant)
   end subroutine apply_load
 
-  !> Refuse a load that drives a motion which no contact can hold.
-  pure subroutine check_sliding(made, load, info)
-    class(fuge_condensed), intent(in) :: made
-    real(dp), intent(in) :: load(:)
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: work, parts
-    integer :: j, k
-
-    if (.not. allocated(made%sliding)) return
-    do k = 1, size(made%sliding, 2)
-      work = dot_product(made%sliding(:, k), load)
-      parts = maxval(abs(made%sliding(:, k))*made%scale) &
-        *maxval(abs(load)/max(made%scale, tiny(1.0_dp)), made%scale > 0.0_dp)
-      j = maxloc(abs(made%sliding(:, k))*made%scale, 1)
-      if (abs(work) > made%still*parts) then
-        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point and ' &
-                    //'most of all degree of freedom '//text(j)//': no contact force can hold it; fix one, or ' &
-                    //'balance the load')
-        return
-      end if
-    end do
-  end subroutine check_sliding
-
   !> Move what has been made to where it is wanted, without a copy.
   subroutine take(made, condensed)
     type(fuge_condensed), intent(inout) :: made, condensed
@@ -486,7 +499,7 @@ contains
     call move_alloc(made%motions, condensed%motions)
     call move_alloc(made%sliding, condensed%sliding)
     call move_alloc(made%by_load, condensed%by_load)
-    condensed%still = made%still
+    condensed%error = made%error
     condensed%body = made%body
   end subroutine take
 

@@ -7,7 +7,7 @@ module fuge_contact_points
   implicit none
   private
 
-  public :: add_contact_forces, add_force, check_free_points, moved, softness
+  public :: add_contact_forces, add_force, check_free_points, keep_off, moved, softness
 
 contains
 
@@ -63,6 +63,23 @@ contains
       end do
     end do
   end function softness
+
+  !> The scale for the choice of pins: they had better not be where contact forces act, whose
+  !> influence they would take away.
+  pure function keep_off(body, scale) result(preferred)
+    type(fuge_body), intent(in) :: body
+    real(dp), intent(in) :: scale(:)
+    real(dp), allocatable :: preferred(:)
+    integer :: i, k
+
+    preferred = scale
+    do i = 1, size(body%dof, 2)
+      do k = 1, size(body%dof, 1)
+        ! From the scale, because a degree of freedom may belong to several points.
+        if (body%dof(k, i) > 0) preferred(body%dof(k, i)) = 1.0e-3_dp*scale(body%dof(k, i))
+      end do
+    end do
+  end function keep_off
 
   !> Refuse a contact point all of whose degrees of freedom are held (FUGE_ERR_DOF).
   pure subroutine check_free_points(body, held, info)

@@ -6,7 +6,8 @@
 module fuge_rigid_motions
   use fuge_check, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgeqp3, dgesv, dorgqr, dsyev
+  use fuge_lapack, only: dgeqp3, dorgqr, dsyev
+  use fuge_softest_motion, only: unscale
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NOT_DEFINITE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   use fuge_text, only: text
@@ -37,19 +38,17 @@ contains
   !> Find all motions without stiffness that leave `fixed` at rest: subspace iteration with
   !> the inverse of K + SHIFT diag(K), until an elastic one turns up.
   !>
-  !> `scale` is s, zero where fixed; `motions` (degrees, number found), with a relative
-  !> error of about `error`. Errors: FUGE_ERR_NOT_DEFINITE where K resists a
+  !> `scale` is s, zero where fixed; `motions` (degrees, number found). Errors: FUGE_ERR_NOT_DEFINITE where K resists a
   !> motion negatively, or so little that it may be rounding; FUGE_ERR_MEMORY.
-  subroutine find_motions(stiffness, fixed, scale, motions, error, info)
+  subroutine find_motions(stiffness, fixed, scale, motions, info)
     class(fuge_stiffness), intent(in) :: stiffness
     logical, intent(in) :: fixed(:)
     real(dp), intent(in) :: scale(:)
     real(dp), allocatable, intent(out) :: motions(:, :)
-    real(dp), intent(out) :: error
     type(fuge_info), intent(inout) :: info
     class(stiffness_factor), allocatable :: factor
     real(dp), allocatable :: y(:, :), quotient(:), noise(:)
-    real(dp) :: pivot
+    real(dp) :: error, pivot
     integer :: found, free, status, width, weakest
 
     error = 0.0_dp
@@ -137,27 +136,22 @@ contains
     allocate (product(size(y, 1)), magnitude(size(y, 1)), z(size(y, 1)), ritz(width, width), work(8*width), stat=status)
     if (status /= 0) return
     do k = 1, width
-      z = unscaled(y(:, k), scale)
+      z = y(:, k)
+      call unscale(z, scale)
       call stiffness%multiply(z, product, magnitude)
-      ritz(:, k) = matmul(unscaled(product, scale), y)
-      noise(k) = dot_product(unscaled(magnitude, scale), abs(y(:, k)))
+      call unscale(product, scale)
+      call unscale(magnitude, scale)
+      ritz(:, k) = matmul(product, y)
+      noise(k) = dot_product(magnitude, abs(y(:, k)))
     end do
     noise = maxval(noise)
     call dsyev('V', 'U', width, ritz, width, quotient, work, size(work), status)
     if (status /= 0) return
     y = matmul(y, ritz)
     do k = 1, width
-      y(:, k) = unscaled(y(:, k), scale)
+      call unscale(y(:, k), scale)
     end do
   end subroutine rotate_to_softest
-
-  pure function unscaled(y, scale) result(z)
-    real(dp), intent(in) :: y(:), scale(:)
-    real(dp) :: z(size(y))
-
-    z = 0.0_dp
-    where (scale > 0.0_dp) z = y/scale
-  end function unscaled
 
   !> Orthonormal columns that span those of y.
   subroutine orthonormalise(y, status)
@@ -209,9 +203,11 @@ contains
         end if
       end if
       call stiffness%multiply(motions(:, k), product, magnitude)
-      force = maxval(abs(unscaled(product, scale)))
-      parts = maxval(unscaled(magnitude, scale))
-      j = maxloc(abs(unscaled(product, scale)), 1)
+      call unscale(product, scale)
+      call unscale(magnitude, scale)
+      force = maxval(abs(product))
+      parts = maxval(magnitude)
+      j = maxloc(abs(product), 1)
       if (force > MOTION_TOLERANCE*parts) call report(info, FUGE_ERR_MODES, 'mode '//text(k)//' is not rigid: the ' &
         //'stiffness resists it at degree of freedom '//text(j)//' with '//text(force/parts)//' of its parts')
     end do
@@ -255,26 +251,34 @@ contains
     pins = order(:m)
   end subroutine choose_pins
 
-  !> Combine the motions so that motion k moves pin k by one, and no other pin.
-  !> Error: FUGE_ERR_MEMORY.
-  subroutine unit_at_pins(pins, motions, info)
+  !> Motion k moves pin k by one, and no other pin: by the stiffness with the pins held, and
+  !> so without what the motions found have of elastic ones.
+  !>
+  !> `motions` (degrees, size(pins)), `held` with supports and pins. Error: FUGE_ERR_MEMORY.
+  subroutine unit_at_pins(stiffness, factor, held, pins, motions, info)
+    class(fuge_stiffness), intent(in) :: stiffness
+    class(stiffness_factor), intent(in) :: factor
+    logical, intent(in) :: held(:)
     integer, intent(in) :: pins(:)
-    real(dp), intent(inout) :: motions(:, :)
+    real(dp), intent(inout), contiguous :: motions(:, :)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: at_pins(:, :), combined(:, :)
-    integer :: order(size(pins)), m, stat
+    real(dp), allocatable :: unit(:), magnitude(:)
+    integer :: k, stat
 
-    m = size(pins)
-    if (m < 1) return
-    allocate (at_pins(m, m), combined(m, size(motions, 1)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to order the motions of the body')
-      return
+    allocate (unit(size(held)), magnitude(size(held)), stat=stat)
+    if (stat == 0) then
+      do k = 1, size(pins)
+        unit = 0.0_dp
+        unit(pins(k)) = -1.0_dp
+        call stiffness%multiply(unit, motions(:, k), magnitude)
+        where (held) motions(:, k) = 0.0_dp
+      end do
+      call factor%solve(motions, stat)
     end if
-    at_pins = transpose(motions(pins, :))
-    combined = transpose(motions)
-    call dgesv(m, size(combined, 2), at_pins, m, order, combined, m, stat)
-    motions = transpose(combined)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of the body')
+    do k = 1, size(pins)
+      motions(pins(k), k) = 1.0_dp
+    end do
   end subroutine unit_at_pins
 
 end module fuge_rigid_motions

@@ -2,7 +2,7 @@
 module fuge_c_body
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_null_ptr, c_loc, c_associated, c_f_pointer
   use fuge_body_type, only: fuge_body
-  use fuge_c_types, only: copy_string, copy_reals, copy_integers
+  use fuge_c_types, only: copy_string, copy_reals, copy_integers, from_zero
   use fuge_condensation, only: fuge_condense, fuge_condensed
   use fuge_node_motions, only: fuge_rigid_modes
   use fuge_problem_type, only: fuge_solution
@@ -336,9 +336,12 @@ contains
     if (status /= FUGE_DONE) return
     n = size(handle%condensed%alpha, 2)
     status = FUGE_ERR_SIZE
+    handle%message = 'lda = '//text(int(lda))//' is less than n = '//text(n)//' contact points'
     if (lda < n) return
     status = FUGE_ERR_POINTER
+    handle%message = 'alpha is NULL'
     if (.not. c_associated(alpha)) return
+    handle%message = ''
     call c_f_pointer(alpha, matrix, [int(lda), n])
     matrix(:n, :) = handle%condensed%alpha
     status = FUGE_DONE
@@ -352,7 +355,7 @@ contains
     call find_condensed(body, handle, status)
     if (status /= FUGE_DONE) return
     call copy_reals(handle%condensed%displacement, displacement)
-    if (.not. c_associated(displacement)) status = FUGE_ERR_POINTER
+    if (.not. c_associated(displacement)) status = missing(handle, 'displacement')
   end function c_body_get_displacement
 
   function c_body_get_motions(body, m) bind(c, name='fuge_body_get_motions') result(status)
@@ -363,7 +366,7 @@ contains
     call find_condensed(body, handle, status)
     if (status /= FUGE_DONE) return
     call copy_integers([size(handle%condensed%resultant)], m)
-    if (.not. c_associated(m)) status = FUGE_ERR_POINTER
+    if (.not. c_associated(m)) status = missing(handle, 'm')
   end function c_body_get_motions
 
   !> Either may be NULL.
@@ -393,7 +396,7 @@ contains
     call find_condensed(body, handle, status)
     if (status /= FUGE_DONE) return
     m = size(handle%condensed%resultant)
-    status = FUGE_ERR_POINTER
+    status = missing(handle, 'force, displacement or motion')
     if (.not. (c_associated(force) .and. c_associated(displacement))) return
     if (m > 0 .and. .not. c_associated(motion)) return
     call c_f_pointer(force, values, [size(handle%condensed%displacement)])
@@ -422,14 +425,6 @@ contains
     status = FUGE_DONE
   end function c_body_message
 
-  !> Degrees of freedom counted from 0 as Fortran counts them; too large ones stay so.
-  elemental function from_zero(number) result(dof)
-    integer(c_int), intent(in) :: number
-    integer :: dof
-
-    dof = min(int(number), huge(dof) - 1) + 1
-  end function from_zero
-
   !> The handle of a body that has been condensed, or why not.
   subroutine find_condensed(body, handle, status)
     type(c_ptr), intent(in) :: body
@@ -441,10 +436,21 @@ contains
     if (.not. c_associated(body)) return
     call c_f_pointer(body, handle)
     status = FUGE_ERR_CALL_ORDER
+    handle%message = ''
     if (handle%done) status = FUGE_DONE
     if (.not. handle%done) handle%message = 'nothing has been condensed since the data were set: call ' &
       //'fuge_condense first'
   end subroutine find_condensed
+
+  !> Note which pointer is NULL.
+  function missing(handle, name) result(status)
+    type(body_handle), intent(inout) :: handle
+    character(len=*), intent(in) :: name
+    integer(c_int) :: status
+
+    handle%message = name//' is NULL'
+    status = FUGE_ERR_POINTER
+  end function missing
 
   !> Keep the message; what has been condensed no longer fits once data were taken.
   function settle(handle, info) result(status)

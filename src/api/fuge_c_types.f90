@@ -12,7 +12,7 @@ module fuge_c_types
   implicit none
   private
 
-  public :: from_c, to_c, copy_string, copy_reals, copy_integers, from_c_string
+  public :: from_c, to_c, copy_string, copy_reals, copy_integers, from_c_string, from_zero
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
@@ -140,5 +140,13 @@ contains
       string(k:k) = bytes(k)
     end do
   end function from_c_string
+
+  !> Degrees of freedom counted from 0 as Fortran counts them; too large ones stay so.
+  elemental function from_zero(number) result(dof)
+    integer(c_int), intent(in) :: number
+    integer :: dof
+
+    dof = min(int(number), huge(dof) - 1) + 1
+  end function from_zero
 
 end module fuge_c_types

@@ -3,7 +3,7 @@
 module fuge_legacy_body
   use fuge_body_type, only: fuge_body, check_body
   use fuge_check, only: check_finite
-  use fuge_condensation, only: fuge_condense, fuge_condensed
+  use fuge_condensation, only: fuge_condense, fuge_condensed, condense_to_recover
   use fuge_contact_points, only: add_contact_forces, moved
   use fuge_kinds, only: dp
   use fuge_legacy, only: check_modes
@@ -152,6 +152,8 @@ contains
       end associate
       held(j) = 0
       kept = kept + 1
+      modes(:n, j) = condensed%modes(:, kept)
+      resultant(j) = condensed%resultant(kept)
     end do
   end subroutine give_condensed
 
@@ -170,31 +172,25 @@ contains
     end if
   end subroutine take_band
 
-  !> The contact forces are known: as loads of the body they take one solve, while all its
-  !> contact points would take one each. A contact point there has to be; without a force it
-  !> changes nothing, and the pins depend on the motions only.
+  !> The contact forces are known, so that alpha and its solves are left out.
   subroutine recover(stiffness, body, force, rigid, u, info)
     class(fuge_stiffness), intent(in) :: stiffness
     type(fuge_body), intent(in) :: body
     real(dp), intent(in) :: force(:), rigid(:)
     real(dp), intent(inout) :: u(:)
     type(fuge_info), intent(out) :: info
-    type(fuge_body) :: loaded
     type(fuge_condensed) :: condensed
-    type(fuge_solution) :: idle
+    type(fuge_solution) :: pressed
 
     call check_body(body, size(u), info)
     if (.not. info%failed()) call check_equilibrium(body, force, rigid, info)
     if (info%failed()) return
-    loaded = body
-    call add_contact_forces(body, force, loaded%load)
-    loaded%dof = body%dof(:, :1)
-    loaded%normal = body%normal(:, :1)
-    call fuge_condense(stiffness, loaded, condensed, info)
+    call condense_to_recover(stiffness, body, condensed, info)
     if (info%failed()) return
-    idle%force = [0.0_dp]
-    idle%rigid = 0.0_dp*rigid
-    call condensed%recover(idle, u, info)
+    pressed%force = force
+    ! All the motions here are given, those that the contact does not feel too: added below.
+    pressed%rigid = 0.0_dp*rigid
+    call condensed%recover(pressed, u, info)
     if (.not. info%failed() .and. size(rigid) > 0) u = u + matmul(body%modes, rigid)
   end subroutine recover
 

@@ -31,7 +31,8 @@ static const double OUTWARD[2] = {1.0, 1.0};
 
 static void check_chain(fuge_body *body) {
   double alpha[6], b[2], u[N], load[N] = {0, 0, 0, 0, 4};
-  const double force[2] = {2.0, 0.0};
+  const double force[2] = {2.0, 0.0}, bad[2] = {2.0, NAN};
+  char message[256];
   int m = -1;
 
   CHECK_STATUS(fuge_body_set_contact(body, 2, 1, TOUCH, OUTWARD), FUGE_DONE);
@@ -52,7 +53,11 @@ static void check_chain(fuge_body *body) {
   CHECK_STATUS(fuge_body_get_motions(body, &m), FUGE_DONE);
   CHECK_INT(m, 0);
   CHECK_STATUS(fuge_body_recover(body, force, NULL, u), FUGE_DONE);
+  CHECK_STATUS(fuge_body_recover(body, bad, NULL, u), FUGE_ERR_NOT_FINITE);
   CHECK_NEAR(u[0], 3.0, 1e-13);
+  CHECK_STATUS(fuge_body_get_influence(body, alpha, 1), FUGE_ERR_SIZE);
+  fuge_body_message(body, message, sizeof message);
+  CHECK_CONTAINS(message, "lda = 1");
   CHECK_NEAR(u[4], 12.0, 1e-13);
 }
 
