@@ -367,9 +367,9 @@ contains
                   //text(count(made%held))//' held, supports and pins, degree of freedom '//text(weakest) &
                   //' still moves freely; fix that motion, or set floats (modes) if the body floats')
     else if (quotient < SOFT) then
-      call report(info, FUGE_WARN_RESIDUAL, 'the stiffness matrix is nearly singular: the motion that moves ' &
-                  //'degree of freedom '//text(weakest)//' most has '//text(quotient)//' of the stiffness of its parts, ' &
-                  //'and as few as '//text(max(nint(-log10(epsilon(quotient)/quotient)), 0))//' digits of alpha may be left')
+      call report(info, FUGE_WARN_RESIDUAL, 'the stiffness matrix is nearly singular: the motion that moves degree ' &
+                  //'of freedom '//text(weakest)//' most has '//text(quotient)//' of the stiffness of its parts; as ' &
+                  //'few as '//text(max(nint(-log10(epsilon(quotient)/quotient)), 0))//' digits of alpha may be left')
     end if
   end subroutine factorise
 

@@ -56,9 +56,10 @@ contains
     real(dp), intent(inout) :: alpha(:, :)
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: symmetric
-    logical :: folded
+    logical :: equal, folded
     real(dp) :: factor, datum, mean
-    integer :: i, j, n
+    real(dp), allocatable :: table(:)
+    integer :: i, j, n, stat
 
     n = size(x)
     folded = .false.
@@ -73,15 +74,45 @@ contains
 
     factor = -2.0_dp/(PI*e_star)
     datum = log(datum_length(x, width, folded))
+    equal = is_uniform(x, width)
+    if (equal) then
+      allocate (table(n), stat=stat)
+      equal = stat == 0
+    end if
+    if (equal) then
+      do i = 1, n
+        table(i) = cell_mean((i - 1)*(x(n) - x(1))/max(n - 1, 1), width(1), width(1), element)
+      end do
+    end if
     do j = 1, n
       do i = j, n
-        mean = cell_mean(x(i) - x(j), width(i), width(j), element)
+        if (equal) then
+          mean = table(i - j + 1)
+        else
+          mean = cell_mean(x(i) - x(j), width(i), width(j), element)
+        end if
         if (folded) mean = 0.5_dp*(mean + cell_mean(x(i) + x(j), width(i), width(j), element))
         alpha(i, j) = factor*(mean - datum)
         alpha(j, i) = alpha(i, j)
       end do
     end do
   end subroutine fuge_halfplane_matrix
+
+  !> Equal cells at equal distances, but for rounding: then only n coefficients differ.
+  pure function is_uniform(x, width) result(uniform)
+    real(dp), intent(in) :: x(:), width(:)
+    logical :: uniform
+    real(dp) :: rounding
+    integer :: i, n
+
+    n = size(x)
+    rounding = 4.0_dp*epsilon(rounding)
+    uniform = all(abs(width - width(1)) <= rounding*width(1))
+    do i = 2, n - 1
+      if (.not. uniform) exit
+      uniform = abs((x(i) - x(1)) - (i - 1)*(x(n) - x(1))/(n - 1)) <= rounding*max(abs(x(1)), abs(x(n)))
+    end do
+  end function is_uniform
 
   !> D: twice the length from the first cell's outer edge to the last one's.
   pure function datum_length(x, width, folded) result(length)
