@@ -91,13 +91,30 @@ contains
       self%failure = status
       self%reason = reason
     end if
-    there = 0_int64
-    if (self%failure == 0) inquire (file=self%path, size=there)
-    if (self%failure == 0 .and. there /= self%bytes) then
+    there = self%bytes
+    if (self%failure == 0) there = bytes_in(self%path)
+    if (there /= self%bytes) then
       self%failure = 1
       self%reason = 'it has not the size that it should have, the disk may be full'
     end if
     if (self%failure /= 0) call report(info, FUGE_ERR_FILE, named(self%path)//' cannot be written: '//trim(self%reason))
   end subroutine finish
+
+  !> Size of a file, 0 if it cannot be read. By its unit: flang 22 leaks when it inquires by name.
+  function bytes_in(path) result(bytes)
+    character(len=*), intent(in) :: path
+    integer(int64) :: bytes
+    integer :: status, unit
+
+    bytes = 0_int64
+    call lock(LOCK_FILES)
+    open (newunit=unit, file=path, status='old', action='read', access='stream', form='unformatted', iostat=status)
+    if (status == 0) then
+      inquire (unit=unit, size=bytes)
+      close (unit, iostat=status)
+      if (status /= 0) bytes = 0_int64
+    end if
+    call unlock(LOCK_FILES)
+  end function bytes_in
 
 end module fuge_text_output
