@@ -200,13 +200,14 @@ contains
     real(dp) :: wanted(size(shape)), gap_out(size(shape)), terms(size(shape)), distance(size(shape))
     real(dp) :: motion(size(scene%load)), beyond(size(shape)), violation(size(shape))
     logical :: barred(size(shape)), wrong(size(shape)), tied(size(shape))
-    real(dp) :: noise
-    integer :: newest
+    real(dp) :: rounding, last(size(shape))
+    integer :: newest, stalled
 
     tied = scene%upper <= 0.0_dp .and. .not. scene%excluded
     call start_pushing(scene, side, force)
     barred = .false.
     newest = 0
+    stalled = 0
     do
       call factor%set(alpha, scene%modes, scene%constant, side /= 0, status)
       if (status /= FUGE_DONE) return
@@ -224,18 +225,24 @@ contains
       ! A point that holds a motion may pull by rounding: without it the set would be wrong.
       if (all(violation <= SIGN_TOLERANCE)) return
       ! One translation is held by any point; several motions by points that may carry nothing.
-      noise = merge(0.0_dp, max(SIGN_TOLERANCE*maxval(abs(wanted)), nothing), scene%plain)
-      if (any(pulls(wanted, noise, side, tied))) then
-        call step_back(wanted, noise, tied, side, force, newest, barred)
+      ! Where forces have not moved for long, rounding may lead in a circle.
+      rounding = merge(NOISE, SIGN_TOLERANCE, stalled > size(side))
+      rounding = merge(0.0_dp, max(rounding*maxval(abs(wanted)), nothing), scene%plain)
+      last = force
+      if (any(pulls(wanted, rounding, side, tied))) then
+        call step_back(wanted, rounding, tied, side, force, newest, barred)
       else
         force = wanted
         if (newest > 0) barred = barred .and. barred(newest)
         wrong = side == 0 .and. violation > SIGN_TOLERANCE .and. .not. barred
         if (.not. any(wrong)) return
         beyond = max(-gap_out, gap_out - scene%upper)
+        ! The least index ends circles (Y.-Y. Chang, R. W. Cottle, Mathematical Programming 18, 1980).
+        if (stalled > size(side)) beyond = 1.0_dp
         newest = maxloc(beyond, dim=1, mask=wrong)
         side(newest) = merge(1, -1, gap_out(newest) < 0.5_dp*scene%upper(newest))
       end if
+      stalled = merge(stalled + 1, 0, maxval(abs(force - last)) <= NOISE*maxval(abs(force)))
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
         return
