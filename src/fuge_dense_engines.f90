@@ -12,6 +12,7 @@ module fuge_dense_engines
   use fuge_presolve, only: guess_contact_set
   use fuge_problem_type, only: fuge_solution
   use fuge_scene, only: contact_scene
+  use fuge_side_guess, only: guess_sides
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_OVERFLOW
   use fuge_tableau, only: run_phase_one
@@ -89,10 +90,11 @@ contains
     if (.not. any(side /= 0)) then
       if (scene%plain) then
         call guess_contact_set(alpha, scene%gap, scene%load(1), contact, info%products)
+        side = merge(1, 0, contact)
       else
-        contact = abs(scene%start) > 0.0_dp .or. scene%gap < 0.0_dp
+        side = merge(1, 0, abs(scene%start) > 0.0_dp .or. scene%gap < 0.0_dp)
+        call guess_sides(alpha, scene, side, info%products)
       end if
-      side = merge(1, 0, contact)
     end if
     call solve_from(alpha, datum, scene, limit_of(options, size(side) + 1), monitor, side, factor, answer, sets, &
                     info)
