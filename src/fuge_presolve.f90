@@ -10,8 +10,11 @@ module fuge_presolve
 
   !> Most iterations; one costs about as much as a few percent of a factorisation.
   integer, parameter :: MOST_ITERATIONS = 12
-  !> Good enough when fewer than one point in this many changes sides.
-  integer, parameter :: SETTLED = 64
+  !> Good enough when fewer than one point in this many changes sides, this many times running:
+  !> beside wide cells nothing may happen for once.
+  integer, parameter :: SETTLED = 64, QUIET = 2
+  !> Nor if more than one open point in this many has changed: those may be few and wide.
+  integer, parameter :: FEW_OPEN = 8
   !> Slopes below this part of the lengths that make them are rounding.
   real(dp), parameter :: ROUNDING = 1.0e-13_dp
 
@@ -30,7 +33,7 @@ contains
     real(dp), dimension(size(gap)) :: part, slope, direction, change, shape
     real(dp) :: unit, previous, squares, step, curvature, lowest, total, noise
     logical :: before(size(gap)), restarted
-    integer :: iteration, n
+    integer :: iteration, quiet_for, changes, n
 
     n = size(gap)
     lowest = minval(gap)
@@ -42,6 +45,7 @@ contains
     direction = 0.0_dp
     previous = 1.0_dp
     restarted = .true.
+    quiet_for = 0
     do iteration = 1, MOST_ITERATIONS
       call multiply(alpha, part, load/unit, slope)
       slope = slope + shape
@@ -68,7 +72,10 @@ contains
       if (.not. total > 0.0_dp) exit
       part = part/total
       contact = part > 0.0_dp
-      if (count(contact .neqv. before)*SETTLED < count(contact)) exit
+      changes = count(contact .neqv. before)
+      quiet_for = merge(quiet_for + 1, 0, &
+                        changes*SETTLED < count(contact) .and. changes*FEW_OPEN <= count(.not. contact))
+      if (quiet_for >= QUIET) exit
     end do
   end subroutine guess_contact_set
 
