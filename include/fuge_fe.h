@@ -68,7 +68,7 @@ int fuge_rigid_modes(int dimensions, int nodes, const double *position, double *
 /* n contact points of `width` degrees of freedom each; see above. */
 int fuge_body_set_contact(fuge_body *body, int n, int width, const int *dof, const double *normal);
 
-/* Condense: one Cholesky factorisation and n solves.  FUGE_ERR_DOF, FUGE_ERR_NOT_SYMMETRIC,
+/* Condense: one Cholesky factorisation and n + 4 solves.  FUGE_ERR_DOF, FUGE_ERR_NOT_SYMMETRIC,
  * FUGE_ERR_NOT_DEFINITE (the message names the degree of freedom), FUGE_ERR_MODES,
  * FUGE_ERR_NO_EQUILIBRIUM (a load that no contact can hold); FUGE_WARN_RESIDUAL if K is so
  * near to singular that few digits of alpha may be left. */

@@ -77,8 +77,9 @@ contains
   !> Condense a body to its contact points.
   !>
   !> `stiffness` is any extension of fuge_stiffness, set before; of a dense or band matrix
-  !> only the reference is kept, for `recover`. Cost: one Cholesky factorisation, and n
-  !> solves with it in blocks of 64. `condensed` is replaced when done or warned.
+  !> only the reference is kept, for `recover`. Cost: one Cholesky factorisation and n
+  !> solves in blocks of 64, four for the softest motion and the load, and where rigid
+  !> motions are looked for another factorisation. `condensed` is replaced when done or warned.
   !> Warning: FUGE_WARN_RESIDUAL where K is so near to singular that few digits of alpha may
   !> be left. Errors, which name the degree of freedom or the point:
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE,
