@@ -185,7 +185,7 @@ def interface(root):
 
 def public_modules(root, order, taken):
     for module in order:
-        yield module, root/f"src/{module}.f90", taken[module]
+        yield module, next((root/"src").rglob(f"{module}.f90")), taken[module]
     sparse = root/"sparse/fuge_sparse.f90"
     yield "fuge_sparse", sparse, own_exports(sparse.read_text())
 

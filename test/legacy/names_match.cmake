@@ -1,5 +1,5 @@
 # cmake -DROOT=<project> -P names_match.cmake
-# Fails where the external procedures of src/legacy, the list of their names in
+# Fails where the external procedures of src/f77, the list of their names in
 # cmake/external_names.txt and the sections of doc/legacy.md differ.
 cmake_minimum_required(VERSION 3.20)
 
@@ -14,7 +14,7 @@ function(find_names result text pattern)
 endfunction()
 
 set(sources "")
-file(GLOB files "${ROOT}/src/legacy/*.f90")
+file(GLOB files "${ROOT}/src/f77/*.f90")
 foreach(file IN LISTS files)
   file(READ "${file}" text)
   string(APPEND sources "${text}\n")
@@ -27,7 +27,7 @@ find_names(in_list "${list}" "fuge[a-z][a-z]")
 find_names(in_manual "${manual}" "## FUGE[A-Z][A-Z]")
 foreach(other IN ITEMS in_list in_manual)
   if("${in_sources}" STREQUAL "" OR NOT "${in_sources}" STREQUAL "${${other}}")
-    message(SEND_ERROR "src/legacy has ${in_sources}, but ${other}: ${${other}}")
+    message(SEND_ERROR "src/f77 has ${in_sources}, but ${other}: ${${other}}")
   endif()
 endforeach()
 message(STATUS "external procedures: ${in_sources}")
