@@ -1,7 +1,7 @@
 !> Tables of the example `solve_mtx`: CSV with comments after #.
 module solve_mtx_tables
   use fuge, only: dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text
-  use fuge_text_output, only: text_output
+  use fuge_text_writer, only: text_output
   implicit none
   private
 

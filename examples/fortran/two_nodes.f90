@@ -2,7 +2,7 @@
 program two_nodes
   use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver, &
     FUGE_PAPER_RULE
-  use fuge_tableau, only: paper_tableau
+  use fuge_paper_tableau, only: paper_tableau
   implicit none
 
   !> Basis columns of each row as printed, a column here for each step.

@@ -1,7 +1,7 @@
 !> C bindings, section "two bodies": their elasticity.
 module fuge_c_bodies
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
-  use fuge_bodies, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
+  use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
   use fuge_c_types, only: copy_string
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER
   implicit none

@@ -4,14 +4,14 @@ module fuge_c_body
   use fuge_body_type, only: fuge_body
   use fuge_c_types, only: copy_string, copy_reals, copy_integers, from_zero
   use fuge_condensation, only: fuge_condense, fuge_condensed
-  use fuge_node_motions, only: fuge_rigid_modes
+  use fuge_nodal_modes, only: fuge_rigid_modes
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_MESSAGE_LENGTH
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

@@ -5,7 +5,7 @@ module fuge_c_callback
     c_f_procpointer
   use fuge_c_operator, only: hand_over
   use fuge_c_types, only: operator_handle
-  use fuge_check, only: check_finite
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_DEFINITE, &
@@ -174,7 +174,7 @@ contains
   end subroutine filter
 
   !> A copy is given away, so that a callback which writes to it harms nobody, and the
-  !> result starts as NaN, so that a value it forgets is seen by `fuge_products`.
+  !> result starts as NaN, so that a value it forgets is seen by `fuge_operator_products`.
   !> `status`: what C returned if that is positive, FUGE_ERR_CALLBACK if it is negative
   !> and would be taken for a code of this library.
   subroutine call_back(callback, given, made, user, status)

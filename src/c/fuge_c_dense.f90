@@ -3,7 +3,7 @@ module fuge_c_dense
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_operator, only: take_matrix
   use fuge_c_types, only: copy_string
-  use fuge_dense, only: fuge_dense_operator
+  use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_solver_type, only: fuge_solve_dense
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_MEMORY
   implicit none

@@ -2,9 +2,9 @@
 module fuge_c_edges
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_types, only: copy_string, copy_reals, copy_integers
-  use fuge_edges, only: fuge_contact_edges, fuge_interval
+  use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

@@ -4,7 +4,7 @@ module fuge_c_general
   use fuge_c_types, only: c_options
   use fuge_options_type, only: fuge_options
   use fuge_status, only: LOWEST_STATUS, HIGHEST_STATUS, STATUS_MEANINGS
-  use fuge_release, only: FUGE_VERSION_TEXT
+  use fuge_version_number, only: FUGE_VERSION_TEXT
   implicit none
   private
 

@@ -2,9 +2,9 @@
 module fuge_c_halfplane
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_types, only: copy_string
-  use fuge_halfplane, only: fuge_halfplane_matrix, check_halfplane
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix, check_halfplane
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

@@ -2,10 +2,10 @@
 module fuge_c_matrices
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_c_string
-  use fuge_matrix_reader, only: fuge_read_matrix, fuge_read_sparse
-  use fuge_matrix_writer, only: fuge_write_matrix, fuge_write_sparse
+  use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
+  use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_POINTER, FUGE_ERR_SIZE
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

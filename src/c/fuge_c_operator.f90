@@ -2,11 +2,11 @@
 module fuge_c_operator
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_null_ptr, c_loc, c_associated, c_f_pointer
   use fuge_c_types, only: operator_handle, copy_string
-  use fuge_dense, only: fuge_dense_operator
+  use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

@@ -3,7 +3,7 @@ module fuge_c_path
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_solver, only: take_solver, require_problem
   use fuge_c_types, only: operator_handle, solver_handle, copy_string, copy_reals, copy_integers
-  use fuge_parametric, only: fuge_follow_path, fuge_general_path, fuge_load_path, fuge_path
+  use fuge_path_types, only: fuge_follow_path, fuge_general_path, fuge_load_path, fuge_path
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
   implicit none
   private

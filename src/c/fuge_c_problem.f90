@@ -3,11 +3,11 @@ module fuge_c_problem
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_associated, c_f_pointer
   use fuge_c_solver, only: take_solver, answer
   use fuge_c_types, only: solver_handle
-  use fuge_check, only: check_finite
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_problem_type, only: check_load, check_play
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, FUGE_ERR_MODES
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

@@ -14,18 +14,18 @@
 !> as sliding along a flat one, is left out; nothing may drive it.
 module fuge_condensation
   use fuge_body_type, only: fuge_body, check_body, check_load_field
-  use fuge_check, only: check_finite, is_finite_everywhere
-  use fuge_contact_points, only: add_force, add_contact_forces, check_free_points, keep_off, &
+  use fuge_input_checks, only: check_finite, is_finite_everywhere
+  use fuge_contact_normals, only: add_force, add_contact_forces, check_free_points, keep_off, &
     moved, softness
-  use fuge_felt_motions, only: split_motions, modes_of_points, work_of_load, check_sliding, ROUNDED
+  use fuge_contact_modes, only: split_motions, modes_of_points, work_of_load, check_sliding, ROUNDED
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_rigid_motions, only: find_motions, check_motions, choose_pins, unit_at_pins
-  use fuge_softest_motion, only: find_softest_motion, unscale
+  use fuge_rigid_body_modes, only: find_motions, check_motions, choose_pins, unit_at_pins
+  use fuge_smallest_eigenvalue, only: find_softest_motion, unscale
   use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, FUGE_DONE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

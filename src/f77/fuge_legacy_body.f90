@@ -2,9 +2,9 @@
 !> condensation, and the recovery of its displacements from a new factorisation.
 module fuge_legacy_body
   use fuge_body_type, only: fuge_body, check_body
-  use fuge_check, only: check_finite
+  use fuge_input_checks, only: check_finite
   use fuge_condensation, only: fuge_condense, fuge_condensed, condense_to_recover
-  use fuge_contact_points, only: add_contact_forces, moved
+  use fuge_contact_normals, only: add_contact_forces, moved
   use fuge_kinds, only: dp
   use fuge_legacy, only: check_modes
   use fuge_problem_type, only: fuge_solution
@@ -13,7 +13,7 @@ module fuge_legacy_body
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

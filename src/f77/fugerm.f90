@@ -1,9 +1,9 @@
 !> FUGERM, for callers without modules: rigid motions of a body from the places of its nodes.
 !> Arguments in doc/legacy.md.
 subroutine fugerm(ndim, nn, x, z, ldz, info)
-  use fuge_check, only: check_finite
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_node_motions, only: fuge_rigid_modes
+  use fuge_nodal_modes, only: fuge_rigid_modes
   use fuge_status, only: fuge_info, FUGE_ERR_SIZE
   implicit none
   integer, intent(in) :: ndim, nn, ldz

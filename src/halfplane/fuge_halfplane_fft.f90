@@ -7,13 +7,13 @@
 module fuge_halfplane_fft
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_fft, only: fft_plan, good_length
-  use fuge_halfplane, only: mean_log, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
+  use fuge_halfplane_influence, only: mean_log, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, &
     FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_CALL_ORDER
-  use fuge_text, only: text
-  use fuge_zeta, only: hurwitz_zeta
+  use fuge_number_text, only: text
+  use fuge_hurwitz_zeta, only: hurwitz_zeta
   implicit none
   private
 

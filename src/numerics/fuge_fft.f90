@@ -10,7 +10,7 @@ module fuge_fft
   use fuge_locks, only: lock, unlock, LOCK_PLANNER
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_SIZE
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

@@ -5,8 +5,8 @@ module fuge_smooth_profile_type
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, &
     FUGE_ERR_WIDTH
-  use fuge_check, only: check_finite
-  use fuge_text, only: text
+  use fuge_input_checks, only: check_finite
+  use fuge_number_text, only: text
   implicit none
   private
 

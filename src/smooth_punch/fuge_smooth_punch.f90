@@ -4,18 +4,18 @@
 !> series times the square root of the distances from both: for a smooth profile the error
 !> falls faster than any power of the number of coefficients. See doc/theory.md, "Smooth punches".
 module fuge_smooth_punch
-  use fuge_check, only: check_finite
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
   use fuge_smooth_certificate, only: certify_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
-  use fuge_smooth_ends, only: pressing
+  use fuge_smooth_newton, only: pressing
   use fuge_smooth_profile_type, only: fuge_smooth_profile
   use fuge_smooth_samples, only: lowest_place
   use fuge_smooth_search, only: find_interval, interval_search, FOUND, PULLS, OVERLAPS, AT_END
   use fuge_status, only: fuge_info, report, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_OVERFLOW, FUGE_ERR_UNSUPPORTED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

@@ -13,14 +13,14 @@
 !> part is tried. With a free tilt there is no such order: then from many guesses.
 module fuge_smooth_search
   use fuge_kinds, only: dp
-  use fuge_smooth_answer, only: make_contact
+  use fuge_smooth_assembly, only: make_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
-  use fuge_smooth_ends, only: find_ends, pressing, DEGREES
-  use fuge_smooth_parts, only: pushing_parts
+  use fuge_smooth_newton, only: find_ends, pressing, DEGREES
+  use fuge_smooth_exclusion, only: pushing_parts
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
   use fuge_smooth_samples, only: sample_places
-  use fuge_smooth_signs, only: check_signs, sign_violation
-  use fuge_smooth_slope, only: compare_slope, expand_slope, place_interval, slope_series, FIRST_DEGREE
+  use fuge_smooth_admissibility, only: check_signs, sign_violation
+  use fuge_smooth_slope_series, only: compare_slope, expand_slope, place_interval, slope_series, FIRST_DEGREE
   use fuge_status, only: fuge_info
   implicit none
   private

@@ -1,10 +1,10 @@
 !> From a problem to a certified answer: checks, choice of engine, certificate.
 module fuge_solver_type
   use fuge_certificate, only: find_violation, fuge_violation
-  use fuge_check, only: check_finite
-  use fuge_contact_factor, only: contact_factor
-  use fuge_dense, only: fuge_dense_operator
-  use fuge_dense_engines, only: solve_by_tableau, solve_by_active_set
+  use fuge_input_checks, only: check_finite
+  use fuge_kkt_factor, only: contact_factor
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_active_set_engine, only: solve_by_tableau, solve_by_active_set
   use fuge_history_type, only: fuge_history
   use fuge_iterative_engine, only: solve_by_iteration
   use fuge_kinds, only: dp
@@ -12,12 +12,12 @@ module fuge_solver_type
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
-  use fuge_scene, only: contact_scene, make_scene
-  use fuge_set_answer, only: solve_set, displaced, add_deflection
+  use fuge_canonical_problem, only: contact_scene, make_scene
+  use fuge_kkt_solution, only: solve_set, displaced, add_deflection
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
     FUGE_ERR_OVERFLOW, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

@@ -1,15 +1,15 @@
 !> The dense engines on the paper's problem, called from a matrix, gaps and a load.
 module plain_runs
-  use fuge_active_set, only: run_active_set
-  use fuge_contact_factor, only: contact_factor
+  use fuge_block_pivoting, only: run_active_set
+  use fuge_kkt_factor, only: contact_factor
   use fuge_definiteness, only: check_definite
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_problem_type, only: fuge_problem, set_problem
-  use fuge_scene, only: contact_scene, make_scene
+  use fuge_canonical_problem, only: contact_scene, make_scene
   use fuge_status, only: fuge_info
-  use fuge_tableau, only: run_phase_one
+  use fuge_paper_tableau, only: run_phase_one
   implicit none
   private
 

@@ -4,18 +4,18 @@
 !> which points pull and which penetrate; those change sides, and so on until none is
 !> left and the residual is as small as asked for. An operator with coarser grids starts
 !> there. Where changes of many points at once do not get on, forces only push and one point
-!> joins at a time, down the energy: that ends (see fuge_active_set).
+!> joins at a time, down the energy: that ends (see fuge_block_pivoting).
 module fuge_iterative_engine
-  use fuge_check, only: LARGEST_EXPONENT
-  use fuge_contact_search, only: demands, find_contact, restart, SETS_PER_POINT
+  use fuge_input_checks, only: LARGEST_EXPONENT
+  use fuge_contact_set_search, only: demands, find_contact, restart, SETS_PER_POINT
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_set_gradients, only: iterate, make_iterate, measure, deflect, open_gap
+  use fuge_projected_gradients, only: iterate, make_iterate, measure, deflect, open_gap
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_text, only: text
+  use fuge_number_text, only: text
   implicit none
   private
 

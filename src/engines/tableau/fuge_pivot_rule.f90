@@ -7,16 +7,16 @@
 !> lexicographically, which keeps degenerate problems from cycling.
 !>
 !> Beyond the paper, a variable may be free of sign, or have an upper limit (the play of
-!> a gap): `fuge_variable_limits`. A column that reaches its own limit leaves the basis as
+!> a gap): `fuge_variable_bounds`. A column that reaches its own limit leaves the basis as
 !> it is.
 !>
 !> The tableau is scaled: its lengths and forces are of order 1, so that small
 !> numbers here are relative to the data.
 module fuge_pivot_rule
   use fuge_kinds, only: dp
-  use fuge_numbering, only: partner_column, is_artificial, stored_columns
+  use fuge_column_numbers, only: partner_column, is_artificial, stored_columns
   use fuge_options_type, only: FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
-  use fuge_variable_limits, only: variable_limits
+  use fuge_variable_bounds, only: variable_limits
   implicit none
   private
 

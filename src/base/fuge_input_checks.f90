@@ -1,0 +1,51 @@
+!> Checks that several modules share.
+module fuge_input_checks
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE
+  use fuge_number_text, only: text
+  implicit none
+  private
+
+  public :: check_finite, is_finite_everywhere
+
+  !> Larger powers of two leave no room for sums.
+  integer, parameter, public :: LARGEST_EXPONENT = maxexponent(1.0_dp) - 32
+
+  integer, parameter :: int64 = selected_int_kind(18)
+
+contains
+
+  !> Are all values finite? Looks at the bits of the exponent, in one pass without a
+  !> branch: NaN compared may trap.
+  pure function is_finite_everywhere(values) result(finite)
+    real(dp), intent(in), contiguous :: values(:)
+    logical :: finite
+    integer(int64) :: exponent_bits, worst
+    integer :: k
+
+    exponent_bits = ishft(2047_int64, 52)
+    worst = 0
+    do k = 1, size(values)
+      worst = max(worst, iand(transfer(values(k), worst), exponent_bits))
+    end do
+    finite = worst < exponent_bits
+  end function is_finite_everywhere
+
+
+  !> Refuse NaN and infinity, with the first index (FUGE_ERR_NOT_FINITE).
+  pure subroutine check_finite(values, name, info)
+    real(dp), intent(in) :: values(:)
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    do k = 1, size(values)
+      if (ieee_is_finite(values(k))) cycle
+      call report(info, FUGE_ERR_NOT_FINITE, name//'('//text(k)//') = '//text(values(k)) &
+        //' is not a finite number')
+      return
+    end do
+  end subroutine check_finite
+
+end module fuge_input_checks

@@ -1,0 +1,57 @@
+!> Numbers as text, for messages.
+!>
+!> Results have lengths that are known before the call: gfortran keeps the length of a
+!> deferred one (`len=:`) in a variable that all threads share.
+module fuge_number_text
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  public :: text
+
+  !> An integer, or a real number to six digits or so, without blanks.
+  interface text
+    module procedure text_integer
+    module procedure text_real
+  end interface text
+
+contains
+
+  pure function integer_field(value) result(field)
+    integer, intent(in) :: value
+    character(len=12) :: field
+
+    write (field, '(i0)') value
+  end function integer_field
+
+  pure function text_integer(value) result(string)
+    integer, intent(in) :: value
+    character(len=len_trim(integer_field(value))) :: string
+
+    string = integer_field(value)
+  end function text_integer
+
+  pure function real_field(value) result(field)
+    real(dp), intent(in) :: value
+    character(len=24) :: field
+
+    if (.not. ieee_is_finite(value)) then
+      ! Apart, because a comparison with NaN may trap.
+      write (field, '(es13.5e3)') value
+    else if (abs(value) >= 1.0e-3_dp .and. abs(value) < 1.0e5_dp) then
+      write (field, '(f14.6)') value
+    else
+      write (field, '(es13.5e3)') value
+    end if
+    field = adjustl(field)
+  end function real_field
+
+  pure function text_real(value) result(string)
+    real(dp), intent(in) :: value
+    character(len=len_trim(real_field(value))) :: string
+
+    string = real_field(value)
+  end function text_real
+
+end module fuge_number_text

@@ -1,8 +1,0 @@
-!> The version of the library; include/fuge.h repeats it and a test compares the two.
-module fuge_release
-  implicit none
-  private
-
-  character(len=*), parameter, public :: FUGE_VERSION_TEXT = '0.1.0'
-
-end module fuge_release

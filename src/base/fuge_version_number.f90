@@ -1,0 +1,8 @@
+!> The version of the library; include/fuge.h repeats it and a test compares the two.
+module fuge_version_number
+  implicit none
+  private
+
+  character(len=*), parameter, public :: FUGE_VERSION_TEXT = '0.1.0'
+
+end module fuge_version_number

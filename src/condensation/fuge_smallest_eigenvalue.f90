@@ -1,0 +1,66 @@
+!> How near to singular a factored stiffness is: the softest motion that its supports leave,
+!> by inverse iteration. A small pivot is no measure of that: rounding grows on the way to
+!> the last one, and a body eliminated from its free end has none.
+module fuge_smallest_eigenvalue
+  use fuge_kinds, only: dp
+  use fuge_status, only: FUGE_DONE
+  use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
+  implicit none
+  private
+
+  public :: find_softest_motion, unscale
+
+  integer, parameter :: STEPS = 3
+
+contains
+
+  !> `quotient`: stiffness of the softest motion relative to the parts of which it is the
+  !> sum, from K itself; `place`: the degree of freedom that it moves most.
+  !>
+  !> `scale` (degrees): square root of the diagonal of K, zero where held. `status` is not
+  !> zero without memory.
+  subroutine find_softest_motion(stiffness, factor, scale, quotient, place, status)
+    class(fuge_stiffness), intent(in) :: stiffness
+    class(stiffness_factor), intent(in) :: factor
+    real(dp), intent(in) :: scale(:)
+    real(dp), intent(out) :: quotient
+    integer, intent(out) :: place, status
+    real(dp), allocatable :: y(:, :), product(:), magnitude(:)
+    integer :: j, step
+
+    quotient = 1.0_dp
+    place = 0
+    allocate (y(size(scale), 1), product(size(scale)), magnitude(size(scale)), stat=status)
+    if (status /= FUGE_DONE .or. .not. any(scale > 0.0_dp)) return
+    ! Any start will do that is not orthogonal to what is sought.
+    do j = 1, size(scale)
+      y(j, 1) = modulo(real(j, dp)*sqrt(2.0_dp), 1.0_dp) - 0.3_dp
+    end do
+    do step = 1, STEPS
+      y(:, 1) = y(:, 1)*scale
+      y = y/maxval(abs(y))
+      call factor%solve(y, status)
+      if (status /= FUGE_DONE) return
+      y(:, 1) = y(:, 1)*scale
+    end do
+    y = y/maxval(abs(y))
+    place = maxloc(abs(y(:, 1)), 1)
+    call unscale(y(:, 1), scale)
+    call stiffness%multiply(y(:, 1), product, magnitude)
+    ! Both are sums over all degrees of freedom; those held do not move.
+    quotient = dot_product(y(:, 1), product)/dot_product(abs(y(:, 1)), magnitude)
+  end subroutine find_softest_motion
+
+  !> Divide by the scale, zero where that is zero.
+  pure subroutine unscale(y, scale)
+    real(dp), intent(inout) :: y(:)
+    real(dp), intent(in) :: scale(:)
+
+    where (scale > 0.0_dp)
+      y = y/scale
+    else where
+      y = 0.0_dp
+    end where
+  end subroutine unscale
+
+end module fuge_smallest_eigenvalue

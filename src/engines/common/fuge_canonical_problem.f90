@@ -1,0 +1,403 @@
+!> A contact problem as the engines see it: prescribed motions moved into the gaps, free
+!> ones made orthogonal, so that neither their units nor a far-away point of reference
+!> costs digits; and whether there can be equilibrium.
+module fuge_canonical_problem
+  use fuge_equilibrium, only: find_equilibrium
+  use fuge_kinds, only: dp
+  use fuge_lapack, only: dgeqp3, dgesv, dorgqr
+  use fuge_problem_type, only: fuge_problem
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_number_text, only: text
+  implicit none
+  private
+
+  public :: make_scene
+
+  !> A motion is no other than the rest if less than this part of it remains.
+  real(dp), parameter :: DEPENDENT = 1.0e-12_dp
+  !> A constant is made of the motions if less than this part of it remains.
+  real(dp), parameter :: CONSTANT_TOLERANCE = 1.0e-13_dp
+
+  type, public :: contact_scene
+    !> Gaps less the prescribed motions, (n), length.
+    real(dp), allocatable :: gap(:)
+    !> Play, (n), length; huge where one-sided.
+    real(dp), allocatable :: upper(:)
+    !> Points that take no part, (n).
+    logical, allocatable :: excluded(:)
+    !> Free motions made orthogonal, (n, m), of size about 1, and the resultants in them.
+    real(dp), allocatable :: modes(:, :), load(:)
+    !> modes(:, 1) is 1: a constant in gaps or displacements moves only that motion.
+    logical :: constant = .false.
+    !> Forces at few points in equilibrium with the load, (n); not made if plain.
+    real(dp), allocatable :: start(:)
+    !> The paper's problem.
+    logical :: plain = .false.
+    !> Places of the free motions among all, and R = modes*mixing for them.
+    integer, allocatable, private :: free(:)
+    real(dp), allocatable, private :: mixing(:, :)
+    !> Prescribed motions R, (n, m), zero where free; not allocated if none is prescribed.
+    real(dp), allocatable, private :: given(:, :)
+    logical, allocatable, private :: prescribed(:)
+    !> Excluded points, and their rows of R: the orthogonal modes are not theirs.
+    integer, allocatable, private :: outside(:)
+    real(dp), allocatable, private :: rows(:, :)
+  contains
+    procedure :: motions
+    procedure :: motions_of
+    procedure :: change_of
+    procedure :: open_outside
+    procedure :: named_motion
+  end type contact_scene
+
+contains
+
+  !> The scene of a checked problem. Errors: FUGE_ERR_MEMORY, FUGE_ERR_MODES for motions
+  !> that depend on each other, FUGE_ERR_NO_EQUILIBRIUM.
+  subroutine make_scene(problem, scene, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(out) :: scene
+    type(fuge_info), intent(inout) :: info
+    integer :: j, n, m, stat
+
+    n = problem%points()
+    scene%plain = problem%is_plain()
+    allocate (scene%gap(n), scene%upper(n), scene%excluded(n), stat=stat)
+    if (stat == 0) then
+      scene%gap = problem%gap
+      scene%upper = huge(1.0_dp)
+      scene%excluded = .false.
+      if (allocated(problem%gap_upper)) scene%upper = min(problem%gap_upper, huge(1.0_dp))
+      if (allocated(problem%excluded)) scene%excluded = problem%excluded
+      scene%free = [(j, j=1, problem%motions())]
+      if (allocated(problem%prescribed)) scene%free = pack(scene%free, .not. problem%prescribed)
+      m = size(scene%free)
+      allocate (scene%modes(n, m), scene%load(m), scene%mixing(m, m), stat=stat)
+    end if
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+      return
+    end if
+    call take_prescribed(problem, scene)
+    call take_outside(problem, scene)
+    if (.not. allocated(problem%modes)) then
+      scene%constant = m == 1
+      scene%modes = 1.0_dp
+      scene%mixing = 1.0_dp
+      if (m == 1) scene%load = problem%resultant
+    else if (m > 0) then
+      call orthogonalise(problem%modes(:, scene%free), problem%resultant(scene%free), scene, info)
+    end if
+    if (.not. (info%failed() .or. scene%plain)) call require_equilibrium(problem, scene, info)
+  end subroutine make_scene
+
+  !> Prescribed motions change the gaps.
+  pure subroutine take_prescribed(problem, scene)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(inout) :: scene
+    integer :: j
+
+    allocate (scene%prescribed(problem%motions()))
+    scene%prescribed = .false.
+    if (.not. allocated(problem%prescribed)) return
+    scene%prescribed = problem%prescribed
+    allocate (scene%given(problem%points(), problem%motions()))
+    scene%given = 0.0_dp
+    do j = 1, problem%motions()
+      if (.not. problem%prescribed(j)) cycle
+      scene%given(:, j) = 1.0_dp
+      if (allocated(problem%modes)) scene%given(:, j) = problem%modes(:, j)
+      scene%gap = scene%gap - problem%motion(j)*scene%given(:, j)
+    end do
+  end subroutine take_prescribed
+
+  !> Rows of R at the excluded points.
+  pure subroutine take_outside(problem, scene)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(inout) :: scene
+    integer :: k
+
+    scene%outside = pack([(k, k=1, size(scene%excluded))], scene%excluded)
+    allocate (scene%rows(size(scene%outside), problem%motions()))
+    scene%rows = 1.0_dp
+    if (allocated(problem%modes)) scene%rows = problem%modes(scene%outside, :)
+  end subroutine take_outside
+
+  !> Modes of equal size, orthogonal at the points that take part; the first is 1 if that
+  !> is made of the given ones.
+  subroutine orthogonalise(given, resultant, scene, info)
+    real(dp), intent(in) :: given(:, :), resultant(:)
+    type(contact_scene), intent(inout) :: scene
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: scales(size(given, 2)), part(size(given, 1), size(given, 2))
+    integer :: order(size(given, 2)), m, rank, replaced
+
+    m = size(given, 2)
+    part = given
+    where (spread(scene%excluded, 2, m)) part = 0.0_dp
+    scales = maxval(abs(part), dim=1)
+    if (any(.not. scales > 0.0_dp)) then
+      call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(minloc(scales, dim=1)))//' moves no point')
+      return
+    end if
+    part = part/spread(scales, 1, size(part, 1))
+    if (is_orthogonal(part)) then
+      ! Several bodies: mixing them would cost the smallest resultant its digits.
+      call keep_modes(part, scales, resultant, scene)
+      return
+    end if
+    call orthonormal_base(part, .true., order, rank)
+    if (rank < m) then
+      call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(order(rank + 1)))//' is made of the other modes: ' &
+                  //'leave it out')
+      return
+    end if
+    ! `part` is now an orthonormal base.
+    call replace_by_constant(part, scene%excluded, replaced)
+    scene%constant = replaced > 0
+    if (scene%constant) then
+      part = cshift(part, replaced - 1, dim=2)
+      call orthonormal_base(part, .false., order, rank)
+    end if
+    ! Rounding would let a point carry what does not move it.
+    where (spread(all(abs(given) <= 0.0_dp, dim=2), 2, m)) part = 0.0_dp
+    part = part*sqrt(real(count(.not. scene%excluded), dp))
+    if (scene%constant) part(:, 1) = merge(0.0_dp, 1.0_dp, scene%excluded)
+    scene%modes = part
+    scene%mixing = matmul(transpose(part), given)/real(count(.not. scene%excluded), dp)
+    call solve_small(transpose(scene%mixing), resultant, scene%load)
+  end subroutine orthogonalise
+
+  !> Are the columns orthogonal to each other as they are?
+  pure function is_orthogonal(matrix) result(orthogonal)
+    real(dp), intent(in) :: matrix(:, :)
+    logical :: orthogonal
+    integer :: i, j
+
+    orthogonal = .true.
+    do j = 2, size(matrix, 2)
+      do i = 1, j - 1
+        orthogonal = orthogonal .and. abs(dot_product(matrix(:, i), matrix(:, j))) &
+                     <= DEPENDENT*norm2(matrix(:, i))*norm2(matrix(:, j))
+      end do
+    end do
+  end function is_orthogonal
+
+  !> The modes as given but for their size, one that is constant first.
+  pure subroutine keep_modes(part, scales, resultant, scene)
+    real(dp), intent(in) :: part(:, :), scales(:), resultant(:)
+    type(contact_scene), intent(inout) :: scene
+    real(dp) :: unit
+    integer :: first, j, m, place
+
+    m = size(scales)
+    first = 0
+    do j = m, 1, -1
+      if (minval(part(:, j), mask=.not. scene%excluded) >= maxval(part(:, j), mask=.not. scene%excluded)) first = j
+    end do
+    scene%constant = first > 0
+    scene%mixing = 0.0_dp
+    do j = 1, m
+      ! Turning the order brings the constant mode to the front.
+      place = modulo(j - max(first, 1), m) + 1
+      unit = norm2(part(:, j))/sqrt(real(count(.not. scene%excluded), dp))
+      ! The constant is 1, not -1.
+      if (j == first .and. any(part(:, j) < 0.0_dp)) unit = -unit
+      scene%modes(:, place) = part(:, j)/unit
+      if (j == first) scene%modes(:, place) = merge(0.0_dp, 1.0_dp, scene%excluded)
+      scene%mixing(place, j) = scales(j)*unit
+      scene%load(place) = resultant(j)/(scales(j)*unit)
+    end do
+  end subroutine keep_modes
+
+  !> Overwrite a matrix by an orthonormal base of its columns, in order of size if
+  !> `pivoted`; `rank` counts those that are not rounding.
+  subroutine orthonormal_base(matrix, pivoted, order, rank)
+    real(dp), intent(inout), contiguous :: matrix(:, :)
+    logical, intent(in) :: pivoted
+    integer, intent(out) :: order(:), rank
+    real(dp) :: tau(size(matrix, 2)), work(64*(size(matrix, 2) + 1) + 2*size(matrix, 2))
+    integer :: j, info
+
+    order = 1
+    if (pivoted) order = 0
+    rank = 0
+    if (size(matrix, 1) < size(matrix, 2)) then
+      call rank_of_wide(matrix, order, rank)
+      return
+    end if
+    call dgeqp3(size(matrix, 1), size(matrix, 2), matrix, size(matrix, 1), order, tau, work, size(work), info)
+    do j = 1, size(matrix, 2)
+      if (abs(matrix(j, j)) > DEPENDENT*abs(matrix(1, 1))) rank = j
+    end do
+    call dorgqr(size(matrix, 1), size(matrix, 2), size(matrix, 2), matrix, size(matrix, 1), tau, work, size(work), info)
+  end subroutine orthonormal_base
+
+  !> More motions than points: some must depend on the others.
+  pure subroutine rank_of_wide(matrix, order, rank)
+    real(dp), intent(in) :: matrix(:, :)
+    integer, intent(out) :: order(:), rank
+    integer :: j
+
+    order = [(j, j=1, size(matrix, 2))]
+    rank = size(matrix, 1)
+  end subroutine rank_of_wide
+
+  !> Put the constant in the place of a column of an orthonormal base if it lies in its
+  !> span; `column` is 0 if it does not.
+  pure subroutine replace_by_constant(base, excluded, column)
+    real(dp), intent(inout) :: base(:, :)
+    logical, intent(in) :: excluded(:)
+    integer, intent(out) :: column
+    real(dp) :: ones(size(base, 1)), parts(size(base, 2))
+
+    ones = merge(0.0_dp, 1.0_dp, excluded)
+    parts = matmul(ones, base)
+    column = 0
+    if (maxval(abs(ones - matmul(base, parts))) > CONSTANT_TOLERANCE*real(size(base, 1), dp)) return
+    column = maxloc(abs(parts), dim=1)
+    base(:, column) = ones/sqrt(sum(ones))
+  end subroutine replace_by_constant
+
+  subroutine solve_small(matrix, right, solution)
+    real(dp), intent(in) :: matrix(:, :), right(:)
+    real(dp), intent(out) :: solution(:)
+    real(dp) :: copy(size(matrix, 1), size(matrix, 2))
+    integer :: pivots(size(right)), info
+
+    copy = matrix
+    solution = right
+    call dgesv(size(right), 1, copy, size(right), pivots, solution, size(right), info)
+  end subroutine solve_small
+
+  !> Number of motions, prescribed ones included.
+  pure function motions(self) result(m)
+    class(contact_scene), intent(in) :: self
+    integer :: m
+
+    m = 0
+    if (allocated(self%prescribed)) m = size(self%prescribed)
+  end function motions
+
+  !> All motions in the caller's order: the free ones from what an engine found in the
+  !> orthogonal modes, the prescribed ones from `given` (m).
+  subroutine motions_of(self, given, found, rigid)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: given(:), found(:)
+    real(dp), intent(out) :: rigid(:)
+    real(dp) :: free(size(found))
+
+    rigid = merge(given, 0.0_dp, self%prescribed)
+    if (size(found) < 1) return
+    call solve_small(self%mixing, found, free)
+    rigid(self%free) = free
+  end subroutine motions_of
+
+  !> The place, among all motions, of the one that has the largest part in a motion `way`
+  !> (free ones) of the orthogonal modes.
+  function named_motion(self, way) result(place)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: way(:)
+    integer :: place
+    real(dp) :: free(size(way))
+
+    call solve_small(self%mixing, way, free)
+    place = self%free(maxloc(abs(free)*sqrt(sum(self%mixing**2, dim=1)), dim=1))
+  end function named_motion
+
+  !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the
+  !> scene's gaps and loads.
+  subroutine change_of(self, gap_change, load_change, shape, load)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    real(dp), allocatable, intent(out) :: shape(:), load(:)
+
+    shape = gap_change
+    if (allocated(self%given)) shape = shape - matmul(self%given, merge(load_change, 0.0_dp, self%prescribed))
+    allocate (load(size(self%free)))
+    if (size(load) > 0) call solve_small(transpose(self%mixing), load_change(self%free), load)
+  end subroutine change_of
+
+  !> c = g + A f - R q at the excluded points, of `gap` g (n), `force` (n) and all
+  !> motions `rigid` (m), or of changes of these.
+  pure subroutine open_outside(self, alpha, gap, force, rigid, gap_out)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: alpha(:, :), gap(:), force(:), rigid(:)
+    real(dp), intent(inout) :: gap_out(:)
+    integer :: k
+
+    do k = 1, size(self%outside)
+      associate (point => self%outside(k))
+        gap_out(point) = gap(point) + sum(alpha(point, :)*force) - sum(self%rows(k, :)*rigid)
+      end associate
+    end do
+  end subroutine open_outside
+
+  !> Forces to start with, or the reason why there are none.
+  subroutine require_equilibrium(problem, scene, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(inout) :: scene
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: remainder(size(scene%load))
+    integer :: stat
+
+    allocate (scene%start(size(scene%gap)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium')
+      return
+    end if
+    scene%start = 0.0_dp
+    if (size(scene%load) < 1) return
+    call find_equilibrium(scene%modes, scene%load, .not. scene%excluded, &
+                          scene%upper < huge(1.0_dp) .and. .not. scene%excluded, scene%start, remainder)
+    if (any(abs(remainder) > 0.0_dp)) call explain_missing(problem, scene, remainder, info)
+  end subroutine require_equilibrium
+
+  !> Name the resultant that nothing can carry.
+  subroutine explain_missing(problem, scene, remainder, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: remainder(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: motion(size(remainder))
+    integer :: worst
+
+    if (all(scene%excluded)) then
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'all points are excluded: nothing carries the resultant')
+    else if (.not. allocated(problem%modes)) then
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'resultant '//text(problem%resultant(1))//' is negative: contact ' &
+                  //'forces can only push, so it must be >= 0')
+    else
+      call explain_line(problem, scene, 1, 2, info)
+      if (.not. info%failed()) call explain_line(problem, scene, 2, 1, info)
+      if (info%failed()) return
+      associate (w => problem%resultant(scene%free), r => problem%modes(:, scene%free))
+        call solve_small(scene%mixing, remainder, motion)
+        worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
+                    //' in motion '//text(scene%free(worst))//' together with the others: moving along it by ' &
+                    //text(motion(worst))//' closes no contact, but the resultants do work')
+      end associate
+    end if
+  end subroutine explain_missing
+
+  !> A load that presses beside all points, of a translation and a tilt: there its line of
+  !> action says more. Points that pull have no range.
+  subroutine explain_line(problem, scene, translation, tilt, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: translation, tilt
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: x(size(scene%gap))
+
+    if (size(scene%free) /= 2 .or. any(scene%upper < huge(x) .and. .not. scene%excluded)) return
+    associate (w => problem%resultant(scene%free), unit => problem%modes(:, scene%free(translation)))
+      if (.not. (minval(unit) > 0.0_dp .and. maxval(unit) <= minval(unit) .and. w(translation) > 0.0_dp)) return
+      x = problem%modes(:, scene%free(tilt))/unit
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(tilt)/w(translation)) &
+                  //', but the points reach from '//text(minval(x, mask=.not. scene%excluded))//' to ' &
+                  //text(maxval(x, mask=.not. scene%excluded))//' only: move the load between them')
+    end associate
+  end subroutine explain_line
+
+end module fuge_canonical_problem

@@ -1,0 +1,111 @@
+!> Rigid motions that contact does not hold: they are not unique, forces are.
+module fuge_free_modes
+  use fuge_equilibrium, only: find_equilibrium
+  use fuge_kinds, only: dp
+  use fuge_lapack, only: dgeqp3, dorgqr
+  use fuge_canonical_problem, only: contact_scene
+  implicit none
+  private
+
+  public :: find_loose, without_loose, find_free_way
+
+  !> Rows of the modes that differ by less than this part are one.
+  real(dp), parameter :: DEPENDENT = 1.0e-12_dp
+
+  !> A force below this part of the loads that it may carry is rounding.
+  real(dp), parameter :: NO_FORCE = 1.0e-14_dp
+
+contains
+
+  !> A way (m) in which the bodies of an answer can move without a change of force, or zero
+  !> if there is none: the motions are unique then.
+  !>
+  !> `side` (n), `force` (n) and `gap` (n) of the answer in `scene`.
+  subroutine find_free_way(scene, side, force, gap, way)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: side(:)
+    real(dp), intent(in) :: force(:), gap(:)
+    real(dp), intent(out) :: way(:)
+    real(dp), allocatable :: base(:, :)
+    real(dp) :: work(size(side))
+    logical :: held(size(side)), pushes(size(side)), pulls(size(side))
+    integer :: j
+
+    way = 0.0_dp
+    held = holds(scene, side, force)
+    call find_loose(scene%modes, held, base)
+    ! Points that touch without force bar one sense.
+    pushes = held .or. ((side > 0 .or. gap <= 0.0_dp) .and. .not. scene%excluded)
+    pulls = held .or. ((side < 0 .or. gap >= scene%upper) .and. .not. scene%excluded)
+    do j = 1, size(base, 2)
+      call find_equilibrium(scene%modes, base(:, j), pushes, pulls, work, way)
+      if (any(abs(way) > 0.0_dp)) return
+      call find_equilibrium(scene%modes, -base(:, j), pushes, pulls, work, way)
+      if (any(abs(way) > 0.0_dp)) return
+    end do
+  end subroutine find_free_way
+
+  !> Points (n) that are tied, or that carry more force than rounding makes.
+  pure function holds(scene, side, force) result(held)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: side(:)
+    real(dp), intent(in) :: force(:)
+    logical :: held(size(side))
+    real(dp) :: measure(size(side))
+    integer :: j
+
+    measure = 0.0_dp
+    do j = 1, size(scene%load)
+      measure = max(measure, abs(scene%modes(:, j)*scene%load(j)))
+    end do
+    ! Without a load of its own a body may be squeezed between stops.
+    where (.not. measure > 0.0_dp) measure = maxval(abs(force))
+    held = side /= 0 .and. (abs(force) > NO_FORCE*measure .or. .not. scene%upper > 0.0_dp)
+  end function holds
+
+  !> An orthonormal base of the motions q with R q = 0 at the points `held` (n).
+  !>
+  !> `modes` R (n, m) with columns of about the same size; `base` (m, number of loose motions).
+  subroutine find_loose(modes, held, base)
+    real(dp), intent(in) :: modes(:, :)
+    logical, intent(in) :: held(:)
+    real(dp), allocatable, intent(out) :: base(:, :)
+    real(dp) :: rows(size(modes, 2), count(held)), whole(size(modes, 2), size(modes, 2))
+    real(dp) :: tau(size(modes, 2) + count(held)), work(3*count(held) + 64*(size(modes, 2) + 1))
+    integer :: order(count(held)), points(count(held)), j, k, m, p, rank, info
+
+    m = size(modes, 2)
+    p = count(held)
+    k = min(m, p)
+    points = pack([(j, j=1, size(held))], held)
+    rows = transpose(modes(points, :))
+    order = 0
+    rank = 0
+    whole = 0.0_dp
+    do j = 1, m
+      whole(j, j) = 1.0_dp
+    end do
+    if (k > 0) then
+      call dgeqp3(m, p, rows, m, order, tau, work, size(work), info)
+      do j = 1, k
+        if (abs(rows(j, j)) > DEPENDENT*abs(rows(1, 1))) rank = j
+      end do
+      whole(:, :k) = rows(:, :k)
+      call dorgqr(m, m, k, whole, m, tau, work, size(work), info)
+    end if
+    base = whole(:, rank + 1:)
+  end subroutine find_loose
+
+  !> The motion (m) less its part in the `base` of the loose ones.
+  pure function without_loose(motion, base) result(rest)
+    real(dp), intent(in) :: motion(:), base(:, :)
+    real(dp) :: rest(size(motion))
+    integer :: j
+
+    rest = motion
+    do j = 1, size(base, 2)
+      rest = rest - dot_product(base(:, j), motion)*base(:, j)
+    end do
+  end function without_loose
+
+end module fuge_free_modes

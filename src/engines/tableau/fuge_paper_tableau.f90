@@ -1,0 +1,490 @@
+!> The paper's tableau and its Phase I (Fischer, Hoyer, Melosh, section 3).
+!>
+!> Rows 1..n are equation (9), rows n+1..n+m the equilibrium (11) in each free motion, the
+!> last row is the objective z, the sum of the artificial variables. Columns are numbered
+!> as in `fuge_column_numbers`; those of the artificials are never stored, only the vector
+!> of basis columns. One more column holds the right-hand side.
+!>
+!> Beyond the paper, motions and the forces of tied points are free of sign, and a play
+!> limits c_k. Every point is seen from the stop that it was last at: mirrored, with d - c
+!> for c and -f for f, where that is the upper one. So nothing that has a sign is ever
+!> negative, and what is not in the basis is zero.
+!>
+!> Lengths and forces are scaled by powers of two, which changes no digit and
+!> lets every comparison be relative to the data.
+module fuge_paper_tableau
+  use fuge_history_type, only: fuge_history
+  use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor, tell_monitor
+  use fuge_column_numbers, only: artificial_column, force_column, gap_column, rigid_column, is_artificial, is_force, &
+    partner_column, point_of
+  use fuge_pivot_rule, only: select_pivot, select_for_equilibrium
+  use fuge_canonical_problem, only: contact_scene
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_variable_bounds, only: variable_limits
+  implicit none
+  private
+
+  public :: run_phase_one
+
+  type, public :: paper_tableau
+    !> Rows and columns as above, scaled, (n+m+1, 2n+m+1).
+    real(dp), allocatable :: table(:, :)
+    !> Column number in the basis for each row, (n+m).
+    integer, allocatable :: basis(:)
+    !> Points seen from their upper stop, (n).
+    logical, allocatable :: mirrored(:)
+    !> What was added to every gap: for the paper's problem to keep right-hand sides and
+    !> v_0 non-negative, otherwise to count gaps from the lowest; length.
+    real(dp) :: shift = 0.0_dp
+    !> A scaled length times 2**length_exponent is the caller's; forces likewise.
+    integer :: length_exponent = 0
+    integer :: force_exponent = 0
+    !> Signs and limits of the variables.
+    type(variable_limits), private :: limits
+    !> The equilibrium rows are done with, and signs are settled.
+    logical, private :: settled = .false.
+  contains
+    generic :: start => start_plain, start_scene
+    procedure :: choose
+    procedure :: pivot
+    procedure :: finished
+    procedure :: balanced
+    procedure :: sides
+    procedure :: z
+    procedure :: remaining
+    procedure :: entry_at
+    procedure, private :: start_plain, start_scene
+  end type paper_tableau
+
+contains
+
+  !> Set up the tableau of Bild 3 with the artificial basis, step 1 done.
+  !>
+  !> `alpha` (at least n rows, n columns) length per force, `gap` (n) length,
+  !> `load` > 0 force. Error: FUGE_ERR_MEMORY.
+  pure subroutine start_plain(self, alpha, gap, load, status)
+    class(paper_tableau), intent(inout) :: self
+    real(dp), intent(in) :: alpha(:, :), gap(:), load
+    integer, intent(out) :: status
+    integer :: n
+
+    n = size(gap)
+    call make_room(self, n, 1, n, status)
+    if (status /= FUGE_DONE) return
+    call set_datum_and_scales(self, alpha, gap, load)
+    call fill(self, alpha, 0.0_dp)
+    associate (t => self%table, force => self%force_exponent, length => self%length_exponent)
+      t(:n, rigid_column(n, 1)) = 1.0_dp
+      t(n + 1, :n) = 1.0_dp
+      t(:n, 2*n + 2) = scale(gap, -length) + scale(self%shift, -length)
+      t(n + 1, 2*n + 2) = scale(load, -force)
+    end associate
+    ! The shift has settled every sign.
+    self%settled = .true.
+    call subtract_rows_from_last(self)
+  end subroutine start_plain
+
+  !> The same for any scene; `datum` is taken out of alpha if the scene has a translation.
+  pure subroutine start_scene(self, alpha, datum, scene, status)
+    class(paper_tableau), intent(inout) :: self
+    real(dp), intent(in) :: alpha(:, :), datum
+    type(contact_scene), intent(in) :: scene
+    integer, intent(out) :: status
+    real(dp) :: constant
+    integer :: n, m, j
+
+    n = size(scene%gap)
+    m = size(scene%load)
+    if (scene%plain) then
+      call self%start_plain(alpha, scene%gap, scene%load(1), status)
+      return
+    end if
+    call make_room(self, n, m, n + m, status)
+    if (status /= FUGE_DONE) return
+    constant = merge(datum, 0.0_dp, scene%constant)
+    call set_general_scales(self, alpha, constant, scene)
+    call fill(self, alpha, constant)
+    associate (t => self%table, force => self%force_exponent, length => self%length_exponent)
+      do j = 1, m
+        t(:n, rigid_column(n, j)) = scene%modes(:, j)
+        t(n + j, :n) = scene%modes(:, j)
+      end do
+      t(:n, 2*n + m + 1) = scale(scene%gap + self%shift, -length)
+      t(n + 1:n + m, 2*n + m + 1) = scale(scene%load, -force)
+    end associate
+    call set_limits(self, scene)
+    self%settled = .false.
+    call turn_negative_rows(self)
+    if (m == 0) call settle(self)
+    call subtract_rows_from_last(self)
+  end subroutine start_scene
+
+  pure subroutine make_room(self, n, m, ties, status)
+    class(paper_tableau), intent(inout) :: self
+    integer, intent(in) :: n, m, ties
+    integer, intent(out) :: status
+    integer :: k, stat
+
+    if (allocated(self%table)) deallocate (self%table)
+    if (allocated(self%basis)) deallocate (self%basis)
+    if (allocated(self%mirrored)) deallocate (self%mirrored)
+    allocate (self%table(n + m + 1, 2*n + m + 1), self%basis(n + m), self%mirrored(n), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+    if (status == FUGE_DONE) call self%limits%set(n, m, ties, status)
+    if (status /= FUGE_DONE) return
+    self%basis = artificial_column(n, m, [(k, k=1, n + m)])
+    self%mirrored = .false.
+  end subroutine make_room
+
+  !> Forces and gaps in the gap rows, zero elsewhere.
+  pure subroutine fill(self, alpha, datum)
+    class(paper_tableau), intent(inout) :: self
+    real(dp), intent(in) :: alpha(:, :), datum
+    integer :: n, k
+
+    n = self%limits%n
+    self%table = 0.0_dp
+    do k = 1, n
+      self%table(:n, force_column(k)) = -scale(alpha(:n, k) - datum, self%force_exponent - self%length_exponent)
+      self%table(k, gap_column(n, k)) = 1.0_dp
+    end do
+  end subroutine fill
+
+  !> The datum shift and the powers of two.
+  !>
+  !> v_0 F_0 = F.(a + b) + F.alpha F, and F.alpha F >= F_0**2 min(alpha) because no
+  !> force is negative: so this shift makes v_0, and every right-hand side after
+  !> the first pivot, non-negative for any datum of alpha and of the gaps.
+  pure subroutine set_datum_and_scales(self, alpha, gap, load)
+    class(paper_tableau), intent(inout) :: self
+    real(dp), intent(in) :: alpha(:, :), gap(:), load
+    real(dp) :: lowest
+    integer :: n
+
+    n = size(gap)
+    self%force_exponent = exponent(load)
+    lowest = minval(gap) + load*minval(alpha(:n, :))
+    self%shift = max(0.0_dp, -lowest)
+    self%length_exponent = exponent(max(maxval(abs(gap + self%shift)), load*maxval(abs(alpha(:n, :)))))
+  end subroutine set_datum_and_scales
+
+  !> The powers of two where motions have no sign: no shift is needed, but a large datum of
+  !> the gaps would cost digits.
+  pure subroutine set_general_scales(self, alpha, datum, scene)
+    class(paper_tableau), intent(inout) :: self
+    real(dp), intent(in) :: alpha(:, :), datum
+    type(contact_scene), intent(in) :: scene
+    real(dp) :: load, softest, length
+    integer :: n
+
+    n = size(scene%gap)
+    self%shift = 0.0_dp
+    if (scene%constant) self%shift = -minval(scene%gap, mask=.not. scene%excluded)
+    load = 0.0_dp
+    if (size(scene%load) > 0) load = maxval(abs(scene%load))
+    softest = maxval(abs(alpha(:n, :) - datum))
+    length = max(maxval(abs(scene%gap + self%shift), mask=.not. scene%excluded), load*softest)
+    self%length_exponent = exponent(length)
+    self%force_exponent = exponent(load)
+    if (.not. load > 0.0_dp) self%force_exponent = self%length_exponent - exponent(softest)
+  end subroutine set_general_scales
+
+  !> Tied points hold whatever their force; excluded ones have none, whatever their gap.
+  !> The force at a play may have either sign until the equilibrium has been met.
+  pure subroutine set_limits(self, scene)
+    class(paper_tableau), intent(inout) :: self
+    type(contact_scene), intent(in) :: scene
+    integer :: k
+
+    associate (limits => self%limits, n => self%limits%n)
+      limits%free(rigid_column(n, [(k, k=1, limits%m)])) = .true.
+      do k = 1, n
+        if (scene%excluded(k)) then
+          limits%free(gap_column(n, k)) = .true.
+          limits%fixed(force_column(k)) = .true.
+        else if (scene%upper(k) <= 0.0_dp) then
+          limits%free(force_column(k)) = .true.
+          limits%fixed(gap_column(n, k)) = .true.
+        else if (exponent(scene%upper(k)) - self%length_exponent < maxexponent(1.0_dp)) then
+          limits%free(force_column(k)) = scene%upper(k) < huge(1.0_dp)
+          if (limits%free(force_column(k))) limits%upper(k) = scale(scene%upper(k), -self%length_exponent)
+        end if
+      end do
+    end associate
+  end subroutine set_limits
+
+  !> Rows whose artificial would be negative take it with the other sign.
+  pure subroutine turn_negative_rows(self)
+    class(paper_tableau), intent(inout) :: self
+    integer :: i, last
+
+    last = size(self%table, 2)
+    do i = 1, size(self%basis)
+      if (.not. (is_artificial(self%limits%n, self%limits%m, self%basis(i)) .and. self%table(i, last) < 0.0_dp)) cycle
+      self%table(i, :) = -self%table(i, :)
+      if (i <= self%limits%n) self%limits%sign(i) = -self%limits%sign(i)
+    end do
+  end subroutine turn_negative_rows
+
+  !> The equilibrium has been met: points whose force pulls are at their upper stop, and
+  !> from here on no sign may change. This basis is the first for the decision of ties.
+  pure subroutine settle(self)
+    class(paper_tableau), intent(inout) :: self
+    integer :: i, n
+
+    n = self%limits%n
+    do i = n + 1, size(self%basis)
+      if (self%limits%room(partner_column(n, self%basis(i))) >= huge(1.0_dp)) cycle
+      if (self%table(i, size(self%table, 2)) < 0.0_dp) call mirror(self, self%basis(i))
+    end do
+    where (self%limits%upper < huge(1.0_dp)) self%limits%free(:n) = .false.
+    self%limits%first(n + 1:) = self%basis(n + 1:)
+    self%settled = .true.
+  end subroutine settle
+
+  !> See a point from its other stop: d - c for c and -f for f.
+  pure subroutine mirror(self, point)
+    class(paper_tableau), intent(inout) :: self
+    integer, intent(in) :: point
+    integer :: i, last, rows
+
+    last = size(self%table, 2)
+    rows = size(self%basis)
+    associate (t => self%table, limits => self%limits, gap => gap_column(self%limits%n, point), &
+               force => force_column(point))
+      t(:rows, last) = t(:rows, last) - limits%upper(point)*t(:rows, gap)
+      t(:rows, gap) = -t(:rows, gap)
+      t(:rows, force) = -t(:rows, force)
+      do i = 1, rows
+        if (self%basis(i) == gap .or. self%basis(i) == force) t(i, :) = -t(i, :)
+      end do
+      where (limits%first == gap .or. limits%first == force) limits%sign = -limits%sign
+      self%mirrored(point) = .not. self%mirrored(point)
+    end associate
+  end subroutine mirror
+
+  !> Step 1: the last row is minus the sum of the rows whose variable is artificial.
+  !>
+  !> Done afresh after every pivot instead of carrying the row along: the same row
+  !> in exact arithmetic, but rounding cannot gather in it.
+  pure subroutine subtract_rows_from_last(self)
+    class(paper_tableau), intent(inout) :: self
+    real(dp) :: weight(size(self%basis))
+    integer :: rows, j
+
+    rows = size(self%basis)
+    weight = merge(1.0_dp, 0.0_dp, is_artificial(self%limits%n, self%limits%m, self%basis))
+    do j = 1, size(self%table, 2)
+      self%table(rows + 1, j) = -dot_product(weight, self%table(:rows, j))
+    end do
+  end subroutine subtract_rows_from_last
+
+  !> The next pivot. The equilibrium rows are always first, for the paper's problem against
+  !> F_1: see doc/theory.md for what goes wrong otherwise. `column` = 0: none is admissible.
+  !> `row` as `pivot` takes it.
+  pure subroutine choose(self, rule, column, row)
+    class(paper_tableau), intent(in) :: self
+    integer, intent(in) :: rule
+    integer, intent(out) :: column, row
+
+    if (self%balanced()) then
+      call select_pivot(self%table, self%basis, self%limits, rule, column, row)
+    else
+      call select_for_equilibrium(self%table, self%basis, self%limits, column, row)
+    end if
+  end subroutine choose
+
+  !> Step 2: bring `column` into the basis in `row`, or in -`row` if the gap there leaves
+  !> for its upper stop; for 0 the gap `column` goes from one stop to the other.
+  pure subroutine pivot(self, column, row)
+    class(paper_tableau), intent(inout) :: self
+    integer, intent(in) :: column, row
+
+    if (row > 0) then
+      call eliminate(self, column, row)
+    else if (row < 0) then
+      call mirror(self, point_of(self%limits%n, self%basis(-row)))
+      call eliminate(self, column, -row)
+    else
+      call mirror(self, point_of(self%limits%n, column))
+    end if
+    if (.not. self%settled) then
+      if (self%balanced()) call settle(self)
+      call turn_negative_rows(self)
+    end if
+    call clear_rounding(self)
+    call subtract_rows_from_last(self)
+  end subroutine pivot
+
+  !> Gauss-Jordan elimination.
+  pure subroutine eliminate(self, column, row)
+    class(paper_tableau), intent(inout) :: self
+    integer, intent(in) :: column, row
+    real(dp) :: entering(size(self%basis)), factor
+    integer :: j, rows
+
+    rows = size(self%basis)
+    entering = self%table(:rows, column)
+    do j = 1, size(self%table, 2)
+      factor = self%table(row, j)/entering(row)
+      if (abs(factor) > 0.0_dp) self%table(:rows, j) = self%table(:rows, j) - factor*entering
+      self%table(row, j) = factor
+    end do
+    ! Exact by definition; elimination would leave rounding here.
+    self%table(:rows, column) = 0.0_dp
+    self%table(row, column) = 1.0_dp
+    self%basis(row) = column
+  end subroutine eliminate
+
+  !> No right-hand side is negative, or beyond its limit, but by rounding.
+  pure subroutine clear_rounding(self)
+    class(paper_tableau), intent(inout) :: self
+    integer :: i
+
+    associate (right => self%table(:, size(self%table, 2)), limits => self%limits)
+      do i = 1, size(self%basis)
+        if (.not. limits%free(self%basis(i))) right(i) = min(max(right(i), 0.0_dp), limits%room(self%basis(i)))
+      end do
+    end associate
+  end subroutine clear_rounding
+
+  !> True when no artificial variable is left in the basis.
+  pure function finished(self)
+    class(paper_tableau), intent(in) :: self
+    logical :: finished
+
+    finished = .not. any(is_artificial(self%limits%n, self%limits%m, self%basis))
+  end function finished
+
+  !> True when none is left in the equilibrium rows.
+  pure function balanced(self)
+    class(paper_tableau), intent(in) :: self
+    logical :: balanced
+
+    balanced = .not. any(is_artificial(self%limits%n, self%limits%m, self%basis(self%limits%n + 1:)))
+  end function balanced
+
+  !> The stop of every point whose force is in the basis, (n): 1 the lower, -1 the upper;
+  !> 0 for the others.
+  pure function sides(self) result(side)
+    class(paper_tableau), intent(in) :: self
+    integer :: side(self%limits%n)
+    integer :: i
+
+    side = 0
+    do i = 1, size(self%basis)
+      if (is_force(self%limits%n, self%basis(i))) side(self%basis(i)) = merge(-1, 1, self%mirrored(self%basis(i)))
+    end do
+  end function sides
+
+  !> Sum of the artificial variables, in the caller's units.
+  pure function z(self)
+    class(paper_tableau), intent(in) :: self
+    real(dp) :: z
+
+    ! A difference, so that zero has no sign.
+    z = 0.0_dp - self%entry_at(size(self%table, 1), size(self%table, 2))
+  end function z
+
+  !> The same as z scaled, >= 0: forces and lengths weigh alike in it.
+  pure function remaining(self)
+    class(paper_tableau), intent(in) :: self
+    real(dp) :: remaining
+
+    remaining = 0.0_dp - self%table(size(self%table, 1), size(self%table, 2))
+  end function remaining
+
+  !> An entry in the caller's units, as the paper prints it; row n+m+1 is the z row,
+  !> column 2n+m+1 the right-hand side. Mirrored points stay so.
+  pure function entry_at(self, row, column) result(value)
+    class(paper_tableau), intent(in) :: self
+    integer, intent(in) :: row, column
+    real(dp) :: value
+    integer :: i
+
+    if (row <= size(self%basis)) then
+      value = unscaled(self, row, column)
+    else
+      ! The z row adds rows of different units before the equilibrium has been met.
+      value = 0.0_dp
+      do i = 1, size(self%basis)
+        if (is_artificial(self%limits%n, self%limits%m, self%basis(i))) value = value - unscaled(self, i, column)
+      end do
+    end if
+  end function entry_at
+
+  pure function unscaled(self, row, column) result(value)
+    class(paper_tableau), intent(in) :: self
+    integer, intent(in) :: row, column
+    real(dp) :: value
+    integer :: power
+
+    power = unit_exponent(self, self%basis(row))
+    if (column < size(self%table, 2)) power = power - unit_exponent(self, column)
+    value = scale(self%table(row, column), power)
+  end function unscaled
+
+  !> Unit of a variable, as a power of two; `column` is its column number.
+  pure function unit_exponent(self, column) result(power)
+    class(paper_tableau), intent(in) :: self
+    integer, intent(in) :: column
+    integer :: power
+
+    associate (n => self%limits%n, m => self%limits%m)
+      if (is_force(n, column) .or. column >= artificial_column(n, m, n + 1)) then
+        power = self%force_exponent
+      else
+        power = self%length_exponent
+      end if
+    end associate
+  end function unit_exponent
+
+  !> Phase I from the artificial basis to the contact set.
+  !>
+  !> `alpha` (at least n rows, n columns) and `datum` as in the engines, `scene` the rest of
+  !> the problem. `side` (n) is 1 or -1 for points at a stop; `pivots` counts.
+  !> The history is started and filled if `keep_history`. Rounding can leave an
+  !> artificial without an admissible column: the set found so far is then returned,
+  !> as it is with FUGE_ERR_ITERATION_LIMIT. Other errors: FUGE_ERR_NO_EQUILIBRIUM if no
+  !> forces carry the resultants, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED by `monitor`, which
+  !> hears of each pivot.
+  subroutine run_phase_one(alpha, datum, scene, rule, max_pivots, keep_history, monitor, history, side, pivots, status)
+    real(dp), intent(in) :: alpha(:, :), datum
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: rule, max_pivots
+    logical, intent(in) :: keep_history
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_history), intent(inout) :: history
+    integer, intent(out) :: side(:), pivots, status
+    type(paper_tableau) :: tableau
+    real(dp) :: start
+    integer :: column, row
+
+    pivots = 0
+    start = 1.0_dp
+    side = 0
+    call tableau%start(alpha, datum, scene, status)
+    if (status == FUGE_DONE .and. keep_history) call history%start(size(tableau%basis), status)
+    do while (status == FUGE_DONE)
+      if (keep_history) call history%record(tableau%basis, tableau%z(), status)
+      if (pivots == 0 .and. tableau%remaining() > 0.0_dp) start = tableau%remaining()
+      if (pivots > 0 .and. status == FUGE_DONE) call tell_monitor(monitor, pivots, tableau%remaining()/start, &
+                                                                  count(is_force(size(side), tableau%basis)), status)
+      if (tableau%finished() .or. status /= FUGE_DONE) exit
+      call tableau%choose(rule, column, row)
+      if (column == 0) then
+        if (.not. tableau%balanced()) status = FUGE_ERR_NO_EQUILIBRIUM
+        exit
+      end if
+      if (pivots == max_pivots) then
+        status = FUGE_ERR_ITERATION_LIMIT
+      else
+        call tableau%pivot(column, row)
+        pivots = pivots + 1
+      end if
+    end do
+    if (allocated(tableau%basis)) side = tableau%sides()
+  end subroutine run_phase_one
+
+end module fuge_paper_tableau

@@ -1,0 +1,229 @@
+!> The lines of a Matrix Market file: banner, sizes, entries.
+!>
+!> The format: R. F. Boisvert, R. Pozo, K. A. Remington, The Matrix Market exchange formats:
+!> initial design, NISTIR 5935, 1996. Of it real and integer matrices, general and symmetric.
+module fuge_matrix_market_lines
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_text_fields, only: after_blanks, describe_field, find_field, quoted, read_number, read_whole, FIELD_NUMBER
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  implicit none
+  private
+
+  public :: banner_line, is_skipped, read_banner, read_entry, read_sizes, read_value
+
+  !> What the banner and the size line say.
+  type, public :: matrix_layout
+    !> Coordinate format, row, column and value on each line; else array format, all values
+    !> by columns.
+    logical :: coordinate = .false.
+    !> Values are whole numbers.
+    logical :: whole = .false.
+    !> Only the lower triangle is in the file.
+    logical :: symmetric = .false.
+    integer :: rows = 0
+    integer :: columns = 0
+    !> Lines with an entry.
+    integer(int64) :: entries = 0_int64
+  end type matrix_layout
+
+  character(len=*), parameter :: BANNER = '%%matrixmarket'
+
+contains
+
+  !> The banner of a real matrix, with blanks behind it.
+  pure function padded_banner(coordinate, symmetric) result(line)
+    logical, intent(in) :: coordinate, symmetric
+    character(len=52) :: line
+
+    line = '%%MatrixMarket matrix array real'
+    if (coordinate) line = '%%MatrixMarket matrix coordinate real'
+    if (symmetric) then
+      line = trim(line)//' symmetric'
+    else
+      line = trim(line)//' general'
+    end if
+  end function padded_banner
+
+  pure function banner_line(coordinate, symmetric) result(line)
+    logical, intent(in) :: coordinate, symmetric
+    character(len=len_trim(padded_banner(coordinate, symmetric))) :: line
+
+    line = padded_banner(coordinate, symmetric)
+  end function banner_line
+
+  !> Blank, or a comment.
+  pure function is_skipped(line) result(skipped)
+    character(len=*), intent(in) :: line
+    logical :: skipped
+    integer :: first
+
+    first = after_blanks(line, 1)
+    skipped = first > len(line)
+    if (.not. skipped) skipped = line(first:first) == '%'
+  end function is_skipped
+
+  !> The first line; `reason` is allocated if it is not one that can be read.
+  pure subroutine read_banner(line, layout, reason)
+    character(len=*), intent(in) :: line
+    type(matrix_layout), intent(out) :: layout
+    character(len=:), allocatable, intent(out) :: reason
+    character(len=16) :: words(5)
+    integer :: first, last, k
+
+    words = ''
+    last = 0
+    do k = 1, size(words)
+      call find_field(line, last + 1, first, last)
+      words(k) = lower_case(line(first:min(last, first + len(words) - 1)))
+    end do
+    if (words(1) /= BANNER) then
+      reason = 'a Matrix Market file begins with "'//banner_line(.false., .false.)//'" or the like'
+    else if (words(2) /= 'matrix') then
+      reason = quoted(trim(words(2)))//' cannot be read, only a matrix'
+    else if (words(3) /= 'coordinate' .and. words(3) /= 'array') then
+      reason = quoted(trim(words(3)))//' is no format: coordinate or array'
+    else if (words(4) /= 'real' .and. words(4) /= 'integer') then
+      reason = quoted(trim(words(4)))//' values cannot be used: write a real or an integer matrix'
+    else if (words(5) /= 'general' .and. words(5) /= 'symmetric') then
+      reason = quoted(trim(words(5)))//' matrices cannot be used: write a general or a symmetric one'
+    else if (after_blanks(line, last + 1) <= len(line)) then
+      reason = 'more than five words in the first line'
+    end if
+    layout%coordinate = words(3) == 'coordinate'
+    layout%whole = words(4) == 'integer'
+    layout%symmetric = words(5) == 'symmetric'
+  end subroutine read_banner
+
+  pure function lower_case(string) result(lower)
+    character(len=*), intent(in) :: string
+    character(len=len(string)) :: lower
+    integer :: k
+
+    lower = string
+    do k = 1, len(string)
+      if (string(k:k) >= 'A' .and. string(k:k) <= 'Z') lower(k:k) = achar(iachar(string(k:k)) + 32)
+    end do
+  end function lower_case
+
+  !> Rows, columns and, in coordinate format, entries; `reason` is allocated if they are
+  !> not possible.
+  pure subroutine read_sizes(line, layout, reason)
+    character(len=*), intent(in) :: line
+    type(matrix_layout), intent(inout) :: layout
+    character(len=:), allocatable, intent(out) :: reason
+    integer(int64) :: sizes(3)
+    integer :: first, last, k, kind, wanted
+
+    wanted = merge(3, 2, layout%coordinate)
+    sizes = 0_int64
+    last = 0
+    do k = 1, wanted
+      call find_field(line, last + 1, first, last)
+      call read_whole(line(first:last), kind, sizes(k))
+      if (kind /= FIELD_NUMBER) exit
+    end do
+    if (k <= wanted .or. after_blanks(line, last + 1) <= len(line)) then
+      if (layout%coordinate) then
+        reason = 'three whole numbers have to be here: rows, columns, entries'
+      else
+        reason = 'two whole numbers have to be here: rows, columns'
+      end if
+    else if (minval(sizes) < 0_int64 .or. maxval(sizes) >= int(huge(1), int64)) then
+      reason = 'sizes from 0 to '//text(huge(1) - 1)//' are possible'
+    else if (layout%symmetric .and. sizes(1) /= sizes(2)) then
+      reason = 'a symmetric matrix needs as many rows as columns'
+    end if
+    if (allocated(reason)) return
+    layout%rows = int(sizes(1))
+    layout%columns = int(sizes(2))
+    layout%entries = sizes(3)
+    if (layout%coordinate) return
+    layout%entries = sizes(1)*sizes(2)
+    if (layout%symmetric) layout%entries = (sizes(1)*(sizes(1) + 1_int64))/2_int64
+  end subroutine read_sizes
+
+  !> A line of a coordinate file; `reason` is allocated if something is wrong with it.
+  pure subroutine read_entry(line, layout, row, column, value, reason)
+    character(len=*), intent(in) :: line
+    type(matrix_layout), intent(in) :: layout
+    integer, intent(out) :: row, column
+    real(dp), intent(out) :: value
+    character(len=:), allocatable, intent(out) :: reason
+    integer :: next
+
+    next = 1
+    column = 0
+    value = 0.0_dp
+    call read_index(line, next, 'row', layout%rows, row, reason)
+    if (.not. allocated(reason)) call read_index(line, next, 'column', layout%columns, column, reason)
+    if (.not. allocated(reason)) call read_last(line, next, layout%whole, value, reason)
+    if (allocated(reason)) return
+    if (layout%symmetric .and. row < column) reason = 'entry ('//text(row)//', '//text(column) &
+      //') is above the diagonal: a symmetric file holds the lower triangle only'
+  end subroutine read_entry
+
+  !> A line of an array file.
+  pure subroutine read_value(line, layout, value, reason)
+    character(len=*), intent(in) :: line
+    type(matrix_layout), intent(in) :: layout
+    real(dp), intent(out) :: value
+    character(len=:), allocatable, intent(out) :: reason
+    integer :: next
+
+    next = 1
+    call read_last(line, next, layout%whole, value, reason)
+  end subroutine read_value
+
+  pure subroutine read_index(line, next, name, most, value, reason)
+    character(len=*), intent(in) :: line, name
+    integer, intent(inout) :: next
+    integer, intent(in) :: most
+    integer, intent(out) :: value
+    character(len=:), allocatable, intent(inout) :: reason
+    integer(int64) :: number
+    integer :: first, last, kind
+
+    value = 0
+    call find_field(line, next, first, last)
+    next = last + 1
+    call read_whole(line(first:last), kind, number)
+    if (last < first) then
+      reason = 'the '//name//' is missing'
+    else if (kind /= FIELD_NUMBER) then
+      reason = name//' '//quoted(line(first:last))//' is not a whole number'
+    else if (number < 1_int64 .or. number > int(most, int64)) then
+      reason = name//' '//quoted(line(first:last))//' is outside 1 .. '//text(most)
+    else
+      value = int(number)
+    end if
+  end subroutine read_index
+
+  !> The value that ends a line.
+  pure subroutine read_last(line, next, whole, value, reason)
+    character(len=*), intent(in) :: line
+    integer, intent(inout) :: next
+    logical, intent(in) :: whole
+    real(dp), intent(out) :: value
+    character(len=:), allocatable, intent(inout) :: reason
+    integer(int64) :: number
+    integer :: first, last, kind
+
+    value = 0.0_dp
+    call find_field(line, next, first, last)
+    if (last < first) then
+      reason = 'the value is missing'
+      return
+    end if
+    call read_number(line(first:last), kind, value)
+    if (kind /= FIELD_NUMBER) then
+      reason = describe_field(line(first:last), kind)
+    else if (after_blanks(line, last + 1) <= len(line)) then
+      reason = 'more than one entry on the line'
+    else if (whole) then
+      call read_whole(line(first:last), kind, number)
+      if (kind /= FIELD_NUMBER) reason = quoted(line(first:last))//' is not a whole number, as the first line says'
+    end if
+  end subroutine read_last
+
+end module fuge_matrix_market_lines

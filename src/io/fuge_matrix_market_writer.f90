@@ -1,0 +1,174 @@
+!> Matrix Market files written, with 17 digits: what is read back is the same to the last bit.
+module fuge_matrix_market_writer
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_kinds, only: dp
+  use fuge_matrix_market_lines, only: banner_line
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE
+  use fuge_number_text, only: text
+  use fuge_text_writer, only: text_output
+  implicit none
+  private
+
+  public :: fuge_write_matrix, fuge_write_sparse
+
+  !> Entries made text in one go, since every write statement takes its time.
+  integer, parameter :: BLOCK = 64
+
+contains
+
+  !> Write a dense matrix to a Matrix Market file in array format; a file that is there is
+  !> replaced.
+  !>
+  !> `matrix` (any shape); `symmetric` (.false. unless given): a square matrix of which only the
+  !> lower triangle is looked at and written.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE with the file left as it was; FUGE_ERR_FILE
+  !> where writing fails, the file is then not complete.
+  subroutine fuge_write_matrix(path, matrix, info, symmetric)
+    character(len=*), intent(in) :: path
+    real(dp), intent(in) :: matrix(:, :)
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: symmetric
+    type(text_output) :: file
+    character(len=24) :: lines(BLOCK)
+    logical :: lower
+    integer :: i, j, k, last
+
+    lower = .false.
+    if (present(symmetric)) lower = symmetric
+    call check_square(size(matrix, 1), size(matrix, 2), lower, info)
+    do j = 1, size(matrix, 2)
+      if (.not. info%failed()) call check_column(matrix(:, j), merge(j, 1, lower), j, info)
+    end do
+    if (.not. info%failed()) call file%create(path, info)
+    if (info%failed()) return
+    call file%put(banner_line(.false., lower))
+    call file%put(text(size(matrix, 1))//' '//text(size(matrix, 2)))
+    do j = 1, size(matrix, 2)
+      do i = merge(j, 1, lower), size(matrix, 1), BLOCK
+        last = min(i + BLOCK - 1, size(matrix, 1))
+        write (lines(:last - i + 1), '(es24.16e3)') matrix(i:last, j)
+        do k = 1, last - i + 1
+          call file%put(lines(k))
+        end do
+      end do
+    end do
+    call file%finish(info)
+  end subroutine fuge_write_matrix
+
+  !> Write compressed columns to a Matrix Market file in coordinate format; a file that is
+  !> there is replaced.
+  !>
+  !> `rows`, `column`, `row`, `value` as fuge_read_sparse gives them, but rows may be in any
+  !> order and repeated; `symmetric` (.false. unless given): a square matrix of which what is
+  !> above the diagonal is left out.
+  !> Errors: FUGE_ERR_SIZE for columns that are not in order or a row outside 1 .. `rows`,
+  !> FUGE_ERR_NOT_FINITE, with the file left as it was; FUGE_ERR_FILE where writing fails, the
+  !> file is then not complete.
+  subroutine fuge_write_sparse(path, rows, column, row, value, info, symmetric)
+    character(len=*), intent(in) :: path
+    integer, intent(in) :: rows, column(:), row(:)
+    real(dp), intent(in) :: value(:)
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: symmetric
+    type(text_output) :: file
+    character(len=48) :: lines(BLOCK)
+    logical :: lower
+    integer :: j, k, l, last
+
+    lower = .false.
+    if (present(symmetric)) lower = symmetric
+    call check_square(rows, size(column) - 1, lower, info)
+    if (.not. info%failed()) call check_columns(rows, column, row, value, info)
+    if (.not. info%failed()) call file%create(path, info)
+    if (info%failed()) return
+    call file%put(banner_line(.true., lower))
+    call file%put(text(rows)//' '//text(size(column) - 1)//' '//text(entries_to_write(column, row, lower)))
+    do j = 1, size(column) - 1
+      do k = column(j), column(j + 1) - 1, BLOCK
+        last = min(k + BLOCK, column(j + 1)) - 1
+        write (lines(:last - k + 1), '(i0,1x,i0,es25.16e3)') (row(l), j, value(l), l=k, last)
+        do l = k, last
+          if (row(l) >= j .or. .not. lower) call file%put(lines(l - k + 1))
+        end do
+      end do
+    end do
+    call file%finish(info)
+  end subroutine fuge_write_sparse
+
+  pure function entries_to_write(column, row, lower) result(entries)
+    integer, intent(in) :: column(:), row(:)
+    logical, intent(in) :: lower
+    integer :: entries
+    integer :: j
+
+    entries = column(size(column)) - 1
+    if (.not. lower) return
+    do j = 1, size(column) - 1
+      entries = entries - count(row(column(j):column(j + 1) - 1) < j)
+    end do
+  end function entries_to_write
+
+  pure subroutine check_square(rows, columns, symmetric, info)
+    integer, intent(in) :: rows, columns
+    logical, intent(in) :: symmetric
+    type(fuge_info), intent(inout) :: info
+
+    if (rows < 0 .or. columns < 0) then
+      call report(info, FUGE_ERR_SIZE, 'rows = '//text(rows)//', columns = '//text(columns) &
+                  //': sizes are not negative, and column has one element more than there are columns')
+    else if (symmetric .and. rows /= columns) then
+      call report(info, FUGE_ERR_SIZE, 'a symmetric matrix cannot be '//text(rows)//' x '//text(columns))
+    end if
+  end subroutine check_square
+
+  !> Refuse NaN and infinity from row `first` of column j on.
+  pure subroutine check_column(values, first, j, info)
+    real(dp), intent(in) :: values(:)
+    integer, intent(in) :: first, j
+    type(fuge_info), intent(inout) :: info
+    integer :: i
+
+    do i = first, size(values)
+      if (ieee_is_finite(values(i))) cycle
+      call refuse_entry(i, j, values(i), info)
+      return
+    end do
+  end subroutine check_column
+
+  pure subroutine refuse_entry(i, j, value, info)
+    integer, intent(in) :: i, j
+    real(dp), intent(in) :: value
+    type(fuge_info), intent(inout) :: info
+
+    call report(info, FUGE_ERR_NOT_FINITE, 'entry ('//text(i)//', '//text(j)//') = '//text(value) &
+                //' is not a finite number')
+  end subroutine refuse_entry
+
+  pure subroutine check_columns(rows, column, row, value, info)
+    integer, intent(in) :: rows, column(:), row(:)
+    real(dp), intent(in) :: value(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: j, k, last
+
+    last = min(size(row), size(value))
+    if (column(1) /= 1) call report(info, FUGE_ERR_SIZE, 'column(1) = '//text(column(1)) &
+                                    //': the first column begins at 1')
+    do j = 1, size(column) - 1
+      if (info%failed()) return
+      if (column(j + 1) < column(j) .or. column(j + 1) - 1 > last) then
+        call report(info, FUGE_ERR_SIZE, 'column('//text(j + 1)//') = '//text(column(j + 1))//' is outside ' &
+                    //text(column(j))//' .. '//text(last + 1)//', from the column before to the end of row and value')
+        return
+      end if
+      do k = column(j), column(j + 1) - 1
+        if (row(k) < 1 .or. row(k) > rows) then
+          call report(info, FUGE_ERR_SIZE, 'row('//text(k)//') = '//text(row(k))//' is outside 1 .. '//text(rows))
+        else if (.not. ieee_is_finite(value(k))) then
+          call refuse_entry(row(k), j, value(k), info)
+        end if
+        if (info%failed()) return
+      end do
+    end do
+  end subroutine check_columns
+
+end module fuge_matrix_market_writer

@@ -1,0 +1,103 @@
+!> The lines of a profile file.
+module fuge_profile_lines
+  use fuge_text_fields, only: after_blanks, describe_field, is_blank, read_number, FIELD_NUMBER, FIELD_WORD
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  public :: read_point
+
+  !> What a line is.
+  integer, parameter, public :: LINE_EMPTY = 0
+  integer, parameter, public :: LINE_POINT = 1
+  integer, parameter, public :: LINE_WORDS = 2
+  integer, parameter, public :: LINE_WRONG = 3
+
+contains
+
+  !> Two numbers of one line, separated by blanks, tabs, a comma or a semicolon.
+  !>
+  !> `kind` is LINE_POINT with `x` and `z`, LINE_EMPTY (blank, or a comment that begins
+  !> with # or !), LINE_WORDS (both fields are words, a header perhaps) or LINE_WRONG;
+  !> `reason` is allocated for the last two. A comment may follow the numbers.
+  pure subroutine read_point(line, kind, x, z, reason)
+    character(len=*), intent(in) :: line
+    integer, intent(out) :: kind
+    real(dp), intent(out) :: x, z
+    character(len=:), allocatable, intent(out) :: reason
+    integer :: first(2), last(2), fields, of_x, of_z
+
+    x = 0.0_dp
+    z = 0.0_dp
+    kind = LINE_EMPTY
+    call split(line, first, last, fields)
+    if (fields == 0) return
+    call read_number(line(first(1):last(1)), of_x, x)
+    of_z = of_x
+    if (fields > 1) call read_number(line(first(2):last(2)), of_z, z)
+    if (of_x == FIELD_NUMBER .and. of_z == FIELD_NUMBER .and. fields == 2) then
+      kind = LINE_POINT
+    else if (of_x == FIELD_WORD .and. of_z == FIELD_WORD) then
+      kind = LINE_WORDS
+      call wrong_column(line(first(1):last(1)), of_x, reason)
+    else
+      kind = LINE_WRONG
+      if (of_x /= FIELD_NUMBER) then
+        call wrong_column(line(first(1):last(1)), of_x, reason)
+      else if (fields == 1) then
+        reason = 'only one column, x and z are needed'
+      else if (of_z /= FIELD_NUMBER) then
+        call wrong_column(line(first(2):last(2)), of_z, reason)
+      else
+        reason = 'more than two columns, x and z are needed (the decimal sign is the point)'
+      end if
+    end if
+  end subroutine read_point
+
+  !> Where the first two fields stand; `fields` is 3 if there are more.
+  pure subroutine split(line, first, last, fields)
+    character(len=*), intent(in) :: line
+    integer, intent(out) :: first(2), last(2), fields
+    integer :: k, start
+
+    first = 1
+    last = 0
+    fields = 0
+    k = after_blanks(line, 1)
+    do while (k <= len(line))
+      if (line(k:k) == '#' .or. line(k:k) == '!') exit
+      fields = fields + 1
+      if (fields > 2) exit
+      start = k
+      do while (k <= len(line))
+        if (is_blank(line(k:k)) .or. is_separator(line(k:k))) exit
+        k = k + 1
+      end do
+      first(fields) = start
+      last(fields) = k - 1
+      k = after_blanks(line, k)
+      if (k > len(line)) exit
+      if (is_separator(line(k:k))) k = after_blanks(line, k + 1)
+    end do
+  end subroutine split
+
+  elemental function is_separator(letter)
+    character, intent(in) :: letter
+    logical :: is_separator
+
+    is_separator = letter == ',' .or. letter == ';'
+  end function is_separator
+
+  pure subroutine wrong_column(field, kind, reason)
+    character(len=*), intent(in) :: field
+    integer, intent(in) :: kind
+    character(len=:), allocatable, intent(out) :: reason
+
+    if (len(field) == 0) then
+      reason = 'an empty column, x and z are needed'
+    else
+      reason = describe_field(field, kind)
+    end if
+  end subroutine wrong_column
+
+end module fuge_profile_lines

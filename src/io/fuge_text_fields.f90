@@ -1,0 +1,295 @@
+!> Fields of a line of text, and the numbers in them.
+!>
+!> Numbers are converted here, since a formatted read of each takes most of the time of a
+!> long file. The few that cannot be rounded with certainty are left to the compiler's library.
+module fuge_text_fields
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_decimal_rounding, only: round_decimal, MOST_DIGITS
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  public :: after_blanks, describe_field, find_field, is_blank, quoted, read_number, read_whole
+
+  !> What a field is.
+  integer, parameter, public :: FIELD_NUMBER = 0
+  integer, parameter, public :: FIELD_NOT_FINITE = 1
+  integer, parameter, public :: FIELD_WORD = 2
+  integer, parameter, public :: FIELD_WRONG = 3
+
+  !> The largest double, 1.79..e308, has 309 places and these first digits; numbers with
+  !> fewer places than the least, 4.9e-324, are 0.
+  integer, parameter :: LARGEST_PLACES = 309, LEAST_PLACES = -323
+  integer(int64), parameter :: LARGEST_DIGITS = 179769313486231570_int64
+  !> Larger exponents are all the same to a double.
+  integer, parameter :: EXPONENT_LIMIT = 100000
+  !> As much of a field as a message quotes.
+  integer, parameter :: QUOTE_LENGTH = 24
+
+  !> A decimal number as it is written: digits * 10**exponent.
+  type :: decimal
+    integer(int64) :: digits = 0_int64
+    integer :: count = 0
+    integer :: exponent = 0
+    logical :: negative = .false.
+    !> All of its digits are in `digits`.
+    logical :: complete = .true.
+  end type decimal
+
+contains
+
+  pure function quoted_length(field) result(length)
+    character(len=*), intent(in) :: field
+    integer :: length
+
+    length = min(len(field), QUOTE_LENGTH) + merge(4, 2, len(field) > QUOTE_LENGTH)
+  end function quoted_length
+
+  pure function description(kind) result(words)
+    integer, intent(in) :: kind
+    character(len=24) :: words
+
+    words = ' is not a number'
+    if (kind == FIELD_NOT_FINITE) words = ' is not a finite number'
+  end function description
+
+  !> A field for a message: its begin, strange letters shown as ?.
+  pure function quoted(field) result(quote)
+    character(len=*), intent(in) :: field
+    character(len=quoted_length(field)) :: quote
+    integer :: k
+
+    quote = '"'//field(:min(len(field), QUOTE_LENGTH))
+    if (len(field) > QUOTE_LENGTH) quote(QUOTE_LENGTH + 2:) = '..'
+    do k = 2, len(quote) - 1
+      if (iachar(quote(k:k)) < 32 .or. iachar(quote(k:k)) > 126) quote(k:k) = '?'
+    end do
+    quote(len(quote):) = '"'
+  end function quoted
+
+  !> What is wrong with a field that is no number.
+  pure function describe_field(field, kind) result(reason)
+    character(len=*), intent(in) :: field
+    integer, intent(in) :: kind
+    character(len=len_trim(description(kind)) + quoted_length(field)) :: reason
+
+    reason = quoted(field)//description(kind)
+  end function describe_field
+
+  !> The field at or after letter `from`, between blanks: line(first:last); last < first if
+  !> there is none.
+  pure subroutine find_field(line, from, first, last)
+    character(len=*), intent(in) :: line
+    integer, intent(in) :: from
+    integer, intent(out) :: first, last
+
+    first = after_blanks(line, from)
+    last = first - 1
+    do while (last < len(line))
+      if (is_blank(line(last + 1:last + 1))) exit
+      last = last + 1
+    end do
+  end subroutine find_field
+
+  pure function after_blanks(line, from) result(k)
+    character(len=*), intent(in) :: line
+    integer, intent(in) :: from
+    integer :: k
+
+    k = from
+    do while (k <= len(line))
+      if (.not. is_blank(line(k:k))) exit
+      k = k + 1
+    end do
+  end function after_blanks
+
+  !> Blank, tab, or the carriage return of a Windows line end.
+  elemental function is_blank(letter)
+    character, intent(in) :: letter
+    logical :: is_blank
+
+    is_blank = letter == ' ' .or. letter == achar(9) .or. letter == achar(13)
+  end function is_blank
+
+  !> A number with a decimal point and an exponent after d, D, e or E.
+  !>
+  !> `kind` is one of the FIELD_ numbers; `value` is 0 unless it is FIELD_NUMBER. Numbers
+  !> too small for a double are 0, those too large count as infinite.
+  pure subroutine read_number(field, kind, value)
+    character(len=*), intent(in) :: field
+    integer, intent(out) :: kind
+    real(dp), intent(out) :: value
+    type(decimal) :: number
+    logical :: certain
+    integer :: status
+
+    value = 0.0_dp
+    call read_decimal(field, number, kind)
+    if (kind /= FIELD_NUMBER) return
+    if (is_beyond(number)) then
+      kind = FIELD_NOT_FINITE
+      return
+    end if
+    certain = number%digits == 0_int64 .or. number%exponent + number%count < LEAST_PLACES
+    if (number%complete .and. .not. certain) call round_decimal(number%digits, number%exponent, value, certain)
+    if (certain) then
+      if (number%negative) value = -value
+    else
+      value = 0.0_dp
+      read (field, *, iostat=status) value
+      if (status /= 0) kind = FIELD_WRONG
+    end if
+  end subroutine read_number
+
+  !> Larger than the largest double.
+  pure function is_beyond(number) result(beyond)
+    type(decimal), intent(in) :: number
+    logical :: beyond
+    integer :: places
+
+    places = number%exponent + number%count
+    if (number%digits == 0_int64) places = 0
+    beyond = places > LARGEST_PLACES
+    if (places == LARGEST_PLACES) beyond = number%digits*10_int64**(MOST_DIGITS - number%count) > LARGEST_DIGITS
+  end function is_beyond
+
+  pure subroutine read_decimal(field, number, kind)
+    character(len=*), intent(in) :: field
+    type(decimal), intent(out) :: number
+    integer, intent(out) :: kind
+    integer :: k, seen
+
+    k = 1
+    if (len(field) > 0) then
+      number%negative = field(1:1) == '-'
+      if (number%negative .or. field(1:1) == '+') k = 2
+    end if
+    seen = 0
+    call take_digits(field, k, number, seen)
+    if (letter_at(field, k) == '.') then
+      k = k + 1
+      number%exponent = number%exponent - count_digits(field, k)
+      call take_digits(field, k, number, seen)
+    end if
+    if (seen == 0) then
+      kind = kind_of_word(field)
+      return
+    end if
+    kind = FIELD_NUMBER
+    if (scan(letter_at(field, k), 'eEdD') > 0) call take_exponent(field, k, number)
+    if (k <= len(field)) kind = FIELD_WRONG
+  end subroutine read_decimal
+
+  !> The digits at `k`; `seen` counts them, leading zeros included.
+  pure subroutine take_digits(field, k, number, seen)
+    character(len=*), intent(in) :: field
+    integer, intent(inout) :: k, seen
+    type(decimal), intent(inout) :: number
+    integer :: digit
+
+    do while (k <= len(field))
+      digit = iachar(field(k:k)) - iachar('0')
+      if (digit < 0 .or. digit > 9) exit
+      seen = seen + 1
+      k = k + 1
+      if (number%count == MOST_DIGITS) then
+        ! Dropped here, but it holds a place.
+        number%complete = .false.
+        number%exponent = number%exponent + 1
+      else if (digit > 0 .or. number%count > 0) then
+        number%digits = 10_int64*number%digits + int(digit, int64)
+        number%count = number%count + 1
+      end if
+    end do
+  end subroutine take_digits
+
+  pure function count_digits(field, from) result(digits)
+    character(len=*), intent(in) :: field
+    integer, intent(in) :: from
+    integer :: digits
+
+    digits = verify(field(from:), '0123456789') - 1
+    if (digits < 0) digits = len(field) - from + 1
+  end function count_digits
+
+  !> An exponent at `k`, which stays where no digits follow.
+  pure subroutine take_exponent(field, k, number)
+    character(len=*), intent(in) :: field
+    integer, intent(inout) :: k
+    type(decimal), intent(inout) :: number
+    integer :: j, power
+    logical :: negative
+
+    j = k + 1
+    negative = letter_at(field, j) == '-'
+    if (negative .or. letter_at(field, j) == '+') j = j + 1
+    if (count_digits(field, j) == 0) return
+    power = 0
+    do while (scan(letter_at(field, j), '0123456789') > 0)
+      power = min(10*power + iachar(field(j:j)) - iachar('0'), EXPONENT_LIMIT)
+      j = j + 1
+    end do
+    k = j
+    number%exponent = number%exponent + merge(-power, power, negative)
+  end subroutine take_exponent
+
+  !> A blank beyond the end.
+  pure function letter_at(field, k) result(letter)
+    character(len=*), intent(in) :: field
+    integer, intent(in) :: k
+    character :: letter
+
+    letter = ' '
+    if (k <= len(field)) letter = field(k:k)
+  end function letter_at
+
+  !> NaN and infinity as languages write them; a word begins with a letter or a quote.
+  pure function kind_of_word(field) result(kind)
+    character(len=*), intent(in) :: field
+    integer :: kind
+    character(len=8) :: word
+    integer :: k
+
+    word = field
+    if (scan(letter_at(field, 1), '+-') > 0) word = field(2:)
+    do k = 1, len(word)
+      if (word(k:k) >= 'A' .and. word(k:k) <= 'Z') word(k:k) = achar(iachar(word(k:k)) + 32)
+    end do
+    if (word == 'inf' .or. word == 'infinity' .or. word == 'nan' .or. word(1:4) == 'nan(') then
+      kind = FIELD_NOT_FINITE
+    else if (scan(letter_at(field, 1), '0123456789+-.* ') > 0) then
+      kind = FIELD_WRONG
+    else
+      kind = FIELD_WORD
+    end if
+  end function kind_of_word
+
+  !> A whole number, digits only with a sign perhaps.
+  !>
+  !> `kind` is FIELD_NUMBER, or something else with `value` 0. Numbers beyond 10**18 are cut
+  !> down to it.
+  pure subroutine read_whole(field, kind, value)
+    character(len=*), intent(in) :: field
+    integer, intent(out) :: kind
+    integer(int64), intent(out) :: value
+    type(decimal) :: number
+    integer :: k, seen
+
+    value = 0_int64
+    k = 1
+    if (scan(letter_at(field, 1), '+-') > 0) k = 2
+    seen = 0
+    call take_digits(field, k, number, seen)
+    kind = FIELD_NUMBER
+    if (seen == 0) then
+      kind = kind_of_word(field)
+    else if (k <= len(field)) then
+      kind = FIELD_WRONG
+    end if
+    if (kind /= FIELD_NUMBER) return
+    value = number%digits
+    if (number%exponent > 0) value = 10_int64**MOST_DIGITS
+    if (field(1:1) == '-') value = -value
+  end subroutine read_whole
+
+end module fuge_text_fields

@@ -1,0 +1,192 @@
+!> A dense influence matrix as an operator. The matrix stays the caller's: it is
+!> pointed to, never copied.
+module fuge_matrix_operator
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+  use fuge_input_checks, only: LARGEST_EXPONENT
+  use fuge_kinds, only: dp
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
+    FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
+  use fuge_number_text, only: text
+  implicit none
+  private
+
+  !> Largest asymmetry taken for rounding, relative to the range of the coefficients.
+  real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
+  !> Side of the square tiles in which the matrix is compared with its transpose.
+  integer, parameter :: TILE = 64
+
+  !> A symmetric influence matrix in full storage: `set` it, then solve.
+  type, extends(fuge_operator), public :: fuge_dense_operator
+    !> Columns of the caller's matrix; rows beyond n are padding.
+    real(dp), pointer, contiguous :: alpha(:, :) => null()
+    !> Coefficient nearest to zero, 0 if there are both signs: taken from a
+    !> coefficient it costs no digits.
+    real(dp), private :: constant = 0.0_dp
+  contains
+    procedure :: set
+    procedure :: points
+    procedure :: apply
+    procedure :: datum
+    procedure :: magnitude
+  end type fuge_dense_operator
+
+contains
+
+  !> Take `alpha` as the influence matrix.
+  !>
+  !> `alpha` is (n, n), or (lda, n) with lda > n where the first n rows count;
+  !> length per force. It is not copied: declare it `target` and keep it
+  !> unchanged as long as the operator lives.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC,
+  !> FUGE_ERR_OVERFLOW; the operator is then as it was.
+  subroutine set(self, alpha, info)
+    class(fuge_dense_operator), intent(inout) :: self
+    real(dp), intent(in), target :: alpha(:, :)
+    type(fuge_info), intent(out) :: info
+    real(dp) :: least, most
+
+    if (.not. is_contiguous(alpha)) then
+      call report(info, FUGE_ERR_POINTER, 'alpha is a section with gaps between its columns: pass the whole ' &
+        //'array, whose first n rows count')
+      return
+    end if
+    call check_matrix(alpha, info, least, most)
+    if (info%failed()) return
+    self%constant = max(least, 0.0_dp) + min(most, 0.0_dp)
+    ! Through an address, because only `set` knows that alpha is contiguous.
+    call c_f_pointer(c_loc(alpha(1, 1)), self%alpha, shape(alpha))
+  end subroutine set
+
+  !> Number of points n; 0 before `set`.
+  pure function points(self) result(n)
+    class(fuge_dense_operator), intent(in) :: self
+    integer :: n
+
+    n = 0
+    if (associated(self%alpha)) n = size(self%alpha, 2)
+  end function points
+
+  !> u = (A - datum) f: `force` (n), force; `displacement` (n), length; `status` is FUGE_DONE.
+  !>
+  !> Column by column, not by BLAS: each coefficient loses the datum before it is
+  !> multiplied, and points without force cost nothing.
+  subroutine apply(self, force, displacement, status)
+    class(fuge_dense_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out) :: displacement(:)
+    integer, intent(out) :: status
+    integer :: j, n
+
+    n = self%points()
+    displacement = 0.0_dp
+    do j = 1, n
+      if (abs(force(j)) > 0.0_dp) displacement = displacement + (self%alpha(:n, j) - self%constant)*force(j)
+    end do
+    status = FUGE_DONE
+  end subroutine apply
+
+  !> The coefficient nearest to zero, length per force; 0 if there are both signs.
+  function datum(self)
+    class(fuge_dense_operator), intent(in) :: self
+    real(dp) :: datum
+
+    datum = self%constant
+  end function datum
+
+  !> sum_j |A_ij - datum| |f_j| at each point, `length` (n); `force` (n).
+  subroutine magnitude(self, force, displacement, length)
+    class(fuge_dense_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:), displacement(:)
+    real(dp), intent(out) :: length(:)
+    integer :: j, n
+
+    n = size(displacement)
+    length = 0.0_dp
+    do j = 1, n
+      if (abs(force(j)) > 0.0_dp) length = length + abs((self%alpha(:n, j) - self%constant)*force(j))
+    end do
+  end subroutine magnitude
+
+  !> Refuse a matrix that is not at least n by n, finite and symmetric; otherwise
+  !> tell its least and its largest coefficient.
+  !>
+  !> An asymmetry up to 1e-10 of the range of the coefficients passes as rounding.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW.
+  pure subroutine check_matrix(alpha, info, least, most)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp), intent(out) :: least, most
+    real(dp) :: difference
+    integer :: i, j, n
+
+    least = 0.0_dp
+    most = 0.0_dp
+    n = size(alpha, 2)
+    if (n < 1) then
+      call report(info, FUGE_ERR_SIZE, 'n = '//text(n)//': alpha needs at least one column')
+    else if (size(alpha, 1) < n) then
+      call report(info, FUGE_ERR_SIZE, 'alpha has '//text(size(alpha, 1))//' rows and '//text(n) &
+        //' columns: its leading dimension must be at least n')
+    else
+      call check_coefficients(alpha(:n, :), info)
+    end if
+    if (info%failed()) return
+    least = minval(alpha(:n, :))
+    most = maxval(alpha(:n, :))
+    if (max(exponent(least), exponent(most)) > LARGEST_EXPONENT) then
+      call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches from '//text(least)//' to '//text(most) &
+        //': choose units in which it is smaller')
+      return
+    end if
+    call find_asymmetry(alpha(:n, :), i, j, difference)
+    if (difference > SYMMETRY_TOLERANCE*(most - least)) then
+      call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//text(i)//','//text(j)//') and alpha(' &
+        //text(j)//','//text(i)//') differ by '//text(difference)//' (coefficients from '//text(least) &
+        //' to '//text(most)//'): if that is rounding, pass (alpha + transpose(alpha))/2')
+    end if
+  end subroutine check_matrix
+
+  pure subroutine check_coefficients(alpha, info)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_info), intent(inout) :: info
+    integer :: i, j
+
+    do j = 1, size(alpha, 2)
+      do i = 1, size(alpha, 1)
+        if (ieee_is_finite(alpha(i, j))) cycle
+        call report(info, FUGE_ERR_NOT_FINITE, 'alpha('//text(i)//','//text(j)//') = ' &
+          //text(alpha(i, j))//' is not a finite number')
+        return
+      end do
+    end do
+  end subroutine check_coefficients
+
+  !> The largest difference |alpha(i,j) - alpha(j,i)| and where it is.
+  pure subroutine find_asymmetry(alpha, row, column, difference)
+    real(dp), intent(in) :: alpha(:, :)
+    integer, intent(out) :: row, column
+    real(dp), intent(out) :: difference
+    integer :: i, j, first_row, first_column
+
+    row = 1
+    column = 1
+    difference = 0.0_dp
+    ! Square tiles: both a tile and its mirror stay in the cache.
+    do first_column = 1, size(alpha, 2), TILE
+      do first_row = first_column, size(alpha, 2), TILE
+        do j = first_column, min(first_column + TILE - 1, size(alpha, 2))
+          do i = max(first_row, j + 1), min(first_row + TILE - 1, size(alpha, 2))
+            if (abs(alpha(i, j) - alpha(j, i)) > difference) then
+              difference = abs(alpha(i, j) - alpha(j, i))
+              row = i
+              column = j
+            end if
+          end do
+        end do
+      end do
+    end do
+  end subroutine find_asymmetry
+
+end module fuge_matrix_operator
