@@ -3,7 +3,7 @@
 module bench_judge
   use bench_problems, only: bench_problem
   use bench_records, only: bench_row
-  use fuge, only: dp, fuge_contact_edges, fuge_info, fuge_interval, fuge_operator, FUGE_EDGE_GRID_END, &
+  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_info, fuge_interval, fuge_operator, FUGE_EDGE_GRID_END, &
     FUGE_EDGE_REFINED, FUGE_FREE, FUGE_HAT, FUGE_MEAN
   implicit none
   private

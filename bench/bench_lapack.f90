@@ -1,6 +1,6 @@
 !> The two routines of LAPACK and BLAS that the benchmark itself needs.
 module bench_lapack
-  use fuge, only: dp
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 

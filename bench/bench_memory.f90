@@ -1,6 +1,6 @@
 !> Resident memory of this process, as Linux tells it; elsewhere it is not known.
 module bench_memory
-  use fuge, only: dp
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 

@@ -5,7 +5,8 @@ module bench_problems
   use bench_lapack, only: dsyrk
   use bench_waves, only: sum_of_waves
   use closed_forms, only: closed_form, flat_punch, press_beside, press_cylinder, press_flat, press_quartic, press_wave
-  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_halfplane_operator, fuge_info, fuge_problem, &
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_halfplane_operator, fuge_info, &
+    fuge_problem, &
     fuge_solution, fuge_solver, FUGE_CENTRE, FUGE_FREE, FUGE_HAT, FUGE_MEAN, FUGE_PERIODIC
   implicit none
   private

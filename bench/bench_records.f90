@@ -2,7 +2,7 @@
 !> read and answer.
 module bench_records
   use bench_problems, only: bench_problem, whole
-  use fuge, only: dp, FUGE_CENTRE, FUGE_HAT
+  use fuge, only: dp => fuge_dp, FUGE_CENTRE, FUGE_HAT
   implicit none
   private
 
@@ -12,7 +12,7 @@ module bench_records
   !> empty field.
   type, public :: bench_row
     character(len=16) :: problem = '', method = '', element = ''
-    integer :: n = 0, unknowns = -1, work = -1, filters = -1
+    integer :: n = 0, unknowns = -1, work = -1, preconditionings = -1
     real(dp) :: time = -1.0_dp, residual = -1.0_dp
     real(dp) :: error_half_width = -1.0_dp, error_pressure = -1.0_dp, error_force = -1.0_dp
     real(dp) :: memory = -1.0_dp
@@ -33,7 +33,7 @@ contains
     open (newunit=unit, file=trim(directory)//'/results.csv', position='append', action='write')
     if (.not. exists) write (unit, '(a)') 'problem,method,element,n,unknowns,products_or_pivots,time_s,' &
       //'time_over_limit,residual,error_halfwidth,error_pressure,error_force_max,memory_bytes,error_approach,' &
-      //'error_solver,tolerance,setup_s,limit_s,filters,failure'
+      //'error_solver,tolerance,setup_s,limit_s,preconditionings,failure'
   end subroutine open_table
 
   subroutine write_row(unit, row)
@@ -48,7 +48,7 @@ contains
       ',', number(row%residual), ',', number(row%error_half_width), ',', number(row%error_pressure), &
       ',', number(row%error_force), ',', number(row%memory), ',', number(row%error_approach), &
       ',', number(row%error_solver), ',', number(row%tolerance), ',', number(row%setup), ',', number(row%limit), &
-      ',', count_or_blank(row%filters), ',', trim(without_commas(row%failure))
+      ',', count_or_blank(row%preconditionings), ',', trim(without_commas(row%failure))
     flush (unit)
   end subroutine write_row
 

@@ -5,7 +5,7 @@ module bench_runs
   use bench_problems, only: bench_problem, contact_problem
   use bench_records, only: bench_row, element_name
   use bench_watch, only: stopwatch
-  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_operator, fuge_info, fuge_operator, fuge_options, &
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_halfplane_operator, fuge_info, fuge_operator, fuge_options, &
     fuge_problem, fuge_solution, fuge_solver, FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
   implicit none
   private
@@ -172,7 +172,7 @@ contains
     end do
     call note(watch, product%best/real(BATCH, dp), info, row)
     row%work = info%products
-    row%filters = info%filters
+    row%preconditionings = info%preconditionings
     force = 0.0_dp
     if (info%failed()) return
     force = solution%force

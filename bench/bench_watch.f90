@@ -2,7 +2,7 @@
 !> on the machine only ever adds time; a long run counts by its processor time for that reason.
 module bench_watch
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 

@@ -1,7 +1,7 @@
 !> Sums of many waves, by a fast Fourier transform of its own: the benchmark's profiles do
 !> not depend on what they measure.
 module bench_waves
-  use fuge, only: dp
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 

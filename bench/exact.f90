@@ -11,7 +11,7 @@ program exact
   use bench_runs, only: new_row, run_by_products, run_dense, run_warm, solve_once
   use bench_watch, only: stopwatch
   use closed_forms, only: cylinder, quartic_punch
-  use fuge, only: dp, fuge_halfplane_operator, fuge_info, fuge_interval, fuge_polynomial_profile, &
+  use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_info, fuge_interval, fuge_polynomial_profile, &
     fuge_smooth_contact, fuge_solve_smooth_punch, FUGE_ACTIVE_SET, FUGE_MEAN, FUGE_TABLEAU
   implicit none
 

@@ -10,7 +10,8 @@ program growth
   use bench_records, only: bench_row, open_table, write_row
   use bench_runs, only: new_row, run_by_products, run_dense
   use bench_watch, only: stopwatch
-  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_operator, fuge_info, FUGE_ACTIVE_SET, FUGE_MEAN, FUGE_TABLEAU
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_halfplane_operator, fuge_info, FUGE_ACTIVE_SET, FUGE_MEAN, &
+    FUGE_TABLEAU
   implicit none
 
   real(dp), parameter :: TOLERANCE = 1.0e-10_dp

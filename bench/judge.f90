@@ -9,7 +9,7 @@ program judge_answers
   use bench_problems, only: bench_problem, make_known, uniform_edges, KNOWN
   use bench_records, only: bench_row, open_table, write_row
   use bench_runs, only: new_row
-  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_operator, fuge_info, FUGE_MEAN
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_halfplane_operator, fuge_info, FUGE_MEAN
   implicit none
 
   !> A problem as read, and what was measured with it.

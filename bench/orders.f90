@@ -9,7 +9,7 @@ program orders
   use bench_records, only: bench_row, open_table, write_row
   use bench_runs, only: new_row, patience, run_by_products
   use bench_watch, only: stopwatch
-  use fuge, only: dp, fuge_halfplane_operator, fuge_info, FUGE_CENTRE, FUGE_HAT, FUGE_MEAN
+  use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_info, FUGE_CENTRE, FUGE_HAT, FUGE_MEAN
   implicit none
 
   character(len=8), parameter :: NAMES(2) = ['quartic ', 'cylinder']

@@ -9,7 +9,7 @@ program solvers
   use bench_records, only: bench_row, open_table, write_problem, write_row
   use bench_runs, only: new_row, run_by_products, run_dense, run_warm
   use bench_watch, only: stopwatch
-  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_operator, fuge_info, FUGE_ACTIVE_SET, FUGE_TABLEAU
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_halfplane_operator, fuge_info, FUGE_ACTIVE_SET, FUGE_TABLEAU
   implicit none
 
   integer, parameter :: RANDOM_SIZES(4) = [50, 200, 800, 2000], QUICK_RANDOM = 800, FINEST_TABLEAU = 200

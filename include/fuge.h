@@ -131,7 +131,7 @@ typedef struct fuge_info {
   int contacts;                 /* points with a contact force */
   int products;                 /* products alpha f by the operator, those on coarser grids
                                    by their share, rounded up */
-  int filters;                  /* preconditioner applications, likewise */
+  int preconditionings;                  /* preconditioner applications, likewise */
   int reserved_int[3];
   double residual;              /* certificate: largest scaled violation of the problem */
   double reserved[7];
@@ -300,10 +300,10 @@ int fuge_operator_callback(int n, fuge_apply apply, void *user, fuge_operator **
 /* Optional, to need fewer products: an approximate inverse of A, from n lengths (f) to
  * n forces (u), linear, symmetric and positive definite; same rules and same user.
  * Only for callback operators (FUGE_ERR_UNSUPPORTED), and not during a solve.  The
- * last one set, filter or diagonal, counts. */
-int fuge_operator_set_filter(fuge_operator *op, fuge_apply filter);
+ * last one set, preconditioner or diagonal, counts. */
+int fuge_operator_set_preconditioner(fuge_operator *op, fuge_apply preconditioner);
 
-/* The filter 1/alpha_kk.  diagonal: n coefficients alpha_kk > 0, copied; length per force.
+/* The preconditioner 1/alpha_kk.  diagonal: n coefficients alpha_kk > 0, copied; length per force.
  * FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_DEFINITE for one <= 0. */
 int fuge_operator_set_diagonal(fuge_operator *op, const double *diagonal);
 enum {                          /* boundary: what lies beyond the cells */
@@ -370,7 +370,7 @@ int fuge_reset(fuge_solver *s);
  *     gaps        fuge_set_gap
  *     exclusions  fuge_set_excluded; none at first
  *     motions     fuge_set_load, fuge_set_approach or fuge_set_modes, each of which
- *                 replaces all motions; then fuge_set_motion and fuge_free_motion
+ *                 replaces all motions; then fuge_set_motion and fuge_set_resultant
  *                 change one.  At first there is one translation, neither free nor given
  * All arrays are copied.  Success makes earlier results unavailable; an error changes
  * nothing.  What the parts say together is checked by fuge_solve:
@@ -389,7 +389,7 @@ int fuge_set_excluded(fuge_solver *s, const int *excluded);
 
 /* One translation, free under the load F_0 >= 0; force.  With fuge_set_gap(s, gap, NULL)
  * and fuge_set_excluded(s, NULL) this is the plain problem again.  A load that pulls on
- * two-sided points: fuge_free_motion(s, 0, load). */
+ * two-sided points: fuge_set_resultant(s, 0, load). */
 int fuge_set_load(fuge_solver *s, double load);
 
 /* One translation, prescribed; length.  The load is a result: fuge_get_resultant. */
@@ -407,10 +407,10 @@ int fuge_set_modes(fuge_solver *s, int m, const double *modes, const double *res
 int fuge_set_motion(fuge_solver *s, int mode, double value);
 
 /* Free motion mode under a resultant of either sign, or change that. */
-int fuge_free_motion(fuge_solver *s, int mode, double resultant);
+int fuge_set_resultant(fuge_solver *s, int mode, double resultant);
 
 /* Number m of motions of the problem, free and prescribed; at any time. */
-int fuge_get_motions(const fuge_solver *s, int *m);
+int fuge_get_mode_count(const fuge_solver *s, int *m);
 
 /* ---- load path ---------------------------------------------------------- */
 
@@ -455,10 +455,10 @@ int fuge_follow_path(const fuge_solver *s, const double *finish, int capacity, d
 /* ---- results ------------------------------------------------------------ */
 
 /* Each gives FUGE_ERR_CALL_ORDER unless the last fuge_solve gave an answer for
- * the present problem.  m is that of fuge_get_motions: 1 without fuge_set_modes. */
+ * the present problem.  m is that of fuge_get_mode_count: 1 without fuge_set_modes. */
 int fuge_get_force(const fuge_solver *s, double *force);        /* n; force */
 int fuge_get_gap(const fuge_solver *s, double *gap);            /* n; length */
-int fuge_get_rigid(const fuge_solver *s, double *q);            /* m: v_0; length, if m = 1 */
+int fuge_get_motion(const fuge_solver *s, double *q);            /* m: v_0; length, if m = 1 */
 int fuge_get_resultant(const fuge_solver *s, double *w);        /* m: R^T f, the sum of the forces
                                                                    for a translation */
 
@@ -496,7 +496,7 @@ int fuge_get_history(const fuge_solver *s, int first, int count, int *basis, dou
 /* Message of the last call on s that set or solved, or of a getter that failed:
  * what, where, how to mend it; empty when all was well.  At most len bytes, always
  * ended by NUL. */
-int fuge_last_message(const fuge_solver *s, char *buf, size_t len);
+int fuge_solver_message(const fuge_solver *s, char *buf, size_t len);
 
 #ifdef __cplusplus
 }

@@ -16,7 +16,7 @@ extern "C" {
  * and back from contact forces to the displacements of the whole body.
  *
  *     fuge_body_dense, _band or _sparse -> fuge_body_fix, _set_load, _set_contact, ..
- *     -> fuge_condense -> fuge_body_get_...
+ *     -> fuge_body_condense -> fuge_body_get_...
  *     -> fuge_operator_dense(alpha), gaps + displacement, solve -> fuge_body_recover
  *     -> fuge_body_free
  *
@@ -35,7 +35,7 @@ typedef struct fuge_body fuge_body;
  * ab: LAPACK's symmetric band storage with kd diagonals beside the main one, ldab > kd;
  * upper nonzero: K(i,j) = ab[kd + i - j + j*ldab], i <= j, else K(i,j) = ab[i - j + j*ldab],
  * i >= j.  The arrays are not copied: keep them as long as the body.  K is looked at by
- * fuge_condense. */
+ * fuge_body_condense. */
 int fuge_body_dense(int degrees, const double *k, int ldk, fuge_body **body);
 int fuge_body_band(int degrees, int kd, const double *ab, int ldab, int upper, fuge_body **body);
 
@@ -51,14 +51,14 @@ void fuge_body_free(fuge_body **body);
  * call replaces the one before. */
 int fuge_body_fix(fuge_body *body, int count, const int *dof, const double *displacement);
 
-/* External load, one force for each degree of freedom.  After fuge_condense this costs one
+/* External load, one force for each degree of freedom.  After fuge_body_condense this costs one
  * solve, and only fuge_body_get_displacement and _get_modes change. */
 int fuge_body_set_load(fuge_body *body, const double *load);
 
 /* The body floats: its rigid motions on the supports are given (degrees x m), or looked
  * for.  m = 0: it does not float. */
-int fuge_body_set_modes(fuge_body *body, int m, const double *modes);
-int fuge_body_find_modes(fuge_body *body);
+int fuge_body_set_rigid_modes(fuge_body *body, int m, const double *modes);
+int fuge_body_find_rigid_modes(fuge_body *body);
 
 /* Rigid motions of nodes in the plane or in space, from their places: position is
  * dimensions x nodes, modes (dimensions*nodes) x 3 or x 6: translations, then rotations
@@ -72,7 +72,7 @@ int fuge_body_set_contact(fuge_body *body, int n, int width, const int *dof, con
  * FUGE_ERR_NOT_DEFINITE (the message names the degree of freedom), FUGE_ERR_MODES,
  * FUGE_ERR_NO_EQUILIBRIUM (a load that no contact can hold); FUGE_WARN_RESIDUAL if K is so
  * near to singular that few digits of alpha may be left. */
-int fuge_condense(fuge_body *body);
+int fuge_body_condense(fuge_body *body);
 
 /* Influence matrix, n x n, lda >= n: for fuge_operator_dense. */
 int fuge_body_get_influence(const fuge_body *body, double *alpha, int lda);
@@ -82,7 +82,7 @@ int fuge_body_get_displacement(const fuge_body *body, double *displacement);
 
 /* Number of rigid motions that the contact has to hold, 0 if the body does not float.
  * Those that move no contact point are left out. */
-int fuge_body_get_motions(const fuge_body *body, int *m);
+int fuge_body_get_mode_count(const fuge_body *body, int *m);
 
 /* R, n x m, and w, m, for fuge_set_modes.  Either may be NULL. */
 int fuge_body_get_modes(const fuge_body *body, double *modes, double *resultant);

@@ -11,7 +11,7 @@ module fuge
   use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
   use fuge_history_type, only: fuge_history
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: fuge_dp
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
   use fuge_monitor_type, only: fuge_monitor
@@ -36,6 +36,7 @@ module fuge
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
+  use fuge_version_number, only: FUGE_VERSION
   implicit none
   public
 

@@ -106,7 +106,7 @@ static int condense(block *b) {
   int status = fuge_body_band(fe_degrees(m), fe_band(m), b->stiffness, fe_band(m) + 1, 0, &b->body);
   if (status == FUGE_DONE) status = hold(b);
   if (status == FUGE_DONE) status = let_touch(b);
-  if (status == FUGE_DONE) status = fuge_condense(b->body);
+  if (status == FUGE_DONE) status = fuge_body_condense(b->body);
   if (status == FUGE_DONE) status = fuge_body_get_influence(b->body, b->alpha, m->candidates);
   if (status == FUGE_DONE) status = fuge_body_get_displacement(b->body, b->displacement);
   if (status != FUGE_DONE && b->body) fuge_body_message(b->body, message, sizeof message);

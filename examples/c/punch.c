@@ -24,7 +24,7 @@ static int solve(const double *alpha, const double *gap, double *force, fuge_inf
   if (status == FUGE_DONE) status = fuge_solve(solver);
   if (status == FUGE_DONE) status = fuge_get_force(solver, force);
   if (status == FUGE_DONE) status = fuge_get_info(solver, info);
-  if (status != FUGE_DONE && solver) fuge_last_message(solver, message, sizeof message);
+  if (status != FUGE_DONE && solver) fuge_solver_message(solver, message, sizeof message);
   if (status != FUGE_DONE) fprintf(stderr, "%s: %s\n", fuge_status_text(status), message);
   fuge_solver_free(&solver);
   fuge_operator_free(&op);

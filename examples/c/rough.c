@@ -71,7 +71,7 @@ static int product(int n, const double *force, double *displacement, void *user)
   return 0;
 }
 
-static int filter(int n, const double *length, double *force, void *user) {
+static int preconditioner(int n, const double *length, double *force, void *user) {
   half_plane *body = user;
   if (n != body->n) return 1;
   transform(body, length, force, 1);
@@ -154,10 +154,10 @@ static int press(fuge_solver *solver, double load, double *force, double *approa
   int status = fuge_set_load(solver, load);
   if (status == FUGE_DONE) status = fuge_solve(solver);
   if (status == FUGE_DONE) status = fuge_get_force(solver, force);
-  if (status == FUGE_DONE) status = fuge_get_rigid(solver, approach);
+  if (status == FUGE_DONE) status = fuge_get_motion(solver, approach);
   if (status == FUGE_DONE) status = fuge_get_info(solver, info);
   if (status != FUGE_DONE) {
-    fuge_last_message(solver, message, sizeof message);
+    fuge_solver_message(solver, message, sizeof message);
     fprintf(stderr, "%s: %s\n", fuge_status_text(status), message);
   }
   return status;
@@ -186,7 +186,7 @@ static double force_error(double residual, double approach) {
 static int all_loads(int n, fuge_solver *own, fuge_solver *builtin) {
   double *force = reserve(n, sizeof(double)), *expected = reserve(n, sizeof(double));
   int status = FUGE_DONE, differ = 0;
-  puts("   p/E*  contact    approach   own products filters   built-in products filters   forces differ  certified");
+  puts("   p/E*  contact    approach   own products preconditionings   built-in products preconditionings   forces differ  certified");
   for (int k = 0; k < 10; k++) {
     double load = 0.05 * pow(0.8, k), approach, other;   /* the period is 1: mean pressure = load */
     fuge_info info, info_builtin;
@@ -197,7 +197,7 @@ static int all_loads(int n, fuge_solver *own, fuge_solver *builtin) {
     double certified = force_error(info.residual + info_builtin.residual, approach);
     if (apart > certified) differ = 1;
     printf("%7.5f %8.5f %11.4e %14d %7d %19d %7d %15.1e %10.1e\n", load, (double)info.contacts / n, approach,
-           info.products, info.filters, info_builtin.products, info_builtin.filters, apart / largest,
+           info.products, info.preconditionings, info_builtin.products, info_builtin.preconditionings, apart / largest,
            certified / largest);
   }
   fftw_free(force);
@@ -220,7 +220,7 @@ int main(int argc, char **argv) {
   fuge_operator *own = NULL, *builtin = NULL;
   fuge_solver *own_solver = NULL, *builtin_solver = NULL;
   int status = fuge_operator_callback(n, product, &body, &own);
-  if (status == FUGE_DONE) status = fuge_operator_set_filter(own, filter);
+  if (status == FUGE_DONE) status = fuge_operator_set_preconditioner(own, preconditioner);
   if (status == FUGE_DONE) status = fuge_operator_halfplane(n, 1.0 / n, 1.0, FUGE_MEAN, FUGE_PERIODIC, &builtin);
   if (status == FUGE_DONE) status = prepare(own, gap, &limit, &own_solver);
   if (status == FUGE_DONE) status = prepare(builtin, gap, &limit, &builtin_solver);

@@ -15,7 +15,8 @@ program calculix
   use calculix_files, only: wall_clock
   use calculix_mesh, only: block_mesh, make_block, write_mesh, RADIUS, THICKNESS
   use calculix_penalty, only: penalty_answer, solve_by_penalty
-  use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solve_dense, &
+    fuge_solver
   implicit none
 
   !> N, mm, as in model.inp and contact.inp: half of the load, on the half modelled.
@@ -144,8 +145,8 @@ contains
 
     springs = spring_difference(answer, block, mesh)
     print '(f8.0,f8.2,2i7,i9,es13.1,es10.1,es12.1,es8.1,es17.1)', answer%stiffness/YOUNG, answer%seconds, &
-      answer%increments, answer%iterations, count(answer%gap < 0.0_dp), maxval(-answer%gap)/solution%rigid(1), &
-      answer%approach/solution%rigid(1) - 1.0_dp, field_difference(answer, block, solution), difference, springs
+      answer%increments, answer%iterations, count(answer%gap < 0.0_dp), maxval(-answer%gap)/solution%motion(1), &
+      answer%approach/solution%motion(1) - 1.0_dp, field_difference(answer, block, solution), difference, springs
     if (abs(sum(answer%force)/LOAD - 1.0_dp) > 1.0e-5_dp) error stop 'the forces of CalculiX are not the load'
     if (springs > 1.0e-5_dp) error stop 'CalculiX does not solve the same model'
   end subroutine show_penalty

@@ -2,7 +2,7 @@
 !> the stiffness that CalculiX assembles; and the same matrix by unit loads, as a check.
 module calculix_elastic
   use calculix_files, only: read_degrees, read_stiffness, read_table, run_job, wall_clock
-  use fuge, only: dp, fuge_body, fuge_condense, fuge_condensed, fuge_info
+  use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_info
   use fuge_sparse, only: fuge_sparse_stiffness
   implicit none
   private

@@ -1,7 +1,7 @@
 !> Runs CalculiX and reads what it writes.
 module calculix_files
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 

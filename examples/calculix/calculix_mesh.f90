@@ -5,7 +5,7 @@
 !> outwards and downwards. Nodes are numbered through the thickness, then downwards, then
 !> along x, so that the band of the stiffness is narrow.
 module calculix_mesh
-  use fuge, only: dp
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 

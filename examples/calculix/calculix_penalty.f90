@@ -2,7 +2,7 @@
 module calculix_penalty
   use calculix_files, only: count_iterations, read_table, run_job
   use calculix_mesh, only: node_areas
-  use fuge, only: dp
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 

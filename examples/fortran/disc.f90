@@ -6,7 +6,8 @@
 !> disc_2.dat for the pictures.
 program disc
   use disc_rings, only: disc_influence, ring_radius, RINGS
-  use fuge, only: dp, fuge_dense_operator, fuge_history, fuge_info, fuge_options, fuge_problem, fuge_solution, &
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_history, fuge_info, fuge_options, fuge_problem, &
+    fuge_solution, &
     fuge_solver
   implicit none
 

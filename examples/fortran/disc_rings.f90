@@ -8,7 +8,7 @@
 !>
 !> Units N and mm; displacements and contact forces are positive upward.
 module disc_rings
-  use fuge, only: dp
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 

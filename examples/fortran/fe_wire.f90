@@ -6,7 +6,8 @@
 !> half-width is a = F R/(2 T), nodes inside carry T h/R, the parabola comes down by
 !> a L/R - a**2/(2 R). Linear elements are exact at the nodes.
 program fe_wire
-  use fuge, only: dp, fuge_band_stiffness, fuge_body, fuge_condense, fuge_condensed, fuge_dense_operator, fuge_info, &
+  use fuge, only: dp => fuge_dp, fuge_band_stiffness, fuge_body, fuge_condense, fuge_condensed, fuge_dense_operator, &
+    fuge_info, &
     fuge_problem, fuge_solution, fuge_solver
   implicit none
 
@@ -75,12 +76,12 @@ contains
     reached = sqrt(2.0_dp*RADIUS*maxval(gap, mask=solution%force > 0.0_dp))
     print '(a)', '                       fuge        exact'
     print '(a,2f12.6,a)', 'last node touching', reached, half_width, ' mm'
-    print '(a,2f12.6,a)', 'approach          ', solution%rigid(1), approach, ' mm'
+    print '(a,2f12.6,a)', 'approach          ', solution%motion(1), approach, ' mm'
     print '(a,2f12.6,a)', 'largest force     ', maxval(solution%force), inside, ' N'
-    apart = maxval(abs(gap - u - solution%rigid(1) - solution%gap))
+    apart = maxval(abs(gap - u - solution%motion(1) - solution%gap))
     if (apart > 1.0e-10_dp*approach) error stop 'the displacements do not fit'
     if (abs(reached - half_width) > H) error stop 'the contact is not the exact one'
-    if (abs(solution%rigid(1) - approach) > H**2/RADIUS) error stop 'the approach is not the exact one'
+    if (abs(solution%motion(1) - approach) > H**2/RADIUS) error stop 'the approach is not the exact one'
     if (abs(maxval(solution%force) - inside) > 1.0e-9_dp*inside) error stop 'the force is not the exact one'
   end subroutine check
 

@@ -9,7 +9,7 @@
 !> bush holds it.
 !> Writes play.csv: forces and gaps over the load.
 program play
-  use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
   implicit none
 
   !> N, mm: a steel shaft of 20 mm diameter.

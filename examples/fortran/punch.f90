@@ -6,7 +6,8 @@
 !> Writes punch_pressure.dat, punch_edge.dat and, from the exact load path,
 !> punch_halfwidth.dat for the pictures.
 program punch
-  use fuge, only: dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_interval, &
+  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, &
+    fuge_interval, &
     fuge_load_path, fuge_path, fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver, FUGE_CENTRE, &
     FUGE_EDGE_REFINED
   implicit none

@@ -10,7 +10,8 @@
 !> Writes rough_load.csv and rough_window.csv for the pictures.
 program rough
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp, fuge_halfplane_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver, FUGE_PERIODIC
+  use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver, &
+    FUGE_PERIODIC
   use rough_profile, only: measured_profile, rms_slope, self_affine_profile
   use rough_progress, only: ticker
   implicit none
@@ -89,7 +90,7 @@ contains
 
     print '(a)', '   p/E*      contact    kappa    approach   residual  products   time [s]'
     open (newunit=file, file='rough_load.csv', status='replace', action='write')
-    write (file, '(a)') 'pressure,contact,kappa,approach,residual,products,filters,seconds,rms_slope'
+    write (file, '(a)') 'pressure,contact,kappa,approach,residual,products,preconditionings,seconds,rms_slope'
     do k = 0, DECADES*LOADS_A_DECADE
       pressure = LARGEST*10.0_dp**(-real(k, dp)/real(LOADS_A_DECADE, dp))
       problem%resultant(1) = pressure*spacing*real(size(height), dp)
@@ -114,10 +115,10 @@ contains
 
     contact = real(info%contacts, dp)/real(size(solution%force), dp)
     kappa = contact*slope/pressure
-    print '(es10.3,f10.5,f9.4,es12.4,es11.1,i10,f11.3)', pressure, contact, kappa, solution%rigid(1), info%residual, &
+    print '(es10.3,f10.5,f9.4,es12.4,es11.1,i10,f11.3)', pressure, contact, kappa, solution%motion(1), info%residual, &
       info%products, seconds
-    write (file, '(5(es14.6,","),2(i0,","),es10.3,",",es14.6)') pressure, contact, kappa, solution%rigid(1), &
-      info%residual, info%products, info%filters, seconds, slope
+    write (file, '(5(es14.6,","),2(i0,","),es10.3,",",es14.6)') pressure, contact, kappa, solution%motion(1), &
+      info%residual, info%products, info%preconditionings, seconds, slope
   end subroutine write_load
 
   !> kappa is at least Persson's 2 sqrt(2/pi) = 1.6, and not much above 2.

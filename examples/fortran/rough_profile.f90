@@ -1,7 +1,7 @@
 !> Rough profiles for the example `rough`: generated, or measured and read from a file.
 module rough_profile
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp, fuge_info, fuge_level_profile, fuge_read_profile, fuge_sample_profile, FUGE_LEVEL_LINE
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_level_profile, fuge_read_profile, fuge_sample_profile, FUGE_LEVEL_LINE
   implicit none
   private
 

@@ -1,7 +1,7 @@
 !> Shows how a long solve gets on: the library itself never prints.
 module rough_progress
   use, intrinsic :: iso_fortran_env, only: error_unit, int64
-  use fuge, only: dp, fuge_monitor
+  use fuge, only: dp => fuge_dp, fuge_monitor
   implicit none
   private
 

@@ -14,7 +14,7 @@
 !> the time of a solve.
 program smooth
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp, fuge_contact_edges, fuge_halfplane_operator, fuge_info, fuge_interval, fuge_problem, &
+  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_halfplane_operator, fuge_info, fuge_interval, fuge_problem, &
     fuge_smooth_contact, fuge_solution, fuge_solve_smooth_punch, fuge_solver, FUGE_DONE, FUGE_FREE, FUGE_HAT
   use smooth_wave, only: wave_crest
   implicit none
@@ -77,7 +77,7 @@ contains
     call fuge_contact_edges(x, width, solution%force, FUGE_HAT, intervals, info)
     if (info%failed() .or. size(intervals) /= 1) error stop 'the edges were not found'
     error(1) = abs(0.5_dp*(intervals(1)%right - intervals(1)%left)/HALF_WIDTH - 1.0_dp)
-    error(2) = abs(solution%rigid(1)/exact_approach() - 1.0_dp)
+    error(2) = abs(solution%motion(1)/exact_approach() - 1.0_dp)
     error(3) = maxval(abs(solution%force/width - exact_pressure(x)))/maxval(exact_pressure([0.0_dp]))
     print '(i12,3es12.2,f13.4)', cells, error, 1.0e3_dp*seconds
     write (file, '(a,i0,4('','',es9.2))') 'grid,', cells, error, seconds

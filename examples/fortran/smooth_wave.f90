@@ -1,6 +1,6 @@
 !> A profile of one's own: one wave crest.
 module smooth_wave
-  use fuge, only: dp, fuge_smooth_profile
+  use fuge, only: dp => fuge_dp, fuge_smooth_profile
   implicit none
   private
 

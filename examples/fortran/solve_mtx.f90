@@ -39,7 +39,7 @@ program solve_mtx
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use, intrinsic :: iso_c_binding, only: c_int
   use, intrinsic :: iso_fortran_env, only: error_unit
-  use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
   use solve_mtx_arguments, only: arguments, print_help
   use solve_mtx_body, only: elastic_body
   use solve_mtx_files, only: read_square, read_vector, read_modes

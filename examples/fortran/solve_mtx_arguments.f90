@@ -1,6 +1,6 @@
 !> Command line of the example `solve_mtx`.
 module solve_mtx_arguments
-  use fuge, only: dp, fuge_info, FUGE_ERR_OPTION
+  use fuge, only: dp => fuge_dp, fuge_info, FUGE_ERR_OPTION
   implicit none
   private
 

@@ -1,6 +1,6 @@
 !> The body of the example `solve_mtx`: its files, condensed to the contact points.
 module solve_mtx_body
-  use fuge, only: dp, fuge_body, fuge_condense, fuge_condensed, fuge_info, fuge_problem, fuge_read_matrix, &
+  use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_info, fuge_problem, fuge_read_matrix, &
     fuge_read_sparse, fuge_solution, FUGE_ERR_DOF
   use solve_mtx_arguments, only: arguments
   use solve_mtx_files, only: read_vector, refuse_size

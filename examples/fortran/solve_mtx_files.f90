@@ -1,6 +1,6 @@
 !> Files of the example `solve_mtx`: matrices and vectors of the right size.
 module solve_mtx_files
-  use fuge, only: dp, fuge_info, fuge_problem, fuge_read_matrix, FUGE_ERR_SIZE
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_read_matrix, FUGE_ERR_SIZE
   implicit none
   private
 

@@ -1,7 +1,7 @@
 !> The stiffness matrix of the example `solve_mtx` as a dense one, where the library has been
 !> built without its sparse component.
 module solve_mtx_stiffness
-  use fuge, only: dp, fuge_dense_stiffness, fuge_info
+  use fuge, only: dp => fuge_dp, fuge_dense_stiffness, fuge_info
   use solve_mtx_files, only: read_square
   implicit none
   private

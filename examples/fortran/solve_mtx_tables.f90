@@ -1,6 +1,6 @@
 !> Tables of the example `solve_mtx`: CSV with comments after #.
 module solve_mtx_tables
-  use fuge, only: dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text
   use fuge_text_writer, only: text_output
   implicit none
   private
@@ -38,8 +38,8 @@ contains
     call csv%put(line)
     write (line, '(a,i0)') '# contacts: ', info%contacts
     call csv%put(line)
-    do k = 1, size(solution%rigid)
-      write (line, '(a,i0,2(a,es24.16e3))') '# motion ', k, ': ', solution%rigid(k), ', resultant: ', &
+    do k = 1, size(solution%motion)
+      write (line, '(a,i0,2(a,es24.16e3))') '# motion ', k, ': ', solution%motion(k), ', resultant: ', &
         resultant(problem, solution%force, k)
       call csv%put(line)
     end do

@@ -7,7 +7,8 @@
 !> tip over. Everything is per unit depth and compared with the exact answer.
 !> Writes tilt_length.csv and tilt_pressure.csv for the picture.
 program tilt
-  use fuge, only: dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_interval, &
+  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, &
+    fuge_interval, &
     fuge_problem, fuge_solution, fuge_solver, fuge_status_text, FUGE_ERR_NO_EQUILIBRIUM, FUGE_MEAN
   implicit none
 
@@ -119,8 +120,8 @@ contains
     if (size(intervals) /= 1) error stop 'more than one contact under the punch'
     found%middle = 0.5_dp*(intervals(1)%left + intervals(1)%right)
     found%half = 0.5_dp*(intervals(1)%right - intervals(1)%left)
-    found%approach = solution%rigid(1)
-    found%rotation = solution%rigid(2)
+    found%approach = solution%motion(1)
+    found%rotation = solution%motion(2)
   end function contact_of
 
   !> With t = (x - middle)/half the pressure on a parabola or a plane is

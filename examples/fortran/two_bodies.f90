@@ -13,7 +13,8 @@
 !> kind, D the distance at which a line load displaces nothing.
 !> Writes two_bodies.csv: the approaches over the distance and over the force.
 program two_bodies
-  use fuge, only: dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, fuge_solver, &
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, &
+    fuge_solver, &
     FUGE_MEAN
   implicit none
 
@@ -143,7 +144,7 @@ contains
     if (all(solution%force > 0.0_dp)) found%touching = 1.0_dp
     ! The matrix has the datum at twice the length from the first cell to the last one, which
     ! is another one at each distance.
-    found%approach = solution%rigid + sinking(sum(load), 2.0_dp*(distance + 2.0_dp*HALF_FACE))
+    found%approach = solution%motion + sinking(sum(load), 2.0_dp*(distance + 2.0_dp*HALF_FACE))
   end function press
 
   pure subroutine set_punches(load, problem)

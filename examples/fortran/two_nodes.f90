@@ -1,6 +1,7 @@
 !> The paper's example with two nodes: Tabelle 1, tableau by tableau.
 program two_nodes
-  use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver, &
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
+    fuge_solver, &
     FUGE_PAPER_RULE
   use fuge_paper_tableau, only: paper_tableau
   implicit none
@@ -61,7 +62,7 @@ contains
     end do
     print '(/,a,2f8.3)', 'F   = ', solution%force
     print '(a,2f8.3)', 'c   = ', solution%gap
-    print '(a,f8.3)', 'v_0 = ', solution%rigid
+    print '(a,f8.3)', 'v_0 = ', solution%motion
     print '(a,es8.1)', 'residual ', info%residual
   end subroutine solve
 

@@ -4,8 +4,10 @@ module fuge_kinds
   implicit none
   private
 
-  !> All real data: C's double.
-  integer, parameter, public :: dp = real64
+  !> Kind of all real data: C's double.
+  integer, parameter, public :: fuge_dp = real64
+  !> Its name inside the library.
+  integer, parameter, public :: dp = fuge_dp
 
   !> Residuals of refinement: extended precision where the machine has it.
   integer, parameter :: wider = selected_real_kind(p=18)

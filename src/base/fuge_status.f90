@@ -110,7 +110,7 @@ module fuge_status
     !> Products A f of the operator, the certificate's included.
     integer :: products = 0
     !> Applications of a preconditioner.
-    integer :: filters = 0
+    integer :: preconditionings = 0
     !> The certificate: largest scaled violation, see `fuge_residual`.
     real(dp) :: residual = 0.0_dp
   contains

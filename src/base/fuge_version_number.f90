@@ -3,6 +3,7 @@ module fuge_version_number
   implicit none
   private
 
-  character(len=*), parameter, public :: FUGE_VERSION_TEXT = '0.1.0'
+  !> Version of the library.
+  character(len=*), parameter, public :: FUGE_VERSION = '0.1.0'
 
 end module fuge_version_number

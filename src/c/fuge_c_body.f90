@@ -215,7 +215,7 @@ contains
     if (handle%done .and. .not. info%failed()) handle%body%load = forces
   end function c_body_set_load
 
-  function c_body_set_modes(body, m, modes) bind(c, name='fuge_body_set_modes') result(status)
+  function c_body_set_modes(body, m, modes) bind(c, name='fuge_body_set_rigid_modes') result(status)
     type(c_ptr), intent(in), value :: body, modes
     integer(c_int), intent(in), value :: m
     integer(c_int) :: status
@@ -233,18 +233,18 @@ contains
       call report(info, FUGE_ERR_POINTER, 'modes is NULL')
     else
       handle%body%floats = .false.
-      if (allocated(handle%body%modes)) deallocate (handle%body%modes)
+      if (allocated(handle%body%rigid_modes)) deallocate (handle%body%rigid_modes)
       if (m > 0) then
         call c_f_pointer(modes, motions, [handle%degrees, int(m)])
-        allocate (handle%body%modes(handle%degrees, m), stat=stat)
-        if (stat == 0) handle%body%modes = motions
+        allocate (handle%body%rigid_modes(handle%degrees, m), stat=stat)
+        if (stat == 0) handle%body%rigid_modes = motions
         if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(m))//' motions')
       end if
     end if
     status = settle(handle, info)
   end function c_body_set_modes
 
-  function c_body_find_modes(body) bind(c, name='fuge_body_find_modes') result(status)
+  function c_body_find_modes(body) bind(c, name='fuge_body_find_rigid_modes') result(status)
     type(c_ptr), intent(in), value :: body
     integer(c_int) :: status
     type(body_handle), pointer :: handle
@@ -253,7 +253,7 @@ contains
     status = FUGE_ERR_POINTER
     if (.not. c_associated(body)) return
     call c_f_pointer(body, handle)
-    if (allocated(handle%body%modes)) deallocate (handle%body%modes)
+    if (allocated(handle%body%rigid_modes)) deallocate (handle%body%rigid_modes)
     handle%body%floats = .true.
     status = settle(handle, info)
   end function c_body_find_modes
@@ -307,7 +307,7 @@ contains
     status = settle(handle, info)
   end function c_body_set_contact
 
-  function c_condense(body) bind(c, name='fuge_condense') result(status)
+  function c_condense(body) bind(c, name='fuge_body_condense') result(status)
     type(c_ptr), intent(in), value :: body
     integer(c_int) :: status
     type(body_handle), pointer :: handle
@@ -358,7 +358,7 @@ contains
     if (.not. c_associated(displacement)) status = missing(handle, 'displacement')
   end function c_body_get_displacement
 
-  function c_body_get_motions(body, m) bind(c, name='fuge_body_get_motions') result(status)
+  function c_body_get_motions(body, m) bind(c, name='fuge_body_get_mode_count') result(status)
     type(c_ptr), intent(in), value :: body, m
     integer(c_int) :: status
     type(body_handle), pointer :: handle
@@ -401,10 +401,10 @@ contains
     if (m > 0 .and. .not. c_associated(motion)) return
     call c_f_pointer(force, values, [size(handle%condensed%displacement)])
     solution%force = values
-    allocate (solution%rigid(m))
+    allocate (solution%motion(m))
     if (m > 0) then
       call c_f_pointer(motion, values, [m])
-      solution%rigid = values
+      solution%motion = values
     end if
     call c_f_pointer(displacement, field, [handle%degrees])
     call handle%condensed%recover(solution, field, info)

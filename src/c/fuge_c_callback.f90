@@ -28,15 +28,15 @@ module fuge_c_callback
   type, extends(fuge_operator) :: callback_operator
     integer :: n = 0
     procedure(c_apply), pointer, nopass :: product => null()
-    !> One of these two, or none, makes the filter.
+    !> One of these two, or none, makes the preconditioner.
     procedure(c_apply), pointer, nopass :: inverse => null()
     real(dp), allocatable :: diagonal(:)
     type(c_ptr) :: user = c_null_ptr
   contains
     procedure :: points
     procedure :: apply
-    procedure :: has_filter
-    procedure :: filter
+    procedure :: has_preconditioner
+    procedure :: precondition
   end type callback_operator
 
 contains
@@ -63,7 +63,7 @@ contains
     end if
   end function c_operator_callback
 
-  function c_set_filter(operator, inverse) bind(c, name='fuge_operator_set_filter') result(status)
+  function c_set_preconditioner(operator, inverse) bind(c, name='fuge_operator_set_preconditioner') result(status)
     type(c_ptr), intent(in), value :: operator
     type(c_funptr), intent(in), value :: inverse
     integer(c_int) :: status
@@ -74,7 +74,7 @@ contains
     if (status /= FUGE_DONE) return
     found%inverse => procedure_at(inverse)
     if (allocated(found%diagonal)) deallocate (found%diagonal)
-  end function c_set_filter
+  end function c_set_preconditioner
 
   function c_set_diagonal(operator, diagonal) bind(c, name='fuge_operator_set_diagonal') result(status)
     type(c_ptr), intent(in), value :: operator, diagonal
@@ -152,14 +152,14 @@ contains
     call call_back(self%product, force, displacement, self%user, status)
   end subroutine apply
 
-  function has_filter(self) result(filtered)
+  function has_preconditioner(self) result(preconditioned)
     class(callback_operator), intent(in) :: self
-    logical :: filtered
+    logical :: preconditioned
 
-    filtered = associated(self%inverse) .or. allocated(self%diagonal)
-  end function has_filter
+    preconditioned = associated(self%inverse) .or. allocated(self%diagonal)
+  end function has_preconditioner
 
-  subroutine filter(self, length, force, status)
+  subroutine precondition(self, length, force, status)
     class(callback_operator), intent(in) :: self
     real(dp), intent(in) :: length(:)
     real(dp), intent(out) :: force(:)
@@ -171,7 +171,7 @@ contains
     else
       call call_back(self%inverse, length, force, self%user, status)
     end if
-  end subroutine filter
+  end subroutine precondition
 
   !> A copy is given away, so that a callback which writes to it harms nobody, and the
   !> result starts as NaN, so that a value it forgets is seen by `fuge_operator_products`.

@@ -4,7 +4,7 @@ module fuge_c_general
   use fuge_c_types, only: c_options
   use fuge_options_type, only: fuge_options
   use fuge_status, only: LOWEST_STATUS, HIGHEST_STATUS, STATUS_MEANINGS
-  use fuge_version_number, only: FUGE_VERSION_TEXT
+  use fuge_version_number, only: FUGE_VERSION
   implicit none
   private
 
@@ -13,7 +13,7 @@ module fuge_c_general
   character(kind=c_char, len=72), target :: meanings(LOWEST_STATUS:HIGHEST_STATUS + 1) = &
     [character(len=72) :: (trim(STATUS_MEANINGS(k))//c_null_char, k=LOWEST_STATUS, HIGHEST_STATUS), &
      'unknown status'//c_null_char]
-  character(kind=c_char, len=16), target :: version = FUGE_VERSION_TEXT//c_null_char
+  character(kind=c_char, len=16), target :: version = FUGE_VERSION//c_null_char
 
 contains
 

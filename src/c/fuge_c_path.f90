@@ -46,9 +46,9 @@ contains
     number = int(path%events, c_int)
   end function c_load_path
 
-  function c_follow_path(solver, finish, capacity, parameter, motion, rate, point, side, contacts, entries, message, &
+  function c_follow_path(solver, finish, capacity, parameter, motion, rate, point, state, contacts, entries, message, &
                          length) bind(c, name='fuge_follow_path') result(status)
-    type(c_ptr), intent(in), value :: solver, finish, parameter, motion, rate, point, side, contacts, entries, message
+    type(c_ptr), intent(in), value :: solver, finish, parameter, motion, rate, point, state, contacts, entries, message
     integer(c_int), intent(in), value :: capacity
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
@@ -70,7 +70,7 @@ contains
       end if
     end if
     if (.not. info%failed()) then
-      call c_f_pointer(finish, values, [handle%problem%motions()])
+      call c_f_pointer(finish, values, [handle%problem%mode_count()])
       call fuge_follow_path(handle%operator%operator, handle%problem, values, path, info)
     end if
     call copy_string(info%message, message, length)
@@ -81,7 +81,7 @@ contains
     call copy_reals([path%motion(:, :count)], motion)
     call copy_reals([path%rate(:, :count)], rate)
     call copy_integers(path%point(:count), point)
-    call copy_integers(path%side(:count), side)
+    call copy_integers(path%state(:count), state)
     call copy_integers(path%contacts(:count), contacts)
     call c_f_pointer(entries, number)
     number = int(path%entries, c_int)

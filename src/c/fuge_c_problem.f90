@@ -148,7 +148,7 @@ contains
   end function c_set_motion
 
   !> Free one motion.
-  function c_free_motion(solver, mode, resultant) bind(c, name='fuge_free_motion') result(status)
+  function c_free_motion(solver, mode, resultant) bind(c, name='fuge_set_resultant') result(status)
     type(c_ptr), intent(in), value :: solver
     integer(c_int), intent(in), value :: mode
     real(c_double), intent(in), value :: resultant
@@ -173,7 +173,7 @@ contains
     status = answer(handle, info)
   end function c_free_motion
 
-  function c_get_motions(solver, destination) bind(c, name='fuge_get_motions') result(status)
+  function c_get_motions(solver, destination) bind(c, name='fuge_get_mode_count') result(status)
     type(c_ptr), intent(in), value :: solver, destination
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
@@ -184,7 +184,7 @@ contains
     if (.not. info%failed()) then
       if (c_associated(destination)) then
         call c_f_pointer(destination, m)
-        m = int(handle%problem%motions(), c_int)
+        m = int(handle%problem%mode_count(), c_int)
       else
         call report(info, FUGE_ERR_POINTER, 'm is NULL')
         handle%message = info%message
@@ -233,7 +233,7 @@ contains
     character(len=*), intent(in) :: name
     type(fuge_info), intent(inout) :: info
 
-    associate (m => handle%problem%motions())
+    associate (m => handle%problem%mode_count())
       if (m < 1) then
         call report(info, FUGE_ERR_SIZE, 'there is no mode: fuge_set_modes has set none')
       else if (mode < 0 .or. mode >= m) then
@@ -254,7 +254,7 @@ contains
     integer :: m, stat
 
     if (allocated(handle%problem%prescribed)) return
-    m = handle%problem%motions()
+    m = handle%problem%mode_count()
     allocate (prescribed(m), motion(m), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the prescribed motions')

@@ -29,13 +29,13 @@ contains
     if (status == FUGE_DONE) call copy_out(handle%solution%gap, gap)
   end function c_get_gap
 
-  function c_get_rigid(solver, q) bind(c, name='fuge_get_rigid') result(status)
+  function c_get_rigid(solver, q) bind(c, name='fuge_get_motion') result(status)
     type(c_ptr), intent(in), value :: solver, q
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
     status = ready(solver, q, handle)
-    if (status == FUGE_DONE) call copy_out(handle%solution%rigid, q)
+    if (status == FUGE_DONE) call copy_out(handle%solution%motion, q)
   end function c_get_rigid
 
   !> Resultants of the contact forces found in all motions: equal to the loads up to
@@ -58,21 +58,21 @@ contains
 
   !> First-order changes of the last solution with one load, see `derivative` of
   !> `fuge_solver`.
-  function c_get_derivative(solver, gap_change, load_change, force, gap, rigid) &
+  function c_get_derivative(solver, gap_change, load_change, force, gap, motion) &
     bind(c, name='fuge_get_derivative') result(status)
-    type(c_ptr), intent(in), value :: solver, gap_change, force, gap, rigid
+    type(c_ptr), intent(in), value :: solver, gap_change, force, gap, motion
     real(c_double), intent(in), value :: load_change
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
     status = ready(solver, force, handle)
-    if (status == FUGE_DONE) status = differentiate(handle, gap_change, [load_change], force, gap, rigid)
+    if (status == FUGE_DONE) status = differentiate(handle, gap_change, [load_change], force, gap, motion)
   end function c_get_derivative
 
   !> The same with all loads; NULL for none that changes.
-  function c_get_derivatives(solver, gap_change, load_change, force, gap, rigid) &
+  function c_get_derivatives(solver, gap_change, load_change, force, gap, motion) &
     bind(c, name='fuge_get_derivatives') result(status)
-    type(c_ptr), intent(in), value :: solver, gap_change, load_change, force, gap, rigid
+    type(c_ptr), intent(in), value :: solver, gap_change, load_change, force, gap, motion
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
     real(c_double), pointer :: loads(:)
@@ -80,19 +80,19 @@ contains
 
     status = ready(solver, force, handle)
     if (status /= FUGE_DONE) return
-    associate (m => handle%problem%motions())
+    associate (m => handle%problem%mode_count())
       if (c_associated(load_change)) then
         call c_f_pointer(load_change, loads, [m])
-        status = differentiate(handle, gap_change, loads, force, gap, rigid)
+        status = differentiate(handle, gap_change, loads, force, gap, motion)
       else
-        status = differentiate(handle, gap_change, [(0.0_c_double, k=1, m)], force, gap, rigid)
+        status = differentiate(handle, gap_change, [(0.0_c_double, k=1, m)], force, gap, motion)
       end if
     end associate
   end function c_get_derivatives
 
-  function differentiate(handle, gap_change, load_change, force, gap, rigid) result(status)
+  function differentiate(handle, gap_change, load_change, force, gap, motion) result(status)
     type(solver_handle), intent(inout) :: handle
-    type(c_ptr), intent(in) :: gap_change, force, gap, rigid
+    type(c_ptr), intent(in) :: gap_change, force, gap, motion
     real(c_double), intent(in) :: load_change(:)
     integer(c_int) :: status
     real(c_double), pointer :: values(:)
@@ -119,7 +119,7 @@ contains
     end if
     call copy_out(change%force, force)
     call copy_reals(change%gap, gap)
-    call copy_reals(change%rigid, rigid)
+    call copy_reals(change%motion, motion)
   end function differentiate
 
   function c_get_info(solver, destination) bind(c, name='fuge_get_info') result(status)
@@ -193,7 +193,7 @@ contains
     end associate
   end subroutine copy_steps
 
-  function c_last_message(solver, buffer, length) bind(c, name='fuge_last_message') result(status)
+  function c_last_message(solver, buffer, length) bind(c, name='fuge_solver_message') result(status)
     type(c_ptr), intent(in), value :: solver, buffer
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status

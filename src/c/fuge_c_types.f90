@@ -24,7 +24,7 @@ module fuge_c_types
 
   !> struct fuge_info.
   type, bind(c), public :: c_info
-    integer(c_int) :: status, iterations, contacts, products, filters
+    integer(c_int) :: status, iterations, contacts, products, preconditionings
     integer(c_int) :: reserved_int(3)
     real(c_double) :: residual
     real(c_double) :: reserved(7)
@@ -82,7 +82,7 @@ contains
     info%iterations = int(source%iterations, c_int)
     info%contacts = int(source%contacts, c_int)
     info%products = int(source%products, c_int)
-    info%filters = int(source%filters, c_int)
+    info%preconditionings = int(source%preconditionings, c_int)
     info%residual = source%residual
     info%reserved_int = 0
     info%reserved = 0.0_c_double

@@ -28,7 +28,7 @@ module fuge_body_type
     !> The body floats, and its rigid motions on its supports are looked for.
     logical :: floats = .false.
     !> The rigid motions, if they are known, (nd, m). Not allocated: none, unless the body floats.
-    real(dp), allocatable :: modes(:, :)
+    real(dp), allocatable :: rigid_modes(:, :)
     !> Degrees of freedom of the contact points, (width, n); 0: none.
     integer, allocatable :: dof(:, :)
     !> Directions of the contact forces on the body, (width, n).
@@ -45,7 +45,8 @@ contains
     integer, intent(in) :: degrees
     type(fuge_info), intent(inout) :: info
 
-    if (body%floats .and. allocated(body%modes)) call report(info, FUGE_ERR_OPTION, 'the body has modes, and floats ' &
+    if (body%floats .and. allocated(body%rigid_modes)) call report(info, FUGE_ERR_OPTION, &
+                                                                   'the body has modes, and floats ' &
       //'is set: either give the rigid motions or have them looked for')
     if (.not. info%failed()) call check_supports(body, degrees, info)
     if (info%failed()) return

@@ -219,7 +219,7 @@ contains
     end if
     field(:, 1) = self%by_load + field(:, 1)
     do j = 1, size(self%motions, 2)
-      field(:, 1) = field(:, 1) + self%motions(:, j)*solution%rigid(j)
+      field(:, 1) = field(:, 1) + self%motions(:, j)*solution%motion(j)
     end do
     call find_residual(self, solution, field(:, 1), info)
     if (.not. info%failed()) u = field(:, 1)
@@ -245,22 +245,22 @@ contains
     if (.not. allocated(self%factor)) then
       call report(info, FUGE_ERR_CALL_ORDER, 'nothing has been condensed')
       return
-    else if (.not. (allocated(solution%force) .and. allocated(solution%rigid))) then
+    else if (.not. (allocated(solution%force) .and. allocated(solution%motion))) then
       call report(info, FUGE_ERR_CALL_ORDER, 'the solution holds no forces: solve first')
       return
     end if
     n = size(self%displacement)
     m = size(self%resultant)
-    if (size(solution%force) /= n .or. size(solution%rigid) < m) then
+    if (size(solution%force) /= n .or. size(solution%motion) < m) then
       call report(info, FUGE_ERR_SIZE, 'the solution has '//text(size(solution%force))//' forces and ' &
-                  //text(size(solution%rigid))//' motions: this body has '//text(n)//' contact points and '//text(m) &
+                  //text(size(solution%motion))//' motions: this body has '//text(n)//' contact points and '//text(m) &
                   //' motions')
     else if (degrees /= size(self%held)) then
       call report(info, FUGE_ERR_SIZE, 'u has '//text(degrees)//' value(s): it needs one for each of ' &
                   //text(size(self%held))//' degrees of freedom')
     else
       call check_finite(solution%force, 'force', info)
-      if (.not. info%failed()) call check_finite(solution%rigid(:m), 'motion', info)
+      if (.not. info%failed()) call check_finite(solution%motion(:m), 'motion', info)
     end if
   end subroutine check_recovery
 
@@ -315,9 +315,9 @@ contains
     if (info%failed()) return
     if (made%body%floats) then
       call find_motions(made%stiffness, made%held, made%scale, made%motions, info)
-    else if (allocated(made%body%modes)) then
-      call check_motions(made%stiffness, made%held, all_scale, made%body%modes, info)
-      if (.not. info%failed()) made%motions = made%body%modes
+    else if (allocated(made%body%rigid_modes)) then
+      call check_motions(made%stiffness, made%held, all_scale, made%body%rigid_modes, info)
+      if (.not. info%failed()) made%motions = made%body%rigid_modes
     else
       allocate (made%motions(degrees, 0))
     end if

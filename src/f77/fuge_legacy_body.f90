@@ -56,7 +56,7 @@ contains
     m = size(motions, 2)
     allocate (body%fixed(size(fixed)), body%displacement(size(given)), body%load(size(load)), &
               body%dof(size(dof, 1), size(dof, 2)), body%normal(size(dof, 1), size(dof, 2)), stat=stat)
-    if (stat == 0 .and. m > 0) allocate (body%modes(size(load), m), stat=stat)
+    if (stat == 0 .and. m > 0) allocate (body%rigid_modes(size(load), m), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of supports, load, motions and contact points')
       return
@@ -66,7 +66,7 @@ contains
     body%load = load
     body%dof = dof
     body%normal = normal
-    if (m > 0) body%modes = motions(:size(load), :)
+    if (m > 0) body%rigid_modes = motions(:size(load), :)
   end subroutine make_body
 
   !> Condense a body with the stiffness matrix `matrix`, (lda, nd), which is not copied but
@@ -97,32 +97,32 @@ contains
     if (.not. info%failed()) call fuge_condense(stiffness, body, condensed, info)
   end subroutine condense_band
 
-  !> Displacements `u` (nd) under the contact forces `force` (n) and motions `rigid` (m), as
+  !> Displacements `u` (nd) under the contact forces `force` (n) and motions `motion` (m), as
   !> `recover` below.
-  subroutine recover_dense(matrix, body, force, rigid, u, info)
+  subroutine recover_dense(matrix, body, force, motion, u, info)
     real(dp), intent(in), target :: matrix(:, :)
     type(fuge_body), intent(in) :: body
-    real(dp), intent(in) :: force(:), rigid(:)
+    real(dp), intent(in) :: force(:), motion(:)
     real(dp), intent(inout) :: u(:)
     type(fuge_info), intent(out) :: info
     type(fuge_dense_stiffness) :: stiffness
 
     call stiffness%set(matrix, info)
-    if (.not. info%failed()) call recover(stiffness, body, force, rigid, u, info)
+    if (.not. info%failed()) call recover(stiffness, body, force, motion, u, info)
   end subroutine recover_dense
 
-  subroutine recover_band(uplo, kd, band, body, force, rigid, u, info)
+  subroutine recover_band(uplo, kd, band, body, force, motion, u, info)
     character(len=1), intent(in) :: uplo
     integer, intent(in) :: kd
     real(dp), intent(in), target :: band(:, :)
     type(fuge_body), intent(in) :: body
-    real(dp), intent(in) :: force(:), rigid(:)
+    real(dp), intent(in) :: force(:), motion(:)
     real(dp), intent(inout) :: u(:)
     type(fuge_info), intent(out) :: info
     type(fuge_band_stiffness) :: stiffness
 
     call take_band(uplo, kd, band, stiffness, info)
-    if (.not. info%failed()) call recover(stiffness, body, force, rigid, u, info)
+    if (.not. info%failed()) call recover(stiffness, body, force, motion, u, info)
   end subroutine recover_band
 
   !> Copy what has been condensed to the caller's arrays: `alpha` (lda, n), `b` (n), `modes`
@@ -141,9 +141,9 @@ contains
     kept = 0
     do j = 1, size(held)
       do i = 1, n
-        modes(i, j) = -moved(body%dof(:, i), body%normal(:, i), body%modes(:, j))
+        modes(i, j) = -moved(body%dof(:, i), body%normal(:, i), body%rigid_modes(:, j))
       end do
-      resultant(j) = dot_product(body%modes(:, j), body%load)
+      resultant(j) = dot_product(body%rigid_modes(:, j), body%load)
       held(j) = 1
       if (kept == size(condensed%resultant)) cycle
       ! Those kept are the same, in the same order.
@@ -173,40 +173,40 @@ contains
   end subroutine take_band
 
   !> The contact forces are known, so that alpha and its solves are left out.
-  subroutine recover(stiffness, body, force, rigid, u, info)
+  subroutine recover(stiffness, body, force, motion, u, info)
     class(fuge_stiffness), intent(in) :: stiffness
     type(fuge_body), intent(in) :: body
-    real(dp), intent(in) :: force(:), rigid(:)
+    real(dp), intent(in) :: force(:), motion(:)
     real(dp), intent(inout) :: u(:)
     type(fuge_info), intent(out) :: info
     type(fuge_condensed) :: condensed
     type(fuge_solution) :: pressed
 
     call check_body(body, size(u), info)
-    if (.not. info%failed()) call check_equilibrium(body, force, rigid, info)
+    if (.not. info%failed()) call check_equilibrium(body, force, motion, info)
     if (info%failed()) return
     call condense_to_recover(stiffness, body, condensed, info)
     if (info%failed()) return
     pressed%force = force
     ! All the motions here are given, those that the contact does not feel too: added below.
-    pressed%rigid = 0.0_dp*rigid
+    pressed%motion = 0.0_dp*motion
     call condensed%recover(pressed, u, info)
-    if (.not. info%failed() .and. size(rigid) > 0) u = u + matmul(body%modes, rigid)
+    if (.not. info%failed() .and. size(motion) > 0) u = u + matmul(body%rigid_modes, motion)
   end subroutine recover
 
   !> Refuse forces and motions that are not finite (FUGE_ERR_NOT_FINITE), and forces that the
   !> load does not balance in a rigid motion (FUGE_ERR_NO_EQUILIBRIUM).
-  pure subroutine check_equilibrium(body, force, rigid, info)
+  pure subroutine check_equilibrium(body, force, motion, info)
     type(fuge_body), intent(in) :: body
-    real(dp), intent(in) :: force(:), rigid(:)
+    real(dp), intent(in) :: force(:), motion(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: pressed(:)
     real(dp) :: work, parts
     integer :: j, stat
 
     call check_finite(force, 'F', info)
-    if (.not. info%failed()) call check_finite(rigid, 'Q', info)
-    if (info%failed() .or. size(rigid) < 1) return
+    if (.not. info%failed()) call check_finite(motion, 'Q', info)
+    if (info%failed() .or. size(motion) < 1) return
     allocate (pressed(size(body%load)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to check the equilibrium')
@@ -214,9 +214,9 @@ contains
     end if
     pressed = 0.0_dp
     call add_contact_forces(body, force, pressed)
-    do j = 1, size(rigid)
-      work = dot_product(body%modes(:, j), body%load + pressed)
-      parts = dot_product(abs(body%modes(:, j)), abs(body%load) + abs(pressed))
+    do j = 1, size(motion)
+      work = dot_product(body%rigid_modes(:, j), body%load + pressed)
+      parts = dot_product(abs(body%rigid_modes(:, j)), abs(body%load) + abs(pressed))
       if (abs(work) > BALANCED*parts) then
         call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load and contact forces drive rigid motion '//text(j)//': take ' &
                     //'the forces of the problem with the resultants W, or fix a degree of freedom')

@@ -23,5 +23,5 @@ subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
   if (found%failed()) return
   f = solution%force
   c = solution%gap
-  q = solution%rigid
+  q = solution%motion
 end subroutine fugegv

@@ -38,7 +38,7 @@ subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, metho
   if (found%failed()) return
   f = solution%force
   c = solution%gap
-  where (nheld == 0) q = solution%rigid
+  where (nheld == 0) q = solution%motion
   where (nheld /= 0) w = matmul(solution%force, problem%modes)
   ncon = found%contacts
   niter = found%iterations

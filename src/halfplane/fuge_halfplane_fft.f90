@@ -48,18 +48,18 @@ module fuge_halfplane_fft
     !> Eigenvalues of the circle that holds the cells, over its length.
     real(dp), allocatable :: spectrum(:)
     type(fft_plan) :: plan
-    !> Inverse eigenvalues of the filter's circle, over its length, and the transform of
-    !> a filter on a circle of its own, which is not set for a periodic surface.
+    !> Inverse eigenvalues of the preconditioner's circle, over its length, and the transform of
+    !> a preconditioner on a circle of its own, which is not set for a periodic surface.
     real(dp), allocatable :: inverse(:)
-    type(fft_plan) :: filter_plan
+    type(fft_plan) :: preconditioner_plan
   contains
     procedure :: set
     procedure :: points
     procedure :: apply
     procedure :: datum
     procedure :: magnitude
-    procedure :: has_filter
-    procedure :: filter
+    procedure :: has_preconditioner
+    procedure :: precondition
     procedure :: in_row
     procedure :: coarsen
     procedure, private :: copy
@@ -147,8 +147,8 @@ contains
     end if
     call operator%plan%set(length, info, threads, measured)
     if (operator%boundary == FUGE_FREE .and. .not. info%failed()) then
-      call operator%filter_plan%set(good_length(operator%count), info, threads, measured)
-      length = operator%filter_plan%length
+      call operator%preconditioner_plan%set(good_length(operator%count), info, threads, measured)
+      length = operator%preconditioner_plan%length
     end if
     if (info%failed()) then
       if (info%status == FUGE_ERR_MEMORY) info%message = 'n = '//text(operator%count)//': '//trim(info%message)
@@ -264,7 +264,7 @@ contains
     call move_alloc(fresh%spectrum, self%spectrum)
     call move_alloc(fresh%inverse, self%inverse)
     call self%plan%take(fresh%plan)
-    call self%filter_plan%take(fresh%filter_plan)
+    call self%preconditioner_plan%take(fresh%preconditioner_plan)
   end subroutine take
 
   !> Without memory for it the copy is not set.
@@ -276,15 +276,16 @@ contains
     stat = 0
     self%count = 0
     ! Arrays of the right size stay: the source may be a copy of self that shares them.
-    if (self%plan%length /= source%plan%length .or. self%filter_plan%length /= source%filter_plan%length) then
+    if (self%plan%length /= source%plan%length &
+        .or. self%preconditioner_plan%length /= source%preconditioner_plan%length) then
       if (allocated(self%spectrum)) deallocate (self%spectrum, self%inverse)
       if (source%count > 0) allocate (self%spectrum(0:ubound(source%spectrum, 1)), &
                                       self%inverse(0:ubound(source%inverse, 1)), stat=stat)
     end if
     self%plan = source%plan
-    self%filter_plan = source%filter_plan
+    self%preconditioner_plan = source%preconditioner_plan
     if (stat /= 0) call self%plan%free()
-    if (self%plan%length < 1 .or. self%filter_plan%length /= source%filter_plan%length) return
+    if (self%plan%length < 1 .or. self%preconditioner_plan%length /= source%preconditioner_plan%length) return
     self%spectrum = source%spectrum
     self%inverse = source%inverse
     self%element = source%element
@@ -314,7 +315,7 @@ contains
     integer, intent(out) :: status
 
     call check_sizes(self, size(force), size(displacement), status)
-    if (status == FUGE_DONE) call self%plan%filter(self%spectrum, force, displacement, status)
+    if (status == FUGE_DONE) call self%plan%convolve(self%spectrum, force, displacement, status)
   end subroutine apply
 
   pure subroutine check_sizes(self, first, second, status)
@@ -349,20 +350,20 @@ contains
     if (self%boundary == FUGE_PERIODIC) length = max(length, MEAN_TERM*sum(abs(force))/self%e_star)
   end subroutine magnitude
 
-  !> True once it is set: `filter` is there.
-  function has_filter(self) result(filtered)
+  !> True once it is set: `precondition` is there.
+  function has_preconditioner(self) result(preconditioned)
     class(fuge_halfplane_operator), intent(in) :: self
-    logical :: filtered
+    logical :: preconditioned
 
-    filtered = self%count > 0
-  end function has_filter
+    preconditioned = self%count > 0
+  end function has_preconditioner
 
   !> The inverse on a periodic surface, exactly but for the wave of length zero. A free
   !> one is taken for periodic: it makes little difference to an inverse, which falls off
   !> with the square of the distance, and needs half the time of a product.
   !>
   !> `length` (n), `force` (n); `status` as for `apply`.
-  subroutine filter(self, length, force, status)
+  subroutine precondition(self, length, force, status)
     class(fuge_halfplane_operator), intent(in) :: self
     real(dp), intent(in) :: length(:)
     real(dp), intent(out) :: force(:)
@@ -370,12 +371,12 @@ contains
 
     call check_sizes(self, size(length), size(force), status)
     if (status /= FUGE_DONE) return
-    if (self%filter_plan%length > 0) then
-      call self%filter_plan%filter(self%inverse, length, force, status)
+    if (self%preconditioner_plan%length > 0) then
+      call self%preconditioner_plan%convolve(self%inverse, length, force, status)
     else
-      call self%plan%filter(self%inverse, length, force, status)
+      call self%plan%convolve(self%inverse, length, force, status)
     end if
-  end subroutine filter
+  end subroutine precondition
 
   !> True once it is set: the cells are side by side in the order of their numbers.
   function in_row(self)

@@ -59,16 +59,14 @@ contains
   !> length, beyond the rounding of R q as well. One product A f. `status` is 0, FUGE_ERR_SIZE if an array is
   !> missing or of the wrong length, FUGE_ERR_MEMORY, or that of a product that fails:
   !> FUGE_ERR_CALLBACK also for one that is not finite.
-  subroutine fuge_residual(operator, problem, solution, violation, status)
+  subroutine fuge_residual(operator, problem, solution, violation, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     type(fuge_violation), intent(out) :: violation
-    integer, intent(out) :: status
-    type(fuge_info) :: info
+    type(fuge_info), intent(out) :: info
 
     call find_violation(operator, problem, solution, violation, info)
-    status = info%status
   end subroutine fuge_residual
 
   !> The same with words for what goes wrong, and the product counted, in `info`.
@@ -124,13 +122,13 @@ contains
     terms = abs(datum)
     if (allocated(problem%modes)) then
       moved = -datum
-      do j = 1, size(solution%rigid)
-        moved = moved + problem%modes(:, j)*solution%rigid(j)
-        terms = terms + abs(problem%modes(:, j)*solution%rigid(j))
+      do j = 1, size(solution%motion)
+        moved = moved + problem%modes(:, j)*solution%motion(j)
+        terms = terms + abs(problem%modes(:, j)*solution%motion(j))
       end do
     else
-      moved = solution%rigid(1) - datum
-      terms = terms + abs(solution%rigid(1))
+      moved = solution%motion(1) - datum
+      terms = terms + abs(solution%motion(1))
     end if
   end subroutine rigid_displacement
 
@@ -228,9 +226,9 @@ contains
 
     violation = 0.0_dp
     largest = maxval(abs(solution%force))
-    do j = 1, problem%motions()
+    do j = 1, problem%mode_count()
       if (is_prescribed(problem, j)) then
-        violation = max(violation, relative(abs(solution%rigid(j) - problem%motion(j)), abs(problem%motion(j))))
+        violation = max(violation, relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
       else if (allocated(problem%modes)) then
         missing = abs(sum(problem%modes(:, j)*solution%force) - problem%resultant(j))
         ! Forces of other bodies may be so much larger that this one's are their rounding.
@@ -261,10 +259,10 @@ contains
     logical :: fits
     integer :: m
 
-    m = problem%motions()
+    m = problem%mode_count()
     fits = operator%points() > 0 .and. length_of(problem%gap) == operator%points() &
       .and. length_of(solution%force) == operator%points() &
-      .and. length_of(solution%gap) == operator%points() .and. length_of(solution%rigid) == m
+      .and. length_of(solution%gap) == operator%points() .and. length_of(solution%motion) == m
     if (allocated(problem%modes)) fits = fits .and. size(problem%modes, 1) == operator%points()
     if (allocated(problem%gap_upper)) fits = fits .and. size(problem%gap_upper) == operator%points()
     if (allocated(problem%excluded)) fits = fits .and. size(problem%excluded) == operator%points()

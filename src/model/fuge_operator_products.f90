@@ -1,4 +1,4 @@
-!> Products with an operator and with its filter, counted and checked. All that need
+!> Products with an operator and with its preconditioner, counted and checked. All that need
 !> nothing but products make them here, so that a failure always ends in the same words.
 module fuge_operator_products
   use fuge_input_checks, only: check_finite, is_finite_everywhere
@@ -36,8 +36,8 @@ contains
     end if
   end subroutine multiply
 
-  !> force = M length by the filter of the operator, which must have one; one more in
-  !> info%filters.
+  !> force = M length by the preconditioner of the operator, which must have one; one more in
+  !> info%preconditionings.
   !>
   !> `length` (n), length; `force` (n), force. Errors as for `multiply`.
   subroutine precondition(operator, length, force, info)
@@ -47,12 +47,12 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: status
 
-    call operator%filter(length, force, status)
-    info%filters = info%filters + 1
+    call operator%precondition(length, force, status)
+    info%preconditionings = info%preconditionings + 1
     if (status /= FUGE_DONE) then
-      call report_status(status, 'filter', info%filters, info)
+      call report_status(status, 'preconditioner', info%preconditionings, info)
     else if (.not. is_finite_everywhere(force)) then
-      call report_not_finite(length, 'length', force, 'force', 'filter', info%filters, info)
+      call report_not_finite(length, 'length', force, 'force', 'preconditioner', info%preconditionings, info)
     end if
   end subroutine precondition
 

@@ -20,10 +20,10 @@ module fuge_operator_type
     procedure :: datum => no_datum
     !> Lengths by which to judge errors of the displacements, see below.
     procedure :: magnitude => largest_displacement
-    !> Is there a `filter`? Without one the conjugate gradients run plain.
-    procedure :: has_filter => without_filter
+    !> Is there a preconditioner? Without one the conjugate gradients run plain.
+    procedure :: has_preconditioner => without_preconditioner
     !> force = M length, M symmetric, positive definite and near the inverse of A.
-    procedure :: filter => copy_through
+    procedure :: precondition => copy_through
     !> Are the points cells side by side in the order of their numbers?
     procedure :: in_row => in_no_order
     !> The same body on wider cells, for a first guess; none by default.
@@ -52,15 +52,15 @@ module fuge_operator_type
 
 contains
 
-  !> False: there is no filter unless an extension brings one.
-  function without_filter(self) result(filtered)
+  !> False: there is no preconditioner unless an extension brings one.
+  function without_preconditioner(self) result(preconditioned)
     class(fuge_operator), intent(in) :: self
-    logical :: filtered
+    logical :: preconditioned
 
-    filtered = self%points() < 0
-  end function without_filter
+    preconditioned = self%points() < 0
+  end function without_preconditioner
 
-  !> `length` (n); `force` (n); `status` as for `apply`. Called only where `has_filter`.
+  !> `length` (n); `force` (n); `status` as for `apply`. Called only where `has_preconditioner`.
   subroutine copy_through(self, length, force, status)
     class(fuge_operator), intent(in) :: self
     real(dp), intent(in) :: length(:)

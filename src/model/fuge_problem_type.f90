@@ -40,7 +40,7 @@ module fuge_problem_type
     real(dp), allocatable :: motion(:)
   contains
     procedure :: points
-    procedure :: motions
+    procedure :: mode_count
     procedure :: is_plain
   end type fuge_problem
 
@@ -51,7 +51,7 @@ module fuge_problem_type
     !> Gaps c, (n), length; negative only where excluded.
     real(dp), allocatable :: gap(:)
     !> Rigid motions q, (m), length for m = 1: the approach v_0; prescribed ones included.
-    real(dp), allocatable :: rigid(:)
+    real(dp), allocatable :: motion(:)
   end type fuge_solution
 
 contains
@@ -65,14 +65,14 @@ contains
     if (allocated(self%gap)) n = size(self%gap)
   end function points
 
-  !> Number of motions m.
-  pure function motions(self) result(m)
+  !> Number m of rigid modes, prescribed ones included.
+  pure function mode_count(self) result(m)
     class(fuge_problem), intent(in) :: self
     integer :: m
 
     m = 1
     if (allocated(self%modes)) m = size(self%modes, 2)
-  end function motions
+  end function mode_count
 
   !> The paper's problem: one free translation, one-sided, all points.
   pure function is_plain(self) result(plain)
@@ -152,10 +152,10 @@ contains
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
     type(fuge_info), intent(inout) :: info
-    logical :: free(problem%motions())
+    logical :: free(problem%mode_count())
     integer :: j, m
 
-    m = problem%motions()
+    m = problem%mode_count()
     free = .true.
     if (allocated(problem%modes)) then
       if (size(problem%modes, 1) /= n) then

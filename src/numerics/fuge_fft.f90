@@ -40,7 +40,7 @@ module fuge_fft
     procedure :: free
     procedure :: take
     procedure :: transform_even
-    procedure :: filter
+    procedure :: convolve
     procedure, private :: owner
     procedure, private :: settle
     procedure, private :: copy
@@ -285,7 +285,7 @@ contains
     call self%take(fresh)
   end subroutine copy
 
-  !> The spectrum of an even kernel, over the length, so that `filter` needs no scaling.
+  !> The spectrum of an even kernel, over the length, so that `convolve` needs no scaling.
   !>
   !> `kernel` (length/2 + 1): in, values at the distances 0 .. length/2; out, their
   !> spectrum. `status`: 0, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
@@ -317,7 +317,7 @@ contains
   !> length, as if zeros followed; `y` the first values of the product, at most the
   !> length. A plan may be used by several threads at once.
   !> `status`: 0, or with y as it was FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
-  subroutine filter(self, spectrum, x, y, status)
+  subroutine convolve(self, spectrum, x, y, status)
     class(fft_plan), intent(in) :: self
     real(dp), intent(in) :: spectrum(:), x(:)
     real(dp), intent(inout) :: y(:)
@@ -339,7 +339,7 @@ contains
     call fftw_execute_c2r(self%backward, buffer, buffer)
     y = work(:size(y))
     call fftw_free(buffer)
-  end subroutine filter
+  end subroutine convolve
 
   !> Memory for one transform, to be given back with fftw_free if the status is 0.
   subroutine take_buffer(self, sizes_match, buffer, work, status)

@@ -12,7 +12,7 @@ module fuge_solver_type
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
-  use fuge_canonical_problem, only: contact_scene, make_scene
+  use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_kkt_solution, only: solve_set, displaced, add_deflection
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
@@ -36,9 +36,9 @@ module fuge_solver_type
     type(fuge_history) :: history
     !> Contact set of the last solve, where the next one starts (1 at the lower stop, -1
     !> at the upper one, 0 open), its factor, and what the problem looked like.
-    integer, allocatable, private :: side(:)
+    integer, allocatable, private :: state(:)
     type(contact_factor), private :: factor
-    type(contact_scene), private :: scene
+    type(canonical_problem), private :: canonical
     !> Forces of the last solve by products only, as parts of its load, and that load.
     real(dp), allocatable, private :: part(:)
     real(dp), private :: last_load = 0.0_dp
@@ -89,7 +89,7 @@ contains
     end if
     call check_problem(problem, operator%points(), info)
     if (info%failed()) return
-    call allocate_answer(answer, operator%points(), problem%motions(), info)
+    call allocate_answer(answer, operator%points(), problem%mode_count(), info)
     if (info%failed()) return
 
     if (.not. rests(problem)) then
@@ -115,7 +115,7 @@ contains
 
     self%history = fuge_history()
     self%factor = contact_factor()
-    if (allocated(self%side)) deallocate (self%side)
+    if (allocated(self%state)) deallocate (self%state)
     if (allocated(self%part)) deallocate (self%part)
   end subroutine reset
 
@@ -124,7 +124,7 @@ contains
   !>
   !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force;
   !> `change` the changes in the order of `fuge_solution`. The contact stiffness
-  !> dF_0/dv_0 is 1/change%rigid(1) for gap_change 0 and load_change 1; column k of the
+  !> dF_0/dv_0 is 1/change%motion(1) for gap_change 0 and load_change 1; column k of the
   !> sensitivity to the gaps is that of a unit gap_change at k. A point that just touches
   !> without force counts as on the side that the solve left it.
   !> Errors, `change` untouched: FUGE_ERR_CALL_ORDER without a solution with a load,
@@ -149,21 +149,21 @@ contains
     type(fuge_info), intent(out) :: info
     type(fuge_solution) :: found
     real(dp) :: datum
-    real(dp), allocatable :: shape(:), load(:), motion(:)
+    real(dp), allocatable :: reduced_gap(:), load(:), motion(:)
     integer :: n
 
     n = operator%points()
     if (.not. has_coefficients(operator)) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a fuge_dense_operator')
-    else if (.not. (self%factor%is_set() .and. allocated(self%side))) then
+    else if (.not. (self%factor%is_set() .and. allocated(self%state))) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load by a dense engine: solve first, ' &
                   //'not by FUGE_ITERATIVE')
-    else if (size(gap_change) /= n .or. size(self%side) /= n) then
+    else if (size(gap_change) /= n .or. size(self%state) /= n) then
       call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
-                  //text(n)//' points and the last solution '//text(size(self%side)))
-    else if (size(load_change) /= self%scene%motions()) then
+                  //text(n)//' points and the last solution '//text(size(self%state)))
+    else if (size(load_change) /= self%canonical%mode_count()) then
       call report(info, FUGE_ERR_SIZE, 'load_change has '//text(size(load_change))//' value(s), the last problem ' &
-                  //text(self%scene%motions())//' motion(s)')
+                  //text(self%canonical%mode_count())//' motion(s)')
     else
       call check_finite(gap_change, 'gap_change', info)
       if (.not. info%failed()) call check_finite(load_change, 'load_change', info)
@@ -172,22 +172,22 @@ contains
     if (info%failed()) return
     select type (operator)
     class is (fuge_dense_operator)
-      datum = merge(operator%datum(), 0.0_dp, self%scene%constant)
-      call self%scene%change_of(gap_change, load_change, shape, load)
+      datum = merge(operator%datum(), 0.0_dp, self%canonical%has_translation)
+      call self%canonical%change_of(gap_change, load_change, reduced_gap, load)
       allocate (motion(size(load)))
-      call solve_set(self%factor, datum, shape, load, found%force, motion)
-      if (any(abs(load - matmul(found%force, self%scene%modes)) &
-              > HELD_TO*max(abs(load), matmul(abs(found%force), abs(self%scene%modes))))) then
+      call solve_set(self%factor, datum, reduced_gap, load, found%force, motion)
+      if (any(abs(load - matmul(found%force, self%canonical%modes)) &
+              > HELD_TO*max(abs(load), matmul(abs(found%force), abs(self%canonical%modes))))) then
         call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not hold the motions that these resultants act ' &
                     //'in: they would turn the body over, whatever the size of the change')
         return
       end if
-      found%gap = shape - displaced(self%scene%modes, motion)
-      call add_deflection(operator%alpha, datum, self%side /= 0, found%force, found%gap)
-      where (self%side /= 0) found%gap = 0.0_dp
-      if (self%scene%constant) motion(1) = motion(1) + datum*load(1)
-      call self%scene%motions_of(load_change, motion, found%rigid)
-      call self%scene%open_outside(operator%alpha, gap_change, found%force, found%rigid, found%gap)
+      found%gap = reduced_gap - displaced(self%canonical%modes, motion)
+      call add_deflection(operator%alpha, datum, self%state /= 0, found%force, found%gap)
+      where (self%state /= 0) found%gap = 0.0_dp
+      if (self%canonical%has_translation) motion(1) = motion(1) + datum*load(1)
+      call self%canonical%motions_of(load_change, motion, found%motion)
+      call self%canonical%open_outside(operator%alpha, gap_change, found%force, found%motion, found%gap)
       call take(found, change)
     end select
   end subroutine derivative_by_loads
@@ -208,7 +208,7 @@ contains
 
     call move_alloc(answer%force, solution%force)
     call move_alloc(answer%gap, solution%gap)
-    call move_alloc(answer%rigid, solution%rigid)
+    call move_alloc(answer%motion, solution%motion)
   end subroutine take
 
   pure subroutine allocate_answer(answer, n, m, info)
@@ -217,7 +217,7 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    allocate (answer%force(n), answer%gap(n), answer%rigid(m), stat=stat)
+    allocate (answer%force(n), answer%gap(n), answer%motion(m), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of ' &
                                //text(n)//' points')
   end subroutine allocate_answer
@@ -237,8 +237,8 @@ contains
     type(fuge_solution), intent(inout) :: answer
 
     answer%force = 0.0_dp
-    answer%rigid = minval(problem%gap)
-    answer%gap = problem%gap - answer%rigid(1)
+    answer%motion = minval(problem%gap)
+    answer%gap = problem%gap - answer%motion(1)
   end subroutine rest_without_load
 
   !> Choice of engine. FUGE_AUTO is the active set for a matrix, but the tableau for a
@@ -278,21 +278,21 @@ contains
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
     type(fuge_solution) :: found
-    integer :: side(size(problem%gap))
+    integer :: state(size(problem%gap))
 
-    call make_scene(problem, self%scene, info)
-    if (.not. info%failed()) call allocate_answer(found, size(side), size(self%scene%load), info)
+    call make_canonical(problem, self%canonical, info)
+    if (.not. info%failed()) call allocate_answer(found, size(state), size(self%canonical%load), info)
     if (info%failed()) return
     if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
-      call solve_by_tableau(operator%alpha, operator%datum(), self%scene, options, monitor, self%history, side, &
+      call solve_by_tableau(operator%alpha, operator%datum(), self%canonical, options, monitor, self%history, state, &
                             self%factor, found, info)
     else
-      call solve_warm(self, operator%alpha, operator%datum(), options, monitor, side, found, info)
+      call solve_warm(self, operator%alpha, operator%datum(), options, monitor, state, found, info)
     end if
     if (info%failed()) return
-    call remember(self, side)
-    call self%scene%motions_of(prescribed_values(problem), found%rigid, answer%rigid)
-    call self%scene%open_outside(operator%alpha, problem%gap, found%force, answer%rigid, found%gap)
+    call remember(self, state)
+    call self%canonical%motions_of(prescribed_values(problem), found%motion, answer%motion)
+    call self%canonical%open_outside(operator%alpha, problem%gap, found%force, answer%motion, found%gap)
     call move_alloc(found%force, answer%force)
     call move_alloc(found%gap, answer%gap)
   end subroutine run_dense_engine
@@ -300,7 +300,7 @@ contains
   !> The prescribed motions, zero where free, (m).
   pure function prescribed_values(problem) result(values)
     type(fuge_problem), intent(in) :: problem
-    real(dp) :: values(problem%motions())
+    real(dp) :: values(problem%mode_count())
 
     values = 0.0_dp
     if (allocated(problem%prescribed)) where (problem%prescribed) values = problem%motion
@@ -349,38 +349,38 @@ contains
   end subroutine iterate_warm
 
   !> Keep the contact set for the next solve; without memory that starts from scratch.
-  pure subroutine remember(self, side)
+  pure subroutine remember(self, state)
     class(fuge_solver), intent(inout) :: self
-    integer, intent(in) :: side(:)
+    integer, intent(in) :: state(:)
     integer :: stat
 
-    if (allocated(self%side)) deallocate (self%side)
-    allocate (self%side(size(side)), stat=stat)
-    if (stat == 0) self%side = side
+    if (allocated(self%state)) deallocate (self%state)
+    allocate (self%state(size(state)), stat=stat)
+    if (stat == 0) self%state = state
   end subroutine remember
 
   !> The active set from the last contact set; from scratch if there is none, or if
   !> it leads nowhere.
-  subroutine solve_warm(self, alpha, datum, options, monitor, side, answer, info)
+  subroutine solve_warm(self, alpha, datum, options, monitor, state, answer, info)
     class(fuge_solver), intent(inout) :: self
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
-    integer, intent(out) :: side(:)
+    integer, intent(out) :: state(:)
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
     logical :: warm
 
     warm = .false.
-    if (allocated(self%side)) warm = size(self%side) == size(side)
-    side = 0
-    if (warm) side = self%side
-    call solve_by_active_set(alpha, datum, self%scene, options, monitor, side, self%factor, answer, info)
+    if (allocated(self%state)) warm = size(self%state) == size(state)
+    state = 0
+    if (warm) state = self%state
+    call solve_by_active_set(alpha, datum, self%canonical, options, monitor, state, self%factor, answer, info)
     if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
       info = fuge_info()
-      side = 0
-      call solve_by_active_set(alpha, datum, self%scene, options, monitor, side, self%factor, answer, info)
+      state = 0
+      call solve_by_active_set(alpha, datum, self%canonical, options, monitor, state, self%factor, answer, info)
     end if
   end subroutine solve_warm
 
@@ -431,7 +431,7 @@ contains
     if (info%failed()) return
     force = solution%force
     gap_out = solution%gap
-    approach = solution%rigid(1)
+    approach = solution%motion(1)
   end subroutine fuge_solve_dense
 
 end module fuge_solver_type

@@ -37,7 +37,7 @@ static void check_chain(fuge_body *body) {
 
   CHECK_STATUS(fuge_body_set_contact(body, 2, 1, TOUCH, OUTWARD), FUGE_DONE);
   CHECK_STATUS(fuge_body_get_influence(body, alpha, 3), FUGE_ERR_CALL_ORDER);
-  CHECK_STATUS(fuge_condense(body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_DONE);
   CHECK_STATUS(fuge_body_set_load(body, load), FUGE_DONE);
   alpha[2] = alpha[5] = SENTINEL;
   CHECK_STATUS(fuge_body_get_influence(body, alpha, 3), FUGE_DONE);
@@ -50,7 +50,7 @@ static void check_chain(fuge_body *body) {
   CHECK_STATUS(fuge_body_get_displacement(body, b), FUGE_DONE);
   CHECK_NEAR(b[0], 4.0, 1e-13);
   CHECK_NEAR(b[1], 10.0, 1e-13);
-  CHECK_STATUS(fuge_body_get_motions(body, &m), FUGE_DONE);
+  CHECK_STATUS(fuge_body_get_mode_count(body, &m), FUGE_DONE);
   CHECK_INT(m, 0);
   CHECK_STATUS(fuge_body_recover(body, force, NULL, u), FUGE_DONE);
   CHECK_STATUS(fuge_body_recover(body, bad, NULL, u), FUGE_ERR_NOT_FINITE);
@@ -93,7 +93,7 @@ static void test_sparse(void) {
   bad[3] = N;
   CHECK_STATUS(fuge_body_sparse(N, column, bad, value, &body), FUGE_DONE);
   CHECK_STATUS(fuge_body_set_contact(body, 2, 1, TOUCH, OUTWARD), FUGE_DONE);
-  CHECK_STATUS(fuge_condense(body), FUGE_ERR_DOF);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_ERR_DOF);
   fuge_body_message(body, message, sizeof message);
   CHECK_CONTAINS(message, "row(4) = 6");
   fuge_body_free(&body);
@@ -119,9 +119,9 @@ static void test_floating(void) {
   CHECK_STATUS(fuge_body_set_contact(body, 2, 1, ends, normal), FUGE_DONE);
   for (int given = 0; given < 2; given++) {
     int m = 0;
-    CHECK_STATUS(given ? fuge_body_set_modes(body, 1, ones) : fuge_body_find_modes(body), FUGE_DONE);
-    CHECK_STATUS(fuge_condense(body), FUGE_DONE);
-    CHECK_STATUS(fuge_body_get_motions(body, &m), FUGE_DONE);
+    CHECK_STATUS(given ? fuge_body_set_rigid_modes(body, 1, ones) : fuge_body_find_rigid_modes(body), FUGE_DONE);
+    CHECK_STATUS(fuge_body_condense(body), FUGE_DONE);
+    CHECK_STATUS(fuge_body_get_mode_count(body, &m), FUGE_DONE);
     CHECK_INT(m, 1);
     if (m != 1) break;
     CHECK_STATUS(fuge_body_get_influence(body, alpha, 2), FUGE_DONE);
@@ -135,7 +135,7 @@ static void test_floating(void) {
     CHECK_STATUS(fuge_set_modes(solver, m, modes, w), FUGE_DONE);
     CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
     fuge_get_force(solver, force);
-    fuge_get_rigid(solver, motion);
+    fuge_get_motion(solver, motion);
     CHECK_NEAR(force[0], 0.0, 1e-13);
     CHECK_NEAR(force[1], 3.0, 1e-13);
     CHECK_STATUS(fuge_body_recover(body, force, NULL, u), FUGE_ERR_POINTER);
@@ -179,17 +179,17 @@ static void test_supports(void) {
   chain_dense(0, k);
   CHECK_STATUS(fuge_body_dense(N, k, N, &body), FUGE_DONE);
   CHECK_STATUS(fuge_body_set_contact(body, 1, 1, &middle, &one), FUGE_DONE);
-  CHECK_STATUS(fuge_condense(body), FUGE_ERR_NOT_DEFINITE);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_ERR_NOT_DEFINITE);
   fuge_body_message(body, message, sizeof message);
   CHECK_CONTAINS(message, "degree of freedom 5");
   CHECK_STATUS(fuge_body_fix(body, 2, bad, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_condense(body), FUGE_ERR_DOF);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_ERR_DOF);
   fuge_body_message(body, message, sizeof message);
   CHECK_CONTAINS(message, "fixed(2) = 6");
   CHECK_STATUS(fuge_body_fix(body, 1, &far, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_condense(body), FUGE_ERR_DOF);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_ERR_DOF);
   CHECK_STATUS(fuge_body_fix(body, 2, ends, pulled), FUGE_DONE);
-  CHECK_STATUS(fuge_condense(body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_DONE);
   CHECK_STATUS(fuge_body_get_displacement(body, b), FUGE_DONE);
   CHECK_NEAR(b[0], 2.0, 1e-13);
   CHECK_STATUS(fuge_body_get_influence(body, alpha, 1), FUGE_DONE);
@@ -197,9 +197,9 @@ static void test_supports(void) {
   /* Without them it floats again. */
   CHECK_STATUS(fuge_body_fix(body, 0, NULL, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_body_get_displacement(body, b), FUGE_ERR_CALL_ORDER);
-  CHECK_STATUS(fuge_condense(body), FUGE_ERR_NOT_DEFINITE);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_ERR_NOT_DEFINITE);
   k[1] = 3.0;
-  CHECK_STATUS(fuge_condense(body), FUGE_ERR_NOT_SYMMETRIC);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_ERR_NOT_SYMMETRIC);
   fuge_body_message(body, message, sizeof message);
   CHECK_CONTAINS(message, "stiffness(1,2)");
   fuge_body_free(&body);
@@ -223,14 +223,14 @@ static void test_bad_calls(void) {
   CHECK_STATUS(fuge_body_fix(body, -1, &dof, NULL), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_body_fix(body, 1, NULL, NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_body_set_load(body, NULL), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_body_set_modes(body, -1, x), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_body_set_modes(body, 1, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_set_rigid_modes(body, -1, x), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_set_rigid_modes(body, 1, NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_body_set_contact(body, 0, 1, &dof, x), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_body_set_contact(body, 1, 1, NULL, x), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_condense(body), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_body_recover(body, x, x, x), FUGE_ERR_CALL_ORDER);
-  CHECK_STATUS(fuge_condense(NULL), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_body_find_modes(NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_condense(NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_find_rigid_modes(NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_body_message(body, NULL, 0), FUGE_ERR_POINTER);
   fuge_body_free(&body);
 }

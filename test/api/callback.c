@@ -50,7 +50,7 @@ static void check_solved(fuge_solver *solver) {
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
   CHECK_INT(info.products, 1);
-  CHECK_INT(info.filters, 0);
+  CHECK_INT(info.preconditionings, 0);
   CHECK_NEAR(info.residual, 0.0, 0.0);
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
   CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
@@ -92,7 +92,7 @@ static void check_fails(scene s, const char *part) {
   fuge_operator *op = NULL;
   fuge_solver *solver = callback_solver(multiply, &s, &op);
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CALLBACK);
-  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
   CHECK_CONTAINS(message, part);
   CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
   CHECK_INT(info.status, FUGE_ERR_CALLBACK);
@@ -137,14 +137,14 @@ static void check_diagonal(fuge_operator *op, double second, int status) {
   CHECK_STATUS(fuge_operator_set_diagonal(op, diagonal), status);
 }
 
-static void test_filter_refusals(void) {
+static void test_preconditioner_refusals(void) {
   const double diagonal[2] = {1.0, 1.0};
   scene s = {0};
   fuge_operator *op = NULL;
   CHECK_STATUS(fuge_operator_callback(N, multiply, &s, &op), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_filter(NULL, multiply), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_operator_set_filter(op, NULL), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_operator_set_filter(op, multiply), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_preconditioner(NULL, multiply), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, multiply), FUGE_DONE);
   CHECK_STATUS(fuge_operator_set_diagonal(NULL, diagonal), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_operator_set_diagonal(op, NULL), FUGE_ERR_POINTER);
   check_diagonal(op, NAN, FUGE_ERR_NOT_FINITE);
@@ -158,7 +158,7 @@ static void test_filter_refusals(void) {
   fuge_operator_free(&op);
 
   CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_filter(op, multiply), FUGE_ERR_UNSUPPORTED);
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, multiply), FUGE_ERR_UNSUPPORTED);
   CHECK_STATUS(fuge_operator_set_diagonal(op, diagonal), FUGE_ERR_UNSUPPORTED);
   fuge_operator_free(&op);
 }
@@ -179,8 +179,8 @@ static void make_bed(void) {
 }
 
 typedef struct user {
-  int products, filters;
-  int bad_product, bad_filter; /* which goes wrong; 0: none */
+  int products, preconditionings;
+  int bad_product, bad_preconditioner; /* which goes wrong; 0: none */
   int returns;                 /* what it returns; 0: it gives NaN at point 5 */
 } user;
 
@@ -199,20 +199,20 @@ static int multiply_bed(int n, const double *f, double *u, void *data) {
   return ++counted->products == counted->bad_product ? go_wrong(counted, u) : 0;
 }
 
-static int filter_bed(int n, const double *f, double *u, void *data) {
+static int preconditioner_bed(int n, const double *f, double *u, void *data) {
   user *counted = data;
   CHECK_INT(n, M);
   for (int i = 0; i < n; i++) u[i] = f[i] / bed[i + i * M];
-  return ++counted->filters == counted->bad_filter ? go_wrong(counted, u) : 0;
+  return ++counted->preconditionings == counted->bad_preconditioner ? go_wrong(counted, u) : 0;
 }
 
-static int wrong_filter(int n, const double *f, double *u, void *data) {
+static int wrong_preconditioner(int n, const double *f, double *u, void *data) {
   (void)data;
   for (int i = 0; i < n; i++) u[i] = -f[i];
   return 0;
 }
 
-enum { NO_FILTER, DIAGONAL, FILTER };
+enum { NO_PRECONDITIONER, DIAGONAL, PRECONDITIONER };
 
 static fuge_solver *bed_solver(user *u, int kind, fuge_operator **op) {
   double diagonal[M];
@@ -220,7 +220,7 @@ static fuge_solver *bed_solver(user *u, int kind, fuge_operator **op) {
   for (int k = 0; k < M; k++) diagonal[k] = bed[k + k * M];
   CHECK_STATUS(fuge_operator_callback(M, multiply_bed, u, op), FUGE_DONE);
   if (kind == DIAGONAL) CHECK_STATUS(fuge_operator_set_diagonal(*op, diagonal), FUGE_DONE);
-  if (kind == FILTER) CHECK_STATUS(fuge_operator_set_filter(*op, filter_bed), FUGE_DONE);
+  if (kind == PRECONDITIONER) CHECK_STATUS(fuge_operator_set_preconditioner(*op, preconditioner_bed), FUGE_DONE);
   CHECK_STATUS(fuge_solver_new(*op, NULL, &solver), FUGE_DONE);
   CHECK_STATUS(fuge_set_gap(solver, bed_gap, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
@@ -235,14 +235,14 @@ static void check_bed(fuge_solver *solver, const user *u, int kind) {
   CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
   CHECK_INT(info.products, u->products);
   CHECK(info.products > 1);
-  CHECK(kind == NO_FILTER ? info.filters == 0 : info.filters > 0);
-  if (kind == FILTER) CHECK_INT(info.filters, u->filters);
+  CHECK(kind == NO_PRECONDITIONER ? info.preconditionings == 0 : info.preconditionings > 0);
+  if (kind == PRECONDITIONER) CHECK_INT(info.preconditionings, u->preconditionings);
   CHECK(info.residual <= 1e-10);
   CHECK(info.contacts > 1 && info.contacts < M);
   CHECK(info.iterations > 0);
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
   CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_get_rigid(solver, &approach), FUGE_DONE);
+  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
   CHECK_STATUS(fuge_get_resultant(solver, &resultant), FUGE_DONE);
   for (int k = 0; k < M; k++) {
     CHECK_NEAR(force[k], right_force[k], 1e-7);
@@ -254,7 +254,7 @@ static void check_bed(fuge_solver *solver, const user *u, int kind) {
 
 static void test_solve(void) {
   int products[3];
-  for (int kind = NO_FILTER; kind <= FILTER; kind++) {
+  for (int kind = NO_PRECONDITIONER; kind <= PRECONDITIONER; kind++) {
     user u = {0};
     fuge_info info;
     fuge_operator *op = NULL;
@@ -265,31 +265,31 @@ static void test_solve(void) {
     products[kind] = info.products;
     free_both(&solver, &op);
   }
-  CHECK(products[FILTER] < products[NO_FILTER]);
-  CHECK_INT(products[FILTER], products[DIAGONAL]);
+  CHECK(products[PRECONDITIONER] < products[NO_PRECONDITIONER]);
+  CHECK_INT(products[PRECONDITIONER], products[DIAGONAL]);
 }
 
-/* Fails once, at product or filter k: words with its number and the point, no answer; and
+/* Fails once, at product or preconditioner k: words with its number and the point, no answer; and
  * the same solver goes on when all is well. */
-static int check_bed_fails(int k, int of_filter, int returns) {
+static int check_bed_fails(int k, int of_preconditioner, int returns) {
   char message[256] = "", part[64];
   double force[M];
   user u = {0};
   fuge_info info;
   fuge_operator *op = NULL;
-  fuge_solver *solver = bed_solver(&u, FILTER, &op);
+  fuge_solver *solver = bed_solver(&u, PRECONDITIONER, &op);
   u.returns = returns;
-  if (of_filter) u.bad_filter = k; else u.bad_product = k;
+  if (of_preconditioner) u.bad_preconditioner = k; else u.bad_product = k;
   int status = fuge_solve(solver);
   if (status != FUGE_DONE) {
     CHECK_INT(status, FUGE_ERR_CALLBACK);
     if (returns == 0)
-      snprintf(part, sizeof part, "%s(5) = NaN", of_filter ? "force" : "displacement");
+      snprintf(part, sizeof part, "%s(5) = NaN", of_preconditioner ? "force" : "displacement");
     else
       snprintf(part, sizeof part, "the operator returned status %d", returns);
-    CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+    CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
     CHECK_CONTAINS(message, part);
-    snprintf(part, sizeof part, "%s %d: ", of_filter ? "filter" : "product", k);
+    snprintf(part, sizeof part, "%s %d: ", of_preconditioner ? "preconditioner" : "product", k);
     CHECK_CONTAINS(message, part);
     CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
     CHECK_INT(info.status, FUGE_ERR_CALLBACK);
@@ -298,17 +298,17 @@ static int check_bed_fails(int k, int of_filter, int returns) {
     CHECK_UNTOUCHED(force, M);
     memset(&u, 0, sizeof u);
     CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-    check_bed(solver, &u, FILTER);
+    check_bed(solver, &u, PRECONDITIONER);
   }
   free_both(&solver, &op);
   return status;
 }
 
 static void test_bed_failures(void) {
-  for (int of_filter = 0; of_filter <= 1; of_filter++)
+  for (int of_preconditioner = 0; of_preconditioner <= 1; of_preconditioner++)
     for (int returns = 0; returns <= 7; returns += 7) {
       int k = 1;
-      while (k < 1000 && check_bed_fails(k, of_filter, returns) != FUGE_DONE) k++;
+      while (k < 1000 && check_bed_fails(k, of_preconditioner, returns) != FUGE_DONE) k++;
       CHECK(k > 5 && k < 1000);
     }
 }
@@ -318,32 +318,32 @@ static void test_warm_failure(void) {
   char message[256] = "";
   user u = {0};
   fuge_operator *op = NULL;
-  fuge_solver *solver = bed_solver(&u, NO_FILTER, &op);
+  fuge_solver *solver = bed_solver(&u, NO_PRECONDITIONER, &op);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   u.bad_product = u.products + 1;
   u.returns = 3;
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CALLBACK);
   CHECK_INT(u.products, u.bad_product);
-  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
   CHECK_CONTAINS(message, "product 1: the operator returned status 3");
   u.bad_product = 0;
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   free_both(&solver, &op);
 }
 
-static void test_wrong_filter(void) {
+static void test_wrong_preconditioner(void) {
   char message[256] = "";
   user u = {0};
   fuge_operator *op = NULL;
-  fuge_solver *solver = bed_solver(&u, NO_FILTER, &op);
-  CHECK_STATUS(fuge_operator_set_filter(op, wrong_filter), FUGE_DONE);
+  fuge_solver *solver = bed_solver(&u, NO_PRECONDITIONER, &op);
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, wrong_preconditioner), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_NOT_DEFINITE);
-  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
-  CHECK_CONTAINS(message, "filter");
-  CHECK_STATUS(fuge_operator_set_filter(op, filter_bed), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_CONTAINS(message, "preconditioner");
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, preconditioner_bed), FUGE_DONE);
   memset(&u, 0, sizeof u);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  check_bed(solver, &u, FILTER);
+  check_bed(solver, &u, PRECONDITIONER);
   free_both(&solver, &op);
 }
 
@@ -354,7 +354,7 @@ static void test_unsupported(void) {
     user u = {0};
     fuge_options options;
     fuge_operator *op = NULL;
-    fuge_solver *solver = NULL, *other = bed_solver(&u, NO_FILTER, &op);
+    fuge_solver *solver = NULL, *other = bed_solver(&u, NO_PRECONDITIONER, &op);
     fuge_solver_free(&other);
     fuge_default_options(&options);
     options.method = method;
@@ -362,7 +362,7 @@ static void test_unsupported(void) {
     CHECK_STATUS(fuge_set_gap(solver, bed_gap, NULL), FUGE_DONE);
     CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
     CHECK_STATUS(fuge_solve(solver), FUGE_ERR_UNSUPPORTED);
-    CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+    CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
     CHECK_CONTAINS(message, "FUGE_ITERATIVE");
     CHECK_INT(u.products, 0);
     free_both(&solver, &op);
@@ -374,12 +374,12 @@ int main(void) {
   test_solve();
   test_bed_failures();
   test_warm_failure();
-  test_wrong_filter();
+  test_wrong_preconditioner();
   test_unsupported();
   test_product();
   test_overwritten_forces();
   test_failures();
   test_refusals();
-  test_filter_refusals();
+  test_preconditioner_refusals();
   return check_summary();
 }

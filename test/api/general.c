@@ -58,7 +58,7 @@ static void test_struct_layout(void) {
   CHECK_INT(offsetof(fuge_options, keep_history), 3 * sizeof(int));
   CHECK_INT(offsetof(fuge_options, tolerance), 8 * sizeof(int));
   CHECK_INT(sizeof(fuge_info), 8 * sizeof(int) + 8 * sizeof(double));
-  CHECK_INT(offsetof(fuge_info, filters), 4 * sizeof(int));
+  CHECK_INT(offsetof(fuge_info, preconditionings), 4 * sizeof(int));
   CHECK_INT(offsetof(fuge_info, residual), 8 * sizeof(int));
 }
 

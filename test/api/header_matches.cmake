@@ -70,7 +70,7 @@ find_functions(in_fortran "${api}" "bind\\(c, *name *= *'fuge_[a-z0-9_]+'\\)")
 require_same("functions" "${in_header}" "${in_fortran}")
 
 string(REGEX MATCH "#define FUGE_VERSION \"[^\"]+\"" in_header "${header}")
-string(REGEX MATCH "FUGE_VERSION_TEXT = '[^']+'" in_fortran "${fortran}")
+string(REGEX MATCH "FUGE_VERSION = '[^']+'" in_fortran "${fortran}")
 string(REGEX REPLACE ".*\"(.*)\"" "\\1" in_header "${in_header}")
 string(REGEX REPLACE ".*'(.*)'" "\\1" in_fortran "${in_fortran}")
 require_same("version" "${in_header}" "${in_fortran}")

@@ -26,7 +26,7 @@ static void test_padding(void) {
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
   CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_get_rigid(solver, &approach), FUGE_DONE);
+  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
   check_table1(force, gap, approach);
   free_both(&solver, &op);
 }
@@ -171,7 +171,7 @@ static void check_halfplane(int element, int boundary, int method) {
   CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
   CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_get_rigid(solver, &approach), FUGE_DONE);
+  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
   CHECK_STATUS(fuge_get_resultant(solver, &resultant), FUGE_DONE);
   for (int k = 0; k < CELLS; k++) {
     CHECK(force[k] >= 0.0 && gap[k] >= 0.0);
@@ -185,7 +185,7 @@ static void check_halfplane(int element, int boundary, int method) {
   CHECK_INT(info.contacts, contacts);
   CHECK(contacts > 3 && contacts < CELLS);
   CHECK(info.products > 1 && info.products < 60);
-  CHECK(info.filters > 1);
+  CHECK(info.preconditionings > 1);
   CHECK(info.residual <= 1e-10);
   if (boundary == FUGE_FREE) check_free_answer(element, force, gap, approach);
   fill(change, CELLS);
@@ -212,7 +212,7 @@ static void test_halfplane_unsupported(void) {
     fuge_operator *op = NULL;
     fuge_solver *solver = halfplane_solver(FUGE_MEAN, FUGE_FREE, method, &op);
     CHECK_STATUS(fuge_solve(solver), FUGE_ERR_UNSUPPORTED);
-    CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+    CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
     CHECK_CONTAINS(message, "FUGE_ITERATIVE");
     fill(force, CELLS);
     CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
@@ -246,7 +246,7 @@ static void test_halfplane_steps(void) {
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
   CHECK_INT(info.products, first.products);
-  CHECK_INT(info.filters, first.filters);
+  CHECK_INT(info.preconditionings, first.preconditionings);
   CHECK_INT(info.iterations, first.iterations);
   free_both(&solver, &op);
 }

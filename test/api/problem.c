@@ -34,11 +34,11 @@ static void check_gaps(const fuge_solver *solver, double c0, double c1, double c
 static void check_motions(const fuge_solver *solver, int m, const double *rigid, const double *resultant) {
   double q[N], w[N];
   int motions = -1;
-  CHECK_STATUS(fuge_get_motions(solver, &motions), FUGE_DONE);
+  CHECK_STATUS(fuge_get_mode_count(solver, &motions), FUGE_DONE);
   CHECK_INT(motions, m);
   fill(q, N);
   fill(w, N);
-  CHECK_STATUS(fuge_get_rigid(solver, q), FUGE_DONE);
+  CHECK_STATUS(fuge_get_motion(solver, q), FUGE_DONE);
   CHECK_STATUS(fuge_get_resultant(solver, w), FUGE_DONE);
   for (int j = 0; j < m; j++) {
     CHECK_NEAR(q[j], rigid[j], EXACT);
@@ -50,7 +50,7 @@ static void check_motions(const fuge_solver *solver, int m, const double *rigid,
 
 static void check_message(const fuge_solver *solver, const char *part) {
   char message[300];
-  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
   CHECK_CONTAINS(message, part);
 }
 
@@ -66,7 +66,7 @@ static void test_approach(void) {
   check_motions(solver, 1, &two, &eight);
   /* That load gives back that approach. */
   CHECK_STATUS(fuge_set_load(solver, eight), FUGE_DONE);
-  CHECK_STATUS(fuge_get_rigid(solver, (double[1]){0.0}), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_get_motion(solver, (double[1]){0.0}), FUGE_ERR_CALL_ORDER);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_forces(solver, 2.0, 4.0, 2.0);
   check_motions(solver, 1, &two, &eight);
@@ -79,12 +79,12 @@ static void test_approach(void) {
   CHECK_STATUS(fuge_set_motion(solver, 0, three), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_motions(solver, 1, &three, (double[1]){14.0});
-  CHECK_STATUS(fuge_free_motion(solver, 0, 14.0), FUGE_DONE);
+  CHECK_STATUS(fuge_set_resultant(solver, 0, 14.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_motions(solver, 1, &three, (double[1]){14.0});
   CHECK_STATUS(fuge_set_approach(solver, NAN), FUGE_ERR_NOT_FINITE);
   check_message(solver, "approach");
-  CHECK_STATUS(fuge_get_rigid(solver, (double[1]){twelve}), FUGE_DONE);
+  CHECK_STATUS(fuge_get_motion(solver, (double[1]){twelve}), FUGE_DONE);
   free_both(&solver, &op);
 }
 
@@ -93,15 +93,15 @@ static void test_motion_alone(void) {
   int motions = -1;
   fuge_operator *op = NULL;
   fuge_solver *solver = springs(BOWL, NULL, &op);
-  CHECK_STATUS(fuge_get_motions(solver, &motions), FUGE_DONE);
+  CHECK_STATUS(fuge_get_mode_count(solver, &motions), FUGE_DONE);
   CHECK_INT(motions, 1);
   CHECK_STATUS(fuge_set_motion(solver, 0, 0.5), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_forces(solver, 0.0, 1.0, 0.0);
   /* Free again it is the plain problem: by the tableau too, and it cannot pull. */
-  CHECK_STATUS(fuge_free_motion(solver, 0, -1.0), FUGE_DONE);
+  CHECK_STATUS(fuge_set_resultant(solver, 0, -1.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_NO_EQUILIBRIUM);
-  CHECK_STATUS(fuge_free_motion(solver, 0, 1.0), FUGE_DONE);
+  CHECK_STATUS(fuge_set_resultant(solver, 0, 1.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_forces(solver, 0.0, 1.0, 0.0);
   free_both(&solver, &op);
@@ -128,10 +128,10 @@ static void test_tilt(void) {
   CHECK_STATUS(fuge_set_motion(solver, 0, 1.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_motions(solver, 2, rigid, resultant);
-  CHECK_STATUS(fuge_free_motion(solver, 1, 2.0), FUGE_DONE);
+  CHECK_STATUS(fuge_set_resultant(solver, 1, 2.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_motions(solver, 2, rigid, resultant);
-  CHECK_STATUS(fuge_free_motion(solver, 0, 3.0), FUGE_DONE);
+  CHECK_STATUS(fuge_set_resultant(solver, 0, 3.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_forces(solver, 0.0, 1.0, 2.0);
   /* fuge_reset leaves the problem, fuge_set_load makes it the plain one. */
@@ -204,7 +204,7 @@ static void test_pull(void) {
   fuge_operator *op = NULL;
   fuge_solver *solver = springs(FLAT, play, &op);
   CHECK_STATUS(fuge_set_load(solver, pull), FUGE_ERR_NO_EQUILIBRIUM);
-  CHECK_STATUS(fuge_free_motion(solver, 0, pull), FUGE_DONE);
+  CHECK_STATUS(fuge_set_resultant(solver, 0, pull), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_forces(solver, -2.0, -2.0, -2.0);
   check_gaps(solver, 1.0, 1.0, 1.0);
@@ -317,11 +317,11 @@ static void test_refusals(void) {
   check_message(solver, "mode = 2 is none of the 2: it has to be 0 .. 1");
   CHECK_STATUS(fuge_set_motion(solver, -1, 0.0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_set_motion(solver, 0, NAN), FUGE_ERR_NOT_FINITE);
-  CHECK_STATUS(fuge_free_motion(solver, 2, 0.0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_free_motion(solver, 0, -HUGE_VAL), FUGE_ERR_NOT_FINITE);
+  CHECK_STATUS(fuge_set_resultant(solver, 2, 0.0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_set_resultant(solver, 0, -HUGE_VAL), FUGE_ERR_NOT_FINITE);
   CHECK_STATUS(fuge_set_load(solver, -1.0), FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_STATUS(fuge_set_approach(solver, HUGE_VAL), FUGE_ERR_NOT_FINITE);
-  CHECK_STATUS(fuge_get_motions(solver, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_get_mode_count(solver, NULL), FUGE_ERR_POINTER);
   check_motions(solver, 2, rigid, resultant);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_motions(solver, 2, rigid, resultant);
@@ -331,8 +331,8 @@ static void test_refusals(void) {
   CHECK_STATUS(fuge_set_approach(NULL, 1.0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_set_modes(NULL, 2, PLANE, resultant), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_set_motion(NULL, 0, 1.0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_free_motion(NULL, 0, 1.0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_get_motions(NULL, &motions), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_set_resultant(NULL, 0, 1.0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_get_mode_count(NULL, &motions), FUGE_ERR_POINTER);
   CHECK_INT(motions, -5);
   free_both(&solver, &op);
 }
@@ -352,7 +352,7 @@ static void test_results_belong_to_the_problem(void) {
     if (setter == 3) CHECK_STATUS(fuge_set_approach(solver, 1.0), FUGE_DONE);
     if (setter == 4) CHECK_STATUS(fuge_set_modes(solver, 0, NULL, NULL), FUGE_DONE);
     if (setter == 5) CHECK_STATUS(fuge_set_motion(solver, 0, 1.0), FUGE_DONE);
-    if (setter == 6) CHECK_STATUS(fuge_free_motion(solver, 0, 6.0), FUGE_DONE);
+    if (setter == 6) CHECK_STATUS(fuge_set_resultant(solver, 0, 6.0), FUGE_DONE);
     CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
     check_message(solver, "present problem");
   }

@@ -67,7 +67,7 @@ static void check_cancelled(fuge_solver *solver, int iteration) {
   CHECK_STATUS(fuge_set_progress(solver, watch, &r), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CANCELLED);
   CHECK_INT(r.calls, iteration);
-  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
   snprintf(part, sizeof part, "iteration %d ", iteration);
   CHECK_CONTAINS(message, part);
   CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);

@@ -20,7 +20,7 @@ static void test_numbers(void) {
   fuge_solver *solver = solved_table1(0, &op);
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
   CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_get_rigid(solver, &approach), FUGE_DONE);
+  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
   check_table1(force, gap, approach);
   CHECK_STATUS(fuge_get_resultant(solver, &resultant), FUGE_DONE);
   CHECK_NEAR(resultant, TABLE1_LOAD, EXACT);
@@ -37,7 +37,7 @@ static void test_info(void) {
   CHECK_INT(info.iterations, 3);
   CHECK_INT(info.contacts, 1);
   CHECK_INT(info.products, 1);
-  CHECK_INT(info.filters, 0);
+  CHECK_INT(info.preconditionings, 0);
   CHECK(info.residual >= 0.0 && info.residual <= 1e-15);
   for (int k = 0; k < 3; k++) CHECK_INT(info.reserved_int[k], 0);
   for (int k = 0; k < 7; k++) CHECK_NEAR(info.reserved[k], 0.0, 0.0);
@@ -52,13 +52,13 @@ static void test_null_pointers(void) {
   fuge_solver *solver = solved_table1(1, &op);
   CHECK_STATUS(fuge_get_force(NULL, &value), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_get_gap(NULL, &value), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_get_rigid(NULL, &value), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_get_motion(NULL, &value), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_get_resultant(NULL, &value), FUGE_ERR_POINTER);
   CHECK_UNTOUCHED(&value, 1);
   CHECK_STATUS(fuge_get_info(NULL, &info), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_get_force(solver, NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_get_gap(solver, NULL), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_get_rigid(solver, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_get_motion(solver, NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_get_resultant(solver, NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_get_info(solver, NULL), FUGE_ERR_POINTER);
   free_both(&solver, &op);
@@ -122,7 +122,7 @@ static void check_range(const fuge_solver *solver, int first, int count, int sta
   CHECK_INT(basis[0], -1);
   CHECK_UNTOUCHED(z, TABLE1_STEPS);
   CHECK_INT(available, -1);
-  fuge_last_message(solver, message, sizeof message);
+  fuge_solver_message(solver, message, sizeof message);
   CHECK_CONTAINS(message, "count");
 }
 
@@ -173,7 +173,7 @@ static void test_history_not_kept(void) {
   CHECK_STATUS(fuge_get_history(solver, 0, 1, basis, &z, &available), FUGE_ERR_SIZE);
   CHECK_UNTOUCHED(&z, 1);
   CHECK_INT(basis[0], -1);
-  fuge_last_message(solver, message, sizeof message);
+  fuge_solver_message(solver, message, sizeof message);
   CHECK_CONTAINS(message, "keep_history");
   free_both(&solver, &op);
 }
@@ -231,7 +231,7 @@ static void test_message_is_empty_when_done(void) {
   fuge_solver *solver = table1_solver(NULL, &op);
   CHECK_STATUS(fuge_set_load(solver, -1.0), FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
   CHECK_STRING(message, "");
   free_both(&solver, &op);
 }
@@ -240,7 +240,7 @@ static void test_message_of_new_solver(void) {
   char message[16] = "not yet written";
   fuge_operator *op = NULL;
   fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
-  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
   CHECK_STRING(message, "");
   free_both(&solver, &op);
 }
@@ -251,14 +251,14 @@ static void test_message_is_cut(void) {
   fuge_operator *op = NULL;
   fuge_solver *solver = table1_solver(NULL, &op);
   CHECK_STATUS(fuge_set_load(solver, -1.0), FUGE_ERR_NO_EQUILIBRIUM);
-  CHECK_STATUS(fuge_last_message(solver, whole, sizeof whole), FUGE_DONE);
-  CHECK_STATUS(fuge_last_message(solver, buffer, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, whole, sizeof whole), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, buffer, 0), FUGE_DONE);
   CHECK_STRING(buffer, "#######");
-  CHECK_STATUS(fuge_last_message(solver, buffer, 5), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, buffer, 5), FUGE_DONE);
   CHECK_INT(strlen(buffer), 4);
   CHECK(strncmp(buffer, whole, 4) == 0);
   CHECK_STRING(buffer + 5, "##");
-  CHECK_STATUS(fuge_last_message(solver, buffer, 1), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, buffer, 1), FUGE_DONE);
   CHECK_STRING(buffer, "");
   CHECK(store[0] == '#');
   CHECK(strlen(whole) > 8 && whole[strlen(whole) - 1] != ' ');
@@ -269,9 +269,9 @@ static void test_message_null_pointers(void) {
   char message[256] = "";
   fuge_operator *op = NULL;
   fuge_solver *solver = table1_solver(NULL, &op);
-  CHECK_STATUS(fuge_last_message(NULL, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_last_message(solver, NULL, 10), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_last_message(solver, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_solver_message(NULL, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_solver_message(solver, NULL, 10), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_solver_message(solver, NULL, 0), FUGE_ERR_POINTER);
   free_both(&solver, &op);
 }
 

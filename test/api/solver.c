@@ -6,7 +6,7 @@ static void check_solved(fuge_solver *solver) {
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
   CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_get_rigid(solver, &approach), FUGE_DONE);
+  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
   check_table1(force, gap, approach);
 }
 
@@ -16,14 +16,14 @@ static void check_no_answer(const fuge_solver *solver) {
   fill(values, 2);
   CHECK_STATUS(fuge_get_force(solver, values), FUGE_ERR_CALL_ORDER);
   CHECK_STATUS(fuge_get_gap(solver, values), FUGE_ERR_CALL_ORDER);
-  CHECK_STATUS(fuge_get_rigid(solver, values), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_get_motion(solver, values), FUGE_ERR_CALL_ORDER);
   CHECK_STATUS(fuge_get_resultant(solver, values), FUGE_ERR_CALL_ORDER);
   CHECK_UNTOUCHED(values, 2);
 }
 
 static void check_message(const fuge_solver *solver, const char *part) {
   char message[256] = "";
-  CHECK_STATUS(fuge_last_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
   CHECK_CONTAINS(message, part);
 }
 
@@ -131,7 +131,7 @@ static void test_iterative(void) {
   CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
   CHECK(info.iterations > 0);
   CHECK(info.products > 1);
-  CHECK_INT(info.filters, 0);
+  CHECK_INT(info.preconditionings, 0);
   CHECK_INT(info.contacts, 1);
   for (int k = 0; k < 4; k++) {
     CHECK_STATUS(fuge_set_load(solver, loads[k]), FUGE_DONE);

@@ -5,7 +5,8 @@
 !> gap = c - alpha F + R q and w = R^T F.
 module hard_general
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver, &
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
+    fuge_solver, &
     FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_NOT_UNIQUE
   use general_reference, only: infinity
   use hard_matrices, only: decimal, integer_bed

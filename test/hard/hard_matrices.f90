@@ -1,7 +1,7 @@
 !> Matrices that several hard scenes share.
 module hard_matrices
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp, fuge_halfplane_matrix, fuge_info, FUGE_MEAN
+  use fuge, only: dp => fuge_dp, fuge_halfplane_matrix, fuge_info, FUGE_MEAN
   use hard_reference, only: integers
   implicit none
   private

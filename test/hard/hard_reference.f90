@@ -2,7 +2,7 @@
 !> the kind of its numbers.
 module hard_reference
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 

@@ -1,6 +1,6 @@
 !> One hard scene solved by one engine, and how far the answer is off.
 module hard_run
-  use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver
   use hard_reference, only: length_of, violation
   use hard_scenes, only: hard_scene
   implicit none
@@ -58,7 +58,7 @@ contains
     real(dp) :: error, length, approach
 
     length = length_of(scene%alpha, scene%gap, scene%load)
-    approach = max(0.0_dp, abs(solution%rigid(1) - scene%approach) - 4.0_dp*epsilon(error)*abs(scene%approach))
+    approach = max(0.0_dp, abs(solution%motion(1) - scene%approach) - 4.0_dp*epsilon(error)*abs(scene%approach))
     error = max(maxval(abs(solution%gap - scene%opening)), approach)/length
   end function gap_error
 
@@ -68,7 +68,7 @@ contains
     type(fuge_solution), intent(in) :: solution
     real(dp) :: worst
 
-    worst = violation(scene%alpha, scene%gap, scene%load, solution%force, solution%gap, solution%rigid(1))
+    worst = violation(scene%alpha, scene%gap, scene%load, solution%force, solution%gap, solution%motion(1))
   end function own_violation
 
 end module hard_run

@@ -1,6 +1,6 @@
 !> A hard case as data: a contact problem, built from its answer or given.
 module hard_scene_type
-  use fuge, only: dp, FUGE_DONE
+  use fuge, only: dp => fuge_dp, FUGE_DONE
   implicit none
   private
 

@@ -5,7 +5,8 @@
 !> rounds: F is the answer of the data as stored, whatever the condition of alpha.
 module hard_scenes
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp, fuge_halfplane_matrix, fuge_info, FUGE_MEAN, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL, &
+  use fuge, only: dp => fuge_dp, fuge_halfplane_matrix, fuge_info, FUGE_MEAN, FUGE_WARN_NOT_UNIQUE, &
+    FUGE_WARN_RESIDUAL, &
     FUGE_ERR_NOT_DEFINITE
   use hard_matrices, only: decimal, halfplane, integer_bed, places, ring, string, tridiagonal
   use hard_reference, only: draw, integers

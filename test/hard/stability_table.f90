@@ -5,7 +5,7 @@
 !> error where a scene misses what it promises.
 program stability_table
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
-  use fuge, only: dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_TABLEAU, FUGE_ITERATIVE, FUGE_DONE
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_TABLEAU, FUGE_ITERATIVE, FUGE_DONE
   use general_reference, only: general_violation
   use hard_general, only: general_scene, numbered_general, solve_general_scene, general_force_error, &
     general_gap_error, GENERAL_SCENES
@@ -84,7 +84,7 @@ contains
     real(dp) :: violation
 
     call solve_general_scene(scene, solution, info)
-    row = '| '//trim(scene%name)//' | '//decimal(scene%problem%points())//' | '//decimal(scene%problem%motions()) &
+    row = '| '//trim(scene%name)//' | '//decimal(scene%problem%points())//' | '//decimal(scene%problem%mode_count()) &
       //' | '//trim(scene%why)//' | '//decimal(info%status)//' | '//decimal(info%iterations)//' | '
     if (info%failed()) then
       write (unit, '(a)') row//' | |'

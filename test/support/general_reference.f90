@@ -3,7 +3,7 @@
 module general_reference
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
   implicit none
   private
 
@@ -90,7 +90,7 @@ contains
   !> R, (n, m).
   pure function modes_of(problem) result(modes)
     type(fuge_problem), intent(in) :: problem
-    real(dp) :: modes(problem%points(), problem%motions())
+    real(dp) :: modes(problem%points(), problem%mode_count())
 
     modes = 1.0_dp
     if (allocated(problem%modes)) modes = problem%modes
@@ -105,7 +105,7 @@ contains
     real(dp), intent(out) :: force(:), rigid(:), worst
     logical, intent(out) :: all_regular
     type(fuge_solution) :: tried
-    integer :: side(size(force)), code, rest, k
+    integer :: state(size(force)), code, rest, k
     real(dp) :: violation
     logical :: regular
 
@@ -113,66 +113,66 @@ contains
     force = 0.0_dp
     rigid = 0.0_dp
     all_regular = .true.
-    do code = 0, 3**size(side) - 1
+    do code = 0, 3**size(state) - 1
       rest = code
-      do k = 1, size(side)
-        side(k) = mod(rest, 3) - 1
+      do k = 1, size(state)
+        state(k) = mod(rest, 3) - 1
         rest = rest/3
       end do
-      if (.not. possible(problem, side)) cycle
-      call try_state(alpha, problem, side, tried, regular)
+      if (.not. possible(problem, state)) cycle
+      call try_state(alpha, problem, state, tried, regular)
       all_regular = all_regular .and. regular
       if (.not. regular) cycle
       violation = general_violation(alpha, problem, tried)
       if (violation >= worst) cycle
       worst = violation
       force = tried%force
-      rigid = tried%rigid
+      rigid = tried%motion
     end do
   end subroutine enumerate_states
 
-  pure function possible(problem, side)
+  pure function possible(problem, state)
     type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: side(:)
+    integer, intent(in) :: state(:)
     logical :: possible
     integer :: k
 
     possible = .true.
-    do k = 1, size(side)
+    do k = 1, size(state)
       if (is_excluded(problem, k)) then
-        possible = possible .and. side(k) == 0
+        possible = possible .and. state(k) == 0
       else if (.not. play_of(problem, k) > 0.0_dp) then
-        possible = possible .and. side(k) == 1
+        possible = possible .and. state(k) == 1
       else if (play_of(problem, k) > huge(1.0_dp)) then
-        possible = possible .and. side(k) >= 0
+        possible = possible .and. state(k) >= 0
       end if
     end do
   end function possible
 
   !> The linear system of one state: unknown forces and motions.
-  pure subroutine try_state(alpha, problem, side, tried, regular)
+  pure subroutine try_state(alpha, problem, state, tried, regular)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: side(:)
+    integer, intent(in) :: state(:)
     type(fuge_solution), intent(inout) :: tried
     logical, intent(out) :: regular
-    real(dp) :: system(size(side) + problem%motions(), size(side) + problem%motions())
-    real(dp) :: right(size(system, 1)), x(size(system, 1)), modes(size(side), problem%motions())
+    real(dp) :: system(size(state) + problem%mode_count(), size(state) + problem%mode_count())
+    real(dp) :: right(size(system, 1)), x(size(system, 1)), modes(size(state), problem%mode_count())
     integer :: j, k, n, m
 
-    n = size(side)
-    m = problem%motions()
+    n = size(state)
+    m = problem%mode_count()
     modes = modes_of(problem)
     system = 0.0_dp
     right = 0.0_dp
     do k = 1, n
-      if (side(k) == 0) then
+      if (state(k) == 0) then
         system(k, k) = 1.0_dp
       else
         system(k, :n) = alpha(k, :n)
         system(k, n + 1:) = -modes(k, :)
         right(k) = -problem%gap(k)
-        if (side(k) < 0) right(k) = right(k) + problem%gap_upper(k)
+        if (state(k) < 0) right(k) = right(k) + problem%gap_upper(k)
       end if
     end do
     do j = 1, m
@@ -186,11 +186,11 @@ contains
     end do
     call eliminate(system, right, x, regular)
     tried%force = x(:n)
-    tried%rigid = x(n + 1:)
-    tried%gap = problem%gap + matmul(alpha(:n, :n), tried%force) - matmul(modes, tried%rigid)
-    where (side > 0) tried%gap = 0.0_dp
-    if (any(side < 0)) then
-      where (side < 0) tried%gap = problem%gap_upper
+    tried%motion = x(n + 1:)
+    tried%gap = problem%gap + matmul(alpha(:n, :n), tried%force) - matmul(modes, tried%motion)
+    where (state > 0) tried%gap = 0.0_dp
+    if (any(state < 0)) then
+      where (state < 0) tried%gap = problem%gap_upper
     end if
   end subroutine try_state
 
@@ -229,7 +229,7 @@ contains
     integer :: j
 
     has_load = .false.
-    do j = 1, problem%motions()
+    do j = 1, problem%mode_count()
       if (.not. is_prescribed(problem, j)) has_load = has_load .or. abs(problem%resultant(j)) > 0.0_dp
     end do
   end function has_load
@@ -240,14 +240,14 @@ contains
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     real(dp) :: worst
-    real(dp) :: modes(problem%points(), problem%motions()), error(problem%points()), length, largest, play
+    real(dp) :: modes(problem%points(), problem%mode_count()), error(problem%points()), length, largest, play
     integer :: j, k, n
 
     n = problem%points()
     modes = modes_of(problem)
-    error = problem%gap + matmul(alpha(:n, :n), solution%force) - matmul(modes, solution%rigid) - solution%gap
+    error = problem%gap + matmul(alpha(:n, :n), solution%force) - matmul(modes, solution%motion) - solution%gap
     length = maxval(abs(problem%gap) + matmul(abs(alpha(:n, :n)), abs(solution%force)) &
-                    + matmul(abs(modes), abs(solution%rigid)))
+                    + matmul(abs(modes), abs(solution%motion)))
     length = max(length, tiny(length))
     largest = max(maxval(abs(solution%force)), tiny(largest))
     ! Without a load forces may be rounding: then those count that displace at all.
@@ -271,9 +271,9 @@ contains
         end if
       end associate
     end do
-    do j = 1, problem%motions()
+    do j = 1, problem%mode_count()
       if (is_prescribed(problem, j)) then
-        worst = max(worst, abs(solution%rigid(j) - problem%motion(j)))
+        worst = max(worst, abs(solution%motion(j) - problem%motion(j)))
       else
         worst = max(worst, abs(sum(modes(:, j)*solution%force) - problem%resultant(j)) &
                     /max(sum(abs(modes(:, j)*solution%force)), largest*maxval(abs(modes(:, j))), &

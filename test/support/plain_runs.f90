@@ -7,7 +7,7 @@ module plain_runs
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_problem_type, only: fuge_problem, set_problem
-  use fuge_canonical_problem, only: contact_scene, make_scene
+  use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_status, only: fuge_info
   use fuge_paper_tableau, only: run_phase_one
   implicit none
@@ -29,16 +29,17 @@ contains
     real(dp), intent(out) :: force(:), gap_out(:), approach
     integer, intent(out) :: iterations, status
     type(fuge_problem) :: problem
-    type(contact_scene) :: scene
+    type(canonical_problem) :: canonical
     type(fuge_info) :: info
-    integer :: side(size(gap))
+    integer :: state(size(gap))
     real(dp) :: motion(1)
 
     call set_problem(gap, load, problem, info)
-    call make_scene(problem, scene, info)
-    side = merge(1, 0, contact)
-    call run_active_set(alpha, datum, scene, limit, monitor, factor, side, force, gap_out, motion, iterations, status)
-    contact = side /= 0
+    call make_canonical(problem, canonical, info)
+    state = merge(1, 0, contact)
+    call run_active_set(alpha, datum, canonical, limit, monitor, factor, state, force, gap_out, motion, iterations, &
+                        status)
+    contact = state /= 0
     approach = motion(1)
   end subroutine run_plain
 
@@ -52,14 +53,15 @@ contains
     logical, intent(out) :: contact(:)
     integer, intent(out) :: pivots, status
     type(fuge_problem) :: problem
-    type(contact_scene) :: scene
+    type(canonical_problem) :: canonical
     type(fuge_info) :: info
-    integer :: side(size(gap))
+    integer :: state(size(gap))
 
     call set_problem(gap, load, problem, info)
-    call make_scene(problem, scene, info)
-    call run_phase_one(alpha, 0.0_dp, scene, rule, max_pivots, keep_history, monitor, history, side, pivots, status)
-    contact = side /= 0
+    call make_canonical(problem, canonical, info)
+    call run_phase_one(alpha, 0.0_dp, canonical, rule, max_pivots, keep_history, monitor, history, state, pivots, &
+                       status)
+    contact = state /= 0
   end subroutine plain_phase
 
   !> As `check_definite`, on forces with zero sum.

@@ -1,6 +1,6 @@
 !> Stiffness matrices of small bodies, and a check of a solved contact by the whole body.
 module small_bodies
-  use fuge, only: dp, fuge_body, fuge_solution
+  use fuge, only: dp => fuge_dp, fuge_body, fuge_solution
   implicit none
   private
 

@@ -1,7 +1,7 @@
 !> Profiles of smooth punches for tests, by number.
 module smooth_profiles
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use fuge, only: dp, fuge_polynomial_profile, fuge_smooth_profile
+  use fuge, only: dp => fuge_dp, fuge_polynomial_profile, fuge_smooth_profile
   implicit none
   private
 

@@ -81,7 +81,7 @@ static void solve(record *r, const fuge_operator *op, int n, int method, int num
     expect(r, fuge_solve(s), FUGE_DONE);
     expect(r, fuge_get_force(s, force), FUGE_DONE);
     expect(r, fuge_get_gap(s, open), FUGE_DONE);
-    expect(r, fuge_get_rigid(s, &approach), FUGE_DONE);
+    expect(r, fuge_get_motion(s, &approach), FUGE_DONE);
     expect(r, fuge_get_info(s, &info), FUGE_DONE);
   }
   put(r, force, N);
@@ -96,7 +96,7 @@ static void solve(record *r, const fuge_operator *op, int n, int method, int num
   /* A refusal, with numbers in its message. */
   gap[number] = NAN;
   expect(r, fuge_set_gap(s, gap, NULL), FUGE_ERR_NOT_FINITE);
-  fuge_last_message(s, message, sizeof message);
+  fuge_solver_message(s, message, sizeof message);
   put_text(r, message);
   fuge_solver_free(&s);
 }

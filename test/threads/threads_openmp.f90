@@ -2,7 +2,7 @@
 !> All answers must be those of the same loop run by one thread, bit for bit.
 program threads_openmp
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp, fuge_dense_operator, fuge_general_path, fuge_follow_path, fuge_halfplane_matrix, &
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_general_path, fuge_follow_path, fuge_halfplane_matrix, &
     fuge_halfplane_operator, fuge_info, fuge_load_path, fuge_operator, fuge_options, fuge_path, fuge_problem, &
     fuge_solution, fuge_solver, FUGE_ACTIVE_SET, FUGE_ERR_OPTION, FUGE_ITERATIVE, FUGE_MEAN, FUGE_TABLEAU
   use omp_lib, only: omp_get_num_threads
@@ -108,7 +108,7 @@ contains
     options%method = method
     call solver%solve(operator, problem, solution, info, options)
     if (info%status /= 0) call stop_with(info%message)
-    value = [solution%force, solution%gap, solution%rigid, info%residual]
+    value = [solution%force, solution%gap, solution%motion, info%residual]
   end subroutine solve_with
 
   !> A refusal with a number in its message: its length and the sum of its letters.

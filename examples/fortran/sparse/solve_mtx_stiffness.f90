@@ -1,6 +1,6 @@
 !> The stiffness matrix of the example `solve_mtx` as compressed columns.
 module solve_mtx_stiffness
-  use fuge, only: dp, fuge_info, fuge_read_sparse
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_read_sparse
   use fuge_sparse, only: fuge_sparse_stiffness
   use solve_mtx_files, only: refuse_size
   implicit none

@@ -11,7 +11,7 @@ module fuge_active_set_engine
   use fuge_options_type, only: fuge_options
   use fuge_initial_set, only: guess_contact_set
   use fuge_problem_type, only: fuge_solution
-  use fuge_canonical_problem, only: contact_scene
+  use fuge_canonical_problem, only: canonical_problem
   use fuge_initial_states, only: guess_sides
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_OVERFLOW
@@ -34,91 +34,93 @@ contains
   !> The paper's engine: Phase I finds the contact set, and the numbers are solved
   !> anew on it, which also mends points that the rounding of the pivots misjudged.
   !>
-  !> `alpha` (at least n rows, n columns), `datum` its coefficient nearest to zero, `scene` of
-  !> a checked problem; `side` (n) and `factor` belong to the answer on return.
-  subroutine solve_by_tableau(alpha, datum, scene, options, monitor, history, side, factor, answer, info)
+  !> `alpha` (at least n rows, n columns), `datum` its coefficient nearest to zero, `canonical` of
+  !> a checked problem; `state` (n) and `factor` belong to the answer on return.
+  subroutine solve_by_tableau(alpha, datum, canonical, options, monitor, history, state, factor, answer, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_history), intent(inout) :: history
-    integer, intent(out) :: side(:)
+    integer, intent(out) :: state(:)
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
     integer :: limit, sets, status
 
-    side = 0
-    call check_solvable(alpha, datum, scene, info)
+    state = 0
+    call check_solvable(alpha, datum, canonical, info)
     if (info%failed()) return
-    limit = limit_of(options, size(side) + size(scene%load))
-    call run_phase_one(alpha, datum, scene, options%pivot_rule, limit, options%keep_history, monitor, history, side, &
+    limit = limit_of(options, size(state) + size(canonical%load))
+    call run_phase_one(alpha, datum, canonical, options%pivot_rule, limit, options%keep_history, monitor, history, &
+                       state, &
                        info%iterations, status)
     ! Only a limit that was asked for ends the solve; otherwise the set so far will do.
     if (status == FUGE_ERR_ITERATION_LIMIT .and. options%max_iterations == 0) status = FUGE_DONE
     if (status /= FUGE_DONE) then
-      call explain(status, limit, count(side /= 0), info)
+      call explain(status, limit, count(state /= 0), info)
     else
-      call solve_from(alpha, datum, scene, limit_of(fuge_options(), size(side) + 1), monitor, side, factor, answer, &
+      call solve_from(alpha, datum, canonical, limit_of(fuge_options(), size(state) + 1), monitor, state, factor, &
+                      answer, &
                       sets, info)
     end if
   end subroutine solve_by_tableau
 
-  !> Block principal pivoting. `side` (n): on entry a guess, or none to have one made; on
-  !> return the contact set, with its `factor`. `answer%rigid` are the motions of the scene.
-  subroutine solve_by_active_set(alpha, datum, scene, options, monitor, side, factor, answer, info)
+  !> Block principal pivoting. `state` (n): on entry a guess, or none to have one made; on
+  !> return the contact set, with its `factor`. `answer%motion` are the motions of the scene.
+  subroutine solve_by_active_set(alpha, datum, canonical, options, monitor, state, factor, answer, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
-    integer, intent(inout) :: side(:)
+    integer, intent(inout) :: state(:)
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
     type(fuge_info), intent(inout) :: info
-    logical :: contact(size(side))
+    logical :: contact(size(state))
     integer :: sets
 
-    call check_magnitudes(alpha(:size(alpha, 2), :), largest_load(scene), info)
+    call check_magnitudes(alpha(:size(alpha, 2), :), largest_load(canonical), info)
     ! Opposite forces are in equilibrium only where all motions move both points alike.
-    if (scene%plain .and. .not. info%failed()) call check_pairs(alpha, info)
+    if (canonical%plain .and. .not. info%failed()) call check_pairs(alpha, info)
     if (info%failed()) return
     ! A guess from another problem may know of stops and points that are no more.
-    where (scene%excluded) side = 0
-    where (scene%upper >= huge(1.0_dp)) side = max(side, 0)
-    if (.not. any(side /= 0)) then
-      if (scene%plain) then
-        call guess_contact_set(alpha, scene%gap, scene%load(1), contact, info%products)
-        side = merge(1, 0, contact)
+    where (canonical%excluded) state = 0
+    where (canonical%upper >= huge(1.0_dp)) state = max(state, 0)
+    if (.not. any(state /= 0)) then
+      if (canonical%plain) then
+        call guess_contact_set(alpha, canonical%gap, canonical%load(1), contact, info%products)
+        state = merge(1, 0, contact)
       else
-        side = merge(1, 0, abs(scene%start) > 0.0_dp .or. scene%gap < 0.0_dp)
-        call guess_sides(alpha, scene, side, info%products)
+        state = merge(1, 0, abs(canonical%start) > 0.0_dp .or. canonical%gap < 0.0_dp)
+        call guess_sides(alpha, canonical, state, info%products)
       end if
     end if
-    call solve_from(alpha, datum, scene, limit_of(options, size(side) + 1), monitor, side, factor, answer, sets, &
+    call solve_from(alpha, datum, canonical, limit_of(options, size(state) + 1), monitor, state, factor, answer, sets, &
                     info)
     info%iterations = sets
   end subroutine solve_by_active_set
 
   !> The size of the resultants, which decides what products with alpha can reach.
-  pure function largest_load(scene) result(load)
-    type(contact_scene), intent(in) :: scene
+  pure function largest_load(canonical) result(load)
+    type(canonical_problem), intent(in) :: canonical
     real(dp) :: load
 
     load = 0.0_dp
-    if (size(scene%load) > 0) load = maxval(abs(scene%load))
+    if (size(canonical%load) > 0) load = maxval(abs(canonical%load))
   end function largest_load
 
   !> From a contact set, found or guessed, to the answer and its words. `sets` counts
   !> those tried.
-  subroutine solve_from(alpha, datum, scene, limit, monitor, side, factor, answer, sets, info)
+  subroutine solve_from(alpha, datum, canonical, limit, monitor, state, factor, answer, sets, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
-    integer, intent(inout) :: side(:)
+    integer, intent(inout) :: state(:)
     type(contact_factor), intent(inout) :: factor
     type(fuge_solution), intent(inout) :: answer
     integer, intent(out) :: sets
@@ -127,37 +129,37 @@ contains
     integer :: more, status
 
     ! Without a translation nothing takes up a constant taken out of alpha.
-    constant = merge(datum, 0.0_dp, scene%constant)
-    call run_active_set(alpha, constant, scene, limit, monitor, factor, side, answer%force, answer%gap, &
-                        answer%rigid, sets, status)
+    constant = merge(datum, 0.0_dp, canonical%has_translation)
+    call run_active_set(alpha, constant, canonical, limit, monitor, factor, state, answer%force, answer%gap, &
+                        answer%motion, sets, status)
     if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
       ! A set tried on the way was singular; the last one need not be.
       factor = contact_factor()
-      call run_active_set(alpha, constant, scene, limit, monitor, factor, side, answer%force, answer%gap, &
-                          answer%rigid, more, status)
+      call run_active_set(alpha, constant, canonical, limit, monitor, factor, state, answer%force, answer%gap, &
+                          answer%motion, more, status)
       sets = sets + more
     end if
-    call explain(status, limit, count(side /= 0), info)
+    call explain(status, limit, count(state /= 0), info)
     if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
       call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
                   //'the forces are not; those given are near the least squares')
-    else if (status == FUGE_DONE .and. .not. scene%plain) then
-      call report_free_way(scene, side, answer, info)
+    else if (status == FUGE_DONE .and. .not. canonical%plain) then
+      call report_free_way(canonical, state, answer, info)
     end if
   end subroutine solve_from
 
   !> Name a motion that the contact does not hold.
-  subroutine report_free_way(scene, side, answer, info)
-    type(contact_scene), intent(in) :: scene
-    integer, intent(in) :: side(:)
+  subroutine report_free_way(canonical, state, answer, info)
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
     type(fuge_solution), intent(in) :: answer
     type(fuge_info), intent(inout) :: info
-    real(dp) :: way(size(scene%load))
+    real(dp) :: way(size(canonical%load))
 
     if (size(way) < 1) return
-    call find_free_way(scene, side, answer%force, answer%gap, way)
+    call find_free_way(canonical, state, answer%force, answer%gap, way)
     if (.not. any(abs(way) > 0.0_dp)) return
-    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not hold motion '//text(scene%named_motion(way)) &
+    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not hold motion '//text(canonical%named_motion(way)) &
                 //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
   end subroutine report_free_way
 
@@ -222,32 +224,32 @@ contains
 
   !> Refuse what the tableau does not solve: numbers that overflow
   !> (FUGE_ERR_OVERFLOW), an alpha without a unique answer (FUGE_ERR_NOT_DEFINITE).
-  subroutine check_solvable(alpha, datum, scene, info)
+  subroutine check_solvable(alpha, datum, canonical, info)
     real(dp), intent(in) :: alpha(:, :), datum
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     type(fuge_info), intent(inout) :: info
     real(dp) :: constant
     integer :: deficient, status
 
-    call check_magnitudes(alpha(:size(alpha, 2), :), largest_load(scene), info)
+    call check_magnitudes(alpha(:size(alpha, 2), :), largest_load(canonical), info)
     if (info%failed()) return
-    constant = merge(datum, 0.0_dp, scene%constant .and. .not. scene%plain)
-    call check_definite(alpha, constant, scene%modes, scene%excluded, deficient, status)
+    constant = merge(datum, 0.0_dp, canonical%has_translation .and. .not. canonical%plain)
+    call check_definite(alpha, constant, canonical%modes, canonical%excluded, deficient, status)
     if (status /= FUGE_DONE) then
       call report(info, status, 'no memory to factor alpha')
     else if (deficient > 0) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces '//kind_of_forces(scene) &
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces '//kind_of_forces(canonical) &
                   //': point '//text(deficient)//' and others carry some that store no energy; look for a repeated ' &
                   //'point or a wrong sign at point '//text(deficient))
     end if
   end subroutine check_solvable
 
-  pure function kind_of_forces(scene) result(words)
-    type(contact_scene), intent(in) :: scene
-    character(len=merge(len(PLAIN_FORCES), len(GENERAL_FORCES), scene%plain)) :: words
+  pure function kind_of_forces(canonical) result(words)
+    type(canonical_problem), intent(in) :: canonical
+    character(len=merge(len(PLAIN_FORCES), len(GENERAL_FORCES), canonical%plain)) :: words
 
     words = GENERAL_FORCES
-    if (scene%plain) words = PLAIN_FORCES
+    if (canonical%plain) words = PLAIN_FORCES
   end function kind_of_forces
 
   !> Refuse an alpha whose products with the load leave the range of double precision,

@@ -30,7 +30,7 @@ contains
     real(dp), intent(in) :: gap(:), load
     logical, intent(out) :: contact(:)
     integer, intent(inout) :: products
-    real(dp), dimension(size(gap)) :: part, slope, direction, change, shape
+    real(dp), dimension(size(gap)) :: part, slope, direction, change, reduced_gap
     real(dp) :: unit, previous, squares, step, curvature, lowest, total, noise
     logical :: before(size(gap)), restarted
     integer :: iteration, quiet_for, changes, n
@@ -39,7 +39,7 @@ contains
     lowest = minval(gap)
     unit = max(maxval(gap) - lowest, load*maxval(abs(alpha(1:n, 1) - alpha(1, 1))))
     if (.not. unit > 0.0_dp) unit = 1.0_dp
-    shape = (gap - lowest)/unit
+    reduced_gap = (gap - lowest)/unit
     part = 1.0_dp/real(n, dp)
     contact = .true.
     direction = 0.0_dp
@@ -48,7 +48,7 @@ contains
     quiet_for = 0
     do iteration = 1, MOST_ITERATIONS
       call multiply(alpha, part, load/unit, slope)
-      slope = slope + shape
+      slope = slope + reduced_gap
       noise = ROUNDING*maxval(abs(slope))
       slope = slope - mean_of(slope, contact)
       if (maxval(abs(slope), mask=contact) <= noise) exit

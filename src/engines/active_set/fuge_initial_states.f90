@@ -3,7 +3,7 @@
 module fuge_initial_states
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemv, dgesv
-  use fuge_canonical_problem, only: contact_scene
+  use fuge_canonical_problem, only: canonical_problem
   implicit none
   private
 
@@ -33,26 +33,26 @@ module fuge_initial_states
 
 contains
 
-  !> Where the points probably are, `side` (n): 1 at the lower stop, -1 at the upper one, 0
+  !> Where the points probably are, `state` (n): 1 at the lower stop, -1 at the upper one, 0
   !> between. On entry a guess, which stays if there is no load to compare forces with.
   !>
   !> `alpha` (at least n rows, n columns); `products` is raised by the products with alpha.
-  subroutine guess_sides(alpha, scene, side, products)
+  subroutine guess_sides(alpha, canonical, state, products)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    type(contact_scene), intent(in) :: scene
-    integer, intent(inout) :: side(:), products
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(inout) :: state(:), products
     type(scaled_scene) :: scaled
-    real(dp), dimension(size(side)) :: force, opening, slope, direction, change
+    real(dp), dimension(size(state)) :: force, opening, slope, direction, change
     real(dp) :: previous, squares, step, curvature, noise
-    integer :: given(size(side)), before(size(side)), iteration, quiet_for
+    integer :: given(size(state)), before(size(state)), iteration, quiet_for
     logical :: restarted
 
-    call make_scaled(alpha, scene, scaled)
+    call make_scaled(alpha, canonical, scaled)
     if (.not. scaled%factor > 0.0_dp) return
-    given = side
-    side = merge(0, 1, scene%excluded .or. (scaled%play < huge(1.0_dp) .and. .not. scaled%tied))
+    given = state
+    state = merge(0, 1, canonical%excluded .or. (scaled%play < huge(1.0_dp) .and. .not. scaled%tied))
     force = 0.0_dp
-    call balance(scene%modes, scaled, side, force)
+    call balance(canonical%modes, scaled, state, force)
     direction = 0.0_dp
     previous = 1.0_dp
     restarted = .true.
@@ -62,54 +62,54 @@ contains
       opening = opening + scaled%gap
       noise = ROUNDING*maxval(abs(opening))
       slope = opening
-      where (side < 0) slope = opening - scaled%play
-      call take_motions(scene%modes, side /= 0, slope, opening)
-      if (maxval(abs(slope), mask=side /= 0) <= noise) exit
-      squares = sum(slope**2, mask=side /= 0)
+      where (state < 0) slope = opening - scaled%play
+      call take_motions(canonical%modes, state /= 0, slope, opening)
+      if (maxval(abs(slope), mask=state /= 0) <= noise) exit
+      squares = sum(slope**2, mask=state /= 0)
       if (.not. squares > 0.0_dp) exit
       if (restarted) direction = 0.0_dp
-      direction = merge(slope + (squares/previous)*direction, 0.0_dp, side /= 0)
+      direction = merge(slope + (squares/previous)*direction, 0.0_dp, state /= 0)
       previous = squares
       call multiply(alpha, direction, scaled%factor, change)
       products = products + 2
-      call take_motions(scene%modes, side /= 0, change)
-      curvature = sum(change*direction, mask=side /= 0)
+      call take_motions(canonical%modes, state /= 0, change)
+      curvature = sum(change*direction, mask=state /= 0)
       if (.not. curvature > 0.0_dp) exit
-      step = sum(slope*direction, mask=side /= 0)/curvature
-      before = side
+      step = sum(slope*direction, mask=state /= 0)/curvature
+      before = state
       force = force - step*direction
-      call join(scaled, scene%excluded, opening, step, side, force, restarted)
-      call balance(scene%modes, scaled, side, force)
-      quiet_for = merge(quiet_for + 1, 0, count(side /= before)*SETTLED < count(side /= 0))
+      call join(scaled, canonical%excluded, opening, step, state, force, restarted)
+      call balance(canonical%modes, scaled, state, force)
+      quiet_for = merge(quiet_for + 1, 0, count(state /= before)*SETTLED < count(state /= 0))
       if (quiet_for >= QUIET) exit
     end do
     ! Nothing touches, or numbers overflowed.
-    if (.not. (any(side /= 0) .and. all(abs(force) <= huge(force)))) side = given
+    if (.not. (any(state /= 0) .and. all(abs(force) <= huge(force)))) state = given
   end subroutine guess_sides
 
   !> The scene without units; its factor is zero if there is nothing to guess from.
-  pure subroutine make_scaled(alpha, scene, scaled)
+  pure subroutine make_scaled(alpha, canonical, scaled)
     real(dp), intent(in) :: alpha(:, :)
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     type(scaled_scene), intent(out) :: scaled
     real(dp) :: base, largest, length
     integer :: k
 
-    scaled%load = scene%load
-    if (.not. any(abs(scene%load) > 0.0_dp)) return
-    largest = maxval(abs(scene%load))
+    scaled%load = canonical%load
+    if (.not. any(abs(canonical%load) > 0.0_dp)) return
+    largest = maxval(abs(canonical%load))
     base = 0.0_dp
-    if (scene%constant) base = minval(scene%gap, mask=.not. scene%excluded)
-    scaled%gap = merge(0.0_dp, scene%gap - base, scene%excluded)
+    if (canonical%has_translation) base = minval(canonical%gap, mask=.not. canonical%excluded)
+    scaled%gap = merge(0.0_dp, canonical%gap - base, canonical%excluded)
     length = max(maxval(abs(scaled%gap)), largest*maxval([(abs(alpha(k, k)), k=1, size(scaled%gap))]))
     if (.not. length > 0.0_dp) return
     scaled%gap = scaled%gap/length
-    scaled%load = scene%load/largest
+    scaled%load = canonical%load/largest
     scaled%factor = largest/length
     allocate (scaled%play(size(scaled%gap)))
     scaled%play = huge(1.0_dp)
-    where (scene%upper/FAR < length) scaled%play = scene%upper/length
-    scaled%tied = scene%upper <= 0.0_dp .and. .not. scene%excluded
+    where (canonical%upper/FAR < length) scaled%play = canonical%upper/length
+    scaled%tied = canonical%upper <= 0.0_dp .and. .not. canonical%excluded
   end subroutine make_scaled
 
   subroutine multiply(alpha, force, factor, length)
@@ -121,29 +121,29 @@ contains
   end subroutine multiply
 
   !> Points that move away from their stop are open; open ones beyond a stop come to it.
-  pure subroutine join(scaled, excluded, opening, step, side, force, joined)
+  pure subroutine join(scaled, excluded, opening, step, state, force, joined)
     type(scaled_scene), intent(in) :: scaled
     logical, intent(in) :: excluded(:)
     real(dp), intent(in) :: opening(:), step
-    integer, intent(inout) :: side(:)
+    integer, intent(inout) :: state(:)
     real(dp), intent(inout) :: force(:)
     logical, intent(out) :: joined
     integer :: k
 
     joined = .false.
-    do k = 1, size(side)
+    do k = 1, size(state)
       if (excluded(k) .or. scaled%tied(k)) cycle
-      if (side(k)*force(k) > 0.0_dp) cycle
+      if (state(k)*force(k) > 0.0_dp) cycle
       force(k) = 0.0_dp
-      side(k) = 0
+      state(k) = 0
       if (opening(k) < 0.0_dp) then
-        side(k) = 1
+        state(k) = 1
         force(k) = -step*opening(k)
       else if (opening(k) > scaled%play(k)) then
-        side(k) = -1
+        state(k) = -1
         force(k) = -step*(opening(k) - scaled%play(k))
       end if
-      joined = joined .or. side(k) /= 0
+      joined = joined .or. state(k) /= 0
     end do
   end subroutine join
 
@@ -162,22 +162,22 @@ contains
   end subroutine take_motions
 
   !> Back into equilibrium, by the least forces at the contact; those that then pull leave.
-  subroutine balance(modes, scaled, side, force)
+  subroutine balance(modes, scaled, state, force)
     real(dp), intent(in) :: modes(:, :)
     type(scaled_scene), intent(in) :: scaled
-    integer, intent(inout) :: side(:)
+    integer, intent(inout) :: state(:)
     real(dp), intent(inout) :: force(:)
     real(dp) :: motion(size(scaled%load))
     integer :: round
 
     do round = 1, ROUNDS
       if (size(motion) > 0) then
-        call solve_held(modes, side /= 0, scaled%load - matmul(force, modes), motion)
-        force = merge(force + matmul(modes, motion), 0.0_dp, side /= 0)
+        call solve_held(modes, state /= 0, scaled%load - matmul(force, modes), motion)
+        force = merge(force + matmul(modes, motion), 0.0_dp, state /= 0)
       end if
-      where (side*force <= 0.0_dp .and. .not. scaled%tied) force = 0.0_dp
+      where (state*force <= 0.0_dp .and. .not. scaled%tied) force = 0.0_dp
     end do
-    where (.not. (abs(force) > 0.0_dp .or. scaled%tied)) side = 0
+    where (.not. (abs(force) > 0.0_dp .or. scaled%tied)) state = 0
   end subroutine balance
 
   !> Solve with R^T R of the contact.

@@ -20,14 +20,14 @@ module fuge_kkt_solution
 contains
 
   !> Forces (n) and motions (m) with shape + (alpha - datum) F - R q = 0 on the contact
-  !> set of `factor` and R^T F = load, not refined. `shape` (n), length; `load` (m);
+  !> set of `factor` and R^T F = load, not refined. `reduced_gap` (n), length; `load` (m);
   !> `datum` is zero unless the first motion is a translation.
-  subroutine solve_set(factor, datum, shape, load, force, motion)
+  subroutine solve_set(factor, datum, reduced_gap, load, force, motion)
     type(contact_factor), intent(in) :: factor
-    real(dp), intent(in) :: datum, shape(:), load(:)
+    real(dp), intent(in) :: datum, reduced_gap(:), load(:)
     real(dp), intent(out) :: force(:), motion(:)
 
-    call factor%solve(shape, load, force, motion)
+    call factor%solve(reduced_gap, load, force, motion)
     call change_datum(factor%datum - datum, load, motion)
   end subroutine solve_set
 
@@ -72,24 +72,24 @@ contains
   !> beyond a stop off it as parts of a length.
   !>
   !> `distance` (n) is the gap less the motion: what the displacement has to make up
-  !> for at a point in contact. `terms` (n) is what the displacement is made of. `side`
+  !> for at a point in contact. `terms` (n) is what the displacement is made of. `state`
   !> (n) is 1 at the lower stop, -1 at the upper one, 0 between; `upper` (n) the play;
-  !> tied points (play 0) and `excluded` ones cannot be wrong. A force up to `nothing` is
+  !> tied points (play 0) and `excluded` ones cannot be wrong. A force up to `zero_force` is
   !> rounding.
-  pure function violations(distance, terms, side, upper, excluded, nothing, force, gap_out) result(violation)
-    real(dp), intent(in) :: distance(:), terms(:), upper(:), nothing, force(:), gap_out(:)
-    integer, intent(in) :: side(:)
+  pure function violations(distance, terms, state, upper, excluded, zero_force, force, gap_out) result(violation)
+    real(dp), intent(in) :: distance(:), terms(:), upper(:), zero_force, force(:), gap_out(:)
+    integer, intent(in) :: state(:)
     logical, intent(in) :: excluded(:)
-    real(dp) :: violation(size(side))
+    real(dp) :: violation(size(state))
     real(dp) :: largest, beyond
     integer :: j
 
     largest = maxval(abs(force))
     violation = 0.0_dp
-    do j = 1, size(side)
+    do j = 1, size(state)
       if (excluded(j) .or. .not. upper(j) > 0.0_dp) cycle
-      if (side(j) /= 0) then
-        if (force(j)*side(j) < -nothing) violation(j) = abs(force(j))/largest
+      if (state(j) /= 0) then
+        if (force(j)*state(j) < -zero_force) violation(j) = abs(force(j))/largest
       else
         beyond = max(-gap_out(j), gap_out(j) - upper(j))
         if (beyond > 0.0_dp) violation(j) = beyond/max(abs(distance(j)) + terms(j), beyond)
@@ -125,19 +125,19 @@ contains
   !> The motion anew from the contact point where the least lengths make it, so that one
   !> that is exactly zero comes out as zero.
   !> For one translation, one-sided.
-  pure function motion_at_shallowest(alpha, datum, shape, contact, force, motion) result(anew)
+  pure function motion_at_shallowest(alpha, datum, reduced_gap, contact, force, motion) result(anew)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, shape(:), force(:), motion
+    real(dp), intent(in) :: datum, reduced_gap(:), force(:), motion
     logical, intent(in) :: contact(:)
     real(dp) :: anew
-    real(dp) :: length(size(shape))
+    real(dp) :: length(size(reduced_gap))
     integer :: j, k, n
 
-    n = size(shape)
-    length = abs(shape - motion) + terms_of(alpha, datum, contact, force)
+    n = size(reduced_gap)
+    length = abs(reduced_gap - motion) + terms_of(alpha, datum, contact, force)
     ! A force that may be rounding is no contact.
     k = minloc(length, dim=1, mask=contact .and. force > sqrt(epsilon(motion))*maxval(force))
-    anew = shape(k)
+    anew = reduced_gap(k)
     do j = 1, n
       if (contact(j)) anew = anew + (alpha(k, j) - datum)*force(j)
     end do
@@ -147,21 +147,22 @@ contains
   !> in double precision does; otherwise residuals are in extended precision, which
   !> sees errors of the forces that double precision cannot. With the ridge of the
   !> factor the system solved is that of alpha and the ridge, with 0 that of alpha.
-  subroutine refine(alpha, datum, modes, shape, load, factor, ridge, contact, force, motion)
+  subroutine refine(alpha, datum, modes, reduced_gap, load, factor, ridge, contact, force, motion)
     real(dp), intent(in), contiguous :: alpha(:, :), modes(:, :)
-    real(dp), intent(in) :: datum, shape(:), load(:), ridge
+    real(dp), intent(in) :: datum, reduced_gap(:), load(:), ridge
     type(contact_factor), intent(in) :: factor
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: force(:), motion(:)
-    real(dp) :: residual(size(shape)), correction(size(shape)), missing(size(load)), shift(size(load)), change, last
+    real(dp) :: residual(size(reduced_gap)), correction(size(reduced_gap)), missing(size(load)), shift(size(load)), &
+      change, last
     integer :: step
 
     if (factor%spread < WELL_CONDITIONED .and. .not. factor%ridge > 0.0_dp) then
-      residual = shape - displaced(modes, motion)
+      residual = reduced_gap - displaced(modes, motion)
       call add_deflection(alpha, datum, contact, force, residual)
       missing = load - matmul(force, modes)
     else
-      call extended_residual(alpha, modes, shape, load, datum, ridge, contact, force, motion, residual, missing)
+      call extended_residual(alpha, modes, reduced_gap, load, datum, ridge, contact, force, motion, residual, missing)
     end if
     last = huge(last)
     do step = 1, REFINEMENTS
@@ -173,21 +174,22 @@ contains
       motion = motion + shift
       if (change <= EXACT_ENOUGH*maxval(abs(force))) exit
       last = change
-      call extended_residual(alpha, modes, shape, load, datum, ridge, contact, force, motion, residual, missing)
+      call extended_residual(alpha, modes, reduced_gap, load, datum, ridge, contact, force, motion, residual, missing)
     end do
   end subroutine refine
 
   !> The residual of gaps and equilibrium on the contact set.
-  pure subroutine extended_residual(alpha, modes, shape, load, datum, ridge, contact, force, motion, residual, missing)
+  pure subroutine extended_residual(alpha, modes, reduced_gap, load, datum, ridge, contact, force, motion, residual, &
+                                    missing)
     real(dp), intent(in), contiguous :: alpha(:, :), modes(:, :)
-    real(dp), intent(in) :: shape(:), load(:), datum, ridge, force(:), motion(:)
+    real(dp), intent(in) :: reduced_gap(:), load(:), datum, ridge, force(:), motion(:)
     logical, intent(in) :: contact(:)
     real(dp), intent(out) :: residual(:), missing(:)
-    real(xp) :: sums(size(shape))
+    real(xp) :: sums(size(reduced_gap))
     integer :: j, n
 
-    n = size(shape)
-    sums = real(shape, xp) + real(ridge, xp)*real(force, xp)
+    n = size(reduced_gap)
+    sums = real(reduced_gap, xp) + real(ridge, xp)*real(force, xp)
     do j = 1, n
       if (contact(j)) sums = sums + (real(alpha(:n, j), xp) - real(datum, xp))*real(force(j), xp)
     end do

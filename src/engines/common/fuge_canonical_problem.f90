@@ -11,14 +11,14 @@ module fuge_canonical_problem
   implicit none
   private
 
-  public :: make_scene
+  public :: make_canonical
 
   !> A motion is no other than the rest if less than this part of it remains.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
   !> A constant is made of the motions if less than this part of it remains.
   real(dp), parameter :: CONSTANT_TOLERANCE = 1.0e-13_dp
 
-  type, public :: contact_scene
+  type, public :: canonical_problem
     !> Gaps less the prescribed motions, (n), length.
     real(dp), allocatable :: gap(:)
     !> Play, (n), length; huge where one-sided.
@@ -28,7 +28,7 @@ module fuge_canonical_problem
     !> Free motions made orthogonal, (n, m), of size about 1, and the resultants in them.
     real(dp), allocatable :: modes(:, :), load(:)
     !> modes(:, 1) is 1: a constant in gaps or displacements moves only that motion.
-    logical :: constant = .false.
+    logical :: has_translation = .false.
     !> Forces at few points in equilibrium with the load, (n); not made if plain.
     real(dp), allocatable :: start(:)
     !> The paper's problem.
@@ -43,129 +43,130 @@ module fuge_canonical_problem
     integer, allocatable, private :: outside(:)
     real(dp), allocatable, private :: rows(:, :)
   contains
-    procedure :: motions
+    procedure :: mode_count
     procedure :: motions_of
     procedure :: change_of
     procedure :: open_outside
     procedure :: named_motion
-  end type contact_scene
+  end type canonical_problem
 
 contains
 
   !> The scene of a checked problem. Errors: FUGE_ERR_MEMORY, FUGE_ERR_MODES for motions
   !> that depend on each other, FUGE_ERR_NO_EQUILIBRIUM.
-  subroutine make_scene(problem, scene, info)
+  subroutine make_canonical(problem, canonical, info)
     type(fuge_problem), intent(in) :: problem
-    type(contact_scene), intent(out) :: scene
+    type(canonical_problem), intent(out) :: canonical
     type(fuge_info), intent(inout) :: info
     integer :: j, n, m, stat
 
     n = problem%points()
-    scene%plain = problem%is_plain()
-    allocate (scene%gap(n), scene%upper(n), scene%excluded(n), stat=stat)
+    canonical%plain = problem%is_plain()
+    allocate (canonical%gap(n), canonical%upper(n), canonical%excluded(n), stat=stat)
     if (stat == 0) then
-      scene%gap = problem%gap
-      scene%upper = huge(1.0_dp)
-      scene%excluded = .false.
-      if (allocated(problem%gap_upper)) scene%upper = min(problem%gap_upper, huge(1.0_dp))
-      if (allocated(problem%excluded)) scene%excluded = problem%excluded
-      scene%free = [(j, j=1, problem%motions())]
-      if (allocated(problem%prescribed)) scene%free = pack(scene%free, .not. problem%prescribed)
-      m = size(scene%free)
-      allocate (scene%modes(n, m), scene%load(m), scene%mixing(m, m), stat=stat)
+      canonical%gap = problem%gap
+      canonical%upper = huge(1.0_dp)
+      canonical%excluded = .false.
+      if (allocated(problem%gap_upper)) canonical%upper = min(problem%gap_upper, huge(1.0_dp))
+      if (allocated(problem%excluded)) canonical%excluded = problem%excluded
+      canonical%free = [(j, j=1, problem%mode_count())]
+      if (allocated(problem%prescribed)) canonical%free = pack(canonical%free, .not. problem%prescribed)
+      m = size(canonical%free)
+      allocate (canonical%modes(n, m), canonical%load(m), canonical%mixing(m, m), stat=stat)
     end if
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
       return
     end if
-    call take_prescribed(problem, scene)
-    call take_outside(problem, scene)
+    call take_prescribed(problem, canonical)
+    call take_outside(problem, canonical)
     if (.not. allocated(problem%modes)) then
-      scene%constant = m == 1
-      scene%modes = 1.0_dp
-      scene%mixing = 1.0_dp
-      if (m == 1) scene%load = problem%resultant
+      canonical%has_translation = m == 1
+      canonical%modes = 1.0_dp
+      canonical%mixing = 1.0_dp
+      if (m == 1) canonical%load = problem%resultant
     else if (m > 0) then
-      call orthogonalise(problem%modes(:, scene%free), problem%resultant(scene%free), scene, info)
+      call orthogonalise(problem%modes(:, canonical%free), problem%resultant(canonical%free), canonical, info)
     end if
-    if (.not. (info%failed() .or. scene%plain)) call require_equilibrium(problem, scene, info)
-  end subroutine make_scene
+    if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info)
+  end subroutine make_canonical
 
   !> Prescribed motions change the gaps.
-  pure subroutine take_prescribed(problem, scene)
+  pure subroutine take_prescribed(problem, canonical)
     type(fuge_problem), intent(in) :: problem
-    type(contact_scene), intent(inout) :: scene
+    type(canonical_problem), intent(inout) :: canonical
     integer :: j
 
-    allocate (scene%prescribed(problem%motions()))
-    scene%prescribed = .false.
+    allocate (canonical%prescribed(problem%mode_count()))
+    canonical%prescribed = .false.
     if (.not. allocated(problem%prescribed)) return
-    scene%prescribed = problem%prescribed
-    allocate (scene%given(problem%points(), problem%motions()))
-    scene%given = 0.0_dp
-    do j = 1, problem%motions()
+    canonical%prescribed = problem%prescribed
+    allocate (canonical%given(problem%points(), problem%mode_count()))
+    canonical%given = 0.0_dp
+    do j = 1, problem%mode_count()
       if (.not. problem%prescribed(j)) cycle
-      scene%given(:, j) = 1.0_dp
-      if (allocated(problem%modes)) scene%given(:, j) = problem%modes(:, j)
-      scene%gap = scene%gap - problem%motion(j)*scene%given(:, j)
+      canonical%given(:, j) = 1.0_dp
+      if (allocated(problem%modes)) canonical%given(:, j) = problem%modes(:, j)
+      canonical%gap = canonical%gap - problem%motion(j)*canonical%given(:, j)
     end do
   end subroutine take_prescribed
 
   !> Rows of R at the excluded points.
-  pure subroutine take_outside(problem, scene)
+  pure subroutine take_outside(problem, canonical)
     type(fuge_problem), intent(in) :: problem
-    type(contact_scene), intent(inout) :: scene
+    type(canonical_problem), intent(inout) :: canonical
     integer :: k
 
-    scene%outside = pack([(k, k=1, size(scene%excluded))], scene%excluded)
-    allocate (scene%rows(size(scene%outside), problem%motions()))
-    scene%rows = 1.0_dp
-    if (allocated(problem%modes)) scene%rows = problem%modes(scene%outside, :)
+    canonical%outside = pack([(k, k=1, size(canonical%excluded))], canonical%excluded)
+    allocate (canonical%rows(size(canonical%outside), problem%mode_count()))
+    canonical%rows = 1.0_dp
+    if (allocated(problem%modes)) canonical%rows = problem%modes(canonical%outside, :)
   end subroutine take_outside
 
   !> Modes of equal size, orthogonal at the points that take part; the first is 1 if that
   !> is made of the given ones.
-  subroutine orthogonalise(given, resultant, scene, info)
+  subroutine orthogonalise(given, resultant, canonical, info)
     real(dp), intent(in) :: given(:, :), resultant(:)
-    type(contact_scene), intent(inout) :: scene
+    type(canonical_problem), intent(inout) :: canonical
     type(fuge_info), intent(inout) :: info
     real(dp) :: scales(size(given, 2)), part(size(given, 1), size(given, 2))
     integer :: order(size(given, 2)), m, rank, replaced
 
     m = size(given, 2)
     part = given
-    where (spread(scene%excluded, 2, m)) part = 0.0_dp
+    where (spread(canonical%excluded, 2, m)) part = 0.0_dp
     scales = maxval(abs(part), dim=1)
     if (any(.not. scales > 0.0_dp)) then
-      call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(minloc(scales, dim=1)))//' moves no point')
+      call report(info, FUGE_ERR_MODES, 'mode '//text(canonical%free(minloc(scales, dim=1)))//' moves no point')
       return
     end if
     part = part/spread(scales, 1, size(part, 1))
     if (is_orthogonal(part)) then
       ! Several bodies: mixing them would cost the smallest resultant its digits.
-      call keep_modes(part, scales, resultant, scene)
+      call keep_modes(part, scales, resultant, canonical)
       return
     end if
     call orthonormal_base(part, .true., order, rank)
     if (rank < m) then
-      call report(info, FUGE_ERR_MODES, 'mode '//text(scene%free(order(rank + 1)))//' is made of the other modes: ' &
+      call report(info, FUGE_ERR_MODES, 'mode '//text(canonical%free(order(rank &
+          + 1)))//' is made of the other modes: ' &
                   //'leave it out')
       return
     end if
     ! `part` is now an orthonormal base.
-    call replace_by_constant(part, scene%excluded, replaced)
-    scene%constant = replaced > 0
-    if (scene%constant) then
+    call replace_by_constant(part, canonical%excluded, replaced)
+    canonical%has_translation = replaced > 0
+    if (canonical%has_translation) then
       part = cshift(part, replaced - 1, dim=2)
       call orthonormal_base(part, .false., order, rank)
     end if
     ! Rounding would let a point carry what does not move it.
     where (spread(all(abs(given) <= 0.0_dp, dim=2), 2, m)) part = 0.0_dp
-    part = part*sqrt(real(count(.not. scene%excluded), dp))
-    if (scene%constant) part(:, 1) = merge(0.0_dp, 1.0_dp, scene%excluded)
-    scene%modes = part
-    scene%mixing = matmul(transpose(part), given)/real(count(.not. scene%excluded), dp)
-    call solve_small(transpose(scene%mixing), resultant, scene%load)
+    part = part*sqrt(real(count(.not. canonical%excluded), dp))
+    if (canonical%has_translation) part(:, 1) = merge(0.0_dp, 1.0_dp, canonical%excluded)
+    canonical%modes = part
+    canonical%mixing = matmul(transpose(part), given)/real(count(.not. canonical%excluded), dp)
+    call solve_small(transpose(canonical%mixing), resultant, canonical%load)
   end subroutine orthogonalise
 
   !> Are the columns orthogonal to each other as they are?
@@ -184,29 +185,30 @@ contains
   end function is_orthogonal
 
   !> The modes as given but for their size, one that is constant first.
-  pure subroutine keep_modes(part, scales, resultant, scene)
+  pure subroutine keep_modes(part, scales, resultant, canonical)
     real(dp), intent(in) :: part(:, :), scales(:), resultant(:)
-    type(contact_scene), intent(inout) :: scene
+    type(canonical_problem), intent(inout) :: canonical
     real(dp) :: unit
     integer :: first, j, m, place
 
     m = size(scales)
     first = 0
     do j = m, 1, -1
-      if (minval(part(:, j), mask=.not. scene%excluded) >= maxval(part(:, j), mask=.not. scene%excluded)) first = j
+      if (minval(part(:, j), mask=.not. canonical%excluded) >= maxval(part(:, j), &
+                                                                      mask=.not. canonical%excluded)) first = j
     end do
-    scene%constant = first > 0
-    scene%mixing = 0.0_dp
+    canonical%has_translation = first > 0
+    canonical%mixing = 0.0_dp
     do j = 1, m
       ! Turning the order brings the constant mode to the front.
       place = modulo(j - max(first, 1), m) + 1
-      unit = norm2(part(:, j))/sqrt(real(count(.not. scene%excluded), dp))
+      unit = norm2(part(:, j))/sqrt(real(count(.not. canonical%excluded), dp))
       ! The constant is 1, not -1.
       if (j == first .and. any(part(:, j) < 0.0_dp)) unit = -unit
-      scene%modes(:, place) = part(:, j)/unit
-      if (j == first) scene%modes(:, place) = merge(0.0_dp, 1.0_dp, scene%excluded)
-      scene%mixing(place, j) = scales(j)*unit
-      scene%load(place) = resultant(j)/(scales(j)*unit)
+      canonical%modes(:, place) = part(:, j)/unit
+      if (j == first) canonical%modes(:, place) = merge(0.0_dp, 1.0_dp, canonical%excluded)
+      canonical%mixing(place, j) = scales(j)*unit
+      canonical%load(place) = resultant(j)/(scales(j)*unit)
     end do
   end subroutine keep_modes
 
@@ -271,32 +273,32 @@ contains
   end subroutine solve_small
 
   !> Number of motions, prescribed ones included.
-  pure function motions(self) result(m)
-    class(contact_scene), intent(in) :: self
+  pure function mode_count(self) result(m)
+    class(canonical_problem), intent(in) :: self
     integer :: m
 
     m = 0
     if (allocated(self%prescribed)) m = size(self%prescribed)
-  end function motions
+  end function mode_count
 
   !> All motions in the caller's order: the free ones from what an engine found in the
   !> orthogonal modes, the prescribed ones from `given` (m).
-  subroutine motions_of(self, given, found, rigid)
-    class(contact_scene), intent(in) :: self
+  subroutine motions_of(self, given, found, motion)
+    class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: given(:), found(:)
-    real(dp), intent(out) :: rigid(:)
+    real(dp), intent(out) :: motion(:)
     real(dp) :: free(size(found))
 
-    rigid = merge(given, 0.0_dp, self%prescribed)
+    motion = merge(given, 0.0_dp, self%prescribed)
     if (size(found) < 1) return
     call solve_small(self%mixing, found, free)
-    rigid(self%free) = free
+    motion(self%free) = free
   end subroutine motions_of
 
   !> The place, among all motions, of the one that has the largest part in a motion `way`
   !> (free ones) of the orthogonal modes.
   function named_motion(self, way) result(place)
-    class(contact_scene), intent(in) :: self
+    class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: way(:)
     integer :: place
     real(dp) :: free(size(way))
@@ -307,75 +309,76 @@ contains
 
   !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the
   !> scene's gaps and loads.
-  subroutine change_of(self, gap_change, load_change, shape, load)
-    class(contact_scene), intent(in) :: self
+  subroutine change_of(self, gap_change, load_change, reduced_gap, load)
+    class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: gap_change(:), load_change(:)
-    real(dp), allocatable, intent(out) :: shape(:), load(:)
+    real(dp), allocatable, intent(out) :: reduced_gap(:), load(:)
 
-    shape = gap_change
-    if (allocated(self%given)) shape = shape - matmul(self%given, merge(load_change, 0.0_dp, self%prescribed))
+    reduced_gap = gap_change
+    if (allocated(self%given)) reduced_gap = reduced_gap - matmul(self%given, merge(load_change, 0.0_dp, &
+        self%prescribed))
     allocate (load(size(self%free)))
     if (size(load) > 0) call solve_small(transpose(self%mixing), load_change(self%free), load)
   end subroutine change_of
 
   !> c = g + A f - R q at the excluded points, of `gap` g (n), `force` (n) and all
-  !> motions `rigid` (m), or of changes of these.
-  pure subroutine open_outside(self, alpha, gap, force, rigid, gap_out)
-    class(contact_scene), intent(in) :: self
-    real(dp), intent(in) :: alpha(:, :), gap(:), force(:), rigid(:)
+  !> motions `motion` (m), or of changes of these.
+  pure subroutine open_outside(self, alpha, gap, force, motion, gap_out)
+    class(canonical_problem), intent(in) :: self
+    real(dp), intent(in) :: alpha(:, :), gap(:), force(:), motion(:)
     real(dp), intent(inout) :: gap_out(:)
     integer :: k
 
     do k = 1, size(self%outside)
       associate (point => self%outside(k))
-        gap_out(point) = gap(point) + sum(alpha(point, :)*force) - sum(self%rows(k, :)*rigid)
+        gap_out(point) = gap(point) + sum(alpha(point, :)*force) - sum(self%rows(k, :)*motion)
       end associate
     end do
   end subroutine open_outside
 
   !> Forces to start with, or the reason why there are none.
-  subroutine require_equilibrium(problem, scene, info)
+  subroutine require_equilibrium(problem, canonical, info)
     type(fuge_problem), intent(in) :: problem
-    type(contact_scene), intent(inout) :: scene
+    type(canonical_problem), intent(inout) :: canonical
     type(fuge_info), intent(inout) :: info
-    real(dp) :: remainder(size(scene%load))
+    real(dp) :: remainder(size(canonical%load))
     integer :: stat
 
-    allocate (scene%start(size(scene%gap)), stat=stat)
+    allocate (canonical%start(size(canonical%gap)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium')
       return
     end if
-    scene%start = 0.0_dp
-    if (size(scene%load) < 1) return
-    call find_equilibrium(scene%modes, scene%load, .not. scene%excluded, &
-                          scene%upper < huge(1.0_dp) .and. .not. scene%excluded, scene%start, remainder)
-    if (any(abs(remainder) > 0.0_dp)) call explain_missing(problem, scene, remainder, info)
+    canonical%start = 0.0_dp
+    if (size(canonical%load) < 1) return
+    call find_equilibrium(canonical%modes, canonical%load, .not. canonical%excluded, &
+                          canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded, canonical%start, remainder)
+    if (any(abs(remainder) > 0.0_dp)) call explain_missing(problem, canonical, remainder, info)
   end subroutine require_equilibrium
 
   !> Name the resultant that nothing can carry.
-  subroutine explain_missing(problem, scene, remainder, info)
+  subroutine explain_missing(problem, canonical, remainder, info)
     type(fuge_problem), intent(in) :: problem
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: remainder(:)
     type(fuge_info), intent(inout) :: info
     real(dp) :: motion(size(remainder))
     integer :: worst
 
-    if (all(scene%excluded)) then
+    if (all(canonical%excluded)) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'all points are excluded: nothing carries the resultant')
     else if (.not. allocated(problem%modes)) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'resultant '//text(problem%resultant(1))//' is negative: contact ' &
                   //'forces can only push, so it must be >= 0')
     else
-      call explain_line(problem, scene, 1, 2, info)
-      if (.not. info%failed()) call explain_line(problem, scene, 2, 1, info)
+      call explain_line(problem, canonical, 1, 2, info)
+      if (.not. info%failed()) call explain_line(problem, canonical, 2, 1, info)
       if (info%failed()) return
-      associate (w => problem%resultant(scene%free), r => problem%modes(:, scene%free))
-        call solve_small(scene%mixing, remainder, motion)
+      associate (w => problem%resultant(canonical%free), r => problem%modes(:, canonical%free))
+        call solve_small(canonical%mixing, remainder, motion)
         worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
         call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
-                    //' in motion '//text(scene%free(worst))//' together with the others: moving along it by ' &
+                    //' in motion '//text(canonical%free(worst))//' together with the others: moving along it by ' &
                     //text(motion(worst))//' closes no contact, but the resultants do work')
       end associate
     end if
@@ -383,20 +386,20 @@ contains
 
   !> A load that presses beside all points, of a translation and a tilt: there its line of
   !> action says more. Points that pull have no range.
-  subroutine explain_line(problem, scene, translation, tilt, info)
+  subroutine explain_line(problem, canonical, translation, tilt, info)
     type(fuge_problem), intent(in) :: problem
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: translation, tilt
     type(fuge_info), intent(inout) :: info
-    real(dp) :: x(size(scene%gap))
+    real(dp) :: x(size(canonical%gap))
 
-    if (size(scene%free) /= 2 .or. any(scene%upper < huge(x) .and. .not. scene%excluded)) return
-    associate (w => problem%resultant(scene%free), unit => problem%modes(:, scene%free(translation)))
+    if (size(canonical%free) /= 2 .or. any(canonical%upper < huge(x) .and. .not. canonical%excluded)) return
+    associate (w => problem%resultant(canonical%free), unit => problem%modes(:, canonical%free(translation)))
       if (.not. (minval(unit) > 0.0_dp .and. maxval(unit) <= minval(unit) .and. w(translation) > 0.0_dp)) return
-      x = problem%modes(:, scene%free(tilt))/unit
+      x = problem%modes(:, canonical%free(tilt))/unit
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(tilt)/w(translation)) &
-                  //', but the points reach from '//text(minval(x, mask=.not. scene%excluded))//' to ' &
-                  //text(maxval(x, mask=.not. scene%excluded))//' only: move the load between them')
+                  //', but the points reach from '//text(minval(x, mask=.not. canonical%excluded))//' to ' &
+                  //text(maxval(x, mask=.not. canonical%excluded))//' only: move the load between them')
     end associate
   end subroutine explain_line
 

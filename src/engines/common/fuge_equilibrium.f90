@@ -32,24 +32,24 @@ contains
     logical, intent(in) :: pushes(:), pulls(:)
     real(dp), intent(out) :: force(:), remainder(:)
     real(dp) :: wanted(size(force)), work(size(force))
-    integer :: side(size(force)), newest, iteration
+    integer :: state(size(force)), newest, iteration
 
     force = 0.0_dp
-    side = 0
+    state = 0
     remainder = resultant
     do iteration = 1, 20*(size(modes, 2) + 1) + size(force)
       if (is_met(modes, resultant, force, remainder)) exit
       work = matmul(modes, remainder)
       where (.not. pulls) work = max(work, 0.0_dp)
       where (.not. pushes) work = min(work, 0.0_dp)
-      where (side /= 0) work = 0.0_dp
+      where (state /= 0) work = 0.0_dp
       newest = maxloc(abs(work), dim=1)
       if (abs(work(newest)) <= ROUNDING*maxval(abs(remainder))*sum(abs(modes(newest, :)))) then
         if (proves(modes, resultant, pushes, pulls, remainder)) return
         exit
       end if
-      side(newest) = merge(1, -1, work(newest) > 0.0_dp)
-      call settle(modes, resultant, side, force, wanted)
+      state(newest) = merge(1, -1, work(newest) > 0.0_dp)
+      call settle(modes, resultant, state, force, wanted)
       remainder = resultant - matmul(force, modes)
     end do
     ! Met, or not decided: then the certificate has the last word.
@@ -90,37 +90,37 @@ contains
 
   !> Forces of least squares at the points in use, of which those leave that would change
   !> their sign, the first one first.
-  subroutine settle(modes, resultant, side, force, wanted)
+  subroutine settle(modes, resultant, state, force, wanted)
     real(dp), intent(in) :: modes(:, :), resultant(:)
-    integer, intent(inout) :: side(:)
+    integer, intent(inout) :: state(:)
     real(dp), intent(inout) :: force(:)
     real(dp), intent(out) :: wanted(:)
     real(dp) :: way
     integer :: blocking
 
     do
-      call solve_on(modes, resultant, side, wanted)
-      call find_blocking(force, wanted, side, way, blocking)
+      call solve_on(modes, resultant, state, wanted)
+      call find_blocking(force, wanted, state, way, blocking)
       if (blocking == 0) exit
       force = force + way*(wanted - force)
       ! One leaves in each turn, so that this ends.
-      side(blocking) = 0
+      state(blocking) = 0
       force(blocking) = 0.0_dp
     end do
     force = wanted
   end subroutine settle
 
   !> Least squares forces at the points in use.
-  subroutine solve_on(modes, resultant, side, force)
+  subroutine solve_on(modes, resultant, state, force)
     real(dp), intent(in) :: modes(:, :), resultant(:)
-    integer, intent(in) :: side(:)
+    integer, intent(in) :: state(:)
     real(dp), intent(out) :: force(:)
-    real(dp) :: matrix(size(modes, 2), count(side /= 0)), right(max(size(modes, 2), count(side /= 0)))
-    real(dp) :: work(64*(size(modes, 2) + count(side /= 0)) + 64)
-    integer :: points(count(side /= 0)), order(count(side /= 0)), k, p, m, rank, info
+    real(dp) :: matrix(size(modes, 2), count(state /= 0)), right(max(size(modes, 2), count(state /= 0)))
+    real(dp) :: work(64*(size(modes, 2) + count(state /= 0)) + 64)
+    integer :: points(count(state /= 0)), order(count(state /= 0)), k, p, m, rank, info
 
     m = size(modes, 2)
-    points = pack([(k, k=1, size(side))], side /= 0)
+    points = pack([(k, k=1, size(state))], state /= 0)
     p = size(points)
     matrix = transpose(modes(points, :))
     right = 0.0_dp
@@ -133,9 +133,9 @@ contains
 
   !> The part of the way to the wanted forces until the first changes its sign, and which;
   !> 0 if none does.
-  pure subroutine find_blocking(force, wanted, side, way, blocking)
+  pure subroutine find_blocking(force, wanted, state, way, blocking)
     real(dp), intent(in) :: force(:), wanted(:)
-    integer, intent(in) :: side(:)
+    integer, intent(in) :: state(:)
     real(dp), intent(out) :: way
     integer, intent(out) :: blocking
     real(dp) :: part
@@ -144,7 +144,7 @@ contains
     way = 1.0_dp
     blocking = 0
     do k = 1, size(force)
-      if (side(k) == 0 .or. wanted(k)*side(k) > 0.0_dp) cycle
+      if (state(k) == 0 .or. wanted(k)*state(k) > 0.0_dp) cycle
       part = 0.0_dp
       if (abs(force(k) - wanted(k)) > 0.0_dp) part = min(max(force(k)/(force(k) - wanted(k)), 0.0_dp), 1.0_dp)
       if (blocking > 0 .and. part >= way) cycle

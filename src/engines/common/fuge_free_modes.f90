@@ -3,7 +3,7 @@ module fuge_free_modes
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgeqp3, dorgqr
-  use fuge_canonical_problem, only: contact_scene
+  use fuge_canonical_problem, only: canonical_problem
   implicit none
   private
 
@@ -20,47 +20,47 @@ contains
   !> A way (m) in which the bodies of an answer can move without a change of force, or zero
   !> if there is none: the motions are unique then.
   !>
-  !> `side` (n), `force` (n) and `gap` (n) of the answer in `scene`.
-  subroutine find_free_way(scene, side, force, gap, way)
-    type(contact_scene), intent(in) :: scene
-    integer, intent(in) :: side(:)
+  !> `state` (n), `force` (n) and `gap` (n) of the answer in `canonical`.
+  subroutine find_free_way(canonical, state, force, gap, way)
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
     real(dp), intent(in) :: force(:), gap(:)
     real(dp), intent(out) :: way(:)
     real(dp), allocatable :: base(:, :)
-    real(dp) :: work(size(side))
-    logical :: held(size(side)), pushes(size(side)), pulls(size(side))
+    real(dp) :: work(size(state))
+    logical :: held(size(state)), pushes(size(state)), pulls(size(state))
     integer :: j
 
     way = 0.0_dp
-    held = holds(scene, side, force)
-    call find_loose(scene%modes, held, base)
+    held = holds(canonical, state, force)
+    call find_loose(canonical%modes, held, base)
     ! Points that touch without force bar one sense.
-    pushes = held .or. ((side > 0 .or. gap <= 0.0_dp) .and. .not. scene%excluded)
-    pulls = held .or. ((side < 0 .or. gap >= scene%upper) .and. .not. scene%excluded)
+    pushes = held .or. ((state > 0 .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
+    pulls = held .or. ((state < 0 .or. gap >= canonical%upper) .and. .not. canonical%excluded)
     do j = 1, size(base, 2)
-      call find_equilibrium(scene%modes, base(:, j), pushes, pulls, work, way)
+      call find_equilibrium(canonical%modes, base(:, j), pushes, pulls, work, way)
       if (any(abs(way) > 0.0_dp)) return
-      call find_equilibrium(scene%modes, -base(:, j), pushes, pulls, work, way)
+      call find_equilibrium(canonical%modes, -base(:, j), pushes, pulls, work, way)
       if (any(abs(way) > 0.0_dp)) return
     end do
   end subroutine find_free_way
 
   !> Points (n) that are tied, or that carry more force than rounding makes.
-  pure function holds(scene, side, force) result(held)
-    type(contact_scene), intent(in) :: scene
-    integer, intent(in) :: side(:)
+  pure function holds(canonical, state, force) result(held)
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
     real(dp), intent(in) :: force(:)
-    logical :: held(size(side))
-    real(dp) :: measure(size(side))
+    logical :: held(size(state))
+    real(dp) :: measure(size(state))
     integer :: j
 
     measure = 0.0_dp
-    do j = 1, size(scene%load)
-      measure = max(measure, abs(scene%modes(:, j)*scene%load(j)))
+    do j = 1, size(canonical%load)
+      measure = max(measure, abs(canonical%modes(:, j)*canonical%load(j)))
     end do
     ! Without a load of its own a body may be squeezed between stops.
     where (.not. measure > 0.0_dp) measure = maxval(abs(force))
-    held = side /= 0 .and. (abs(force) > NO_FORCE*measure .or. .not. scene%upper > 0.0_dp)
+    held = state /= 0 .and. (abs(force) > NO_FORCE*measure .or. .not. canonical%upper > 0.0_dp)
   end function holds
 
   !> An orthonormal base of the motions q with R q = 0 at the points `held` (n).

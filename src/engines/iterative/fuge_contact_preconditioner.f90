@@ -1,11 +1,11 @@
-!> The filter of an operator cut to a contact set: what preconditions the conjugate
+!> The preconditioner of an operator cut to a contact set: what preconditions the conjugate
 !> gradients there.
 !>
-!> Cut to one stretch of contact the filter is the inverse of the cut operator but for
+!> Cut to one stretch of contact the preconditioner is the inverse of the cut operator but for
 !> a few directions. Cut to many it makes too much of forces that change from stretch to
 !> stretch but little within each: seen from afar these are a smooth load that sinks much
-!> deeper than the filter believes. Then the cells are taken together, sixteen by
-!> sixteen, and again: each grid's own filter sees what varies within sixteen cells of
+!> deeper than the preconditioner believes. Then the cells are taken together, sixteen by
+!> sixteen, and again: each grid's own preconditioner sees what varies within sixteen cells of
 !> it, the next one sees the means. doc/theory.md shows that the sum of these parts is
 !> symmetric and positive definite.
 module fuge_contact_preconditioner
@@ -27,7 +27,7 @@ module fuge_contact_preconditioner
   !> More levels than any grid has.
   integer, parameter :: MOST_LEVELS = 8
 
-  type :: filter_level
+  type :: preconditioner_level
     !> Not allocated on the finest level, where the caller has it.
     class(fuge_operator), allocatable :: operator
     !> Points in contact in each cell: how often it counts.
@@ -36,49 +36,49 @@ module fuge_contact_preconditioner
     real(dp), allocatable :: present(:)
     !> A length, zero off the contact: work space.
     real(dp), allocatable :: length(:)
-  end type filter_level
+  end type preconditioner_level
 
   !> Forces on the cells of a level, apart from it because they are what it makes.
   type :: level_force
     real(dp), allocatable :: values(:)
   end type level_force
 
-  type, public :: contact_filter
+  type, public :: contact_preconditioner
     !> Made when several levels are wanted.
-    type(filter_level), allocatable, private :: levels(:)
+    type(preconditioner_level), allocatable, private :: levels(:)
     type(level_force), allocatable, private :: forces(:)
     !> The present set, (n).
     logical, allocatable, private :: contact(:)
-    !> Levels in use for the present set; 0 without a filter.
+    !> Levels in use for the present set; 0 without a preconditioner.
     integer, private :: depth = 0
     !> Forces that sink all contact points alike, nearly, and their sum.
     real(dp), allocatable, private :: even(:)
     real(dp), private :: sum_of_even = 1.0_dp
-    !> Stands for the filter where the operator has none; force per length.
+    !> Stands for the preconditioner where the operator has none; force per length.
     real(dp), private :: stiffness = 1.0_dp
-    !> Filter applications on coarser grids, as parts of one on this grid.
+    !> Preconditioner applications on coarser grids, as parts of one on this grid.
     real(dp) :: coarse_share = 0.0_dp
   contains
     procedure :: set
     procedure :: apply
-  end type contact_filter
+  end type contact_preconditioner
 
 contains
 
   !> Make ready for a contact set.
   !>
   !> `contact` (n); `softness` a typical length per force, used where the
-  !> operator has no filter. Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE for a filter
-  !> that is not positive definite, those of the filter.
+  !> operator has no preconditioner. Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE for a preconditioner
+  !> that is not positive definite, those of the preconditioner.
   subroutine set(self, operator, contact, softness, info)
-    class(contact_filter), intent(inout) :: self
+    class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     logical, intent(in) :: contact(:)
     real(dp), intent(in) :: softness
     type(fuge_info), intent(inout) :: info
     type(stretches) :: over
 
-    if (.not. operator%has_filter()) then
+    if (.not. operator%has_preconditioner()) then
       ! Only to stay in range: conjugate gradients do not depend on it.
       self%stiffness = 1.0_dp
       if (softness >= tiny(softness)) self%stiffness = 1.0_dp/softness
@@ -91,15 +91,16 @@ contains
     if (.not. info%failed()) call make_ready(self, operator, contact, size(over%first) >= MANY_STRETCHES, info)
     if (info%failed()) return
     if (self%depth == 1) then
-      call filter_equal(operator, contact, self%even, info)
+      call precondition_equal(operator, contact, self%even, info)
     else
       self%levels(1)%length = self%levels(1)%weight
-      call filter_from(self%levels(:self%depth), self%forces, operator, self%even, self%coarse_share, info)
+      call precondition_from(self%levels(:self%depth), self%forces, operator, self%even, self%coarse_share, info)
     end if
     if (info%failed()) return
     self%sum_of_even = total(over, self%even)
     if (over%points > 0 .and. .not. self%sum_of_even > 0.0_dp) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'the filter of the operator is not positive definite: equal lengths ' &
+      call report(info, FUGE_ERR_NOT_DEFINITE, &
+                  'the preconditioner of the operator is not positive definite: equal lengths ' &
                   //'on the contact set have the energy '//text(self%sum_of_even))
     end if
   end subroutine set
@@ -108,9 +109,9 @@ contains
   !> `balanced`.
   !>
   !> `over` the stretches of its set; `length` (n), zero off them; `force` (n), off them
-  !> anything. Errors: those of the filter.
+  !> anything. Errors: those of the preconditioner.
   subroutine apply(self, operator, over, balanced, length, force, info)
-    class(contact_filter), intent(inout) :: self
+    class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(stretches), intent(in) :: over
     logical, intent(in) :: balanced
@@ -125,7 +126,7 @@ contains
       call precondition(operator, length, force, info)
     else if (self%depth > 1) then
       self%levels(1)%length = length
-      call filter_from(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
+      call precondition_from(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
     end if
     if (info%failed()) return
     if (self%depth > 0 .and. balanced) excess = total(over, force)/self%sum_of_even
@@ -142,7 +143,7 @@ contains
 
   !> Remember the set, and make all levels there are if `many` stretches want them.
   subroutine make_ready(self, operator, contact, many, info)
-    class(contact_filter), intent(inout) :: self
+    class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     logical, intent(in) :: contact(:), many
     type(fuge_info), intent(inout) :: info
@@ -172,7 +173,7 @@ contains
   subroutine make_level(operator, number, level, force, stat)
     class(fuge_operator), intent(in) :: operator
     integer, intent(in) :: number
-    type(filter_level), intent(inout) :: level
+    type(preconditioner_level), intent(inout) :: level
     type(level_force), intent(inout) :: force
     integer, intent(out) :: stat
     class(fuge_operator), allocatable :: coarse
@@ -187,8 +188,8 @@ contains
     if (stat /= 0) deallocate (level%operator)
   end subroutine make_level
 
-  !> What the filter makes of equal lengths on the set.
-  subroutine filter_equal(operator, contact, force, info)
+  !> What the preconditioner makes of equal lengths on the set.
+  subroutine precondition_equal(operator, contact, force, info)
     class(fuge_operator), intent(in) :: operator
     logical, intent(in) :: contact(:)
     real(dp), intent(inout), contiguous :: force(:)
@@ -203,9 +204,9 @@ contains
       length = merge(1.0_dp, 0.0_dp, contact)
       call precondition(operator, length, force, info)
     end if
-  end subroutine filter_equal
+  end subroutine precondition_equal
 
-  !> A coarser grid of the right number of cells with a filter.
+  !> A coarser grid of the right number of cells with a preconditioner.
   function is_usable(coarse, cells) result(usable)
     class(fuge_operator), intent(in), allocatable :: coarse
     integer, intent(in) :: cells
@@ -213,12 +214,12 @@ contains
 
     usable = allocated(coarse)
     if (usable) usable = coarse%points() == cells
-    if (usable) usable = coarse%has_filter()
+    if (usable) usable = coarse%has_preconditioner()
   end function is_usable
 
   !> Count the points in contact in the cells of every level.
   pure subroutine weigh(levels, contact)
-    type(filter_level), intent(inout) :: levels(:)
+    type(preconditioner_level), intent(inout) :: levels(:)
     logical, intent(in) :: contact(:)
     integer :: k, l
 
@@ -231,11 +232,11 @@ contains
     end do
   end subroutine weigh
 
-  !> Force on each point by the filters of these levels; the length is in
+  !> Force on each point by the preconditionings of these levels; the length is in
   !> levels(1)%length, zero off the contact, and is used up. Off the contact the forces
   !> mean nothing. `operator` that of the finest grid.
-  recursive subroutine filter_from(levels, forces, operator, force, coarse_share, info)
-    type(filter_level), intent(inout) :: levels(:)
+  recursive subroutine precondition_from(levels, forces, operator, force, coarse_share, info)
+    type(preconditioner_level), intent(inout) :: levels(:)
     type(level_force), intent(inout) :: forces(:)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(inout), contiguous :: force(:)
@@ -251,20 +252,20 @@ contains
       end if
     end if
     if (allocated(levels(1)%operator)) then
-      call filter_coarse(levels(1), operator%points(), force, coarse_share, info)
+      call precondition_coarse(levels(1), operator%points(), force, coarse_share, info)
     else
       call precondition(operator, levels(1)%length, force, info)
     end if
     if (info%failed() .or. size(levels) == 1) return
     call mean_of_cells(levels(1)%weight, force, levels(2)%weight, forces(2)%values)
     call add_cells(-1.0_dp, forces(2)%values, force)
-    call filter_from(levels(2:), forces(2:), operator, forces(2)%values, coarse_share, info)
+    call precondition_from(levels(2:), forces(2:), operator, forces(2)%values, coarse_share, info)
     call add_cells(1.0_dp, forces(2)%values, force)
-  end subroutine filter_from
+  end subroutine precondition_from
 
-  !> The filter of a coarser grid; the force on a cell is shared by its points in contact.
-  subroutine filter_coarse(level, points, force, coarse_share, info)
-    type(filter_level), intent(in) :: level
+  !> The preconditioner of a coarser grid; the force on a cell is shared by its points in contact.
+  subroutine precondition_coarse(level, points, force, coarse_share, info)
+    type(preconditioner_level), intent(in) :: level
     integer, intent(in) :: points
     real(dp), intent(inout), contiguous :: force(:)
     real(dp), intent(inout) :: coarse_share
@@ -276,7 +277,7 @@ contains
     if (coarse%failed()) call report(info, coarse%status, 'on the grid of '//text(size(force))//' cells: ' &
                                      //coarse%message)
     where (level%weight > 0.0_dp) force = force/level%weight
-  end subroutine filter_coarse
+  end subroutine precondition_coarse
 
   !> Means over groups of sixteen, each point counted `weight` times; 0 without any.
   pure subroutine mean_of_cells(weight, fine, coarse_weight, coarse)

@@ -2,7 +2,7 @@
 !> well enough to change sides, and the way down the energy where that does not get on.
 module fuge_contact_set_search
   use fuge_set_exchange, only: exchange, exchange_in_row
-  use fuge_contact_preconditioner, only: contact_filter
+  use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_operator_type, only: fuge_operator
@@ -43,14 +43,14 @@ contains
   !>
   !> Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
-  subroutine find_contact(operator, wanted, shape, monitor, state, info)
+  subroutine find_contact(operator, wanted, reduced_gap, monitor, state, info)
     class(fuge_operator), intent(in) :: operator
     type(demands), intent(in) :: wanted
-    real(dp), intent(in), contiguous :: shape(:)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     class(fuge_monitor), intent(inout) :: monitor
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
-    type(contact_filter) :: filter
+    type(contact_preconditioner) :: preconditioner
     real(dp) :: before
     integer :: wrong, fewest, patience_left
     logical :: thorough, reached, in_row
@@ -63,15 +63,15 @@ contains
     state%contact = state%force > 0.0_dp
     call restart(operator, state, info)
     do while (.not. info%failed())
-      call settle(operator, wanted, filter, shape, thorough, monitor, state, reached, info)
+      call settle(operator, wanted, preconditioner, reduced_gap, thorough, monitor, state, reached, info)
       if (info%failed()) exit
       wrong = count(state%contact .and. state%force < 0.0_dp) &
-              + count(.not. state%contact .and. open_gap(shape, state%displacement, state%motion) &
+              + count(.not. state%contact .and. open_gap(reduced_gap, state%displacement, state%motion) &
                       < -noise_of(wanted, state))
       if (wrong == 0) then
         if (wanted%only_start) exit
         if (thorough .or. reached) then
-          call confirm(operator, wanted, shape, before, state, reached, info)
+          call confirm(operator, wanted, reduced_gap, before, state, reached, info)
           if (reached .or. info%failed()) exit
         end if
         thorough = .true.
@@ -82,19 +82,19 @@ contains
       if (wrong < fewest) patience_left = PATIENCE
       fewest = min(fewest, wrong)
       if (patience_left < 0) then
-        call descend(operator, wanted, filter, shape, monitor, state, info)
+        call descend(operator, wanted, preconditioner, reduced_gap, monitor, state, info)
         exit
       end if
-      call change_sides(shape, noise_of(wanted, state), in_row .and. 2*patience_left > PATIENCE, state, info)
+      call change_sides(reduced_gap, noise_of(wanted, state), in_row .and. 2*patience_left > PATIENCE, state, info)
       if (info%failed()) exit
       call restart(operator, state, info)
     end do
-    info%filters = info%filters + ceiling(filter%coarse_share)
+    info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
   end subroutine find_contact
 
   !> Points that pull leave, points that penetrate join. Error: FUGE_ERR_MEMORY.
-  subroutine change_sides(shape, noise, foresight, state, info)
-    real(dp), intent(in) :: shape(:), noise
+  subroutine change_sides(reduced_gap, noise, foresight, state, info)
+    real(dp), intent(in) :: reduced_gap(:), noise
     logical, intent(in) :: foresight
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
@@ -102,13 +102,13 @@ contains
     integer :: stat
 
     ! Not kept, to have the memory for products.
-    allocate (pulls(size(shape)), penetrates(size(shape)), stat=stat)
+    allocate (pulls(size(reduced_gap)), penetrates(size(reduced_gap)), stat=stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(shape))//' points')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(reduced_gap))//' points')
       return
     end if
     pulls = state%contact .and. state%force < 0.0_dp
-    penetrates = .not. state%contact .and. open_gap(shape, state%displacement, state%motion) < -noise
+    penetrates = .not. state%contact .and. open_gap(reduced_gap, state%displacement, state%motion) < -noise
     if (foresight) then
       call exchange_in_row(pulls, penetrates, state%contact)
     else
@@ -119,10 +119,10 @@ contains
   !> Is a set without wrong points solved, judged by a fresh product and not by
   !> recurrences, which drift? `done` also if the residual does not fall any more, from
   !> the one `before`: then the certificate has the last word.
-  subroutine confirm(operator, wanted, shape, before, state, done, info)
+  subroutine confirm(operator, wanted, reduced_gap, before, state, done, info)
     class(fuge_operator), intent(in) :: operator
     type(demands), intent(in) :: wanted
-    real(dp), intent(in), contiguous :: shape(:)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     real(dp), intent(inout) :: before
     type(iterate), intent(inout) :: state
     logical, intent(out) :: done
@@ -130,7 +130,7 @@ contains
 
     done = .false.
     call restart(operator, state, info)
-    if (.not. info%failed()) call measure(operator, shape, state, info)
+    if (.not. info%failed()) call measure(operator, reduced_gap, state, info)
     if (info%failed()) return
     done = state%residual <= MARGIN*wanted%tolerance*state%least_length .or. .not. state%residual < 0.5_dp*before
     before = state%residual
@@ -146,11 +146,11 @@ contains
   end function noise_of
 
   !> Solve for the forces of the present set; one more iteration.
-  subroutine settle(operator, wanted, filter, shape, thorough, monitor, state, reached, info)
+  subroutine settle(operator, wanted, preconditioner, reduced_gap, thorough, monitor, state, reached, info)
     class(fuge_operator), intent(in) :: operator
     type(demands), intent(in) :: wanted
-    type(contact_filter), intent(inout) :: filter
-    real(dp), intent(in), contiguous :: shape(:)
+    type(contact_preconditioner), intent(inout) :: preconditioner
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     logical, intent(in) :: thorough
     class(fuge_monitor), intent(inout) :: monitor
     type(iterate), intent(inout) :: state
@@ -165,9 +165,9 @@ contains
                   //'max_iterations (0 allows '//text(SETS_PER_POINT)//' for each point)')
       return
     end if
-    call filter%set(operator, state%contact, maxval(abs(state%displacement)), info)
+    call preconditioner%set(operator, state%contact, maxval(abs(state%displacement)), info)
     if (info%failed()) return
-    call relax(operator, filter, shape, MARGIN*wanted%tolerance, thorough, state, reached, info)
+    call relax(operator, preconditioner, reduced_gap, MARGIN*wanted%tolerance, thorough, state, reached, info)
     if (info%failed()) return
     info%iterations = info%iterations + 1
     relative = 0.0_dp
@@ -202,11 +202,11 @@ contains
   !> Down the energy: from pushing forces towards the answer of their set as far as no
   !> force pulls, then the point with the most negative gap joins, until none has one or
   !> sets are not solved well enough any more for that to mean something.
-  subroutine descend(operator, wanted, filter, shape, monitor, state, info)
+  subroutine descend(operator, wanted, preconditioner, reduced_gap, monitor, state, info)
     class(fuge_operator), intent(in) :: operator
     type(demands), intent(in) :: wanted
-    type(contact_filter), intent(inout) :: filter
-    real(dp), intent(in), contiguous :: shape(:)
+    type(contact_preconditioner), intent(inout) :: preconditioner
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     class(fuge_monitor), intent(inout) :: monitor
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
@@ -216,7 +216,7 @@ contains
     integer :: newest, n, stat
     logical :: reached
 
-    n = size(shape)
+    n = size(reduced_gap)
     allocate (force(n), barred(n), tied(n), side(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the way down the energy of '//text(n)//' points')
@@ -229,7 +229,7 @@ contains
     state%contact = state%force > 0.0_dp
     do while (.not. info%failed())
       force = state%force
-      call settle(operator, wanted, filter, shape, .true., monitor, state, reached, info)
+      call settle(operator, wanted, preconditioner, reduced_gap, .true., monitor, state, reached, info)
       if (info%failed()) exit
       if (any(state%contact .and. state%force <= 0.0_dp)) then
         side = merge(1, 0, state%contact)
@@ -238,19 +238,19 @@ contains
         state%force = force
       else
         if (newest > 0) barred = barred .and. barred(newest)
-        newest = worst_gap(shape, state, noise_of(wanted, state), barred)
+        newest = worst_gap(reduced_gap, state, noise_of(wanted, state), barred)
         if (newest == 0 .or. .not. reached) exit
         state%contact(newest) = .true.
       end if
       call restart(operator, state, info)
     end do
     if (.not. info%failed()) call restart(operator, state, info)
-    if (.not. info%failed()) call measure(operator, shape, state, info)
+    if (.not. info%failed()) call measure(operator, reduced_gap, state, info)
   end subroutine descend
 
   !> The point that penetrates most, of those not barred; 0 if there is none.
-  pure function worst_gap(shape, state, noise, barred) result(worst)
-    real(dp), intent(in) :: shape(:)
+  pure function worst_gap(reduced_gap, state, noise, barred) result(worst)
+    real(dp), intent(in) :: reduced_gap(:)
     type(iterate), intent(in) :: state
     real(dp), intent(in) :: noise
     logical, intent(in) :: barred(:)
@@ -260,9 +260,9 @@ contains
 
     worst = 0
     deepest = -noise
-    do k = 1, size(shape)
+    do k = 1, size(reduced_gap)
       if (state%contact(k) .or. barred(k)) cycle
-      gap = open_gap(shape(k), state%displacement(k), state%motion)
+      gap = open_gap(reduced_gap(k), state%displacement(k), state%motion)
       if (gap >= deepest) cycle
       worst = k
       deepest = gap

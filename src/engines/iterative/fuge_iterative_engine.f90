@@ -46,7 +46,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(iterate) :: state
     type(demands) :: wanted
-    real(dp), allocatable :: shape(:)
+    real(dp), allocatable :: reduced_gap(:)
     real(dp) :: lowest, load
     integer :: n, stat
 
@@ -55,7 +55,7 @@ contains
     if (info%failed()) return
     ! Made anew at the end, to have the memory until then.
     if (allocated(answer%force)) deallocate (answer%force, answer%gap)
-    allocate (shape(n), stat=stat)
+    allocate (reduced_gap(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(n)//' points')
       return
@@ -69,16 +69,16 @@ contains
     load = 1.0_dp
     if (wanted%held) lowest = problem%motion(1)
     if (.not. wanted%held) load = problem%resultant(1)
-    shape = (problem%gap - lowest)/load
-    if (wanted%held) call check_approach(operator, problem%motion(1), shape, info)
-    if (allocated(part) .and. .not. info%failed()) call judge_start(operator, wanted, shape, part, info)
-    if (.not. (info%failed() .or. allocated(part))) call climb(operator, wanted, shape, monitor, part, info)
+    reduced_gap = (problem%gap - lowest)/load
+    if (wanted%held) call check_approach(operator, problem%motion(1), reduced_gap, info)
+    if (allocated(part) .and. .not. info%failed()) call judge_start(operator, wanted, reduced_gap, part, info)
+    if (.not. (info%failed() .or. allocated(part))) call climb(operator, wanted, reduced_gap, monitor, part, info)
     if (.not. info%failed()) call make_iterate(state, n, info)
     if (info%failed()) return
     call set_start(wanted, part, state)
     wanted%tolerance = options%tolerance
     wanted%only_start = .false.
-    call find_contact(operator, wanted, shape, monitor, state, info)
+    call find_contact(operator, wanted, reduced_gap, monitor, state, info)
     if (info%failed()) return
     allocate (answer%force(n), answer%gap(n), stat=stat)
     if (stat /= 0) then
@@ -88,27 +88,27 @@ contains
     ! What is left of a force that should have become zero.
     where (state%force <= 4.0_dp*epsilon(1.0_dp)*maxval(state%force)) state%force = 0.0_dp
     answer%force = load*state%force
-    answer%gap = load*max(open_gap(shape, state%displacement, state%motion), 0.0_dp)
+    answer%gap = load*max(open_gap(reduced_gap, state%displacement, state%motion), 0.0_dp)
     where (state%contact) answer%gap = 0.0_dp
-    answer%rigid = lowest
-    if (.not. wanted%held) answer%rigid = (load*state%motion + operator%datum()*sum(answer%force)) + lowest
+    answer%motion = lowest
+    if (.not. wanted%held) answer%motion = (load*state%motion + operator%datum()*sum(answer%force)) + lowest
     call move_alloc(state%force, part)
   end subroutine solve_by_iteration
 
   !> Even forces may displace nothing, as on a periodic surface: then an approach at which
   !> the mean gap is closed cannot be held. Errors: FUGE_ERR_NO_EQUILIBRIUM,
   !> FUGE_ERR_MEMORY, those of the operator.
-  subroutine check_approach(operator, approach, shape, info)
+  subroutine check_approach(operator, approach, reduced_gap, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: approach
-    real(dp), intent(in), contiguous :: shape(:)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: force(:), displacement(:), terms(:)
     real(dp) :: mean
     integer :: n, stat
 
-    n = size(shape)
-    mean = sum(shape)/real(n, dp)
+    n = size(reduced_gap)
+    mean = sum(reduced_gap)/real(n, dp)
     if (mean > 0.0_dp) return
     allocate (force(n), displacement(n), terms(n), stat=stat)
     if (stat /= 0) then
@@ -142,10 +142,10 @@ contains
   end subroutine set_start
 
   !> Forget forces to start from that are far from the answer: coarser grids start better.
-  subroutine judge_start(operator, wanted, shape, part, info)
+  subroutine judge_start(operator, wanted, reduced_gap, part, info)
     class(fuge_operator), intent(in) :: operator
     type(demands), intent(in) :: wanted
-    real(dp), intent(in), contiguous :: shape(:)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     real(dp), allocatable, intent(inout) :: part(:)
     type(fuge_info), intent(inout) :: info
     type(iterate) :: state
@@ -156,7 +156,7 @@ contains
     call set_start(wanted, part, state)
     state%contact = part > 0.0_dp
     call restart(operator, state, info)
-    if (.not. info%failed()) call measure(operator, shape, state, info)
+    if (.not. info%failed()) call measure(operator, reduced_gap, state, info)
     if (info%failed()) return
     if (max(state%residual, state%penetration) > GOOD_START*state%least_length) deallocate (part)
   end subroutine judge_start
@@ -181,60 +181,60 @@ contains
 
   !> Forces to start from on the finest grid: those of the coarsest one, carried from grid
   !> to grid. `start` (n) stays unallocated where there are no coarser grids.
-  subroutine climb(operator, wanted, shape, monitor, start, info)
+  subroutine climb(operator, wanted, reduced_gap, monitor, start, info)
     class(fuge_operator), intent(in) :: operator
     type(demands), intent(in) :: wanted
-    real(dp), intent(in) :: shape(:)
+    real(dp), intent(in) :: reduced_gap(:)
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: start(:)
     type(fuge_info), intent(inout) :: info
     class(fuge_operator), allocatable :: coarse
-    real(dp) :: products, filters
+    real(dp) :: products, preconditionings
     integer :: k
 
     products = 0.0_dp
-    filters = 0.0_dp
+    preconditionings = 0.0_dp
     do k = digits(operator%points()) - 1, 1, -1
       call operator%coarsen(k, coarse)
       if (.not. allocated(coarse)) cycle
       if (coarse%points() /= (operator%points() - 1)/2**k + 1) cycle
-      call climb_onto(coarse, wanted, shape, 2**k, monitor, start, products, filters, info)
+      call climb_onto(coarse, wanted, reduced_gap, 2**k, monitor, start, products, preconditionings, info)
       if (info%failed()) exit
     end do
-    if (allocated(start) .and. .not. info%failed()) call refine_grid(size(shape), start, info)
+    if (allocated(start) .and. .not. info%failed()) call refine_grid(size(reduced_gap), start, info)
     info%products = info%products + ceiling(products)
-    info%filters = info%filters + ceiling(filters)
+    info%preconditionings = info%preconditionings + ceiling(preconditionings)
   end subroutine climb
 
   !> Solve on one coarser grid. `start` are the forces of the grid before, then those of
-  !> this one; `products` and `filters` grow by their share of the finest grid's.
-  subroutine climb_onto(coarse, wanted, shape, width, monitor, start, products, filters, info)
+  !> this one; `products` and `preconditionings` grow by their share of the finest grid's.
+  subroutine climb_onto(coarse, wanted, reduced_gap, width, monitor, start, products, preconditionings, info)
     class(fuge_operator), intent(in) :: coarse
     type(demands), intent(in) :: wanted
-    real(dp), intent(in) :: shape(:)
+    real(dp), intent(in) :: reduced_gap(:)
     integer, intent(in) :: width
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: start(:)
-    real(dp), intent(inout) :: products, filters
+    real(dp), intent(inout) :: products, preconditionings
     type(fuge_info), intent(inout) :: info
     type(iterate) :: state
     type(fuge_info) :: counted
-    real(dp), allocatable :: coarse_shape(:)
+    real(dp), allocatable :: coarse_gap(:)
     real(dp) :: share
     integer :: n
 
     n = coarse%points()
-    call shape_on_grid(shape, width, n, coarse_shape, info)
+    call restrict_gap(reduced_gap, width, n, coarse_gap, info)
     if (.not. info%failed()) call make_iterate(state, n, info)
     if (allocated(start) .and. .not. info%failed()) call refine_grid(n, start, info)
     if (info%failed()) return
     call set_start(wanted, start, state)
     counted%iterations = info%iterations
-    call find_contact(coarse, wanted, coarse_shape, monitor, state, counted)
+    call find_contact(coarse, wanted, coarse_gap, monitor, state, counted)
     info%iterations = counted%iterations
-    share = real(n, dp)/real(size(shape), dp)
+    share = real(n, dp)/real(size(reduced_gap), dp)
     products = products + share*real(counted%products, dp)
-    filters = filters + share*real(counted%filters, dp)
+    preconditionings = preconditionings + share*real(counted%preconditionings, dp)
     if (counted%failed()) then
       call report(info, counted%status, 'on the grid of '//text(n)//' points: '//counted%message)
     else
@@ -278,8 +278,8 @@ contains
   end subroutine interpolate
 
   !> Mean of the gaps over the cells of a coarser grid.
-  pure subroutine shape_on_grid(shape, width, cells, coarse, info)
-    real(dp), intent(in) :: shape(:)
+  pure subroutine restrict_gap(reduced_gap, width, cells, coarse, info)
+    real(dp), intent(in) :: reduced_gap(:)
     integer, intent(in) :: width, cells
     real(dp), allocatable, intent(out) :: coarse(:)
     type(fuge_info), intent(inout) :: info
@@ -292,9 +292,9 @@ contains
     end if
     do k = 1, cells
       first = (k - 1)*width + 1
-      last = min(k*width, size(shape))
-      coarse(k) = sum(shape(first:last))/real(last - first + 1, dp)
+      last = min(k*width, size(reduced_gap))
+      coarse(k) = sum(reduced_gap(first:last))/real(last - first + 1, dp)
     end do
-  end subroutine shape_on_grid
+  end subroutine restrict_gap
 
 end module fuge_iterative_engine

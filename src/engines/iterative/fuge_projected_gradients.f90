@@ -1,7 +1,7 @@
 !> Preconditioned conjugate gradients on a given contact set: forces change there only,
 !> their sum stays, and all gaps of the set become equal.
 module fuge_projected_gradients
-  use fuge_contact_preconditioner, only: contact_filter
+  use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_operator_products, only: multiply
@@ -20,7 +20,7 @@ module fuge_projected_gradients
   !> several times as many where alpha is badly conditioned.
   integer, parameter :: ITERATIONS_PER_POINT = 10
   integer, parameter :: SPARE_ITERATIONS = 20
-  !> And never more than these: then the operator needs a filter.
+  !> And never more than these: then the operator needs a preconditioner.
   integer, parameter :: MOST_ITERATIONS = 20000
   !> A negative energy below this part of its terms is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-10_dp
@@ -50,7 +50,7 @@ module fuge_projected_gradients
     !> Differences of the gaps from their mean and the direction of the next step, (n),
     !> zero off the contact.
     real(dp), allocatable, private :: remainder(:), direction(:)
-    !> In turn what the filter makes of `remainder` and the product with `direction`, (n).
+    !> In turn what the preconditioner makes of `remainder` and the product with `direction`, (n).
     real(dp), allocatable, private :: work(:)
   end type iterate
 
@@ -70,16 +70,16 @@ contains
 
   !> Go towards the forces for which the gaps of the contact set are equal.
   !>
-  !> `shape` (n) gaps per load; `state` forces, displacements and set, new forces and
+  !> `reduced_gap` (n) gaps per load; `state` forces, displacements and set, new forces and
   !> displacements on return (the latter by recurrence). Ends when the residual is at
   !> most `tolerance` times the least length of the set, which is `reached`; unless
   !> `thorough`, when it is small enough to tell which points pull and which penetrate;
   !> or when only rounding is left, or too many iterations have been made. Errors: those of the
   !> operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY.
-  subroutine relax(operator, filter, shape, tolerance, thorough, state, reached, info)
+  subroutine relax(operator, preconditioner, reduced_gap, tolerance, thorough, state, reached, info)
     class(fuge_operator), intent(in) :: operator
-    type(contact_filter), intent(inout) :: filter
-    real(dp), intent(in), contiguous :: shape(:)
+    type(contact_preconditioner), intent(inout) :: preconditioner
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     real(dp), intent(in) :: tolerance
     logical, intent(in) :: thorough
     type(iterate), intent(inout) :: state
@@ -87,12 +87,12 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: drift, tension, product, previous, curvature, step
     integer :: iteration, limit
-    logical :: judges_forces, filtered
+    logical :: judges_forces, preconditioned
 
     reached = .false.
-    filtered = operator%has_filter()
-    judges_forces = filtered .and. .not. thorough
-    call measure(operator, shape, state, info)
+    preconditioned = operator%has_preconditioner()
+    judges_forces = preconditioned .and. .not. thorough
+    call measure(operator, reduced_gap, state, info)
     if (info%failed()) return
     limit = min(ITERATIONS_PER_POINT*min(state%over%points, MOST_ITERATIONS) + SPARE_ITERATIONS, MOST_ITERATIONS)
     state%direction = 0.0_dp
@@ -101,7 +101,7 @@ contains
       reached = state%residual <= tolerance*state%least_length
       if (reached .or. iteration == limit) return
       if (iteration > 0 .and. .not. thorough .and. state%residual <= ENOUGH*state%penetration) return
-      call filter%apply(operator, state%over, .not. state%held, state%remainder, state%work, info)
+      call preconditioner%apply(operator, state%over, .not. state%held, state%remainder, state%work, info)
       if (info%failed()) return
       if (iteration > 0 .and. judges_forces) then
         call estimate(state, drift, tension)
@@ -109,7 +109,7 @@ contains
       end if
       product = inner(state%over, state%remainder, state%work)
       if (.not. product > 0.0_dp) then
-        call explain_filter(state, product, info)
+        call explain_preconditioner(state, product, info)
         return
       end if
       call turn(state%over, product/previous, state%work, state%direction)
@@ -122,9 +122,9 @@ contains
         return
       end if
       step = product/curvature
-      call advance(shape, step, state)
-      if (.not. (thorough .or. filtered)) then
-        ! Without a filter the last step stands for the error of the forces.
+      call advance(reduced_gap, step, state)
+      if (.not. (thorough .or. preconditioned)) then
+        ! Without a preconditioner the last step stands for the error of the forces.
         drift = step*largest(state%over, state%direction)
         tension = -minval(state%force)
         if (drift <= ENOUGH*tension) return
@@ -134,9 +134,9 @@ contains
 
   !> Motion, residual, penetration and least length of the present forces and
   !> displacements. Error: FUGE_ERR_MEMORY.
-  subroutine measure(operator, shape, state, info)
+  subroutine measure(operator, reduced_gap, state, info)
     class(fuge_operator), intent(in) :: operator
-    real(dp), intent(in), contiguous :: shape(:)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     type(iterate), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
     real(dp) :: sunk
@@ -144,32 +144,32 @@ contains
     call state%over%find(state%contact, info)
     if (info%failed()) return
     state%remainder = 0.0_dp
-    where (state%contact) state%remainder = shape + state%displacement
+    where (state%contact) state%remainder = reduced_gap + state%displacement
     state%motion = 0.0_dp
     call centre(state)
     ! The mean of large numbers is not exact: once more for what is left of it.
     call centre(state)
-    state%penetration = worst_penetration(shape, state)
+    state%penetration = worst_penetration(reduced_gap, state)
     call operator%magnitude(state%force, state%displacement, state%work)
     sunk = -state%motion
     if (state%held) sunk = operator%datum()*sum(state%force)
-    state%least_length = least_length(state, sunk, shape, state%work)
+    state%least_length = least_length(state, sunk, reduced_gap, state%work)
   end subroutine measure
 
   !> As in the certificate: what the displacement less the datum has to make up for, and
   !> its terms.
-  pure function least_length(state, sunk, shape, terms) result(least)
+  pure function least_length(state, sunk, reduced_gap, terms) result(least)
     type(iterate), intent(in) :: state
     real(dp), intent(in) :: sunk
-    real(dp), intent(in), contiguous :: shape(:), terms(:)
+    real(dp), intent(in), contiguous :: reduced_gap(:), terms(:)
     real(dp) :: least
     integer :: i, k
 
-    least = maxval(abs(shape))
+    least = maxval(abs(reduced_gap))
     if (state%over%points > 0) least = huge(least)
     do i = 1, size(state%over%first)
       do k = state%over%first(i), state%over%last(i)
-        least = min(least, abs(shape(k) + sunk) + terms(k))
+        least = min(least, abs(reduced_gap(k) + sunk) + terms(k))
       end do
     end do
   end function least_length
@@ -203,8 +203,8 @@ contains
   end subroutine turn
 
   !> One step along the direction.
-  pure subroutine advance(shape, step, state)
-    real(dp), intent(in), contiguous :: shape(:)
+  pure subroutine advance(reduced_gap, step, state)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     real(dp), intent(in) :: step
     type(iterate), intent(inout) :: state
     real(dp) :: mean
@@ -215,7 +215,7 @@ contains
     call move(state%over, step, mean, state%direction, state%work, state%force, state%remainder)
     state%motion = state%motion - step*mean
     call centre(state)
-    state%penetration = worst_penetration(shape, state)
+    state%penetration = worst_penetration(reduced_gap, state)
   end subroutine advance
 
   pure subroutine move(over, step, mean, direction, image, force, remainder)
@@ -251,8 +251,8 @@ contains
   end subroutine centre
 
   !> The deepest that an open point is pressed in, 0 if none is.
-  pure function worst_penetration(shape, state) result(depth)
-    real(dp), intent(in), contiguous :: shape(:)
+  pure function worst_penetration(reduced_gap, state) result(depth)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
     type(iterate), intent(in) :: state
     real(dp) :: depth
     integer :: i, first, last
@@ -260,23 +260,23 @@ contains
     depth = 0.0_dp
     do i = 0, size(state%over%first)
       first = 1
-      last = size(shape)
+      last = size(reduced_gap)
       if (i > 0) first = state%over%last(i) + 1
       if (i < size(state%over%first)) last = state%over%first(i + 1) - 1
-      if (first <= last) depth = max(depth, depth_between(shape(first:last), state%displacement(first:last), &
+      if (first <= last) depth = max(depth, depth_between(reduced_gap(first:last), state%displacement(first:last), &
                                                           state%motion))
     end do
   end function worst_penetration
 
-  pure function depth_between(shape, displacement, motion) result(depth)
-    real(dp), intent(in), contiguous :: shape(:), displacement(:)
+  pure function depth_between(reduced_gap, displacement, motion) result(depth)
+    real(dp), intent(in), contiguous :: reduced_gap(:), displacement(:)
     real(dp), intent(in) :: motion
     real(dp) :: depth
     integer :: k
 
     depth = 0.0_dp
-    do k = 1, size(shape)
-      depth = max(depth, -open_gap(shape(k), displacement(k), motion))
+    do k = 1, size(reduced_gap)
+      depth = max(depth, -open_gap(reduced_gap(k), displacement(k), motion))
     end do
   end function depth_between
 
@@ -297,24 +297,25 @@ contains
   end subroutine estimate
 
   !> Gap of a point, per load; where the set is right none is negative.
-  elemental function open_gap(shape, displacement, motion) result(gap)
-    real(dp), intent(in) :: shape, displacement, motion
+  elemental function open_gap(reduced_gap, displacement, motion) result(gap)
+    real(dp), intent(in) :: reduced_gap, displacement, motion
     real(dp) :: gap
 
-    gap = (shape - motion) + displacement
+    gap = (reduced_gap - motion) + displacement
   end function open_gap
 
-  !> No energy in the remainder: nothing is left but rounding, or the filter is not
+  !> No energy in the remainder: nothing is left but rounding, or the preconditioner is not
   !> positive definite.
-  pure subroutine explain_filter(state, product, info)
+  pure subroutine explain_preconditioner(state, product, info)
     type(iterate), intent(in) :: state
     real(dp), intent(in) :: product
     type(fuge_info), intent(inout) :: info
 
     if (product >= -ROUNDING*largest(state%over, state%remainder)*largest(state%over, state%work)) return
-    call report(info, FUGE_ERR_NOT_DEFINITE, 'filter '//text(info%filters)//': lengths with the negative energy ' &
-                //text(product)//': the filter of the operator is not positive definite')
-  end subroutine explain_filter
+    call report(info, FUGE_ERR_NOT_DEFINITE, &
+                'preconditioner '//text(info%preconditionings)//': lengths with the negative energy ' &
+                //text(product)//': the preconditioner of the operator is not positive definite')
+  end subroutine explain_preconditioner
 
   !> No energy in a direction: rounding, or an operator that is not positive definite.
   pure subroutine explain(state, curvature, info)

@@ -9,9 +9,9 @@ module fuge_path_types
   use fuge_monitor_type, only: monitor_relay
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
-  use fuge_parametric_pivoting, only: follow_line, start_at, sides_at, path_line, path_position, path_record
+  use fuge_parametric_pivoting, only: follow_line, start_at, states_at, path_line, path_position, path_record
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, check_load, set_problem
-  use fuge_canonical_problem, only: contact_scene, make_scene
+  use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
   use fuge_number_text, only: text
@@ -55,14 +55,14 @@ module fuge_path_types
     !> Parameter t of each entry, from 0 at the start to 1 at the end.
     real(dp), allocatable :: parameter(:)
     !> The point that changes, and its new side; both 0 for the start.
-    integer, allocatable :: point(:), side(:)
+    integer, allocatable :: point(:), state(:)
     !> Points at a stop from here on.
     integer, allocatable :: contacts(:)
     !> Motions q there and dq/dt from there to the next entry, (m, entries), prescribed
     !> ones included. Where nothing holds a motion it may jump; the value is that after it.
     real(dp), allocatable :: motion(:, :), rate(:, :)
   contains
-    procedure :: sides
+    procedure :: states
   end type fuge_general_path
 
 contains
@@ -129,18 +129,18 @@ contains
     type(fuge_path), intent(inout) :: path
     type(fuge_info), intent(inout) :: info
     type(fuge_problem) :: problem
-    type(contact_scene) :: scene
+    type(canonical_problem) :: canonical
     type(path_line) :: line
     type(path_record) :: record
     integer :: k, events
 
     call set_problem(gap, 0.0_dp, problem, info)
-    if (.not. info%failed()) call make_scene(problem, scene, info)
+    if (.not. info%failed()) call make_canonical(problem, canonical, info)
     if (info%failed()) return
     line%load_rate = [1.0_dp]
-    line%shape_rate = 0.0_dp*gap
+    line%reduced_gap_rate = 0.0_dp*gap
     line%most = load
-    call run_line(operator, scene, line, record, info)
+    call run_line(operator, canonical, line, record, info)
     if (info%failed()) return
     ! The start is no event of its own.
     events = record%entries - 1
@@ -149,7 +149,7 @@ contains
     path%load = record%parameter(2:events + 1)
     path%approach = record%motion(1, 2:events + 1)
     path%stiffness = 1.0_dp/record%rate(1, 2:events + 1)
-    path%point = [(merge(1, -1, record%side(k) > 0)*record%point(k), k=2, events + 1)]
+    path%point = [(merge(1, -1, record%state(k) > 0)*record%point(k), k=2, events + 1)]
     path%contacts = record%contacts(2:events + 1)
   end subroutine follow_load
 
@@ -191,9 +191,9 @@ contains
     type(fuge_problem), intent(in) :: problem
     type(fuge_info), intent(inout) :: info
 
-    if (size(finish) /= problem%motions()) then
+    if (size(finish) /= problem%mode_count()) then
       call report(info, FUGE_ERR_SIZE, 'finish has '//text(size(finish))//' value(s): it needs ' &
-                  //text(problem%motions()))
+                  //text(problem%mode_count()))
     else if (size(finish) > 0) then
       call check_finite(finish, 'finish', info)
       if (.not. info%failed()) call check_magnitudes(alpha(:size(alpha, 2), :), maxval(abs(finish)), info)
@@ -204,7 +204,7 @@ contains
   !> Resultants of the start, where prescribed its motions, (m).
   pure function start_values(problem) result(values)
     type(fuge_problem), intent(in) :: problem
-    real(dp) :: values(problem%motions())
+    real(dp) :: values(problem%mode_count())
 
     values = 0.0_dp
     if (allocated(problem%resultant)) values = problem%resultant
@@ -217,23 +217,23 @@ contains
     real(dp), intent(in) :: finish(:)
     type(fuge_general_path), intent(inout) :: path
     type(fuge_info), intent(inout) :: info
-    type(contact_scene) :: scene
+    type(canonical_problem) :: canonical
     type(path_line) :: line
     type(path_record) :: record
     real(dp) :: start(size(finish)), change(size(finish)), no_change(problem%points())
 
-    call make_scene(problem, scene, info)
+    call make_canonical(problem, canonical, info)
     if (info%failed()) return
     start = start_values(problem)
     change = finish - start
     no_change = 0.0_dp
-    call scene%change_of(no_change, change, line%shape_rate, line%load_rate)
+    call canonical%change_of(no_change, change, line%reduced_gap_rate, line%load_rate)
     line%most = 1.0_dp
     line%origin = 1.0_dp + min(ratio(start, change), LARGEST_ORIGIN)
-    call run_line(operator, scene, line, record, info)
+    call run_line(operator, canonical, line, record, info)
     if (info%failed()) return
     info%iterations = record%entries - 1
-    call hand_over(scene, start, change, record, path)
+    call hand_over(canonical, start, change, record, path)
   end subroutine follow_problem
 
   pure function ratio(values, changes)
@@ -253,9 +253,9 @@ contains
 
   !> From the answer at the start of the line to its end; motions in the record are those
   !> of the scene.
-  subroutine run_line(operator, scene, line, record, info)
+  subroutine run_line(operator, canonical, line, record, info)
     type(fuge_dense_operator), intent(in) :: operator
-    type(contact_scene), intent(inout) :: scene
+    type(canonical_problem), intent(inout) :: canonical
     type(path_line), intent(in) :: line
     type(path_record), intent(inout) :: record
     type(fuge_info), intent(inout) :: info
@@ -265,66 +265,67 @@ contains
 
     base = 0.0_dp
     datum = 0.0_dp
-    if (scene%constant) then
-      base = minval(scene%gap)
+    if (canonical%has_translation) then
+      base = minval(canonical%gap)
       datum = operator%datum()
     end if
-    call stand_at_start(operator, base, datum, scene, here, info)
+    call stand_at_start(operator, base, datum, canonical, here, info)
     if (info%failed()) return
-    call follow_line(operator%alpha, datum, scene, line, here, record, status)
+    call follow_line(operator%alpha, datum, canonical, line, here, record, status)
     call explain(status, record%entries, here%t, info)
-    if (info%failed() .or. .not. scene%constant) return
+    if (info%failed() .or. .not. canonical%has_translation) return
     do k = 1, record%entries
       record%motion(1, k) = record%motion(1, k) + base &
-        + datum*(scene%load(1) + record%parameter(k)*line%load_rate(1))
+        + datum*(canonical%load(1) + record%parameter(k)*line%load_rate(1))
       record%rate(1, k) = record%rate(1, k) + datum*line%load_rate(1)
     end do
   end subroutine run_line
 
   !> The answer at the start. `base` is taken off the gaps of the scene, and with `datum`
   !> off its translation.
-  subroutine stand_at_start(operator, base, datum, scene, here, info)
+  subroutine stand_at_start(operator, base, datum, canonical, here, info)
     type(fuge_dense_operator), intent(in) :: operator
     real(dp), intent(in) :: base, datum
-    type(contact_scene), intent(inout) :: scene
+    type(canonical_problem), intent(inout) :: canonical
     type(path_position), intent(out) :: here
     type(fuge_info), intent(inout) :: info
     type(fuge_solution) :: answer
     type(contact_factor) :: factor
     type(monitor_relay) :: nobody
-    integer :: side(size(scene%gap)), stat, status
+    integer :: state(size(canonical%gap)), stat, status
 
-    allocate (answer%force(size(side)), answer%gap(size(side)), answer%rigid(size(scene%load)), stat=stat)
+    allocate (answer%force(size(state)), answer%gap(size(state)), answer%motion(size(canonical%load)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the start of the path')
       return
     end if
-    side = 0
-    if (rests(scene)) then
+    state = 0
+    if (rests(canonical)) then
       answer%force = 0.0_dp
-      answer%rigid = 0.0_dp
-      scene%gap = scene%gap - base
-      answer%gap = scene%gap
+      answer%motion = 0.0_dp
+      canonical%gap = canonical%gap - base
+      answer%gap = canonical%gap
     else
-      call solve_by_active_set(operator%alpha, operator%datum(), scene, fuge_options(), nobody, side, factor, answer, &
+      call solve_by_active_set(operator%alpha, operator%datum(), canonical, fuge_options(), nobody, state, factor, &
+                               answer, &
                                info)
       if (info%failed()) return
       ! The path says itself where the motions begin; forces have to be unique.
       if (.not. factor%ridge > 0.0_dp) call report(info, FUGE_DONE, '')
-      scene%gap = scene%gap - base
-      if (scene%constant) answer%rigid(1) = answer%rigid(1) - (base + datum*scene%load(1))
+      canonical%gap = canonical%gap - base
+      if (canonical%has_translation) answer%motion(1) = answer%motion(1) - (base + datum*canonical%load(1))
     end if
-    call start_at(scene, side, answer%force, answer%gap, answer%rigid, here, status)
+    call start_at(canonical, state, answer%force, answer%gap, answer%motion, here, status)
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine stand_at_start
 
   !> The plain problem without a load, where the bodies just touch.
-  pure function rests(scene)
-    type(contact_scene), intent(in) :: scene
+  pure function rests(canonical)
+    type(canonical_problem), intent(in) :: canonical
     logical :: rests
 
-    rests = scene%plain
-    if (rests) rests = .not. scene%load(1) > 0.0_dp
+    rests = canonical%plain
+    if (rests) rests = .not. canonical%load(1) > 0.0_dp
   end function rests
 
   !> Put the end of a path into words.
@@ -341,8 +342,8 @@ contains
   end subroutine explain
 
   !> The record in the caller's motions.
-  subroutine hand_over(scene, start, change, record, path)
-    type(contact_scene), intent(in) :: scene
+  subroutine hand_over(canonical, start, change, record, path)
+    type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: start(:), change(:)
     type(path_record), intent(inout) :: record
     type(fuge_general_path), intent(inout) :: path
@@ -351,13 +352,13 @@ contains
 
     allocate (motion(size(start), record%entries), rate(size(start), record%entries))
     do k = 1, record%entries
-      call scene%motions_of(start + record%parameter(k)*change, record%motion(:, k), motion(:, k))
-      call scene%motions_of(change, record%rate(:, k), rate(:, k))
+      call canonical%motions_of(start + record%parameter(k)*change, record%motion(:, k), motion(:, k))
+      call canonical%motions_of(change, record%rate(:, k), rate(:, k))
     end do
     path%entries = record%entries
     path%parameter = record%parameter(:record%entries)
     path%point = record%point(:record%entries)
-    path%side = record%side(:record%entries)
+    path%state = record%state(:record%entries)
     path%contacts = record%contacts(:record%entries)
     call move_alloc(record%start, path%start)
     call move_alloc(motion, path%motion)
@@ -366,12 +367,12 @@ contains
 
   !> Sides (n) of all points after an entry: 1 at the lower stop, -1 at the upper one, 0
   !> between.
-  pure function sides(self, entry)
+  pure function states(self, entry)
     class(fuge_general_path), intent(in) :: self
     integer, intent(in) :: entry
-    integer, allocatable :: sides(:)
+    integer, allocatable :: states(:)
 
-    sides = sides_at(self%start, self%point, self%side, min(entry, self%entries))
-  end function sides
+    states = states_at(self%start, self%point, self%state, min(entry, self%entries))
+  end function states
 
 end module fuge_path_types

@@ -19,7 +19,7 @@ module fuge_paper_tableau
   use fuge_column_numbers, only: artificial_column, force_column, gap_column, rigid_column, is_artificial, is_force, &
     partner_column, point_of
   use fuge_pivot_rule, only: select_pivot, select_for_equilibrium
-  use fuge_canonical_problem, only: contact_scene
+  use fuge_canonical_problem, only: canonical_problem
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
   use fuge_variable_bounds, only: variable_limits
   implicit none
@@ -50,7 +50,7 @@ module fuge_paper_tableau
     procedure :: pivot
     procedure :: finished
     procedure :: balanced
-    procedure :: sides
+    procedure :: states
     procedure :: z
     procedure :: remaining
     procedure :: entry_at
@@ -86,34 +86,34 @@ contains
   end subroutine start_plain
 
   !> The same for any scene; `datum` is taken out of alpha if the scene has a translation.
-  pure subroutine start_scene(self, alpha, datum, scene, status)
+  pure subroutine start_scene(self, alpha, datum, canonical, status)
     class(paper_tableau), intent(inout) :: self
     real(dp), intent(in) :: alpha(:, :), datum
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     integer, intent(out) :: status
     real(dp) :: constant
     integer :: n, m, j
 
-    n = size(scene%gap)
-    m = size(scene%load)
-    if (scene%plain) then
-      call self%start_plain(alpha, scene%gap, scene%load(1), status)
+    n = size(canonical%gap)
+    m = size(canonical%load)
+    if (canonical%plain) then
+      call self%start_plain(alpha, canonical%gap, canonical%load(1), status)
       return
     end if
     call make_room(self, n, m, n + m, status)
     if (status /= FUGE_DONE) return
-    constant = merge(datum, 0.0_dp, scene%constant)
-    call set_general_scales(self, alpha, constant, scene)
+    constant = merge(datum, 0.0_dp, canonical%has_translation)
+    call set_general_scales(self, alpha, constant, canonical)
     call fill(self, alpha, constant)
     associate (t => self%table, force => self%force_exponent, length => self%length_exponent)
       do j = 1, m
-        t(:n, rigid_column(n, j)) = scene%modes(:, j)
-        t(n + j, :n) = scene%modes(:, j)
+        t(:n, rigid_column(n, j)) = canonical%modes(:, j)
+        t(n + j, :n) = canonical%modes(:, j)
       end do
-      t(:n, 2*n + m + 1) = scale(scene%gap + self%shift, -length)
-      t(n + 1:n + m, 2*n + m + 1) = scale(scene%load, -force)
+      t(:n, 2*n + m + 1) = scale(canonical%gap + self%shift, -length)
+      t(n + 1:n + m, 2*n + m + 1) = scale(canonical%load, -force)
     end associate
-    call set_limits(self, scene)
+    call set_limits(self, canonical)
     self%settled = .false.
     call turn_negative_rows(self)
     if (m == 0) call settle(self)
@@ -171,20 +171,20 @@ contains
 
   !> The powers of two where motions have no sign: no shift is needed, but a large datum of
   !> the gaps would cost digits.
-  pure subroutine set_general_scales(self, alpha, datum, scene)
+  pure subroutine set_general_scales(self, alpha, datum, canonical)
     class(paper_tableau), intent(inout) :: self
     real(dp), intent(in) :: alpha(:, :), datum
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     real(dp) :: load, softest, length
     integer :: n
 
-    n = size(scene%gap)
+    n = size(canonical%gap)
     self%shift = 0.0_dp
-    if (scene%constant) self%shift = -minval(scene%gap, mask=.not. scene%excluded)
+    if (canonical%has_translation) self%shift = -minval(canonical%gap, mask=.not. canonical%excluded)
     load = 0.0_dp
-    if (size(scene%load) > 0) load = maxval(abs(scene%load))
+    if (size(canonical%load) > 0) load = maxval(abs(canonical%load))
     softest = maxval(abs(alpha(:n, :) - datum))
-    length = max(maxval(abs(scene%gap + self%shift), mask=.not. scene%excluded), load*softest)
+    length = max(maxval(abs(canonical%gap + self%shift), mask=.not. canonical%excluded), load*softest)
     self%length_exponent = exponent(length)
     self%force_exponent = exponent(load)
     if (.not. load > 0.0_dp) self%force_exponent = self%length_exponent - exponent(softest)
@@ -192,23 +192,23 @@ contains
 
   !> Tied points hold whatever their force; excluded ones have none, whatever their gap.
   !> The force at a play may have either sign until the equilibrium has been met.
-  pure subroutine set_limits(self, scene)
+  pure subroutine set_limits(self, canonical)
     class(paper_tableau), intent(inout) :: self
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     integer :: k
 
     associate (limits => self%limits, n => self%limits%n)
       limits%free(rigid_column(n, [(k, k=1, limits%m)])) = .true.
       do k = 1, n
-        if (scene%excluded(k)) then
+        if (canonical%excluded(k)) then
           limits%free(gap_column(n, k)) = .true.
           limits%fixed(force_column(k)) = .true.
-        else if (scene%upper(k) <= 0.0_dp) then
+        else if (canonical%upper(k) <= 0.0_dp) then
           limits%free(force_column(k)) = .true.
           limits%fixed(gap_column(n, k)) = .true.
-        else if (exponent(scene%upper(k)) - self%length_exponent < maxexponent(1.0_dp)) then
-          limits%free(force_column(k)) = scene%upper(k) < huge(1.0_dp)
-          if (limits%free(force_column(k))) limits%upper(k) = scale(scene%upper(k), -self%length_exponent)
+        else if (exponent(canonical%upper(k)) - self%length_exponent < maxexponent(1.0_dp)) then
+          limits%free(force_column(k)) = canonical%upper(k) < huge(1.0_dp)
+          if (limits%free(force_column(k))) limits%upper(k) = scale(canonical%upper(k), -self%length_exponent)
         end if
       end do
     end associate
@@ -367,16 +367,16 @@ contains
 
   !> The stop of every point whose force is in the basis, (n): 1 the lower, -1 the upper;
   !> 0 for the others.
-  pure function sides(self) result(side)
+  pure function states(self) result(state)
     class(paper_tableau), intent(in) :: self
-    integer :: side(self%limits%n)
+    integer :: state(self%limits%n)
     integer :: i
 
-    side = 0
+    state = 0
     do i = 1, size(self%basis)
-      if (is_force(self%limits%n, self%basis(i))) side(self%basis(i)) = merge(-1, 1, self%mirrored(self%basis(i)))
+      if (is_force(self%limits%n, self%basis(i))) state(self%basis(i)) = merge(-1, 1, self%mirrored(self%basis(i)))
     end do
-  end function sides
+  end function states
 
   !> Sum of the artificial variables, in the caller's units.
   pure function z(self)
@@ -442,35 +442,36 @@ contains
 
   !> Phase I from the artificial basis to the contact set.
   !>
-  !> `alpha` (at least n rows, n columns) and `datum` as in the engines, `scene` the rest of
-  !> the problem. `side` (n) is 1 or -1 for points at a stop; `pivots` counts.
+  !> `alpha` (at least n rows, n columns) and `datum` as in the engines, `canonical` the rest of
+  !> the problem. `state` (n) is 1 or -1 for points at a stop; `pivots` counts.
   !> The history is started and filled if `keep_history`. Rounding can leave an
   !> artificial without an admissible column: the set found so far is then returned,
   !> as it is with FUGE_ERR_ITERATION_LIMIT. Other errors: FUGE_ERR_NO_EQUILIBRIUM if no
   !> forces carry the resultants, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED by `monitor`, which
   !> hears of each pivot.
-  subroutine run_phase_one(alpha, datum, scene, rule, max_pivots, keep_history, monitor, history, side, pivots, status)
+  subroutine run_phase_one(alpha, datum, canonical, rule, max_pivots, keep_history, monitor, history, state, pivots, &
+                           status)
     real(dp), intent(in) :: alpha(:, :), datum
-    type(contact_scene), intent(in) :: scene
+    type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: rule, max_pivots
     logical, intent(in) :: keep_history
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_history), intent(inout) :: history
-    integer, intent(out) :: side(:), pivots, status
+    integer, intent(out) :: state(:), pivots, status
     type(paper_tableau) :: tableau
     real(dp) :: start
     integer :: column, row
 
     pivots = 0
     start = 1.0_dp
-    side = 0
-    call tableau%start(alpha, datum, scene, status)
+    state = 0
+    call tableau%start(alpha, datum, canonical, status)
     if (status == FUGE_DONE .and. keep_history) call history%start(size(tableau%basis), status)
     do while (status == FUGE_DONE)
       if (keep_history) call history%record(tableau%basis, tableau%z(), status)
       if (pivots == 0 .and. tableau%remaining() > 0.0_dp) start = tableau%remaining()
       if (pivots > 0 .and. status == FUGE_DONE) call tell_monitor(monitor, pivots, tableau%remaining()/start, &
-                                                                  count(is_force(size(side), tableau%basis)), status)
+                                                                  count(is_force(size(state), tableau%basis)), status)
       if (tableau%finished() .or. status /= FUGE_DONE) exit
       call tableau%choose(rule, column, row)
       if (column == 0) then
@@ -484,7 +485,7 @@ contains
         pivots = pivots + 1
       end if
     end do
-    if (allocated(tableau%basis)) side = tableau%sides()
+    if (allocated(tableau%basis)) state = tableau%states()
   end subroutine run_phase_one
 
 end module fuge_paper_tableau

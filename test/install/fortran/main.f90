@@ -1,6 +1,6 @@
 !> The paper's Table 1 with an installed fuge.
 program consumer
-  use fuge, only: dp, fuge_info, fuge_solve_dense
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_solve_dense
   implicit none
 
   call run()

@@ -1,6 +1,6 @@
 !> Every public type of an installed fuge: made, passed on as class, extended, copied and freed.
 module own_types
-  use fuge, only: dp, fuge_monitor, fuge_operator
+  use fuge, only: dp => fuge_dp, fuge_monitor, fuge_operator
   implicit none
   private
 
@@ -51,7 +51,7 @@ contains
 end module own_types
 
 program types
-  use fuge, only: dp, fuge_band_stiffness, fuge_body, fuge_condense, fuge_condensed, fuge_contact_edges, &
+  use fuge, only: dp => fuge_dp, fuge_band_stiffness, fuge_body, fuge_condense, fuge_condensed, fuge_contact_edges, &
     fuge_dense_operator, fuge_dense_stiffness, fuge_follow_path, fuge_general_path, &
     fuge_halfplane_matrix, fuge_halfplane_operator, fuge_history, fuge_info, fuge_interval, fuge_load_path, &
     fuge_operator, fuge_options, fuge_path, fuge_problem, fuge_residual, fuge_solution, fuge_solver, &
@@ -102,9 +102,8 @@ contains
     type(fuge_problem) :: problem
     type(fuge_solution) :: solution, copy
     type(fuge_violation) :: violation
-    type(fuge_info) :: info
+    type(fuge_info) :: info, check
     type(counter) :: monitor
-    integer :: status
 
     allocate (solver)
     problem%gap = gap
@@ -113,7 +112,7 @@ contains
     call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
     call expect(monitor%calls > 0, name//': the monitor was not called')
     copy = solution
-    call fuge_residual(operator, problem, copy, violation, status)
+    call fuge_residual(operator, problem, copy, violation, check)
     call expect(violation%worst() < 1.0e-10_dp, name//': the residual is large')
     call operator%coarsen(1, coarse)
     if (allocated(coarse)) call expect(coarse%points() < operator%points(), name//': no coarser')

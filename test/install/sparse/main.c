@@ -9,7 +9,7 @@ int main(void) {
   fuge_body *body = NULL;
   int status = fuge_body_sparse(2, column, row, value, &body);
   if (status == FUGE_DONE) status = fuge_body_set_contact(body, 2, 1, dof, normal);
-  if (status == FUGE_DONE) status = fuge_condense(body);
+  if (status == FUGE_DONE) status = fuge_body_condense(body);
   if (status == FUGE_DONE) status = fuge_body_get_influence(body, alpha, 2);
   if (status == FUGE_DONE) status = fuge_solve_dense(2, alpha, 2, gap, 2.0, force, gap_out, &approach);
   fuge_body_free(&body);

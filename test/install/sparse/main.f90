@@ -1,6 +1,6 @@
 !> The influence matrix of the paper's Table 1 by condensation of its inverse, with an installed fuge.
 program consumer
-  use fuge, only: dp, fuge_body, fuge_condense, fuge_condensed, fuge_info, fuge_solve_dense
+  use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_info, fuge_solve_dense
   use fuge_sparse, only: fuge_sparse_stiffness
   implicit none
 
