@@ -9,8 +9,6 @@ module fuge_input_checks
 
   public :: check_finite, is_finite_everywhere
 
-  !> Larger powers of two leave no room for sums.
-  integer, parameter, public :: LARGEST_EXPONENT = maxexponent(1.0_dp) - 32
 
   integer, parameter :: int64 = selected_int_kind(18)
 

@@ -1,7 +1,8 @@
 !> An elastic body beside its stiffness: supports, load, rigid motions, contact points; and
 !> the check of these data.
 module fuge_body_type
-  use fuge_input_checks, only: check_finite, LARGEST_EXPONENT
+  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_OVERFLOW

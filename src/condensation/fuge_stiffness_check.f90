@@ -1,7 +1,8 @@
 !> What every stiffness matrix has to be, however it is stored.
 module fuge_stiffness_check
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge_input_checks, only: is_finite_everywhere, LARGEST_EXPONENT
+  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
   use fuge_number_text, only: text

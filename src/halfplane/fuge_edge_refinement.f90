@@ -15,6 +15,7 @@
 !> pressure at the rate -K/2 times the eigensolution with s^(-3/2), which is known for
 !> one interval: how far to go until K = 0 follows. See doc/theory.md, "Edges of the contact".
 module fuge_edge_refinement
+  use fuge_constants, only: PI
   use fuge_input_checks, only: check_finite
   use fuge_halfplane_influence, only: check_halfplane, FUGE_CENTRE, FUGE_HAT
   use fuge_kinds, only: dp
@@ -63,7 +64,6 @@ module fuge_edge_refinement
   !> is beyond `REACH` is no such edge; the largest found, on five cells, is 0.62.
   real(dp), parameter :: TYPICAL = -0.15_dp, REACH = 0.85_dp
 
-  real(dp), parameter :: PI = acos(-1.0_dp)
   !> Centres may be off by so many cells.
   real(dp), parameter :: PLACE_TOLERANCE = 1.0e-6_dp
 

@@ -6,6 +6,7 @@
 !> with h: the coefficients are pure numbers over e_star.
 module fuge_halfplane_fft
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
   use fuge_fft, only: fft_plan, good_length
   use fuge_halfplane_influence, only: mean_log, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_kinds, only: dp
@@ -24,9 +25,6 @@ module fuge_halfplane_fft
   !> `boundary`: beyond the cells the same comes again and again.
   integer, parameter, public :: FUGE_PERIODIC = 1
 
-  real(dp), parameter :: PI = acos(-1.0_dp)
-  !> Larger powers of two could overflow when squared or inverted.
-  integer, parameter :: LARGEST_EXPONENT = maxexponent(1.0_dp)/2
   !> Mean over the period of 2/pi |ln(2 sin(pi x))|: 4 Cl_2(pi/3)/pi^2.
   real(dp), parameter :: MEAN_TERM = 0.41132_dp
   !> Fewer points have no coarser grid: they are solved at once.
@@ -115,9 +113,9 @@ contains
     else if (.not. operator%e_star > 0.0_dp) then
       call report(info, FUGE_ERR_MODULUS, 'e_star = '//text(operator%e_star) &
                   //' is not positive: it is E/(1 - nu^2) in plane strain')
-    else if (abs(exponent(operator%e_star)) > LARGEST_EXPONENT) then
+    else if (abs(exponent(operator%e_star)) > LARGEST_EXPONENT_OF_2) then
       call report(info, FUGE_ERR_OVERFLOW, 'e_star = '//text(operator%e_star)//' is out of range: choose other units')
-    else if (abs(exponent(operator%spacing)) > LARGEST_EXPONENT) then
+    else if (abs(exponent(operator%spacing)) > LARGEST_EXPONENT_OF_2) then
       call report(info, FUGE_ERR_OVERFLOW, 'spacing = '//text(operator%spacing) &
                   //' is out of range: choose another unit of length')
     else if (all(operator%element /= [FUGE_CENTRE, FUGE_MEAN, FUGE_HAT])) then

@@ -15,6 +15,7 @@
 !> - FUGE_HAT: a hat of half-base w seen at a point, widths w and w, since the hat is the
 !>   convolution of two uniform strips.
 module fuge_halfplane_influence
+  use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, &
@@ -33,9 +34,6 @@ module fuge_halfplane_influence
   !> equal widths.
   integer, parameter, public :: FUGE_HAT = 2
 
-  real(dp), parameter :: PI = acos(-1.0_dp)
-  !> Larger powers of two could overflow when squared or inverted.
-  integer, parameter :: LARGEST_EXPONENT = maxexponent(1.0_dp)/2
   !> Widths that differ by less, relatively, are taken as equal.
   real(dp), parameter :: WIDTH_TOLERANCE = 1.0e-10_dp
 
@@ -242,7 +240,7 @@ contains
     else if (.not. e_star > 0.0_dp) then
       call report(info, FUGE_ERR_MODULUS, 'e_star = '//text(e_star) &
                   //' is not positive: it is E/(1 - nu^2) in plane strain')
-    else if (abs(exponent(e_star)) > LARGEST_EXPONENT) then
+    else if (abs(exponent(e_star)) > LARGEST_EXPONENT_OF_2) then
       call report(info, FUGE_ERR_OVERFLOW, 'e_star = '//text(e_star)//' is out of range: choose other units')
     else
       call check_cells(x, width, element, symmetric, info)
@@ -265,7 +263,7 @@ contains
       else if (element /= FUGE_MEAN .and. abs(width(k) - width(1)) > WIDTH_TOLERANCE*width(1)) then
         call report(info, FUGE_ERR_GRID, 'width('//text(k)//') = '//text(width(k))//' differs from width(1) by ' &
                     //text(width(k) - width(1))//': on unequal cells only FUGE_MEAN is symmetric, use it')
-      else if (exponent(x(k)) > LARGEST_EXPONENT .or. abs(exponent(width(k))) > LARGEST_EXPONENT) then
+      else if (exponent(x(k)) > LARGEST_EXPONENT_OF_2 .or. abs(exponent(width(k))) > LARGEST_EXPONENT_OF_2) then
         call report(info, FUGE_ERR_OVERFLOW, 'cell '//text(k)//' at x = '//text(x(k))//' of width '//text(width(k)) &
                     //' is out of range: choose another unit of length')
       end if

@@ -3,7 +3,8 @@
 !> Heights are positive upwards. The initial gap of two profiles that face each other,
 !> sampled at the same points, is upper - lower; its datum is free, it moves v_0 only.
 module fuge_profile_files
-  use fuge_input_checks, only: check_finite, LARGEST_EXPONENT
+  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_profile_lines, only: read_point, LINE_EMPTY, LINE_POINT, LINE_WORDS
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, &

@@ -3,7 +3,7 @@
 module fuge_matrix_operator
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-  use fuge_input_checks, only: LARGEST_EXPONENT
+  use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &

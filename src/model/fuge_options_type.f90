@@ -7,7 +7,10 @@ module fuge_options_type
   implicit none
   private
 
-  public :: check_options
+  public :: check_options, iteration_limit
+
+  !> Iterations allowed for each row of the problem where max_iterations is 0.
+  integer, parameter, public :: ITERATIONS_PER_ROW = 50
 
   !> `method`: for a matrix the active set, or the tableau if the history is kept; for any
   !> other operator the iteration.
@@ -32,7 +35,7 @@ module fuge_options_type
     integer :: method = FUGE_AUTO
     !> Pricing of the tableau: FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE or FUGE_GREATEST_DECREASE.
     integer :: pivot_rule = FUGE_PAPER_RULE
-    !> Most pivots or contact sets tried; 0 lets the engine choose (50 for each row).
+    !> Most pivots or contact sets tried; 0 allows ITERATIONS_PER_ROW for each row.
     integer :: max_iterations = 0
     !> Keep basis and z of every pivot.
     logical :: keep_history = .false.
@@ -61,6 +64,16 @@ contains
         //' is not between 0 and 1: it is relative, 1e-10 is the default')
     end if
   end subroutine check_options
+
+  !> Most iterations for a problem with so many rows: those asked for, else in proportion to the rows.
+  pure function iteration_limit(options, rows) result(limit)
+    type(fuge_options), intent(in) :: options
+    integer, intent(in) :: rows
+    integer :: limit
+
+    limit = options%max_iterations
+    if (limit == 0) limit = int(min(real(ITERATIONS_PER_ROW, dp)*real(rows, dp), 1.0e9_dp))
+  end function iteration_limit
 
   !> Asked in this order, because comparing NaN may trap.
   pure function is_between_0_and_1(value) result(between)

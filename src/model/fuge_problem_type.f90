@@ -8,7 +8,8 @@
 !> F_0). A play of zero ties a point: its gap stays zero, its force has either sign.
 module fuge_problem_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
-  use fuge_input_checks, only: check_finite, LARGEST_EXPONENT
+  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP

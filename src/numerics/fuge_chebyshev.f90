@@ -6,6 +6,7 @@
 !> Source: L. N. Trefethen, Approximation Theory and Approximation Practice, 2013,
 !> chapters 2 to 4; C. W. Clenshaw, Math. Comp. 9, 1955.
 module fuge_chebyshev
+  use fuge_constants, only: PI
   use fuge_kinds, only: dp
   implicit none
   private
@@ -13,7 +14,6 @@ module fuge_chebyshev
   public :: chebyshev_points, chebyshev_coefficients, chebyshev_values, chebyshev_derivative, chebyshev_sum, &
     second_kind_sum, second_to_first
 
-  real(dp), parameter :: PI = acos(-1.0_dp)
 
 contains
 

@@ -1,5 +1,6 @@
 !> From the slope on the interval of contact to the contact.
 module fuge_smooth_assembly
+  use fuge_constants, only: PI
   use fuge_kinds, only: dp
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_newton, only: pressing
@@ -11,7 +12,6 @@ module fuge_smooth_assembly
 
   public :: make_contact
 
-  real(dp), parameter :: PI = acos(-1.0_dp)
 
 contains
 

@@ -7,6 +7,7 @@
 !> its own, and they are held against the gap, not the slope.
 module fuge_smooth_certificate
   use fuge_chebyshev, only: chebyshev_sum
+  use fuge_constants, only: PI
   use fuge_kinds, only: dp
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
@@ -16,7 +17,6 @@ module fuge_smooth_certificate
 
   public :: certify_contact
 
-  real(dp), parameter :: PI = acos(-1.0_dp)
   !> Places of the contact where the gap equation is formed, as angles over pi: x = centre
   !> + half cos(angle). None is one of the points that series are made of.
   real(dp), parameter :: ANGLES(7) = [0.0317_dp, 0.1731_dp, 0.3259_dp, 0.4873_dp, 0.6689_dp, 0.8123_dp, 0.9641_dp]

@@ -4,6 +4,7 @@
 !> series times the square root of the distances from both: for a smooth profile the error
 !> falls faster than any power of the number of coefficients. See doc/theory.md, "Smooth punches".
 module fuge_smooth_punch
+  use fuge_constants, only: PI, LARGEST_EXPONENT_OF_4
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
@@ -21,10 +22,7 @@ module fuge_smooth_punch
 
   public :: fuge_solve_smooth_punch
 
-  real(dp), parameter :: PI = acos(-1.0_dp)
   type(fuge_options), parameter :: DEFAULTS = fuge_options()
-  !> Larger powers of two could overflow when multiplied.
-  integer, parameter :: LARGEST_EXPONENT = maxexponent(1.0_dp)/4
   character(len=*), parameter :: OTHER_ENGINES = &
     ': use the half-plane operator on a grid, with FUGE_ITERATIVE or the active set'
 
@@ -117,8 +115,8 @@ contains
                   //' is not positive: it is E/(1 - nu^2) in plane strain')
     else if (force < 0.0_dp) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'force = '//text(force)//' is negative: contact can only push')
-    else if (any(abs(exponent([e_star, force, profile%upper - profile%lower])) > LARGEST_EXPONENT) &
-             .or. exponent(max(abs(profile%lower), abs(profile%upper))) > LARGEST_EXPONENT) then
+    else if (any(abs(exponent([e_star, force, profile%upper - profile%lower])) > LARGEST_EXPONENT_OF_4) &
+             .or. exponent(max(abs(profile%lower), abs(profile%upper))) > LARGEST_EXPONENT_OF_4) then
       call report(info, FUGE_ERR_OVERFLOW, 'e_star = '//text(e_star)//', force = '//text(force) &
                   //' or the profile''s place is out of range: choose other units')
     end if

@@ -4,7 +4,8 @@ module fuge_solver_type
   use fuge_input_checks, only: check_finite
   use fuge_kkt_factor, only: contact_factor
   use fuge_matrix_operator, only: fuge_dense_operator
-  use fuge_active_set_engine, only: solve_by_tableau, solve_by_active_set
+  use fuge_active_set_engine, only: solve_by_active_set
+  use fuge_tableau_engine, only: solve_by_tableau
   use fuge_history_type, only: fuge_history
   use fuge_iterative_engine, only: solve_by_iteration
   use fuge_kinds, only: dp

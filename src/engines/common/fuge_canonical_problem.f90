@@ -45,6 +45,7 @@ module fuge_canonical_problem
   contains
     procedure :: mode_count
     procedure :: motions_of
+    procedure :: largest_load
     procedure :: change_of
     procedure :: open_outside
     procedure :: named_motion
@@ -280,6 +281,15 @@ contains
     m = 0
     if (allocated(self%prescribed)) m = size(self%prescribed)
   end function mode_count
+
+  !> The size of the resultants, which decides what products with alpha can reach.
+  pure function largest_load(self) result(load)
+    class(canonical_problem), intent(in) :: self
+    real(dp) :: load
+
+    load = 0.0_dp
+    if (size(self%load) > 0) load = maxval(abs(self%load))
+  end function largest_load
 
   !> All motions in the caller's order: the free ones from what an engine found in the
   !> orthogonal modes, the prescribed ones from `given` (m).

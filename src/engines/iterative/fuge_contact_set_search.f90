@@ -6,6 +6,7 @@ module fuge_contact_set_search
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_projected_gradients, only: iterate, relax, measure, deflect, open_gap
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED
   use fuge_blocking_step, only: step_back
@@ -23,8 +24,6 @@ module fuge_contact_set_search
   !> Block changes without fewer wrong points before single ones; the foresight ends
   !> when half of them are used.
   integer, parameter :: PATIENCE = 10
-  !> Sets allowed for each point when the caller sets no limit.
-  integer, parameter, public :: SETS_PER_POINT = 50
 
   !> What is asked of one grid.
   type, public :: demands
@@ -162,7 +161,7 @@ contains
     reached = .false.
     if (info%iterations >= wanted%limit) then
       call report(info, FUGE_ERR_ITERATION_LIMIT, text(wanted%limit)//' contact sets were not enough: raise ' &
-                  //'max_iterations (0 allows '//text(SETS_PER_POINT)//' for each point)')
+                  //'max_iterations (0 allows '//text(ITERATIONS_PER_ROW)//' for each point)')
       return
     end if
     call preconditioner%set(operator, state%contact, maxval(abs(state%displacement)), info)

@@ -6,12 +6,12 @@
 !> there. Where changes of many points at once do not get on, forces only push and one point
 !> joins at a time, down the energy: that ends (see fuge_block_pivoting).
 module fuge_iterative_engine
-  use fuge_input_checks, only: LARGEST_EXPONENT
-  use fuge_contact_set_search, only: demands, find_contact, restart, SETS_PER_POINT
+  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_contact_set_search, only: demands, find_contact, restart
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
-  use fuge_options_type, only: fuge_options
+  use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_projected_gradients, only: iterate, make_iterate, measure, deflect, open_gap
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NO_EQUILIBRIUM
@@ -60,8 +60,7 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(n)//' points')
       return
     end if
-    wanted%limit = options%max_iterations
-    if (wanted%limit == 0) wanted%limit = int(min(real(SETS_PER_POINT, dp)*(real(n, dp) + 1.0_dp), 1.0e9_dp))
+    wanted%limit = iteration_limit(options, n + 1)
 
     wanted%held = .not. problem%is_plain()
     ! Gaps are counted from the prescribed motion, or from the lowest.

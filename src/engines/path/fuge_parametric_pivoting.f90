@@ -8,7 +8,7 @@
 module fuge_parametric_pivoting
   use fuge_block_pivoting, only: PATIENCE, keep_first
   use fuge_kkt_factor, only: contact_factor
-  use fuge_active_set_engine, only: ITERATIONS_PER_ROW
+  use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_free_modes, only: find_loose, without_loose

@@ -4,7 +4,8 @@ module fuge_path_types
   use fuge_input_checks, only: check_finite
   use fuge_kkt_factor, only: contact_factor
   use fuge_matrix_operator, only: fuge_dense_operator
-  use fuge_active_set_engine, only: check_scene, check_magnitudes, solve_by_active_set
+  use fuge_active_set_engine, only: solve_by_active_set
+  use fuge_matrix_checks, only: check_magnitudes, check_matrix
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: monitor_relay
   use fuge_operator_type, only: fuge_operator
@@ -89,7 +90,7 @@ contains
       else
         call check_problem(problem, operator%points(), info)
       end if
-      if (.not. info%failed() .and. load > 0.0_dp) call check_scene(operator%alpha, load, info)
+      if (.not. info%failed() .and. load > 0.0_dp) call check_matrix(operator%alpha, load, info)
       if (info%failed()) return
       call follow_load(operator, gap, load, found, info)
       if (.not. info%failed()) call take(found, path)

@@ -1,0 +1,32 @@
+!> The status of a dense engine in words.
+module fuge_engine_messages
+  use fuge_number_text, only: text
+  use fuge_options_type, only: ITERATIONS_PER_ROW
+  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT
+  implicit none
+  private
+
+  public :: explain_status
+
+contains
+
+  !> Put an engine's status into words.
+  pure subroutine explain_status(status, limit, contacts, info)
+    integer, intent(in) :: status, limit, contacts
+    type(fuge_info), intent(inout) :: info
+
+    select case (status)
+    case (FUGE_DONE)
+      return
+    case (FUGE_ERR_ITERATION_LIMIT)
+      call report(info, status, text(limit)//' iterations were not enough: raise max_iterations (0 allows ' &
+                  //text(ITERATIONS_PER_ROW)//' for each row)')
+    case (FUGE_ERR_NOT_DEFINITE)
+      call report(info, status, 'alpha is singular on the contact set of '//text(contacts) &
+                  //' points: remove points that move together')
+    case default
+      call report(info, status, fuge_status_text(status))
+    end select
+  end subroutine explain_status
+
+end module fuge_engine_messages

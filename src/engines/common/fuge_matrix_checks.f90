@@ -1,0 +1,64 @@
+!> What can be told from the coefficients of alpha before anything is factored.
+module fuge_matrix_checks
+  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW
+  implicit none
+  private
+
+  public :: check_matrix, check_magnitudes, check_pairs
+
+  !> A negative energy below this part of the coefficients is rounding.
+  real(dp), parameter :: PAIR_TOLERANCE = 1.0e-12_dp
+
+contains
+
+  !> What can be refused before anything is factored: FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_NOT_DEFINITE.
+  pure subroutine check_matrix(alpha, load, info)
+    real(dp), intent(in) :: alpha(:, :), load
+    type(fuge_info), intent(inout) :: info
+
+    call check_magnitudes(alpha(:size(alpha, 2), :), load, info)
+    if (.not. info%failed()) call check_pairs(alpha, info)
+  end subroutine check_matrix
+
+  !> Refuse an alpha for which a pair of opposite forces gains energy: the cheap part
+  !> of definiteness. The contact block itself is seen when it is factored.
+  pure subroutine check_pairs(alpha, info)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: own(size(alpha, 2)), energy
+    integer :: i, j
+
+    own = [(alpha(j, j), j=1, size(own))]
+    do j = 1, size(own)
+      do i = j + 1, size(own)
+        energy = (own(i) - alpha(i, j)) + (own(j) - alpha(i, j))
+        if (energy >= -PAIR_TOLERANCE*(abs(own(i)) + abs(own(j)))) cycle
+        call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite: opposite forces at points ' &
+                    //text(j)//' and '//text(i)//' store the negative energy '//text(0.5_dp*energy) &
+                    //' per force squared; look for a wrong sign')
+        return
+      end do
+    end do
+  end subroutine check_pairs
+
+  !> Refuse an alpha whose products with the load leave the range of double precision,
+  !> at either end.
+  pure subroutine check_magnitudes(alpha, load, info)
+    real(dp), intent(in) :: alpha(:, :), load
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: largest
+    integer :: deflection
+
+    largest = maxval(abs(alpha))
+    deflection = exponent(largest) + exponent(load)
+    if (abs(deflection) > LARGEST_EXPONENT .or. abs(exponent(largest)) > LARGEST_EXPONENT) then
+      call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches '//text(largest)//' and alpha times load 2**' &
+                  //text(deflection)//': choose units in which they are nearer to 1')
+    end if
+  end subroutine check_magnitudes
+
+end module fuge_matrix_checks
