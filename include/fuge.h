@@ -431,6 +431,12 @@ int fuge_load_path(const fuge_operator *op, const double *gap, double load, int 
                    double *loads, double *approach, double *stiffness, int *point, int *contacts,
                    int *events, char *message, size_t len);
 
+enum {                          /* state of a contact point */
+  FUGE_AT_LOWER_STOP = 1,       /* gap 0, force >= 0; of either sign if tied */
+  FUGE_OPEN = 0,                /* between the stops, no force */
+  FUGE_AT_UPPER_STOP = -1       /* gap = play, force <= 0 */
+};
+
 /* The same between two general problems: from that of the solver, in equilibrium, to one
  * with other resultants and prescribed motions, all changing linearly with a parameter
  * from 0 to 1.  No fuge_solve is needed, and what one found stays.
@@ -442,7 +448,7 @@ int fuge_load_path(const fuge_operator *op, const double *gap, double load, int 
  *                   q jumps, which it may where nothing holds it
  *   rate       out  m for each entry: dq/d(parameter) from there to the next one
  *   point      out  the point that changes, from 1; 0 for the start
- *   side       out  its new state: 1 at the lower stop, 0 between, -1 at the upper stop
+ *   side       out  its new state: FUGE_AT_LOWER_STOP, FUGE_OPEN or FUGE_AT_UPPER_STOP
  *   contacts   out  points at a stop from there on
  *   entries    out  how many there are; only the first capacity are written
  * Points that change together have an entry each; motion, rate and contacts are then

@@ -5,6 +5,7 @@ module fuge
   use fuge_body_type, only: fuge_body
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_condensation, only: fuge_condense, fuge_condensed
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval, FUGE_EDGE_REFINED, FUGE_EDGE_FEW_CELLS, &
     FUGE_EDGE_SINGULAR, FUGE_EDGE_GRID_END

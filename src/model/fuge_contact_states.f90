@@ -1,0 +1,17 @@
+!> The state of a contact point between its two stops.
+!>
+!> A point is at its lower stop where the gap is zero and the force pushes, at its upper stop
+!> where the gap has reached the play and the force pulls, and open in between, without force.
+!> A one-sided point has no upper stop. A tied point (play zero) counts as at its lower stop.
+module fuge_contact_states
+  implicit none
+  private
+
+  !> State of a contact point: the gap is zero, the force is not negative (either sign if tied).
+  integer, parameter, public :: FUGE_AT_LOWER_STOP = 1
+  !> State of a contact point: the gap lies between the stops, the force is zero.
+  integer, parameter, public :: FUGE_OPEN = 0
+  !> State of a contact point: the gap equals the play, the force is not positive.
+  integer, parameter, public :: FUGE_AT_UPPER_STOP = -1
+
+end module fuge_contact_states
