@@ -3,7 +3,7 @@ module fuge_contact_modes
   use fuge_body_type, only: fuge_body
   use fuge_contact_normals, only: moved, softness
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgeqp3
+  use fuge_pivoted_qr, only: combine_independent, factorise_pivoted, numerical_rank
   use fuge_status, only: fuge_info, report, FUGE_ERR_NO_EQUILIBRIUM
   use fuge_number_text, only: text
   implicit none
@@ -32,42 +32,32 @@ contains
     logical, intent(out) :: felt(:)
     real(dp), allocatable, intent(out) :: sliding(:, :)
     integer, intent(out) :: stat
-    real(dp), allocatable :: r(:, :), work(:)
-    real(dp) :: unit(size(felt)), tau(size(felt)), mix(size(felt), size(felt))
+    real(dp), allocatable :: r(:, :), mix(:, :)
+    real(dp) :: unit(size(felt)), tau(size(felt))
     integer :: order(size(felt)), i, k, m, n, rank
 
     m = size(felt)
     n = size(modes, 1)
     felt = .true.
-    allocate (r(n, m), work(64*(m + 1)), stat=stat)
+    allocate (r(n, m), stat=stat)
     if (stat == 0 .and. m < 1) allocate (sliding(size(scale), 0), stat=stat)
     if (stat /= 0 .or. m < 1) return
     do k = 1, m
       unit(k) = maxval(abs(motions(:, k))*scale)
       r(:, k) = modes(:, k)/(unit(k)*soft)
     end do
-    order = 0
-    call dgeqp3(n, m, r, n, order, tau, work, size(work), stat)
-    rank = 0
-    do k = 1, min(m, n)
-      if (abs(r(k, k)) > max(STILL, error)) rank = k
-    end do
-    felt(order(rank + 1:)) = .false.
-    ! z_k - z_1 R_1^-1 R_2 for each motion k beyond the rank.
-    mix = 0.0_dp
-    do k = rank + 1, m
-      mix(:rank, k) = r(:rank, k)
-      do i = rank, 1, -1
-        mix(i, k) = mix(i, k)/r(i, i)
-        mix(:i - 1, k) = mix(:i - 1, k) - r(:i - 1, i)*mix(i, k)
-      end do
-    end do
-    allocate (sliding(size(scale), m - rank), stat=stat)
+    call factorise_pivoted(r, tau, order, stat)
     if (stat /= 0) return
-    do k = rank + 1, m
-      sliding(:, k - rank) = motions(:, order(k))/unit(order(k))
+    rank = numerical_rank(r, 0.0_dp, max(STILL, error))
+    felt(order(rank + 1:)) = .false.
+    allocate (mix(rank, m - rank), sliding(size(scale), m - rank), stat=stat)
+    if (stat /= 0) return
+    ! z_k - z_1 R_1^-1 R_2 for each motion k beyond the rank.
+    call combine_independent(r, rank, mix)
+    do k = 1, m - rank
+      sliding(:, k) = motions(:, order(rank + k))/unit(order(rank + k))
       do i = 1, rank
-        sliding(:, k - rank) = sliding(:, k - rank) - motions(:, order(i))*(mix(i, k)/unit(order(i)))
+        sliding(:, k) = sliding(:, k) - motions(:, order(i))*(mix(i, k)/unit(order(i)))
       end do
     end do
   end subroutine split_motions

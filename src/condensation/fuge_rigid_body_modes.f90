@@ -6,7 +6,8 @@
 module fuge_rigid_body_modes
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgeqp3, dorgqr, dsyev
+  use fuge_lapack, only: dsyev
+  use fuge_pivoted_qr, only: factorise_pivoted, numerical_rank, orthonormalise
   use fuge_smallest_eigenvalue, only: unscale
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NOT_DEFINITE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
@@ -92,7 +93,7 @@ contains
     integer, intent(in) :: width
     real(dp), allocatable, intent(out) :: y(:, :), quotient(:), noise(:)
     integer, intent(out) :: status
-    integer :: j, k, n, sweep
+    integer :: order(width), j, k, n, rank, sweep
 
     n = size(scale)
     allocate (y(n, width), quotient(width), noise(width), stat=status)
@@ -105,7 +106,7 @@ contains
       end do
     end do
     do sweep = 1, SWEEPS
-      call orthonormalise(y, status)
+      call orthonormalise(y, 0.0_dp, order, rank, status)
       if (status /= 0) return
       do k = 1, width
         y(:, k) = y(:, k)*scale
@@ -116,7 +117,7 @@ contains
         y(:, k) = y(:, k)*scale
       end do
     end do
-    call orthonormalise(y, status)
+    call orthonormalise(y, 0.0_dp, order, rank, status)
     if (status /= 0) return
     call rotate_to_softest(stiffness, scale, y, quotient, noise, status)
   end subroutine lowest_motions
@@ -152,23 +153,6 @@ contains
       call unscale(y(:, k), scale)
     end do
   end subroutine rotate_to_softest
-
-  !> Orthonormal columns that span those of y.
-  subroutine orthonormalise(y, status)
-    real(dp), intent(inout), contiguous :: y(:, :)
-    integer, intent(out) :: status
-    real(dp) :: tau(size(y, 2))
-    real(dp), allocatable :: work(:)
-    integer :: order(size(y, 2)), n, width
-
-    n = size(y, 1)
-    width = size(y, 2)
-    allocate (work(64*(width + 1)), stat=status)
-    if (status /= 0) return
-    order = 0
-    call dgeqp3(n, width, y, n, order, tau, work, size(work), status)
-    if (status == 0) call dorgqr(n, width, width, y, n, tau, work, size(work), status)
-  end subroutine orthonormalise
 
   !> Refuse given motions that the body resists, or that move what is fixed.
   !>
@@ -222,32 +206,29 @@ contains
     real(dp), intent(in) :: scale(:), motions(:, :)
     integer, allocatable, intent(out) :: pins(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: rows(:, :), work(:), tau(:)
+    real(dp), allocatable :: rows(:, :), tau(:)
     integer, allocatable :: order(:)
     real(dp) :: largest
     integer :: k, m, n, stat
 
     n = size(scale)
     m = size(motions, 2)
-    allocate (pins(min(m, n)), rows(m, n), order(n), tau(m), work(4*n + 8), stat=stat)
+    allocate (rows(m, n), order(n), tau(m), stat=stat)
+    if (stat == 0) then
+      do k = 1, m
+        rows(k, :) = motions(:, k)*scale
+        largest = maxval(abs(rows(k, :)))
+        if (largest > 0.0_dp) rows(k, :) = rows(k, :)/largest
+      end do
+      call factorise_pivoted(rows, tau, order, stat)
+    end if
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to look for degrees of freedom that hold the body')
-      return
-    end if
-    if (m < 1) return
-    do k = 1, m
-      rows(k, :) = motions(:, k)*scale
-      largest = maxval(abs(rows(k, :)))
-      if (largest > 0.0_dp) rows(k, :) = rows(k, :)/largest
-    end do
-    order = 0
-    call dgeqp3(m, n, rows, m, order, tau, work, size(work), stat)
-    k = min(m, n)
-    if (m > n .or. .not. abs(rows(k, k)) > RANK_TOLERANCE*abs(rows(1, 1))) then
+    else if (numerical_rank(rows, RANK_TOLERANCE, 0.0_dp) < m) then
       call report(info, FUGE_ERR_MODES, 'the '//text(m)//' modes of the body depend on each other, or one moves ' &
                   //'nothing: leave out what the others make up')
-      return
     end if
+    if (info%failed()) return
     pins = order(:m)
   end subroutine choose_pins
 

@@ -4,7 +4,8 @@
 module fuge_canonical_problem
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgeqp3, dgesv, dorgqr
+  use fuge_lapack, only: dgesv
+  use fuge_pivoted_qr, only: orthonormalise, orthonormalise_in_order
   use fuge_problem_type, only: fuge_problem
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM
   use fuge_number_text, only: text
@@ -131,7 +132,7 @@ contains
     type(canonical_problem), intent(inout) :: canonical
     type(fuge_info), intent(inout) :: info
     real(dp) :: scales(size(given, 2)), part(size(given, 1), size(given, 2))
-    integer :: order(size(given, 2)), m, rank, replaced
+    integer :: order(size(given, 2)), m, rank, replaced, stat
 
     m = size(given, 2)
     part = given
@@ -147,8 +148,11 @@ contains
       call keep_modes(part, scales, resultant, canonical)
       return
     end if
-    call orthonormal_base(part, .true., order, rank)
-    if (rank < m) then
+    call orthonormalise(part, DEPENDENT, order, rank, stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
+      return
+    else if (rank < m) then
       call report(info, FUGE_ERR_MODES, 'mode '//text(canonical%free(order(rank &
           + 1)))//' is made of the other modes: ' &
                   //'leave it out')
@@ -159,7 +163,11 @@ contains
     canonical%has_translation = replaced > 0
     if (canonical%has_translation) then
       part = cshift(part, replaced - 1, dim=2)
-      call orthonormal_base(part, .false., order, rank)
+      call orthonormalise_in_order(part, stat)
+      if (stat /= 0) then
+        call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
+        return
+      end if
     end if
     ! Rounding would let a point carry what does not move it.
     where (spread(all(abs(given) <= 0.0_dp, dim=2), 2, m)) part = 0.0_dp
@@ -212,39 +220,6 @@ contains
       canonical%load(place) = resultant(j)/(scales(j)*unit)
     end do
   end subroutine keep_modes
-
-  !> Overwrite a matrix by an orthonormal base of its columns, in order of size if
-  !> `pivoted`; `rank` counts those that are not rounding.
-  subroutine orthonormal_base(matrix, pivoted, order, rank)
-    real(dp), intent(inout), contiguous :: matrix(:, :)
-    logical, intent(in) :: pivoted
-    integer, intent(out) :: order(:), rank
-    real(dp) :: tau(size(matrix, 2)), work(64*(size(matrix, 2) + 1) + 2*size(matrix, 2))
-    integer :: j, info
-
-    order = 1
-    if (pivoted) order = 0
-    rank = 0
-    if (size(matrix, 1) < size(matrix, 2)) then
-      call rank_of_wide(matrix, order, rank)
-      return
-    end if
-    call dgeqp3(size(matrix, 1), size(matrix, 2), matrix, size(matrix, 1), order, tau, work, size(work), info)
-    do j = 1, size(matrix, 2)
-      if (abs(matrix(j, j)) > DEPENDENT*abs(matrix(1, 1))) rank = j
-    end do
-    call dorgqr(size(matrix, 1), size(matrix, 2), size(matrix, 2), matrix, size(matrix, 1), tau, work, size(work), info)
-  end subroutine orthonormal_base
-
-  !> More motions than points: some must depend on the others.
-  pure subroutine rank_of_wide(matrix, order, rank)
-    real(dp), intent(in) :: matrix(:, :)
-    integer, intent(out) :: order(:), rank
-    integer :: j
-
-    order = [(j, j=1, size(matrix, 2))]
-    rank = size(matrix, 1)
-  end subroutine rank_of_wide
 
   !> Put the constant in the place of a column of an orthonormal base if it lies in its
   !> span; `column` is 0 if it does not.

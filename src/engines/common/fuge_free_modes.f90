@@ -2,7 +2,7 @@
 module fuge_free_modes
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgeqp3, dorgqr
+  use fuge_pivoted_qr, only: orthogonal_complement
   use fuge_canonical_problem, only: canonical_problem
   implicit none
   private
@@ -70,30 +70,12 @@ contains
     real(dp), intent(in) :: modes(:, :)
     logical, intent(in) :: held(:)
     real(dp), allocatable, intent(out) :: base(:, :)
-    real(dp) :: rows(size(modes, 2), count(held)), whole(size(modes, 2), size(modes, 2))
-    real(dp) :: tau(size(modes, 2) + count(held)), work(3*count(held) + 64*(size(modes, 2) + 1))
-    integer :: order(count(held)), points(count(held)), j, k, m, p, rank, info
+    real(dp) :: rows(size(modes, 2), count(held))
+    integer :: j, status
 
-    m = size(modes, 2)
-    p = count(held)
-    k = min(m, p)
-    points = pack([(j, j=1, size(held))], held)
-    rows = transpose(modes(points, :))
-    order = 0
-    rank = 0
-    whole = 0.0_dp
-    do j = 1, m
-      whole(j, j) = 1.0_dp
-    end do
-    if (k > 0) then
-      call dgeqp3(m, p, rows, m, order, tau, work, size(work), info)
-      do j = 1, k
-        if (abs(rows(j, j)) > DEPENDENT*abs(rows(1, 1))) rank = j
-      end do
-      whole(:, :k) = rows(:, :k)
-      call dorgqr(m, m, k, whole, m, tau, work, size(work), info)
-    end if
-    base = whole(:, rank + 1:)
+    rows = transpose(modes(pack([(j, j=1, size(held))], held), :))
+    ! Without memory no motion counts as loose.
+    call orthogonal_complement(rows, DEPENDENT, base, status)
   end subroutine find_loose
 
   !> The motion (m) less its part in the `base` of the loose ones.
