@@ -63,37 +63,42 @@ extern "C" {
 /* ---- status ------------------------------------------------------------- */
 
 enum {
-  FUGE_DONE = 0,
-  FUGE_WARN_RESIDUAL = 1,       /* answer given, residual above the tolerance  */
-  FUGE_WARN_NOT_UNIQUE = 2,     /* one of many answers, the message says in what: the forces
-                                   (alpha singular on the contact), or a motion that the
-                                   contact does not hold */
-  FUGE_ERR_SIZE = -1,           /* n < 1, lda < n, a range beyond what there is */
-  FUGE_ERR_POINTER = -2,        /* NULL, or in Fortran a non-contiguous matrix */
-  FUGE_ERR_NOT_FINITE = -3,     /* NaN or infinity in an input                 */
-  FUGE_ERR_WIDTH = -4,          /* cell width <= 0; x < 0 in a symmetric model; x of a
-                                   profile does not increase, point outside of it */
-  FUGE_ERR_MODULUS = -5,        /* elastic modulus <= 0; Poisson's ratio out of range */
-  FUGE_ERR_ELEMENT = -6,        /* unknown element                             */
-  FUGE_ERR_GRID = -7,           /* element not symmetric on unequal widths; grid not uniform */
-  FUGE_ERR_NOT_SYMMETRIC = -8,  /* asymmetry above 1e-10 of the range of alpha */
-  FUGE_ERR_NOT_DEFINITE = -9,   /* alpha not positive definite on forces with zero sum */
-  FUGE_ERR_NO_EQUILIBRIUM = -10,/* load < 0; resultants that the points cannot carry */
-  FUGE_ERR_ITERATION_LIMIT = -11,
-  FUGE_ERR_MEMORY = -12,
-  FUGE_ERR_CALL_ORDER = -13,
-  FUGE_ERR_OPTION = -14,
-  FUGE_ERR_UNSUPPORTED = -15,   /* this version or engine cannot do that       */
-  FUGE_ERR_OVERFLOW = -16,      /* magnitudes leave double precision           */
-  FUGE_ERR_CALLBACK = -17,      /* an operator's callback failed or gave NaN   */
-  FUGE_ERR_CANCELLED = -18,     /* the progress callback ended the solve       */
-  FUGE_ERR_FILE = -19,          /* a file cannot be read or written            */
-  FUGE_ERR_GAP = -20,           /* gap_upper < 0                               */
-  FUGE_ERR_MODES = -21,         /* rigid motions that depend on each other, or move no point */
-  FUGE_ERR_DOF = -22            /* a degree of freedom out of range or named twice */
+  FUGE_DONE = 0,                   /* done */
+  FUGE_WARN_RESIDUAL = 1,          /* done, but the residual is above the tolerance */
+  FUGE_WARN_NOT_UNIQUE = 2,        /* done, but the solution is not unique: either the forces
+                                      (alpha singular on the contact), or a motion that the
+                                      contact does not resist */
+  FUGE_ERR_SIZE = -1,              /* a size or an index is invalid, or arrays differ in length:
+                                      n < 1, lda < n, a range beyond the last entry */
+  FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */
+  FUGE_ERR_NOT_FINITE = -3,        /* an input is NaN or infinite */
+  FUGE_ERR_WIDTH = -4,             /* a width or a position is out of range: cell width <= 0;
+                                      x < 0 in a symmetric model; x of a profile does not
+                                      increase, or a point lies outside it */
+  FUGE_ERR_MODULUS = -5,           /* an elastic modulus or Poisson's ratio is out of range */
+  FUGE_ERR_ELEMENT = -6,           /* unknown element */
+  FUGE_ERR_GRID = -7,              /* the grid is not uniform, as this element or call requires */
+  FUGE_ERR_NOT_SYMMETRIC = -8,     /* the influence or stiffness matrix is not symmetric:
+                                      asymmetry above 1e-10 of the range of alpha */
+  FUGE_ERR_NOT_DEFINITE = -9,      /* the influence or stiffness matrix is not positive definite:
+                                      for alpha, on the forces without resultant */
+  FUGE_ERR_NO_EQUILIBRIUM = -10,   /* no contact forces can be in equilibrium with this load:
+                                      load < 0, or resultants that no contact forces carry */
+  FUGE_ERR_ITERATION_LIMIT = -11,  /* the iteration limit was reached */
+  FUGE_ERR_MEMORY = -12,           /* out of memory */
+  FUGE_ERR_CALL_ORDER = -13,       /* a call came before another one that it requires */
+  FUGE_ERR_OPTION = -14,           /* an option has an invalid value */
+  FUGE_ERR_UNSUPPORTED = -15,      /* this engine or operator cannot solve this kind of problem */
+  FUGE_ERR_OVERFLOW = -16,         /* magnitudes exceed the range of double precision */
+  FUGE_ERR_CALLBACK = -17,         /* a callback failed or returned NaN or infinity */
+  FUGE_ERR_CANCELLED = -18,        /* the progress monitor cancelled the solve */
+  FUGE_ERR_FILE = -19,             /* a file cannot be read or written */
+  FUGE_ERR_GAP = -20,              /* an upper stop lies below the lower one: gap_upper < 0 */
+  FUGE_ERR_MODES = -21,            /* rigid modes depend on each other, or one moves no point */
+  FUGE_ERR_DOF = -22               /* a degree of freedom is out of range or named twice */
 };
 
-/* General meaning of a status; a constant string, never NULL. */
+/* Meaning of a status, as in the comments above; a constant string, never NULL. */
 const char *fuge_status_text(int status);
 
 /* Version of the library that is linked; compare with FUGE_VERSION. */

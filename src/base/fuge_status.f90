@@ -1,8 +1,8 @@
 !> Status codes, their texts, and the report that every call fills.
 !>
 !> 0 is done, positive is done with a warning, negative is an error that
-!> leaves all outputs untouched. This is the one table of codes: include/fuge.h
-!> repeats the numbers and a test compares the two.
+!> leaves all outputs untouched. This is the one table of codes and texts: include/fuge.h,
+!> doc/errors.md and the man page repeat them, and a test compares them.
 module fuge_status
   use fuge_kinds, only: dp
   implicit none
@@ -10,53 +10,53 @@ module fuge_status
 
   public :: fuge_status_text, report
 
-  !> Done, the residual is below the tolerance.
+  !> Done, the residual is at most the tolerance.
   integer, parameter, public :: FUGE_DONE = 0
-  !> Answer given, but its residual is above the tolerance.
+  !> Solved, but the residual is above the tolerance.
   integer, parameter, public :: FUGE_WARN_RESIDUAL = 1
-  !> Answer given, one of many: the message says in what.
+  !> Solved, but the solution is one of many: the message says which part is not unique.
   integer, parameter, public :: FUGE_WARN_NOT_UNIQUE = 2
-  !> A size or range is impossible, or arrays do not fit together.
+  !> A size or an index is invalid, or arrays differ in length.
   integer, parameter, public :: FUGE_ERR_SIZE = -1
-  !> A matrix is not contiguous; in C a pointer is NULL.
+  !> An array is not contiguous; in C a pointer is NULL.
   integer, parameter, public :: FUGE_ERR_POINTER = -2
-  !> NaN or infinity in an input.
+  !> An input is NaN or infinite.
   integer, parameter, public :: FUGE_ERR_NOT_FINITE = -3
-  !> A cell width or spacing is not positive, or a position is out of its range.
+  !> A cell width or spacing is not positive, or a position is out of range.
   integer, parameter, public :: FUGE_ERR_WIDTH = -4
-  !> An elastic modulus is not positive, or Poisson's ratio is out of its range.
+  !> An elastic modulus is not positive, or Poisson's ratio is out of range.
   integer, parameter, public :: FUGE_ERR_MODULUS = -5
   !> Unknown element.
   integer, parameter, public :: FUGE_ERR_ELEMENT = -6
-  !> The element is not symmetric on unequal widths, or the grid is not uniform.
+  !> The grid is not uniform, and the element is symmetric on equal widths only or the call needs equal cells.
   integer, parameter, public :: FUGE_ERR_GRID = -7
-  !> The matrix is not symmetric.
+  !> The influence or stiffness matrix is not symmetric.
   integer, parameter, public :: FUGE_ERR_NOT_SYMMETRIC = -8
-  !> The matrix is not positive definite where it has to be.
+  !> The influence or stiffness matrix is not positive definite where it has to be.
   integer, parameter, public :: FUGE_ERR_NOT_DEFINITE = -9
   !> No contact forces can be in equilibrium with these resultants.
   integer, parameter, public :: FUGE_ERR_NO_EQUILIBRIUM = -10
-  !> Pivots or contact sets are used up.
+  !> The limit of pivots or contact sets was reached.
   integer, parameter, public :: FUGE_ERR_ITERATION_LIMIT = -11
   !> An allocation failed.
   integer, parameter, public :: FUGE_ERR_MEMORY = -12
-  !> A call came before the one it needs.
+  !> A call came before another one that it requires.
   integer, parameter, public :: FUGE_ERR_CALL_ORDER = -13
-  !> An option has an impossible value.
+  !> An option has an invalid value.
   integer, parameter, public :: FUGE_ERR_OPTION = -14
-  !> This engine or operator cannot do that.
+  !> This engine or operator cannot solve this kind of problem.
   integer, parameter, public :: FUGE_ERR_UNSUPPORTED = -15
-  !> Magnitudes leave double precision.
+  !> Magnitudes exceed the range of double precision.
   integer, parameter, public :: FUGE_ERR_OVERFLOW = -16
-  !> An operator's callback failed or gave NaN.
+  !> A callback failed or returned NaN or infinity.
   integer, parameter, public :: FUGE_ERR_CALLBACK = -17
-  !> The progress monitor ended the solve.
+  !> The progress monitor cancelled the solve.
   integer, parameter, public :: FUGE_ERR_CANCELLED = -18
-  !> A file cannot be read.
+  !> A file cannot be read or written.
   integer, parameter, public :: FUGE_ERR_FILE = -19
   !> An upper stop lies below the lower one.
   integer, parameter, public :: FUGE_ERR_GAP = -20
-  !> Rigid motions depend on each other, or move no point.
+  !> Rigid modes depend on each other, or one moves no point.
   integer, parameter, public :: FUGE_ERR_MODES = -21
   !> A degree of freedom is out of range or named twice.
   integer, parameter, public :: FUGE_ERR_DOF = -22
@@ -67,30 +67,30 @@ module fuge_status
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
     'a degree of freedom is out of range or named twice', &
-    'rigid motions depend on each other', &
+    'rigid modes depend on each other, or one moves no point', &
     'an upper stop lies below the lower one', &
     'a file cannot be read or written', &
-    'the progress callback cancelled the solve', &
-    'a callback failed or returned NaN', &
-    'the magnitudes of the data overflow double precision', &
-    'this engine cannot solve this kind of problem', &
-    'an option has an impossible value', &
-    'a call came before the one it needs', &
+    'the progress monitor cancelled the solve', &
+    'a callback failed or returned NaN or infinity', &
+    'magnitudes exceed the range of double precision', &
+    'this engine or operator cannot solve this kind of problem', &
+    'an option has an invalid value', &
+    'a call came before another one that it requires', &
     'out of memory', &
     'the iteration limit was reached', &
     'no contact forces can be in equilibrium with this load', &
     'the influence or stiffness matrix is not positive definite', &
     'the influence or stiffness matrix is not symmetric', &
-    'this element is not symmetric on this grid', &
+    'the grid is not uniform, as this element or call requires', &
     'unknown element', &
-    'the elastic modulus is not positive', &
-    'a cell width or position is out of its range', &
+    'an elastic modulus or Poisson''s ratio is out of range', &
+    'a width or a position is out of range', &
     'an input is NaN or infinite', &
-    'a required pointer is NULL or an array is not contiguous', &
-    'a size or range is impossible', &
+    'a required pointer is NULL, or an array is not contiguous', &
+    'a size or an index is invalid, or arrays differ in length', &
     'done', &
-    'done, but the residual is above the tolerance asked for', &
-    'done, but the answer is not unique: the message says in what']
+    'done, but the residual is above the tolerance', &
+    'done, but the solution is not unique']
 
   character(len=*), parameter :: UNKNOWN_STATUS = 'unknown status'
 

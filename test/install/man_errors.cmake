@@ -19,8 +19,6 @@ function(expect_error old new expected)
   endif()
 endfunction()
 
-expect_error("FUGE_ERR_WIDTH \" (\\-4)\"" "FUGE_ERR_WIDTH \" (\\-5)\"" "only in the header: [^,]*FUGE_ERR_WIDTH")
-expect_error(".BR FUGE_DONE" ".BR FUGE_FINE" "only in the page: FUGE_FINE")
 expect_error("fuge_contact_edges (" "fuge_find_edges (" "not in the headers: fuge_find_edges")
 expect_error("\"fuge 0." "\"fuge 9." "the page is not that of")
 if(GROFF)
