@@ -1,62 +1,68 @@
-!> The preconditioner of an operator cut to a contact set: what preconditions the conjugate
-!> gradients there.
+!> The preconditioner of the conjugate gradients on a contact set: that of the operator,
+!> restricted to the set.
 !>
-!> Cut to one stretch of contact the preconditioner is the inverse of the cut operator but for
-!> a few directions. Cut to many it makes too much of forces that change from stretch to
-!> stretch but little within each: seen from afar these are a smooth load that sinks much
-!> deeper than the preconditioner believes. Then the cells are taken together, sixteen by
-!> sixteen, and again: each grid's own preconditioner sees what varies within sixteen cells of
-!> it, the next one sees the means. doc/theory.md shows that the sum of these parts is
-!> symmetric and positive definite.
+!> Restricted to one contact segment, the operator's preconditioner is the inverse of the
+!> restricted operator except in a few directions. Restricted to many segments it overestimates
+!> the stiffness of forces that vary from segment to segment but little within one: to it they are
+!> short waves, in truth a smooth load. So there is a hierarchy of levels, each with cells sixteen
+!> times as wide as those of the level before: the preconditioner of each level handles what
+!> varies within groups of sixteen of its cells, and the next level handles the group means.
+!> doc/theory.md shows that the sum over the levels is symmetric and positive definite.
 module fuge_contact_preconditioner
+  use fuge_contact_segments, only: contact_segments, sum_over
   use fuge_kinds, only: dp
-  use fuge_operator_type, only: fuge_operator
-  use fuge_operator_products, only: precondition
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
-  use fuge_contact_segments, only: stretches, total
   use fuge_number_text, only: text
+  use fuge_operator_products, only: precondition
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
 
-  !> So many doublings of the cells lie between one level and the next.
-  integer, parameter :: DOUBLINGS = 4
-  integer, parameter :: CELLS = 2**DOUBLINGS
-  !> Fewer stretches of contact than this need one level only: each of them adds one
-  !> direction or two that conjugate gradients have to find.
-  integer, parameter :: MANY_STRETCHES = 16
+  !> From one level to the next the cell width doubles this many times.
+  integer, parameter :: DOUBLINGS_PER_LEVEL = 4
+  !> Cells of one level in a cell of the next.
+  integer, parameter :: GROUP = 2**DOUBLINGS_PER_LEVEL
+  !> With fewer contact segments than this one level is enough: each segment adds only one or two
+  !> directions for the conjugate gradients to resolve.
+  integer, parameter :: MANY_SEGMENTS = 16
   !> More levels than any grid has.
-  integer, parameter :: MOST_LEVELS = 8
+  integer, parameter :: MAX_LEVELS = 8
 
   type :: preconditioner_level
-    !> Not allocated on the finest level, where the caller has it.
+    !> The operator on the cells of this level; unallocated on the finest level, where the caller
+    !> passes it.
     class(fuge_operator), allocatable :: operator
-    !> Points in contact in each cell: how often it counts.
+    !> Number of points in contact in each cell: the weight of the cell in means.
     real(dp), allocatable :: weight(:)
-    !> 1 where a cell has points in contact, else 0. On the finest level the weight is that.
-    real(dp), allocatable :: present(:)
-    !> A length, zero off the contact: work space.
-    real(dp), allocatable :: length(:)
+    !> 1 for cells with points in contact, else 0; unallocated on the finest level, where `weight`
+    !> is just that.
+    real(dp), allocatable :: indicator(:)
+    !> The residual (length) that this level preconditions, zero off the contact; overwritten.
+    real(dp), allocatable :: residual(:)
   end type preconditioner_level
 
-  !> Forces on the cells of a level, apart from it because they are what it makes.
+  !> Forces on the cells of a level. They are no component of `preconditioner_level` because they
+  !> are output where the level is input.
   type :: level_force
     real(dp), allocatable :: values(:)
   end type level_force
 
+  !> Set it for a contact set, then apply it any number of times.
   type, public :: contact_preconditioner
-    !> Made when several levels are wanted.
+    !> Created for the first set with many segments.
     type(preconditioner_level), allocatable, private :: levels(:)
     type(level_force), allocatable, private :: forces(:)
-    !> The present set, (n).
+    !> The contact set, (n).
     logical, allocatable, private :: contact(:)
-    !> Levels in use for the present set; 0 without a preconditioner.
+    !> Number of levels used for this set; 0 where the operator has no preconditioner.
     integer, private :: depth = 0
-    !> Forces that sink all contact points alike, nearly, and their sum.
-    real(dp), allocatable, private :: even(:)
-    real(dp), private :: sum_of_even = 1.0_dp
-    !> Stands for the preconditioner where the operator has none; force per length.
+    !> The preconditioner applied to a unit residual on the whole set, (n): forces that displace
+    !> all its points almost equally; and their sum.
+    real(dp), allocatable, private :: uniform(:)
+    real(dp), private :: sum_of_uniform = 1.0_dp
+    !> Force per length that stands for the preconditioner where the operator has none.
     real(dp), private :: stiffness = 1.0_dp
-    !> Preconditioner applications on coarser grids, as parts of one on this grid.
+    !> Applications on coarser levels, each counted as its fraction of one on the finest.
     real(dp) :: coarse_share = 0.0_dp
   contains
     procedure :: set
@@ -65,112 +71,114 @@ module fuge_contact_preconditioner
 
 contains
 
-  !> Make ready for a contact set.
+  !> Prepare for a contact set; does nothing if it is the same set as before.
   !>
-  !> `contact` (n); `softness` a typical length per force, used where the
-  !> operator has no preconditioner. Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE for a preconditioner
-  !> that is not positive definite, those of the preconditioner.
-  subroutine set(self, operator, contact, softness, info)
+  !> `contact` (n); `compliance` a typical displacement per force, used where the operator has no
+  !> preconditioner. Errors: FUGE_ERR_MEMORY; FUGE_ERR_NOT_DEFINITE for a preconditioner that is
+  !> not positive definite; those of `precondition`.
+  subroutine set(self, operator, contact, compliance, info)
     class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     logical, intent(in) :: contact(:)
-    real(dp), intent(in) :: softness
+    real(dp), intent(in) :: compliance
     type(fuge_info), intent(inout) :: info
-    type(stretches) :: over
+    type(contact_segments) :: segments
 
     if (.not. operator%has_preconditioner()) then
-      ! Only to stay in range: conjugate gradients do not depend on it.
+      ! Only avoids overflow: conjugate gradients do not depend on a factor.
       self%stiffness = 1.0_dp
-      if (softness >= tiny(softness)) self%stiffness = 1.0_dp/softness
+      if (compliance >= tiny(compliance)) self%stiffness = 1.0_dp/compliance
       return
     end if
     if (self%depth > 0) then
       if (all(contact .eqv. self%contact)) return
     end if
-    call over%find(contact, info)
-    if (.not. info%failed()) call make_ready(self, operator, contact, size(over%first) >= MANY_STRETCHES, info)
+    call segments%find(contact, info)
+    if (.not. info%failed()) call prepare_levels(self, operator, contact, size(segments%first) >= MANY_SEGMENTS, info)
     if (info%failed()) return
     if (self%depth == 1) then
-      call precondition_equal(operator, contact, self%even, info)
+      call precondition_unit(operator, contact, self%uniform, info)
     else
-      self%levels(1)%length = self%levels(1)%weight
-      call precondition_from(self%levels(:self%depth), self%forces, operator, self%even, self%coarse_share, info)
+      self%levels(1)%residual = self%levels(1)%weight
+      call apply_levels(self%levels(:self%depth), self%forces, operator, self%uniform, self%coarse_share, info)
     end if
     if (info%failed()) return
-    self%sum_of_even = total(over, self%even)
-    if (over%points > 0 .and. .not. self%sum_of_even > 0.0_dp) then
+    self%sum_of_uniform = sum_over(segments, self%uniform)
+    if (segments%points > 0 .and. .not. self%sum_of_uniform > 0.0_dp) then
       call report(info, FUGE_ERR_NOT_DEFINITE, &
                   'the preconditioner of the operator is not positive definite: equal lengths ' &
-                  //'on the contact set have the energy '//text(self%sum_of_even))
+                  //'on the contact set have the energy '//text(self%sum_of_uniform))
     end if
   end subroutine set
 
-  !> Forces on the contact set near those that take `length` away; with zero sum if
-  !> `balanced`.
+  !> Forces on the contact set whose displacements are close to `residual`; projected to zero sum
+  !> if `zero_sum`.
   !>
-  !> `over` the stretches of its set; `length` (n), zero off them; `force` (n), off them
-  !> anything. Errors: those of the preconditioner.
-  subroutine apply(self, operator, over, balanced, length, force, info)
+  !> `segments` those of the contact set; `residual` (n), length, zero off the set; `force` (n),
+  !> undefined off the set. Errors: those of `precondition`.
+  subroutine apply(self, operator, segments, zero_sum, residual, force, info)
     class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
-    type(stretches), intent(in) :: over
-    logical, intent(in) :: balanced
-    real(dp), intent(in), contiguous :: length(:)
+    type(contact_segments), intent(in) :: segments
+    logical, intent(in) :: zero_sum
+    real(dp), intent(in), contiguous :: residual(:)
     real(dp), intent(inout), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
-    real(dp) :: excess
+    real(dp) :: factor
     integer :: i
 
-    excess = 0.0_dp
+    factor = 0.0_dp
     if (self%depth == 1) then
-      call precondition(operator, length, force, info)
+      call precondition(operator, residual, force, info)
     else if (self%depth > 1) then
-      self%levels(1)%length = length
-      call precondition_from(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
+      self%levels(1)%residual = residual
+      call apply_levels(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
     end if
     if (info%failed()) return
-    if (self%depth > 0 .and. balanced) excess = total(over, force)/self%sum_of_even
-    do i = 1, size(over%first)
-      associate (a => over%first(i), b => over%last(i))
+    if (self%depth > 0 .and. zero_sum) factor = sum_over(segments, force)/self%sum_of_uniform
+    do i = 1, size(segments%first)
+      associate (a => segments%first(i), b => segments%last(i))
         if (self%depth > 0) then
-          force(a:b) = force(a:b) - excess*self%even(a:b)
+          force(a:b) = force(a:b) - factor*self%uniform(a:b)
         else
-          force(a:b) = self%stiffness*length(a:b)
+          force(a:b) = self%stiffness*residual(a:b)
         end if
       end associate
     end do
   end subroutine apply
 
-  !> Remember the set, and make all levels there are if `many` stretches want them.
-  subroutine make_ready(self, operator, contact, many, info)
+  !> Store the contact set; with `many_segments` also create the levels that do not exist yet and
+  !> count the contact points in their cells.
+  subroutine prepare_levels(self, operator, contact, many_segments, info)
     class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
-    logical, intent(in) :: contact(:), many
+    logical, intent(in) :: contact(:), many_segments
     type(fuge_info), intent(inout) :: info
     integer :: l, n, stat
 
     n = operator%points()
     stat = 0
-    if (.not. allocated(self%contact)) allocate (self%contact(n), self%even(n), stat=stat)
+    if (.not. allocated(self%contact)) allocate (self%contact(n), self%uniform(n), stat=stat)
     if (stat == 0) self%contact = contact
     self%depth = 1
-    if (many .and. stat == 0) then
+    if (many_segments .and. stat == 0) then
       if (.not. allocated(self%levels)) then
-        allocate (self%levels(MOST_LEVELS), self%forces(MOST_LEVELS), stat=stat)
-        if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%length(n), stat=stat)
+        allocate (self%levels(MAX_LEVELS), self%forces(MAX_LEVELS), stat=stat)
+        if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%residual(n), stat=stat)
       end if
-      do l = 2, MOST_LEVELS
-        if (stat == 0) call make_level(operator, l, self%levels(l), self%forces(l), stat)
+      do l = 2, MAX_LEVELS
+        if (stat == 0) call create_level(operator, l, self%levels(l), self%forces(l), stat)
         if (stat /= 0 .or. .not. allocated(self%levels(l)%operator)) exit
         self%depth = l
       end do
-      if (self%depth > 1 .and. stat == 0) call weigh(self%levels(:self%depth), contact)
+      if (self%depth > 1 .and. stat == 0) call count_contacts(self%levels(:self%depth), contact)
     end if
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
-  end subroutine make_ready
+  end subroutine prepare_levels
 
-  !> A level of coarser cells, if it is not there yet and the operator has it.
-  subroutine make_level(operator, number, level, force, stat)
+  !> Create level `number` unless it exists already; it stays empty if the operator has no grid
+  !> so coarse. `stat` is not 0 where memory is short.
+  subroutine create_level(operator, number, level, force, stat)
     class(fuge_operator), intent(in) :: operator
     integer, intent(in) :: number
     type(preconditioner_level), intent(inout) :: level
@@ -180,33 +188,33 @@ contains
 
     stat = 0
     if (allocated(level%operator)) return
-    call operator%coarsen(DOUBLINGS*(number - 1), coarse)
-    if (.not. is_usable(coarse, (operator%points() - 1)/CELLS**(number - 1) + 1)) return
+    call operator%coarsen(DOUBLINGS_PER_LEVEL*(number - 1), coarse)
+    if (.not. is_usable(coarse, (operator%points() - 1)/GROUP**(number - 1) + 1)) return
     call move_alloc(coarse, level%operator)
-    allocate (level%weight(level%operator%points()), level%present(level%operator%points()), &
-              level%length(level%operator%points()), force%values(level%operator%points()), stat=stat)
+    allocate (level%weight(level%operator%points()), level%indicator(level%operator%points()), &
+              level%residual(level%operator%points()), force%values(level%operator%points()), stat=stat)
     if (stat /= 0) deallocate (level%operator)
-  end subroutine make_level
+  end subroutine create_level
 
-  !> What the preconditioner makes of equal lengths on the set.
-  subroutine precondition_equal(operator, contact, force, info)
+  !> The operator's preconditioner applied to 1 on the contact set and 0 elsewhere.
+  subroutine precondition_unit(operator, contact, force, info)
     class(fuge_operator), intent(in) :: operator
     logical, intent(in) :: contact(:)
     real(dp), intent(inout), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: length(:)
+    real(dp), allocatable :: unit(:)
     integer :: stat
 
-    allocate (length(size(contact)), stat=stat)
+    allocate (unit(size(contact)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(size(contact))//' points')
     else
-      length = merge(1.0_dp, 0.0_dp, contact)
-      call precondition(operator, length, force, info)
+      unit = merge(1.0_dp, 0.0_dp, contact)
+      call precondition(operator, unit, force, info)
     end if
-  end subroutine precondition_equal
+  end subroutine precondition_unit
 
-  !> A coarser grid of the right number of cells with a preconditioner.
+  !> Does the coarser operator exist, with `cells` points and a preconditioner?
   function is_usable(coarse, cells) result(usable)
     class(fuge_operator), intent(in), allocatable :: coarse
     integer, intent(in) :: cells
@@ -218,7 +226,7 @@ contains
   end function is_usable
 
   !> Count the points in contact in the cells of every level.
-  pure subroutine weigh(levels, contact)
+  pure subroutine count_contacts(levels, contact)
     type(preconditioner_level), intent(inout) :: levels(:)
     logical, intent(in) :: contact(:)
     integer :: k, l
@@ -226,16 +234,17 @@ contains
     levels(1)%weight = merge(1.0_dp, 0.0_dp, contact)
     do l = 2, size(levels)
       do k = 1, size(levels(l)%weight)
-        levels(l)%weight(k) = sum(levels(l - 1)%weight((k - 1)*CELLS + 1:min(k*CELLS, size(levels(l - 1)%weight))))
+        levels(l)%weight(k) = sum(levels(l - 1)%weight((k - 1)*GROUP + 1:min(k*GROUP, size(levels(l - 1)%weight))))
       end do
-      levels(l)%present = min(levels(l)%weight, 1.0_dp)
+      levels(l)%indicator = min(levels(l)%weight, 1.0_dp)
     end do
-  end subroutine weigh
+  end subroutine count_contacts
 
-  !> Force on each point by the preconditionings of these levels; the length is in
-  !> levels(1)%length, zero off the contact, and is used up. Off the contact the forces
-  !> mean nothing. `operator` that of the finest grid.
-  recursive subroutine precondition_from(levels, forces, operator, force, coarse_share, info)
+  !> Force on each point as the sum over these levels of their preconditioners.
+  !>
+  !> The residual is levels(1)%residual, zero off the contact, and is overwritten. `operator` that
+  !> of the finest grid; `force` is undefined off the contact.
+  recursive subroutine apply_levels(levels, forces, operator, force, coarse_share, info)
     type(preconditioner_level), intent(inout) :: levels(:)
     type(level_force), intent(inout) :: forces(:)
     class(fuge_operator), intent(in) :: operator
@@ -244,26 +253,27 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (size(levels) > 1) then
-      call mean_of_cells(levels(1)%weight, levels(1)%length, levels(2)%weight, levels(2)%length)
-      if (allocated(levels(1)%present)) then
-        call subtract_cells(levels(2)%length, levels(1)%present, levels(1)%length)
+      call compute_group_means(levels(1)%weight, levels(1)%residual, levels(2)%weight, levels(2)%residual)
+      if (allocated(levels(1)%indicator)) then
+        call subtract_from_groups(levels(2)%residual, levels(1)%indicator, levels(1)%residual)
       else
-        call subtract_cells(levels(2)%length, levels(1)%weight, levels(1)%length)
+        call subtract_from_groups(levels(2)%residual, levels(1)%weight, levels(1)%residual)
       end if
     end if
     if (allocated(levels(1)%operator)) then
       call precondition_coarse(levels(1), operator%points(), force, coarse_share, info)
     else
-      call precondition(operator, levels(1)%length, force, info)
+      call precondition(operator, levels(1)%residual, force, info)
     end if
     if (info%failed() .or. size(levels) == 1) return
-    call mean_of_cells(levels(1)%weight, force, levels(2)%weight, forces(2)%values)
-    call add_cells(-1.0_dp, forces(2)%values, force)
-    call precondition_from(levels(2:), forces(2:), operator, forces(2)%values, coarse_share, info)
-    call add_cells(1.0_dp, forces(2)%values, force)
-  end subroutine precondition_from
+    call compute_group_means(levels(1)%weight, force, levels(2)%weight, forces(2)%values)
+    call add_to_groups(-1.0_dp, forces(2)%values, force)
+    call apply_levels(levels(2:), forces(2:), operator, forces(2)%values, coarse_share, info)
+    call add_to_groups(1.0_dp, forces(2)%values, force)
+  end subroutine apply_levels
 
-  !> The preconditioner of a coarser grid; the force on a cell is shared by its points in contact.
+  !> The preconditioner of a coarser level; the force on a cell is divided evenly among its points
+  !> in contact. `points` number of points of the finest grid.
   subroutine precondition_coarse(level, points, force, coarse_share, info)
     type(preconditioner_level), intent(in) :: level
     integer, intent(in) :: points
@@ -272,15 +282,15 @@ contains
     type(fuge_info), intent(inout) :: info
     type(fuge_info) :: coarse
 
-    call precondition(level%operator, level%length, force, coarse)
+    call precondition(level%operator, level%residual, force, coarse)
     coarse_share = coarse_share + real(size(force), dp)/real(points, dp)
     if (coarse%failed()) call report(info, coarse%status, 'on the grid of '//text(size(force))//' cells: ' &
                                      //coarse%message)
     where (level%weight > 0.0_dp) force = force/level%weight
   end subroutine precondition_coarse
 
-  !> Means over groups of sixteen, each point counted `weight` times; 0 without any.
-  pure subroutine mean_of_cells(weight, fine, coarse_weight, coarse)
+  !> Weighted mean of `fine` over each group of cells; 0 for a group of weight 0.
+  pure subroutine compute_group_means(weight, fine, coarse_weight, coarse)
     real(dp), intent(in), contiguous :: weight(:), fine(:), coarse_weight(:)
     real(dp), intent(inout), contiguous :: coarse(:)
     integer :: first, last, k
@@ -288,29 +298,29 @@ contains
     do k = 1, size(coarse)
       coarse(k) = 0.0_dp
       if (.not. coarse_weight(k) > 0.0_dp) cycle
-      first = (k - 1)*CELLS + 1
-      last = min(k*CELLS, size(fine))
+      first = (k - 1)*GROUP + 1
+      last = min(k*GROUP, size(fine))
       coarse(k) = sum(weight(first:last)*fine(first:last))/coarse_weight(k)
     end do
-  end subroutine mean_of_cells
+  end subroutine compute_group_means
 
-  !> Take each group's value off where `present` is 1.
-  pure subroutine subtract_cells(coarse, present, fine)
-    real(dp), intent(in), contiguous :: coarse(:), present(:)
+  !> Subtract each group's value from those of its cells whose `indicator` is 1.
+  pure subroutine subtract_from_groups(coarse, indicator, fine)
+    real(dp), intent(in), contiguous :: coarse(:), indicator(:)
     real(dp), intent(inout), contiguous :: fine(:)
     integer :: i, k
 
     do k = 1, size(coarse)
       if (.not. abs(coarse(k)) > 0.0_dp) cycle
-      do i = (k - 1)*CELLS + 1, min(k*CELLS, size(fine))
-        fine(i) = fine(i) - coarse(k)*present(i)
+      do i = (k - 1)*GROUP + 1, min(k*GROUP, size(fine))
+        fine(i) = fine(i) - coarse(k)*indicator(i)
       end do
     end do
-  end subroutine subtract_cells
+  end subroutine subtract_from_groups
 
-  !> Add `factor` times each group's value to all of it: for forces, which count at the
-  !> contact only.
-  pure subroutine add_cells(factor, coarse, fine)
+  !> Add `factor` times each group's value to all its cells. Meant for forces, which are undefined
+  !> off the contact anyway.
+  pure subroutine add_to_groups(factor, coarse, fine)
     real(dp), intent(in) :: factor
     real(dp), intent(in), contiguous :: coarse(:)
     real(dp), intent(inout), contiguous :: fine(:)
@@ -318,10 +328,10 @@ contains
 
     do k = 1, size(coarse)
       if (.not. abs(coarse(k)) > 0.0_dp) cycle
-      do i = (k - 1)*CELLS + 1, min(k*CELLS, size(fine))
+      do i = (k - 1)*GROUP + 1, min(k*GROUP, size(fine))
         fine(i) = fine(i) + factor*coarse(k)
       end do
     end do
-  end subroutine add_cells
+  end subroutine add_to_groups
 
 end module fuge_contact_preconditioner

@@ -1,30 +1,32 @@
-!> Stretches of consecutive points in contact, and sums over them. Loops over stretches
-!> touch no open point and have no branch inside.
+!> Contact segments: maximal runs of consecutive points in contact, and sums over them.
+!>
+!> Loops over the segments visit no open point and have no branch inside.
 module fuge_contact_segments
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
 
-  public :: total, inner, largest
+  public :: sum_over, dot_over, max_abs_over
 
-  !> Partial sums kept at once: faster, and more exact, than one.
+  !> Number of partial sums: several are faster, and more exact, than one.
   integer, parameter :: LANES = 8
 
-  type, public :: stretches
-    !> First and last point of each, ascending.
+  !> The segments of one contact set.
+  type, public :: contact_segments
+    !> First and last point of each segment, ascending.
     integer, allocatable :: first(:), last(:)
-    !> Points in all of them.
+    !> Number of points in all segments.
     integer :: points = 0
   contains
     procedure :: find
-  end type stretches
+  end type contact_segments
 
 contains
 
-  !> The stretches of a contact set. Error: FUGE_ERR_MEMORY.
+  !> Find the segments of the contact set `contact` (n). Error: FUGE_ERR_MEMORY.
   pure subroutine find(self, contact, info)
-    class(stretches), intent(inout) :: self
+    class(contact_segments), intent(inout) :: self
     logical, intent(in) :: contact(:)
     type(fuge_info), intent(inout) :: info
     integer :: k, n, number, stat
@@ -36,7 +38,7 @@ contains
     if (allocated(self%first)) deallocate (self%first, self%last)
     allocate (self%first(number), self%last(number), stat=stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the stretches of the contact set')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the segments of the contact set')
       return
     end if
     number = 0
@@ -54,61 +56,61 @@ contains
     self%points = sum(self%last - self%first + 1)
   end subroutine find
 
-  !> Sum of `x` over the stretches.
-  pure function total(over, x) result(sum_of_x)
-    type(stretches), intent(in) :: over
+  !> Sum of `x` (n) over the segments.
+  pure function sum_over(segments, x) result(total)
+    type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:)
-    real(dp) :: sum_of_x
-    real(dp) :: part(LANES)
+    real(dp) :: total
+    real(dp) :: partial(LANES)
     integer :: i, k
 
-    sum_of_x = 0.0_dp
-    part = 0.0_dp
-    do i = 1, size(over%first)
-      do k = over%first(i), over%last(i) - LANES + 1, LANES
-        part = part + x(k:k + LANES - 1)
+    total = 0.0_dp
+    partial = 0.0_dp
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
+        partial = partial + x(k:k + LANES - 1)
       end do
-      do k = over%last(i) - modulo(over%last(i) - over%first(i) + 1, LANES) + 1, over%last(i)
-        sum_of_x = sum_of_x + x(k)
+      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
+        total = total + x(k)
       end do
     end do
-    sum_of_x = sum_of_x + sum(part)
-  end function total
+    total = total + sum(partial)
+  end function sum_over
 
-  !> Sum of x*y over the stretches.
-  pure function inner(over, x, y) result(sum_of_products)
-    type(stretches), intent(in) :: over
+  !> Inner product of `x` and `y`, both (n), over the segments.
+  pure function dot_over(segments, x, y) result(inner)
+    type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:), y(:)
-    real(dp) :: sum_of_products
-    real(dp) :: part(LANES)
+    real(dp) :: inner
+    real(dp) :: partial(LANES)
     integer :: i, k
 
-    sum_of_products = 0.0_dp
-    part = 0.0_dp
-    do i = 1, size(over%first)
-      do k = over%first(i), over%last(i) - LANES + 1, LANES
-        part = part + x(k:k + LANES - 1)*y(k:k + LANES - 1)
+    inner = 0.0_dp
+    partial = 0.0_dp
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
+        partial = partial + x(k:k + LANES - 1)*y(k:k + LANES - 1)
       end do
-      do k = over%last(i) - modulo(over%last(i) - over%first(i) + 1, LANES) + 1, over%last(i)
-        sum_of_products = sum_of_products + x(k)*y(k)
+      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
+        inner = inner + x(k)*y(k)
       end do
     end do
-    sum_of_products = sum_of_products + sum(part)
-  end function inner
+    inner = inner + sum(partial)
+  end function dot_over
 
-  !> Largest |x| over the stretches.
-  pure function largest(over, x) result(magnitude)
-    type(stretches), intent(in) :: over
+  !> Largest |x| over the segments, 0 if there is none; `x` (n).
+  pure function max_abs_over(segments, x) result(largest)
+    type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:)
-    real(dp) :: magnitude
+    real(dp) :: largest
     integer :: i, k
 
-    magnitude = 0.0_dp
-    do i = 1, size(over%first)
-      do k = over%first(i), over%last(i)
-        magnitude = max(magnitude, abs(x(k)))
+    largest = 0.0_dp
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i)
+        largest = max(largest, abs(x(k)))
       end do
     end do
-  end function largest
+  end function max_abs_over
 
 end module fuge_contact_segments

@@ -1,271 +1,301 @@
-!> The contact set of one grid, by products only: conjugate gradients on a set, judged just
-!> well enough to change sides, and the way down the energy where that does not get on.
+!> Search for the contact set of one grid, using only products with the operator.
+!>
+!> Each iteration solves on the present set by conjugate gradients, just accurately enough to tell
+!> which points are in tension and which penetrate, and exchanges those. Where block exchanges
+!> stop making progress, a primal active-set method exchanges one point at a time: it lowers the
+!> energy in each step and so terminates.
 module fuge_contact_set_search
-  use fuge_set_exchange, only: exchange, exchange_in_row
+  use fuge_blocking_step, only: step_back
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: ITERATIONS_PER_ROW
-  use fuge_projected_gradients, only: iterate, relax, measure, deflect, open_gap
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED
-  use fuge_blocking_step, only: step_back
-  use fuge_number_text, only: text
+  use fuge_projected_gradients, only: compute_displacement, contact_iterate, deformed_gap, evaluate_iterate, &
+    run_projected_gradients
+  use fuge_set_exchange, only: exchange, exchange_extrapolated
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
   implicit none
   private
 
-  public :: find_contact, restart
+  public :: find_contact_set, make_feasible
 
-  !> Residual asked of a grid that only gives a start to a finer one.
+  !> Relative residual required on a coarser grid, which only provides a starting point.
   real(dp), parameter :: COARSE_TOLERANCE = 1.0e-4_dp
-  !> The engine aims below the tolerance by this factor, because the certificate
-  !> counts more than the equations of the set.
-  real(dp), parameter :: MARGIN = 0.4_dp
-  !> Block changes without fewer wrong points before single ones; the foresight ends
-  !> when half of them are used.
-  integer, parameter :: PATIENCE = 10
+  !> The search aims below the tolerance by this factor, because the certificate adds the errors
+  !> at two points.
+  real(dp), parameter :: SAFETY = 0.4_dp
+  !> Block exchanges without a new minimum of wrong points before single exchanges begin; edges
+  !> are extrapolated in the first half of them only.
+  integer, parameter :: MAX_STALLS = 10
 
-  !> What is asked of one grid.
-  type, public :: demands
+  !> What is required of the search on one grid.
+  type, public :: search_settings
+    !> Relative residual to reach.
     real(dp) :: tolerance = COARSE_TOLERANCE
     !> Contact sets allowed, on all grids together.
     integer :: limit = 0
-    !> A consistent set is enough: its forces only start a finer grid.
-    logical :: only_start = .true.
-    !> The motion is prescribed.
-    logical :: held = .false.
-  end type demands
+    !> Accept the first set without wrong points, accurate or not: on a coarser grid its forces
+    !> only start the next one.
+    logical :: coarse_grid = .true.
+    !> The rigid motion is prescribed and already subtracted from the gaps.
+    logical :: prescribed = .false.
+  end type search_settings
 
 contains
 
-  !> The contact set of one grid and its forces, from forces to start with.
+  !> Find the contact set of one grid and its forces.
   !>
-  !> Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
+  !> `reduced_gap` (n), scaled as in contact_iterate; `iterate` in: forces to start from; out: forces,
+  !> displacements, contact set and motion. Counts contact sets, products and preconditionings in
+  !> `info`. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
-  subroutine find_contact(operator, wanted, reduced_gap, monitor, state, info)
+  subroutine find_contact_set(operator, settings, reduced_gap, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
-    type(demands), intent(in) :: wanted
+    type(search_settings), intent(in) :: settings
     real(dp), intent(in), contiguous :: reduced_gap(:)
     class(fuge_monitor), intent(inout) :: monitor
-    type(iterate), intent(inout) :: state
+    type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     type(contact_preconditioner) :: preconditioner
-    real(dp) :: before
-    integer :: wrong, fewest, patience_left
-    logical :: thorough, reached, in_row
+    real(dp) :: previous_residual
+    integer :: wrong, fewest_wrong, stalls_left
+    logical :: to_tolerance, confirmed, in_row
 
     in_row = operator%in_row()
-    fewest = huge(fewest)
-    patience_left = PATIENCE
-    before = huge(before)
-    thorough = .false.
-    state%contact = state%force > 0.0_dp
-    call restart(operator, state, info)
+    fewest_wrong = huge(fewest_wrong)
+    stalls_left = MAX_STALLS
+    previous_residual = huge(previous_residual)
+    to_tolerance = .false.
+    iterate%contact = iterate%force > 0.0_dp
+    call make_feasible(operator, iterate, info)
     do while (.not. info%failed())
-      call settle(operator, wanted, preconditioner, reduced_gap, thorough, monitor, state, reached, info)
+      call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, to_tolerance, monitor, iterate, info)
       if (info%failed()) exit
-      wrong = count(state%contact .and. state%force < 0.0_dp) &
-              + count(.not. state%contact .and. open_gap(reduced_gap, state%displacement, state%motion) &
-                      < -noise_of(wanted, state))
+      wrong = count_wrong_points(reduced_gap, penetration_noise(settings, iterate), iterate)
       if (wrong == 0) then
-        if (wanted%only_start) exit
-        if (thorough .or. reached) then
-          call confirm(operator, wanted, reduced_gap, before, state, reached, info)
-          if (reached .or. info%failed()) exit
+        if (settings%coarse_grid) exit
+        if (to_tolerance .or. iterate%converged) then
+          call confirm_contact_set(operator, settings, reduced_gap, previous_residual, iterate, confirmed, info)
+          if (confirmed .or. info%failed()) exit
         end if
-        thorough = .true.
+        to_tolerance = .true.
         cycle
       end if
-      thorough = .false.
-      patience_left = patience_left - 1
-      if (wrong < fewest) patience_left = PATIENCE
-      fewest = min(fewest, wrong)
-      if (patience_left < 0) then
-        call descend(operator, wanted, preconditioner, reduced_gap, monitor, state, info)
+      to_tolerance = .false.
+      stalls_left = stalls_left - 1
+      if (wrong < fewest_wrong) stalls_left = MAX_STALLS
+      fewest_wrong = min(fewest_wrong, wrong)
+      if (stalls_left < 0) then
+        call exchange_single_points(operator, settings, preconditioner, reduced_gap, monitor, iterate, info)
         exit
       end if
-      call change_sides(reduced_gap, noise_of(wanted, state), in_row .and. 2*patience_left > PATIENCE, state, info)
+      call exchange_wrong_points(reduced_gap, penetration_noise(settings, iterate), &
+                                 in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
       if (info%failed()) exit
-      call restart(operator, state, info)
+      call make_feasible(operator, iterate, info)
     end do
     info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
-  end subroutine find_contact
+  end subroutine find_contact_set
 
-  !> Points that pull leave, points that penetrate join. Error: FUGE_ERR_MEMORY.
-  subroutine change_sides(reduced_gap, noise, foresight, state, info)
-    real(dp), intent(in) :: reduced_gap(:), noise
-    logical, intent(in) :: foresight
-    type(iterate), intent(inout) :: state
-    type(fuge_info), intent(inout) :: info
-    logical, allocatable :: pulls(:), penetrates(:)
-    integer :: stat
-
-    ! Not kept, to have the memory for products.
-    allocate (pulls(size(reduced_gap)), penetrates(size(reduced_gap)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(reduced_gap))//' points')
-      return
-    end if
-    pulls = state%contact .and. state%force < 0.0_dp
-    penetrates = .not. state%contact .and. open_gap(reduced_gap, state%displacement, state%motion) < -noise
-    if (foresight) then
-      call exchange_in_row(pulls, penetrates, state%contact)
-    else
-      call exchange(pulls, penetrates, state%contact)
-    end if
-  end subroutine change_sides
-
-  !> Is a set without wrong points solved, judged by a fresh product and not by
-  !> recurrences, which drift? `done` also if the residual does not fall any more, from
-  !> the one `before`: then the certificate has the last word.
-  subroutine confirm(operator, wanted, reduced_gap, before, state, done, info)
+  !> Solve for the forces of the present contact set, which counts as one iteration: to the
+  !> tolerance if `to_tolerance`, else until the set can be judged.
+  subroutine solve_on_contact_set(operator, settings, preconditioner, reduced_gap, to_tolerance, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
-    type(demands), intent(in) :: wanted
-    real(dp), intent(in), contiguous :: reduced_gap(:)
-    real(dp), intent(inout) :: before
-    type(iterate), intent(inout) :: state
-    logical, intent(out) :: done
-    type(fuge_info), intent(inout) :: info
-
-    done = .false.
-    call restart(operator, state, info)
-    if (.not. info%failed()) call measure(operator, reduced_gap, state, info)
-    if (info%failed()) return
-    done = state%residual <= MARGIN*wanted%tolerance*state%least_length .or. .not. state%residual < 0.5_dp*before
-    before = state%residual
-  end subroutine confirm
-
-  !> Penetrations below this are rounding.
-  pure function noise_of(wanted, state) result(noise)
-    type(demands), intent(in) :: wanted
-    type(iterate), intent(in) :: state
-    real(dp) :: noise
-
-    noise = MARGIN**2*wanted%tolerance*state%least_length
-  end function noise_of
-
-  !> Solve for the forces of the present set; one more iteration.
-  subroutine settle(operator, wanted, preconditioner, reduced_gap, thorough, monitor, state, reached, info)
-    class(fuge_operator), intent(in) :: operator
-    type(demands), intent(in) :: wanted
+    type(search_settings), intent(in) :: settings
     type(contact_preconditioner), intent(inout) :: preconditioner
     real(dp), intent(in), contiguous :: reduced_gap(:)
-    logical, intent(in) :: thorough
+    logical, intent(in) :: to_tolerance
     class(fuge_monitor), intent(inout) :: monitor
-    type(iterate), intent(inout) :: state
-    logical, intent(out) :: reached
+    type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     real(dp) :: relative
     integer :: status
 
-    reached = .false.
-    if (info%iterations >= wanted%limit) then
-      call report(info, FUGE_ERR_ITERATION_LIMIT, text(wanted%limit)//' contact sets were not enough: raise ' &
+    if (info%iterations >= settings%limit) then
+      call report(info, FUGE_ERR_ITERATION_LIMIT, text(settings%limit)//' contact sets were not enough: raise ' &
                   //'max_iterations (0 allows '//text(ITERATIONS_PER_ROW)//' for each point)')
       return
     end if
-    call preconditioner%set(operator, state%contact, maxval(abs(state%displacement)), info)
+    call preconditioner%set(operator, iterate%contact, maxval(abs(iterate%displacement)), info)
     if (info%failed()) return
-    call relax(operator, preconditioner, reduced_gap, MARGIN*wanted%tolerance, thorough, state, reached, info)
+    call run_projected_gradients(operator, preconditioner, reduced_gap, SAFETY*settings%tolerance, to_tolerance, &
+                                 iterate, info)
     if (info%failed()) return
     info%iterations = info%iterations + 1
     relative = 0.0_dp
-    if (state%residual > 0.0_dp) relative = state%residual/max(state%least_length, state%residual)
-    call tell_monitor(monitor, info%iterations, relative, count(state%contact), status)
+    if (iterate%residual_norm > 0.0_dp) then
+      relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
+    end if
+    call tell_monitor(monitor, info%iterations, relative, count(iterate%contact), status)
     if (status /= FUGE_DONE) call report(info, FUGE_ERR_CANCELLED, 'cancelled by the progress callback after ' &
                                          //text(info%iterations)//' contact sets')
-  end subroutine settle
+  end subroutine solve_on_contact_set
 
-  !> Forces of the contact set that only push, and sum to one unless the motion is held, and
-  !> their displacements.
-  subroutine restart(operator, state, info)
+  !> Number of points in the contact set with a tensile force and of open points that penetrate by
+  !> more than `noise`.
+  pure function count_wrong_points(reduced_gap, noise, iterate) result(wrong)
+    real(dp), intent(in) :: reduced_gap(:), noise
+    type(contact_iterate), intent(in) :: iterate
+    integer :: wrong
+
+    wrong = count(iterate%contact .and. iterate%force < 0.0_dp) &
+            + count(.not. iterate%contact &
+                    .and. deformed_gap(reduced_gap, iterate%displacement, iterate%motion) < -noise)
+  end function count_wrong_points
+
+  !> Tensile points leave the contact set, points that penetrate by more than `noise` join it; with
+  !> `extrapolate` more leave and fewer join, as fuge_set_exchange explains. Error: FUGE_ERR_MEMORY.
+  subroutine exchange_wrong_points(reduced_gap, noise, extrapolate, iterate, info)
+    real(dp), intent(in) :: reduced_gap(:), noise
+    logical, intent(in) :: extrapolate
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    logical, allocatable :: tensile(:), penetrating(:)
+    integer :: stat
+
+    ! Allocated here only: during the products the operator may need the memory.
+    allocate (tensile(size(reduced_gap)), penetrating(size(reduced_gap)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(reduced_gap))//' points')
+      return
+    end if
+    tensile = iterate%contact .and. iterate%force < 0.0_dp
+    penetrating = .not. iterate%contact .and. deformed_gap(reduced_gap, iterate%displacement, iterate%motion) < -noise
+    if (extrapolate) then
+      call exchange_extrapolated(tensile, penetrating, iterate%contact)
+    else
+      call exchange(tensile, penetrating, iterate%contact)
+    end if
+  end subroutine exchange_wrong_points
+
+  !> Confirm a contact set without wrong points by a fresh product, because displacements and
+  !> residuals updated by recurrence drift.
+  !>
+  !> `confirmed` if the residual is within the tolerance, or has not halved since the last
+  !> confirmation, `previous_residual`: then only rounding is left, and the certificate decides.
+  subroutine confirm_contact_set(operator, settings, reduced_gap, previous_residual, iterate, confirmed, info)
     class(fuge_operator), intent(in) :: operator
-    type(iterate), intent(inout) :: state
+    type(search_settings), intent(in) :: settings
+    real(dp), intent(in), contiguous :: reduced_gap(:)
+    real(dp), intent(inout) :: previous_residual
+    type(contact_iterate), intent(inout) :: iterate
+    logical, intent(out) :: confirmed
+    type(fuge_info), intent(inout) :: info
+
+    confirmed = .false.
+    call make_feasible(operator, iterate, info)
+    if (.not. info%failed()) call evaluate_iterate(operator, reduced_gap, iterate, info)
+    if (info%failed()) return
+    confirmed = iterate%residual_norm <= SAFETY*settings%tolerance*iterate%least_magnitude &
+                .or. .not. iterate%residual_norm < 0.5_dp*previous_residual
+    previous_residual = iterate%residual_norm
+  end subroutine confirm_contact_set
+
+  !> Penetrations below this are rounding.
+  pure function penetration_noise(settings, iterate) result(noise)
+    type(search_settings), intent(in) :: settings
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: noise
+
+    noise = SAFETY**2*settings%tolerance*iterate%least_magnitude
+  end function penetration_noise
+
+  !> Make the forces feasible: zero off the contact set, nowhere tensile and, unless the motion is
+  !> prescribed, of sum 1. Recompute their displacements. Errors: those of the operator.
+  subroutine make_feasible(operator, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     real(dp) :: total
 
-    where (state%contact)
-      state%force = max(state%force, 0.0_dp)
+    where (iterate%contact)
+      iterate%force = max(iterate%force, 0.0_dp)
     else where
-      state%force = 0.0_dp
+      iterate%force = 0.0_dp
     end where
-    total = sum(state%force)
-    if (total > 0.0_dp .and. .not. state%held) then
-      state%force = state%force/total
-    else if (.not. state%held) then
-      where (state%contact) state%force = 1.0_dp/real(count(state%contact), dp)
+    total = sum(iterate%force)
+    if (total > 0.0_dp .and. .not. iterate%prescribed) then
+      iterate%force = iterate%force/total
+    else if (.not. iterate%prescribed) then
+      where (iterate%contact) iterate%force = 1.0_dp/real(count(iterate%contact), dp)
     end if
-    call deflect(operator, state%held, state%force, state%displacement, info)
-  end subroutine restart
+    call compute_displacement(operator, iterate%prescribed, iterate%force, iterate%displacement, info)
+  end subroutine make_feasible
 
-  !> Down the energy: from pushing forces towards the answer of their set as far as no
-  !> force pulls, then the point with the most negative gap joins, until none has one or
-  !> sets are not solved well enough any more for that to mean something.
-  subroutine descend(operator, wanted, preconditioner, reduced_gap, monitor, state, info)
+  !> Primal active-set method (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974,
+  !> chapter 23), which exchanges one point at a time and lowers the energy.
+  !>
+  !> Step from feasible forces towards the solution of their set until a force would become
+  !> tensile: that point leaves. At the solution the point of deepest penetration joins. Stop when
+  !> no point penetrates, or when the equations of the set can no longer be solved to the
+  !> tolerance: penetrations are then rounding. doc/theory.md shows why it terminates.
+  subroutine exchange_single_points(operator, settings, preconditioner, reduced_gap, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
-    type(demands), intent(in) :: wanted
+    type(search_settings), intent(in) :: settings
     type(contact_preconditioner), intent(inout) :: preconditioner
     real(dp), intent(in), contiguous :: reduced_gap(:)
     class(fuge_monitor), intent(inout) :: monitor
-    type(iterate), intent(inout) :: state
+    type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: force(:)
-    logical, allocatable :: barred(:), tied(:)
-    integer, allocatable :: side(:)
+    real(dp), allocatable :: feasible(:)
+    logical, allocatable :: locked(:), tied(:)
+    integer, allocatable :: state(:)
     integer :: newest, n, stat
-    logical :: reached
 
     n = size(reduced_gap)
-    allocate (force(n), barred(n), tied(n), side(n), stat=stat)
+    allocate (feasible(n), locked(n), tied(n), state(n), stat=stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the way down the energy of '//text(n)//' points')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the active-set method on '//text(n)//' points')
       return
     end if
-    barred = .false.
+    locked = .false.
     tied = .false.
     newest = 0
-    call restart(operator, state, info)
-    state%contact = state%force > 0.0_dp
+    call make_feasible(operator, iterate, info)
+    iterate%contact = iterate%force > 0.0_dp
     do while (.not. info%failed())
-      force = state%force
-      call settle(operator, wanted, preconditioner, reduced_gap, .true., monitor, state, reached, info)
+      feasible = iterate%force
+      call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, .true., monitor, iterate, info)
       if (info%failed()) exit
-      if (any(state%contact .and. state%force <= 0.0_dp)) then
-        side = merge(1, 0, state%contact)
-        call step_back(state%force, 0.0_dp, tied, side, force, newest, barred)
-        state%contact = side /= 0
-        state%force = force
+      if (any(iterate%contact .and. iterate%force <= 0.0_dp)) then
+        state = merge(1, 0, iterate%contact)
+        call step_back(iterate%force, 0.0_dp, tied, state, feasible, newest, locked)
+        iterate%contact = state /= 0
+        iterate%force = feasible
       else
-        if (newest > 0) barred = barred .and. barred(newest)
-        newest = worst_gap(reduced_gap, state, noise_of(wanted, state), barred)
-        if (newest == 0 .or. .not. reached) exit
-        state%contact(newest) = .true.
+        if (newest > 0) locked = locked .and. locked(newest)
+        newest = deepest_open_point(reduced_gap, iterate, penetration_noise(settings, iterate), locked)
+        if (newest == 0 .or. .not. iterate%converged) exit
+        iterate%contact(newest) = .true.
       end if
-      call restart(operator, state, info)
+      call make_feasible(operator, iterate, info)
     end do
-    if (.not. info%failed()) call restart(operator, state, info)
-    if (.not. info%failed()) call measure(operator, reduced_gap, state, info)
-  end subroutine descend
+    if (.not. info%failed()) call make_feasible(operator, iterate, info)
+    if (.not. info%failed()) call evaluate_iterate(operator, reduced_gap, iterate, info)
+  end subroutine exchange_single_points
 
-  !> The point that penetrates most, of those not barred; 0 if there is none.
-  pure function worst_gap(reduced_gap, state, noise, barred) result(worst)
+  !> The open point, of those not locked, that penetrates most, by more than `noise`; 0 if there
+  !> is none.
+  pure function deepest_open_point(reduced_gap, iterate, noise, locked) result(deepest)
     real(dp), intent(in) :: reduced_gap(:)
-    type(iterate), intent(in) :: state
+    type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: noise
-    logical, intent(in) :: barred(:)
-    integer :: worst
-    real(dp) :: gap, deepest
+    logical, intent(in) :: locked(:)
+    integer :: deepest
+    real(dp) :: gap, least_gap
     integer :: k
 
-    worst = 0
-    deepest = -noise
+    deepest = 0
+    least_gap = -noise
     do k = 1, size(reduced_gap)
-      if (state%contact(k) .or. barred(k)) cycle
-      gap = open_gap(reduced_gap(k), state%displacement(k), state%motion)
-      if (gap >= deepest) cycle
-      worst = k
-      deepest = gap
+      if (iterate%contact(k) .or. locked(k)) cycle
+      gap = deformed_gap(reduced_gap(k), iterate%displacement(k), iterate%motion)
+      if (gap >= least_gap) cycle
+      deepest = k
+      least_gap = gap
     end do
-  end function worst_gap
+  end function deepest_open_point
 
 end module fuge_contact_set_search

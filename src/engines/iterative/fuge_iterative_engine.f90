@@ -1,167 +1,191 @@
-!> The engine that needs nothing but products with the operator.
+!> The iterative engine: from checked data to a solution, using only products with the operator.
 !>
-!> Conjugate gradients solve the equations of a contact set just well enough to tell
-!> which points pull and which penetrate; those change sides, and so on until none is
-!> left and the residual is as small as asked for. An operator with coarser grids starts
-!> there. Where changes of many points at once do not get on, forces only push and one point
-!> joins at a time, down the energy: that ends (see fuge_block_pivoting).
+!> It solves in two stages: nested iteration over the coarser grids of the operator provides forces
+!> to start from (fuge_nested_grids); the contact set search on the finest grid improves them to
+!> the tolerance (fuge_contact_set_search).
 module fuge_iterative_engine
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_contact_set_search, only: demands, find_contact, restart
+  use fuge_contact_set_search, only: find_contact_set, make_feasible, search_settings
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
+  use fuge_nested_grids, only: nested_iteration
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_projected_gradients, only: iterate, make_iterate, measure, deflect, open_gap
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_number_text, only: text
+  use fuge_projected_gradients, only: compute_displacement, contact_iterate, deformed_gap, evaluate_iterate, &
+    start_iterate
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW
   implicit none
   private
 
   public :: solve_by_iteration
 
-  !> Forces of the last solve are a start if their gaps are off by less than this part of
-  !> the least length.
+  !> The forces of the last solve are a good start if residual and penetration are below this
+  !> fraction of the least magnitude.
   real(dp), parameter :: GOOD_START = 0.2_dp
-  !> Displacements by even forces below this part of their terms are rounding.
+  !> Displacements by equal forces are rounding below this fraction of their magnitude.
   real(dp), parameter :: SINGULAR = 1.0e-12_dp
+  !> Forces up to this many units in the last place of the largest force are rounding.
+  real(dp), parameter :: ROUNDINGS = 4.0_dp
 
 contains
 
-  !> From checked data to an answer and its words.
+  !> Solve a contact problem by iteration.
   !>
-  !> `problem` checked, plain with a load > 0, or with the translation prescribed; `part`
-  !> (n) if allocated forces to start from, as parts of the load if there is one, and on
-  !> return those of the answer; `answer` allocated. Errors: FUGE_ERR_MEMORY,
-  !> FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM,
-  !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
-  subroutine solve_by_iteration(operator, problem, options, monitor, part, answer, info)
+  !> `problem` checked; plain with a load > 0, or with its one motion, the approach, prescribed.
+  !> `scaled_force` (n), if allocated, are forces to start from, divided by the load if there is
+  !> one; on return those of the solution. `solution` may be unallocated; it is written only on
+  !> success. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE,
+  !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
+  subroutine solve_by_iteration(operator, problem, options, monitor, scaled_force, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
-    real(dp), allocatable, intent(inout) :: part(:)
-    type(fuge_solution), intent(inout) :: answer
+    real(dp), allocatable, intent(inout) :: scaled_force(:)
+    type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
-    type(iterate) :: state
-    type(demands) :: wanted
+    type(contact_iterate) :: iterate
+    type(search_settings) :: settings
     real(dp), allocatable :: reduced_gap(:)
-    real(dp) :: lowest, load
+    real(dp) :: gap_datum, load
+
+    settings%limit = iteration_limit(options, operator%points() + 1)
+    settings%prescribed = .not. problem%is_plain()
+    call choose_scaling(problem, gap_datum, load)
+    call check_range(problem, info)
+    if (.not. info%failed()) call reduce_gap(problem%gap, gap_datum, load, reduced_gap, info)
+    if (info%failed()) return
+    if (settings%prescribed) call check_approach(operator, problem%motion(1), reduced_gap, info)
+    if (allocated(scaled_force) .and. .not. info%failed()) then
+      call discard_poor_start(operator, settings%prescribed, reduced_gap, scaled_force, info)
+    end if
+    if (.not. (info%failed() .or. allocated(scaled_force))) then
+      call nested_iteration(operator, settings, reduced_gap, monitor, scaled_force, info)
+    end if
+    if (.not. info%failed()) then
+      call start_iterate(iterate, size(reduced_gap), settings%prescribed, scaled_force, info)
+    end if
+    if (info%failed()) return
+    settings%tolerance = options%tolerance
+    settings%coarse_grid = .false.
+    call find_contact_set(operator, settings, reduced_gap, monitor, iterate, info)
+    if (.not. info%failed()) call assemble_solution(operator, reduced_gap, gap_datum, load, iterate, solution, info)
+    if (.not. info%failed()) call move_alloc(iterate%force, scaled_force)
+  end subroutine solve_by_iteration
+
+  !> What the iteration subtracts from gaps, the prescribed motion or else the least gap, and what
+  !> it divides forces and lengths by: the load, or 1 for a prescribed motion.
+  pure subroutine choose_scaling(problem, gap_datum, load)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(out) :: gap_datum, load
+
+    if (problem%is_plain()) then
+      gap_datum = minval(problem%gap)
+      load = problem%resultant(1)
+    else
+      gap_datum = problem%motion(1)
+      load = 1.0_dp
+    end if
+  end subroutine choose_scaling
+
+  !> reduced_gap = (gap - gap_datum)/load, both gaps (n). Error: FUGE_ERR_MEMORY.
+  pure subroutine reduce_gap(gap, gap_datum, load, reduced_gap, info)
+    real(dp), intent(in) :: gap(:), gap_datum, load
+    real(dp), allocatable, intent(out) :: reduced_gap(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (reduced_gap(size(gap)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(size(gap))//' points')
+    else
+      reduced_gap = (gap - gap_datum)/load
+    end if
+  end subroutine reduce_gap
+
+  !> Forces, gaps and motion in the units of the problem. Error: FUGE_ERR_MEMORY.
+  subroutine assemble_solution(operator, reduced_gap, gap_datum, load, iterate, solution, info)
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: reduced_gap(:), gap_datum, load
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: force(:), gap(:), motion(:)
     integer :: n, stat
 
-    n = operator%points()
-    call check_magnitude(problem, info)
-    if (info%failed()) return
-    ! Made anew at the end, to have the memory until then.
-    if (allocated(answer%force)) deallocate (answer%force, answer%gap)
-    allocate (reduced_gap(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(n)//' points')
-      return
-    end if
-    wanted%limit = iteration_limit(options, n + 1)
-
-    wanted%held = .not. problem%is_plain()
-    ! Gaps are counted from the prescribed motion, or from the lowest.
-    lowest = minval(problem%gap)
-    load = 1.0_dp
-    if (wanted%held) lowest = problem%motion(1)
-    if (.not. wanted%held) load = problem%resultant(1)
-    reduced_gap = (problem%gap - lowest)/load
-    if (wanted%held) call check_approach(operator, problem%motion(1), reduced_gap, info)
-    if (allocated(part) .and. .not. info%failed()) call judge_start(operator, wanted, reduced_gap, part, info)
-    if (.not. (info%failed() .or. allocated(part))) call climb(operator, wanted, reduced_gap, monitor, part, info)
-    if (.not. info%failed()) call make_iterate(state, n, info)
-    if (info%failed()) return
-    call set_start(wanted, part, state)
-    wanted%tolerance = options%tolerance
-    wanted%only_start = .false.
-    call find_contact(operator, wanted, reduced_gap, monitor, state, info)
-    if (info%failed()) return
-    allocate (answer%force(n), answer%gap(n), stat=stat)
+    n = size(reduced_gap)
+    allocate (force(n), gap(n), motion(1), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
       return
     end if
-    ! What is left of a force that should have become zero.
-    where (state%force <= 4.0_dp*epsilon(1.0_dp)*maxval(state%force)) state%force = 0.0_dp
-    answer%force = load*state%force
-    answer%gap = load*max(open_gap(reduced_gap, state%displacement, state%motion), 0.0_dp)
-    where (state%contact) answer%gap = 0.0_dp
-    answer%motion = lowest
-    if (.not. wanted%held) answer%motion = (load*state%motion + operator%datum()*sum(answer%force)) + lowest
-    call move_alloc(state%force, part)
-  end subroutine solve_by_iteration
+    where (iterate%force <= ROUNDINGS*epsilon(1.0_dp)*maxval(iterate%force)) iterate%force = 0.0_dp
+    force = load*iterate%force
+    gap = load*max(deformed_gap(reduced_gap, iterate%displacement, iterate%motion), 0.0_dp)
+    where (iterate%contact) gap = 0.0_dp
+    motion = gap_datum
+    if (.not. iterate%prescribed) motion = (load*iterate%motion + operator%datum()*sum(force)) + gap_datum
+    call move_alloc(force, solution%force)
+    call move_alloc(gap, solution%gap)
+    call move_alloc(motion, solution%motion)
+  end subroutine assemble_solution
 
-  !> Even forces may displace nothing, as on a periodic surface: then an approach at which
-  !> the mean gap is closed cannot be held. Errors: FUGE_ERR_NO_EQUILIBRIUM,
-  !> FUGE_ERR_MEMORY, those of the operator.
+  !> Refuse an approach at which the mean gap is closed where equal forces displace nothing, as on
+  !> a periodic surface: no forces hold it. Errors: FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY, those
+  !> of the operator.
   subroutine check_approach(operator, approach, reduced_gap, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: approach
     real(dp), intent(in), contiguous :: reduced_gap(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: force(:), displacement(:), terms(:)
+    real(dp), allocatable :: force(:), displacement(:), magnitude(:)
     real(dp) :: mean
     integer :: n, stat
 
     n = size(reduced_gap)
     mean = sum(reduced_gap)/real(n, dp)
     if (mean > 0.0_dp) return
-    allocate (force(n), displacement(n), terms(n), stat=stat)
+    allocate (force(n), displacement(n), magnitude(n), stat=stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to judge the approach of '//text(n)//' points')
+      call report(info, FUGE_ERR_MEMORY, 'no memory to check the approach of '//text(n)//' points')
       return
     end if
     force = 1.0_dp
-    call deflect(operator, .true., force, displacement, info)
+    call compute_displacement(operator, .true., force, displacement, info)
     if (info%failed()) return
-    call operator%magnitude(force, displacement, terms)
-    if (sum(displacement) > SINGULAR*sum(terms)) return
-    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'even forces displace nothing (a periodic surface), so no forces hold ' &
-                //'the approach '//text(approach)//' at which the mean gap is closed: prescribe less than ' &
+    call operator%magnitude(force, displacement, magnitude)
+    if (sum(displacement) > SINGULAR*sum(magnitude)) return
+    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
+                //'hold the approach '//text(approach)//', at which the mean gap is closed: prescribe less than ' &
                 //text(approach + mean)//', or a load')
   end subroutine check_approach
 
-  !> Forces to start with: those given; else even ones, none if the motion is held.
-  pure subroutine set_start(wanted, start, state)
-    type(demands), intent(in) :: wanted
-    real(dp), intent(in), allocatable :: start(:)
-    type(iterate), intent(inout) :: state
-
-    state%held = wanted%held
-    if (allocated(start)) then
-      state%force = start
-    else if (wanted%held) then
-      state%force = 0.0_dp
-    else
-      state%force = 1.0_dp/real(size(state%force), dp)
-    end if
-  end subroutine set_start
-
-  !> Forget forces to start from that are far from the answer: coarser grids start better.
-  subroutine judge_start(operator, wanted, reduced_gap, part, info)
+  !> Deallocate forces to start from, `scaled_force` (n), that are far from the solution:
+  !> coarser grids, if the points are cells in a row, provide a better start. Errors:
+  !> FUGE_ERR_MEMORY, those of the operator.
+  subroutine discard_poor_start(operator, prescribed, reduced_gap, scaled_force, info)
     class(fuge_operator), intent(in) :: operator
-    type(demands), intent(in) :: wanted
+    logical, intent(in) :: prescribed
     real(dp), intent(in), contiguous :: reduced_gap(:)
-    real(dp), allocatable, intent(inout) :: part(:)
+    real(dp), allocatable, intent(inout) :: scaled_force(:)
     type(fuge_info), intent(inout) :: info
-    type(iterate) :: state
+    type(contact_iterate) :: iterate
 
     if (.not. operator%in_row()) return
-    call make_iterate(state, size(part), info)
+    call start_iterate(iterate, size(scaled_force), prescribed, scaled_force, info)
     if (info%failed()) return
-    call set_start(wanted, part, state)
-    state%contact = part > 0.0_dp
-    call restart(operator, state, info)
-    if (.not. info%failed()) call measure(operator, reduced_gap, state, info)
+    iterate%contact = scaled_force > 0.0_dp
+    call make_feasible(operator, iterate, info)
+    if (.not. info%failed()) call evaluate_iterate(operator, reduced_gap, iterate, info)
     if (info%failed()) return
-    if (max(state%residual, state%penetration) > GOOD_START*state%least_length) deallocate (part)
-  end subroutine judge_start
+    if (max(iterate%residual_norm, iterate%penetration) > GOOD_START*iterate%least_magnitude) deallocate (scaled_force)
+  end subroutine discard_poor_start
 
-  !> Refuse gaps that overflow when divided by the load.
-  pure subroutine check_magnitude(problem, info)
+  !> Refuse gaps so large that their squares overflow, after division by the load if there is one.
+  !> Error: FUGE_ERR_OVERFLOW.
+  pure subroutine check_range(problem, info)
     type(fuge_problem), intent(in) :: problem
     type(fuge_info), intent(inout) :: info
     integer :: excess
@@ -171,129 +195,14 @@ contains
     else
       excess = exponent(maxval(problem%gap) - minval(problem%gap)) - exponent(problem%resultant(1))
     end if
-    ! Squares of lengths are formed.
-    if (2*excess > LARGEST_EXPONENT) then
+    if (2*excess <= LARGEST_EXPONENT) return
+    if (problem%is_plain()) then
       call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess)//' times the load: choose units in which ' &
                   //'they are nearer to it')
-    end if
-  end subroutine check_magnitude
-
-  !> Forces to start from on the finest grid: those of the coarsest one, carried from grid
-  !> to grid. `start` (n) stays unallocated where there are no coarser grids.
-  subroutine climb(operator, wanted, reduced_gap, monitor, start, info)
-    class(fuge_operator), intent(in) :: operator
-    type(demands), intent(in) :: wanted
-    real(dp), intent(in) :: reduced_gap(:)
-    class(fuge_monitor), intent(inout) :: monitor
-    real(dp), allocatable, intent(inout) :: start(:)
-    type(fuge_info), intent(inout) :: info
-    class(fuge_operator), allocatable :: coarse
-    real(dp) :: products, preconditionings
-    integer :: k
-
-    products = 0.0_dp
-    preconditionings = 0.0_dp
-    do k = digits(operator%points()) - 1, 1, -1
-      call operator%coarsen(k, coarse)
-      if (.not. allocated(coarse)) cycle
-      if (coarse%points() /= (operator%points() - 1)/2**k + 1) cycle
-      call climb_onto(coarse, wanted, reduced_gap, 2**k, monitor, start, products, preconditionings, info)
-      if (info%failed()) exit
-    end do
-    if (allocated(start) .and. .not. info%failed()) call refine_grid(size(reduced_gap), start, info)
-    info%products = info%products + ceiling(products)
-    info%preconditionings = info%preconditionings + ceiling(preconditionings)
-  end subroutine climb
-
-  !> Solve on one coarser grid. `start` are the forces of the grid before, then those of
-  !> this one; `products` and `preconditionings` grow by their share of the finest grid's.
-  subroutine climb_onto(coarse, wanted, reduced_gap, width, monitor, start, products, preconditionings, info)
-    class(fuge_operator), intent(in) :: coarse
-    type(demands), intent(in) :: wanted
-    real(dp), intent(in) :: reduced_gap(:)
-    integer, intent(in) :: width
-    class(fuge_monitor), intent(inout) :: monitor
-    real(dp), allocatable, intent(inout) :: start(:)
-    real(dp), intent(inout) :: products, preconditionings
-    type(fuge_info), intent(inout) :: info
-    type(iterate) :: state
-    type(fuge_info) :: counted
-    real(dp), allocatable :: coarse_gap(:)
-    real(dp) :: share
-    integer :: n
-
-    n = coarse%points()
-    call restrict_gap(reduced_gap, width, n, coarse_gap, info)
-    if (.not. info%failed()) call make_iterate(state, n, info)
-    if (allocated(start) .and. .not. info%failed()) call refine_grid(n, start, info)
-    if (info%failed()) return
-    call set_start(wanted, start, state)
-    counted%iterations = info%iterations
-    call find_contact(coarse, wanted, coarse_gap, monitor, state, counted)
-    info%iterations = counted%iterations
-    share = real(n, dp)/real(size(reduced_gap), dp)
-    products = products + share*real(counted%products, dp)
-    preconditionings = preconditionings + share*real(counted%preconditionings, dp)
-    if (counted%failed()) then
-      call report(info, counted%status, 'on the grid of '//text(n)//' points: '//counted%message)
     else
-      call move_alloc(state%force, start)
+      call report(info, FUGE_ERR_OVERFLOW, 'the gaps differ by 2**'//text(excess)//' from the prescribed approach: ' &
+                  //'choose units in which lengths are nearer to 1')
     end if
-  end subroutine climb_onto
-
-  !> Forces of a grid carried to the next finer one, of n points.
-  pure subroutine refine_grid(n, force, info)
-    integer, intent(in) :: n
-    real(dp), allocatable, intent(inout) :: force(:)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: fine(:)
-    integer :: stat
-
-    if (size(force) /= (n + 1)/2) then
-      ! A grid in between is missing.
-      deallocate (force)
-      return
-    end if
-    allocate (fine(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the start on '//text(n)//' points')
-      return
-    end if
-    call interpolate(force, fine)
-    call move_alloc(fine, force)
-  end subroutine refine_grid
-
-  !> Linear between the centres of the coarse cells, each of which had the forces of two.
-  pure subroutine interpolate(coarse, fine)
-    real(dp), intent(in) :: coarse(:)
-    real(dp), intent(out) :: fine(:)
-    integer :: k, last
-
-    last = size(coarse)
-    do k = 1, last
-      fine(2*k - 1) = 0.375_dp*coarse(k) + 0.125_dp*coarse(max(k - 1, 1))
-      if (2*k <= size(fine)) fine(2*k) = 0.375_dp*coarse(k) + 0.125_dp*coarse(min(k + 1, last))
-    end do
-  end subroutine interpolate
-
-  !> Mean of the gaps over the cells of a coarser grid.
-  pure subroutine restrict_gap(reduced_gap, width, cells, coarse, info)
-    real(dp), intent(in) :: reduced_gap(:)
-    integer, intent(in) :: width, cells
-    real(dp), allocatable, intent(out) :: coarse(:)
-    type(fuge_info), intent(inout) :: info
-    integer :: first, last, k, stat
-
-    allocate (coarse(cells), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps on '//text(cells)//' cells')
-      return
-    end if
-    do k = 1, cells
-      first = (k - 1)*width + 1
-      last = min(k*width, size(reduced_gap))
-      coarse(k) = sum(reduced_gap(first:last))/real(last - first + 1, dp)
-    end do
-  end subroutine restrict_gap
+  end subroutine check_range
 
 end module fuge_iterative_engine

@@ -1,274 +1,319 @@
-!> Preconditioned conjugate gradients on a given contact set: forces change there only,
-!> their sum stays, and all gaps of the set become equal.
+!> Projected, preconditioned conjugate gradients on a given contact set.
+!>
+!> Only the forces of the set change. Under a load their sum is kept and the gaps of the set become
+!> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero.
 module fuge_projected_gradients
   use fuge_contact_preconditioner, only: contact_preconditioner
+  use fuge_contact_segments, only: contact_segments, dot_over, max_abs_over, sum_over
   use fuge_kinds, only: dp
-  use fuge_operator_type, only: fuge_operator
-  use fuge_operator_products, only: multiply
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
-  use fuge_contact_segments, only: stretches, total, inner, largest
   use fuge_number_text, only: text
+  use fuge_operator_products, only: multiply
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
 
-  public :: relax, measure, deflect, make_iterate, open_gap
+  public :: compute_displacement, deformed_gap, evaluate_iterate, run_projected_gradients, start_iterate
 
-  !> Errors of the forces below this part of the worst tension, or of the gaps below
-  !> this part of the worst penetration, let the set be judged.
-  real(dp), parameter :: ENOUGH = 0.2_dp
+  !> The contact set can be judged once the errors of the forces are below this fraction of the
+  !> largest tension, or those of the gaps below this fraction of the deepest penetration.
+  real(dp), parameter :: DECISIVE = 0.2_dp
   !> Exact conjugate gradients need as many iterations as there are points; rounded ones
   !> several times as many where alpha is badly conditioned.
   integer, parameter :: ITERATIONS_PER_POINT = 10
-  integer, parameter :: SPARE_ITERATIONS = 20
-  !> And never more than these: then the operator needs a preconditioner.
-  integer, parameter :: MOST_ITERATIONS = 20000
-  !> A negative energy below this part of its terms is rounding.
+  integer, parameter :: EXTRA_ITERATIONS = 20
+  !> Upper limit in any case: an operator that needs more needs a preconditioner.
+  integer, parameter :: MAX_ITERATIONS = 20000
+  !> A negative energy below this fraction of the magnitude of its terms is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-10_dp
 
-  !> Forces as parts of the load, so that lengths are per load.
-  type, public :: iterate
-    !> Forces, (n), their sum is 1 unless held.
+  !> Forces with their contact set and their errors. Under a load, forces and lengths are divided
+  !> by the load; with a prescribed motion they are not scaled.
+  type, public :: contact_iterate
+    !> Forces, (n); their sum is 1 unless the motion is prescribed.
     real(dp), allocatable :: force(:)
-    !> Displacements by them, (n); without the datum of the operator unless held.
+    !> Displacements by these forces, (n); without the operator's datum unless the motion is
+    !> prescribed.
     real(dp), allocatable :: displacement(:)
-    !> Points taken for touching, (n).
+    !> The contact set, (n).
     logical, allocatable :: contact(:)
-    !> The rigid motion is prescribed and already in the gaps, so that forces are what
-    !> they are; else they are parts of the load.
-    logical :: held = .false.
-    !> Mean over the contact of gap plus displacement: the rigid motion; 0 if held.
+    !> The rigid motion is prescribed and already subtracted from the gaps.
+    logical :: prescribed = .false.
+    !> The rigid motion: the mean of gap plus displacement over the contact set; 0 if prescribed.
     real(dp) :: motion = 0.0_dp
-    !> Largest difference from `motion` on the contact.
-    real(dp) :: residual = huge(1.0_dp)
-    !> The deepest that an open point is pressed in.
+    !> Largest magnitude of gap plus displacement less motion on the contact set.
+    real(dp) :: residual_norm = huge(1.0_dp)
+    !> Deepest penetration of an open point, 0 if none penetrates.
     real(dp) :: penetration = 0.0_dp
-    !> Least length of a contact point as in the certificate: its depth and the terms of
-    !> its displacement. Residuals are compared with it.
-    real(dp) :: least_length = 0.0_dp
-    !> The stretches of the set, made by `relax` and `measure`.
-    type(stretches) :: over = stretches()
-    !> Differences of the gaps from their mean and the direction of the next step, (n),
-    !> zero off the contact.
-    real(dp), allocatable, private :: remainder(:), direction(:)
-    !> In turn what the preconditioner makes of `remainder` and the product with `direction`, (n).
+    !> Residuals are compared with this length: the least magnitude at a contact point, as in the
+    !> certificate (|gap less rigid motion| plus the magnitude of the displacement).
+    real(dp) :: least_magnitude = 0.0_dp
+    !> Did run_projected_gradients reduce the residual to its tolerance?
+    logical :: converged = .false.
+    !> The segments of the contact set.
+    type(contact_segments), private :: segments = contact_segments()
+    !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
+    !> the contact set.
+    real(dp), allocatable, private :: residual(:), direction(:)
+    !> In turn the preconditioned residual and the displacement by `direction`, (n).
     real(dp), allocatable, private :: work(:)
-  end type iterate
+  end type contact_iterate
 
 contains
 
-  !> Allocate all arrays for n points. Error: FUGE_ERR_MEMORY.
-  pure subroutine make_iterate(state, n, info)
-    type(iterate), intent(inout) :: state
+  !> Allocate all arrays for n points and set the forces to start from: `start` (n), scaled as in
+  !> contact_iterate, if it is allocated; else equal forces, or none if the motion is prescribed.
+  !> Error: FUGE_ERR_MEMORY.
+  pure subroutine start_iterate(iterate, n, prescribed, start, info)
+    type(contact_iterate), intent(inout) :: iterate
     integer, intent(in) :: n
+    logical, intent(in) :: prescribed
+    real(dp), intent(in), allocatable :: start(:)
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    allocate (state%force(n), state%displacement(n), state%contact(n), state%remainder(n), state%direction(n), &
-              state%work(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
-  end subroutine make_iterate
+    allocate (iterate%force(n), iterate%displacement(n), iterate%contact(n), iterate%residual(n), &
+              iterate%direction(n), iterate%work(n), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
+      return
+    end if
+    iterate%prescribed = prescribed
+    if (allocated(start)) then
+      iterate%force = start
+    else if (prescribed) then
+      iterate%force = 0.0_dp
+    else
+      iterate%force = 1.0_dp/real(n, dp)
+    end if
+  end subroutine start_iterate
 
-  !> Go towards the forces for which the gaps of the contact set are equal.
+  !> Iterate towards the forces for which the gaps of the contact set are equal, or zero if the
+  !> motion is prescribed.
   !>
-  !> `reduced_gap` (n) gaps per load; `state` forces, displacements and set, new forces and
-  !> displacements on return (the latter by recurrence). Ends when the residual is at
-  !> most `tolerance` times the least length of the set, which is `reached`; unless
-  !> `thorough`, when it is small enough to tell which points pull and which penetrate;
-  !> or when only rounding is left, or too many iterations have been made. Errors: those of the
-  !> operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY.
-  subroutine relax(operator, preconditioner, reduced_gap, tolerance, thorough, state, reached, info)
+  !> `reduced_gap` (n) scaled as in contact_iterate; `iterate` in: forces, displacements and
+  !> contact set; out: new forces and displacements (the latter by recurrence). Ends when the
+  !> residual norm is at most `tolerance` times the least magnitude (then iterate%converged);
+  !> unless `to_tolerance`, already when the residual is small enough to tell which points are
+  !> in tension and which penetrate; or when only rounding is left, or at the limit of
+  !> iterations. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY.
+  subroutine run_projected_gradients(operator, preconditioner, reduced_gap, tolerance, to_tolerance, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_preconditioner), intent(inout) :: preconditioner
     real(dp), intent(in), contiguous :: reduced_gap(:)
     real(dp), intent(in) :: tolerance
-    logical, intent(in) :: thorough
-    type(iterate), intent(inout) :: state
-    logical, intent(out) :: reached
+    logical, intent(in) :: to_tolerance
+    type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
-    real(dp) :: drift, tension, product, previous, curvature, step
+    real(dp) :: energy, previous, step_length
     integer :: iteration, limit
-    logical :: judges_forces, preconditioned
+    logical :: preconditioned
 
-    reached = .false.
+    iterate%converged = .false.
     preconditioned = operator%has_preconditioner()
-    judges_forces = preconditioned .and. .not. thorough
-    call measure(operator, reduced_gap, state, info)
+    call evaluate_iterate(operator, reduced_gap, iterate, info)
     if (info%failed()) return
-    limit = min(ITERATIONS_PER_POINT*min(state%over%points, MOST_ITERATIONS) + SPARE_ITERATIONS, MOST_ITERATIONS)
-    state%direction = 0.0_dp
+    limit = min(ITERATIONS_PER_POINT*min(iterate%segments%points, MAX_ITERATIONS) + EXTRA_ITERATIONS, MAX_ITERATIONS)
+    iterate%direction = 0.0_dp
     previous = 1.0_dp
     do iteration = 0, limit
-      reached = state%residual <= tolerance*state%least_length
-      if (reached .or. iteration == limit) return
-      if (iteration > 0 .and. .not. thorough .and. state%residual <= ENOUGH*state%penetration) return
-      call preconditioner%apply(operator, state%over, .not. state%held, state%remainder, state%work, info)
-      if (info%failed()) return
-      if (iteration > 0 .and. judges_forces) then
-        call estimate(state, drift, tension)
-        if (drift <= ENOUGH*tension) return
+      iterate%converged = iterate%residual_norm <= tolerance*iterate%least_magnitude
+      if (iterate%converged .or. iteration == limit) return
+      if (iteration > 0 .and. .not. to_tolerance) then
+        if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
       end if
-      product = inner(state%over, state%remainder, state%work)
-      if (.not. product > 0.0_dp) then
-        call explain_preconditioner(state, product, info)
+      call preconditioner%apply(operator, iterate%segments, .not. iterate%prescribed, iterate%residual, iterate%work, &
+                                info)
+      if (info%failed()) return
+      if (iteration > 0 .and. preconditioned .and. .not. to_tolerance) then
+        if (tension_is_decided(iterate)) return
+      end if
+      energy = dot_over(iterate%segments, iterate%residual, iterate%work)
+      if (.not. energy > 0.0_dp) then
+        call check_preconditioner_energy(iterate, energy, info)
         return
       end if
-      call turn(state%over, product/previous, state%work, state%direction)
-      previous = product
-      call deflect(operator, state%held, state%direction, state%work, info)
-      if (info%failed()) return
-      curvature = inner(state%over, state%direction, state%work)
-      if (.not. curvature > 0.0_dp) then
-        call explain(state, curvature, info)
-        return
-      end if
-      step = product/curvature
-      call advance(reduced_gap, step, state)
-      if (.not. (thorough .or. preconditioned)) then
+      call update_direction(iterate%segments, energy/previous, iterate%work, iterate%direction)
+      previous = energy
+      call advance_along_direction(operator, reduced_gap, energy, iterate, step_length, info)
+      if (.not. step_length > 0.0_dp) return
+      if (.not. (to_tolerance .or. preconditioned)) then
         ! Without a preconditioner the last step stands for the error of the forces.
-        drift = step*largest(state%over, state%direction)
-        tension = -minval(state%force)
-        if (drift <= ENOUGH*tension) return
+        if (step_length*max_abs_over(iterate%segments, iterate%direction) <= DECISIVE*(-minval(iterate%force))) return
       end if
     end do
-  end subroutine relax
+  end subroutine run_projected_gradients
 
-  !> Motion, residual, penetration and least length of the present forces and
-  !> displacements. Error: FUGE_ERR_MEMORY.
-  subroutine measure(operator, reduced_gap, state, info)
+  !> Evaluate motion, residual, penetration and least magnitude from the forces, displacements and
+  !> contact set of `iterate`. `reduced_gap` (n). Error: FUGE_ERR_MEMORY.
+  subroutine evaluate_iterate(operator, reduced_gap, iterate, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in), contiguous :: reduced_gap(:)
-    type(iterate), intent(inout) :: state
+    type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
-    real(dp) :: sunk
+    real(dp) :: offset
 
-    call state%over%find(state%contact, info)
+    call iterate%segments%find(iterate%contact, info)
     if (info%failed()) return
-    state%remainder = 0.0_dp
-    where (state%contact) state%remainder = reduced_gap + state%displacement
-    state%motion = 0.0_dp
-    call centre(state)
-    ! The mean of large numbers is not exact: once more for what is left of it.
-    call centre(state)
-    state%penetration = worst_penetration(reduced_gap, state)
-    call operator%magnitude(state%force, state%displacement, state%work)
-    sunk = -state%motion
-    if (state%held) sunk = operator%datum()*sum(state%force)
-    state%least_length = least_length(state, sunk, reduced_gap, state%work)
-  end subroutine measure
+    iterate%residual = 0.0_dp
+    where (iterate%contact) iterate%residual = reduced_gap + iterate%displacement
+    iterate%motion = 0.0_dp
+    call project_residual(iterate)
+    ! The mean of large numbers is rounded: the second projection removes what is left of it.
+    call project_residual(iterate)
+    iterate%penetration = deepest_penetration(reduced_gap, iterate)
+    call operator%magnitude(iterate%force, iterate%displacement, iterate%work)
+    offset = -iterate%motion
+    if (iterate%prescribed) offset = operator%datum()*sum(iterate%force)
+    iterate%least_magnitude = find_least_magnitude(iterate, offset, reduced_gap, iterate%work)
+  end subroutine evaluate_iterate
 
-  !> As in the certificate: what the displacement less the datum has to make up for, and
-  !> its terms.
-  pure function least_length(state, sunk, reduced_gap, terms) result(least)
-    type(iterate), intent(in) :: state
-    real(dp), intent(in) :: sunk
-    real(dp), intent(in), contiguous :: reduced_gap(:), terms(:)
+  !> The least magnitude as the certificate forms it, over the contact points: |reduced gap +
+  !> offset| plus the magnitude of the displacement. Without contact, the largest gap.
+  pure function find_least_magnitude(iterate, offset, reduced_gap, magnitude) result(least)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: offset
+    real(dp), intent(in), contiguous :: reduced_gap(:), magnitude(:)
     real(dp) :: least
     integer :: i, k
 
     least = maxval(abs(reduced_gap))
-    if (state%over%points > 0) least = huge(least)
-    do i = 1, size(state%over%first)
-      do k = state%over%first(i), state%over%last(i)
-        least = min(least, abs(reduced_gap(k) + sunk) + terms(k))
+    if (iterate%segments%points > 0) least = huge(least)
+    do i = 1, size(iterate%segments%first)
+      do k = iterate%segments%first(i), iterate%segments%last(i)
+        least = min(least, abs(reduced_gap(k) + offset) + magnitude(k))
       end do
     end do
-  end function least_length
+  end function find_least_magnitude
 
-  !> Displacements by forces; with the datum of the operator if nothing takes it up.
-  !> Errors: those of the operator.
-  subroutine deflect(operator, held, force, displacement, info)
+  !> Displacements by `force`, both (n). Only with a prescribed motion is the operator's datum
+  !> included; otherwise the free motion absorbs it. Errors: those of the operator.
+  subroutine compute_displacement(operator, prescribed, force, displacement, info)
     class(fuge_operator), intent(in) :: operator
-    logical, intent(in) :: held
+    logical, intent(in) :: prescribed
     real(dp), intent(in), contiguous :: force(:)
     real(dp), intent(inout), contiguous :: displacement(:)
     type(fuge_info), intent(inout) :: info
 
     call multiply(operator, force, displacement, info)
-    if (held .and. .not. info%failed()) displacement = displacement + operator%datum()*sum(force)
-  end subroutine deflect
+    if (prescribed .and. .not. info%failed()) displacement = displacement + operator%datum()*sum(force)
+  end subroutine compute_displacement
 
-  !> direction = correction + factor*direction on the contact.
-  pure subroutine turn(over, factor, correction, direction)
-    type(stretches), intent(in) :: over
+  !> direction = correction + factor*direction on the contact set.
+  pure subroutine update_direction(segments, factor, correction, direction)
+    type(contact_segments), intent(in) :: segments
     real(dp), intent(in) :: factor
     real(dp), intent(in), contiguous :: correction(:)
     real(dp), intent(inout), contiguous :: direction(:)
     integer :: i, k
 
-    do i = 1, size(over%first)
-      do k = over%first(i), over%last(i)
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i)
         direction(k) = correction(k) + factor*direction(k)
       end do
     end do
-  end subroutine turn
+  end subroutine update_direction
 
-  !> One step along the direction.
-  pure subroutine advance(reduced_gap, step, state)
+  !> Go to the minimum of the energy along the search direction.
+  !>
+  !> `energy` is the inner product of the residual and the preconditioned residual;
+  !> `step_length` is 0 where the curvature is not positive, or after an error. Errors: those of
+  !> the operator, FUGE_ERR_NOT_DEFINITE.
+  subroutine advance_along_direction(operator, reduced_gap, energy, iterate, step_length, info)
+    class(fuge_operator), intent(in) :: operator
     real(dp), intent(in), contiguous :: reduced_gap(:)
-    real(dp), intent(in) :: step
-    type(iterate), intent(inout) :: state
+    real(dp), intent(in) :: energy
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), intent(out) :: step_length
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: curvature
+
+    step_length = 0.0_dp
+    call compute_displacement(operator, iterate%prescribed, iterate%direction, iterate%work, info)
+    if (info%failed()) return
+    curvature = dot_over(iterate%segments, iterate%direction, iterate%work)
+    if (curvature > 0.0_dp) then
+      step_length = energy/curvature
+      call take_step(reduced_gap, step_length, iterate)
+    else
+      call check_curvature(iterate, curvature, info)
+    end if
+  end subroutine advance_along_direction
+
+  !> Subtract `step_length` times the search direction from the forces, and update what follows
+  !> from them.
+  pure subroutine take_step(reduced_gap, step_length, iterate)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
+    real(dp), intent(in) :: step_length
+    type(contact_iterate), intent(inout) :: iterate
     real(dp) :: mean
 
     mean = 0.0_dp
-    if (.not. state%held) mean = total(state%over, state%work)/real(state%over%points, dp)
-    state%displacement = state%displacement - step*state%work
-    call move(state%over, step, mean, state%direction, state%work, state%force, state%remainder)
-    state%motion = state%motion - step*mean
-    call centre(state)
-    state%penetration = worst_penetration(reduced_gap, state)
-  end subroutine advance
+    if (.not. iterate%prescribed) mean = sum_over(iterate%segments, iterate%work)/real(iterate%segments%points, dp)
+    iterate%displacement = iterate%displacement - step_length*iterate%work
+    call update_force_and_residual(iterate%segments, step_length, mean, iterate%direction, iterate%work, &
+                                   iterate%force, iterate%residual)
+    iterate%motion = iterate%motion - step_length*mean
+    call project_residual(iterate)
+    iterate%penetration = deepest_penetration(reduced_gap, iterate)
+  end subroutine take_step
 
-  pure subroutine move(over, step, mean, direction, image, force, remainder)
-    type(stretches), intent(in) :: over
-    real(dp), intent(in) :: step, mean
+  !> The step of forces and residuals on the contact set. `image` are the displacements by
+  !> `direction`, `mean` is their mean over the set.
+  pure subroutine update_force_and_residual(segments, step_length, mean, direction, image, force, residual)
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in) :: step_length, mean
     real(dp), intent(in), contiguous :: direction(:), image(:)
-    real(dp), intent(inout), contiguous :: force(:), remainder(:)
+    real(dp), intent(inout), contiguous :: force(:), residual(:)
     integer :: i, k
 
-    do i = 1, size(over%first)
-      do k = over%first(i), over%last(i)
-        force(k) = force(k) - step*direction(k)
-        remainder(k) = remainder(k) - step*(image(k) - mean)
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i)
+        force(k) = force(k) - step_length*direction(k)
+        residual(k) = residual(k) - step_length*(image(k) - mean)
       end do
     end do
-  end subroutine move
+  end subroutine update_force_and_residual
 
-  !> Keep the mean of the remainder zero: its rounding would grow and drown the rest.
-  pure subroutine centre(state)
-    type(iterate), intent(inout) :: state
+  !> Move the mean of the residual into the motion, unless that is prescribed: left in the
+  !> residual, its rounding error would grow and swamp the rest.
+  pure subroutine project_residual(iterate)
+    type(contact_iterate), intent(inout) :: iterate
     real(dp) :: mean
     integer :: i
 
     mean = 0.0_dp
-    if (.not. state%held) mean = total(state%over, state%remainder)/real(state%over%points, dp)
-    associate (over => state%over)
-      do i = 1, size(over%first)
-        state%remainder(over%first(i):over%last(i)) = state%remainder(over%first(i):over%last(i)) - mean
+    if (.not. iterate%prescribed) mean = sum_over(iterate%segments, iterate%residual)/real(iterate%segments%points, dp)
+    associate (first => iterate%segments%first, last => iterate%segments%last)
+      do i = 1, size(first)
+        iterate%residual(first(i):last(i)) = iterate%residual(first(i):last(i)) - mean
       end do
     end associate
-    state%motion = state%motion + mean
-    state%residual = largest(state%over, state%remainder)
-  end subroutine centre
+    iterate%motion = iterate%motion + mean
+    iterate%residual_norm = max_abs_over(iterate%segments, iterate%residual)
+  end subroutine project_residual
 
-  !> The deepest that an open point is pressed in, 0 if none is.
-  pure function worst_penetration(reduced_gap, state) result(depth)
+  !> The deepest penetration of an open point, 0 if none penetrates: the maximum over the gaps
+  !> between segments.
+  pure function deepest_penetration(reduced_gap, iterate) result(depth)
     real(dp), intent(in), contiguous :: reduced_gap(:)
-    type(iterate), intent(in) :: state
+    type(contact_iterate), intent(in) :: iterate
     real(dp) :: depth
     integer :: i, first, last
 
     depth = 0.0_dp
-    do i = 0, size(state%over%first)
+    do i = 0, size(iterate%segments%first)
       first = 1
       last = size(reduced_gap)
-      if (i > 0) first = state%over%last(i) + 1
-      if (i < size(state%over%first)) last = state%over%first(i + 1) - 1
-      if (first <= last) depth = max(depth, depth_between(reduced_gap(first:last), state%displacement(first:last), &
-                                                          state%motion))
+      if (i > 0) first = iterate%segments%last(i) + 1
+      if (i < size(iterate%segments%first)) last = iterate%segments%first(i + 1) - 1
+      if (first > last) cycle
+      depth = max(depth, penetration_of_run(reduced_gap(first:last), iterate%displacement(first:last), iterate%motion))
     end do
-  end function worst_penetration
+  end function deepest_penetration
 
-  pure function depth_between(reduced_gap, displacement, motion) result(depth)
+  !> The deepest penetration within one run of open points.
+  pure function penetration_of_run(reduced_gap, displacement, motion) result(depth)
     real(dp), intent(in), contiguous :: reduced_gap(:), displacement(:)
     real(dp), intent(in) :: motion
     real(dp) :: depth
@@ -276,60 +321,67 @@ contains
 
     depth = 0.0_dp
     do k = 1, size(reduced_gap)
-      depth = max(depth, -open_gap(reduced_gap(k), displacement(k), motion))
+      depth = max(depth, -deformed_gap(reduced_gap(k), displacement(k), motion))
     end do
-  end function depth_between
+  end function penetration_of_run
 
-  !> How far the forces still are from those wanted, and how strongly those pull.
-  pure subroutine estimate(state, drift, tension)
-    type(iterate), intent(in) :: state
-    real(dp), intent(out) :: drift, tension
+  !> Are the forces accurate enough to tell which of them will be tensile? The preconditioned
+  !> residual, in iterate%work, estimates their error.
+  pure function tension_is_decided(iterate) result(decided)
+    type(contact_iterate), intent(in) :: iterate
+    logical :: decided
+    real(dp) :: force_error, tension
     integer :: i, k
 
-    drift = 0.0_dp
+    force_error = 0.0_dp
     tension = 0.0_dp
-    do i = 1, size(state%over%first)
-      do k = state%over%first(i), state%over%last(i)
-        drift = max(drift, abs(state%work(k)))
-        tension = max(tension, state%work(k) - state%force(k))
+    do i = 1, size(iterate%segments%first)
+      do k = iterate%segments%first(i), iterate%segments%last(i)
+        force_error = max(force_error, abs(iterate%work(k)))
+        tension = max(tension, iterate%work(k) - iterate%force(k))
       end do
     end do
-  end subroutine estimate
+    decided = force_error <= DECISIVE*tension
+  end function tension_is_decided
 
-  !> Gap of a point, per load; where the set is right none is negative.
-  elemental function open_gap(reduced_gap, displacement, motion) result(gap)
+  !> Gap of a point in the deformed state; negative where the point penetrates. Scaled as in
+  !> contact_iterate.
+  elemental function deformed_gap(reduced_gap, displacement, motion) result(gap)
     real(dp), intent(in) :: reduced_gap, displacement, motion
     real(dp) :: gap
 
     gap = (reduced_gap - motion) + displacement
-  end function open_gap
+  end function deformed_gap
 
-  !> No energy in the remainder: nothing is left but rounding, or the preconditioner is not
-  !> positive definite.
-  pure subroutine explain_preconditioner(state, product, info)
-    type(iterate), intent(in) :: state
-    real(dp), intent(in) :: product
+  !> The preconditioned residual has no positive energy: either the residual is nothing but
+  !> rounding, or the preconditioner is not positive definite (FUGE_ERR_NOT_DEFINITE).
+  pure subroutine check_preconditioner_energy(iterate, energy, info)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: energy
     type(fuge_info), intent(inout) :: info
 
-    if (product >= -ROUNDING*largest(state%over, state%remainder)*largest(state%over, state%work)) return
+    if (energy >= -ROUNDING*max_abs_over(iterate%segments, iterate%residual) &
+        *max_abs_over(iterate%segments, iterate%work)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, &
                 'preconditioner '//text(info%preconditionings)//': lengths with the negative energy ' &
-                //text(product)//': the preconditioner of the operator is not positive definite')
-  end subroutine explain_preconditioner
+                //text(energy)//': the preconditioner of the operator is not positive definite')
+  end subroutine check_preconditioner_energy
 
-  !> No energy in a direction: rounding, or an operator that is not positive definite.
-  pure subroutine explain(state, curvature, info)
-    type(iterate), intent(in) :: state
+  !> The search direction has no positive curvature: either its displacements are nothing but
+  !> rounding, or the operator is not positive definite (FUGE_ERR_NOT_DEFINITE).
+  pure subroutine check_curvature(iterate, curvature, info)
+    type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: curvature
     type(fuge_info), intent(inout) :: info
     real(dp) :: length, force
 
-    ! Where the operator is singular the image is nothing but rounding of displacements.
-    length = max(maxval(abs(state%displacement)), largest(state%over, state%work))
-    force = largest(state%over, state%direction)
-    if (curvature >= -ROUNDING*length*force*max(1.0_dp, real(state%over%points, dp)*force)) return
+    ! Where the operator is singular, the displacements by the direction are rounding errors of
+    ! iterate%displacement.
+    length = max(maxval(abs(iterate%displacement)), max_abs_over(iterate%segments, iterate%work))
+    force = max_abs_over(iterate%segments, iterate%direction)
+    if (curvature >= -ROUNDING*length*force*max(1.0_dp, real(iterate%segments%points, dp)*force)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces on the contact store the ' &
                 //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
-  end subroutine explain
+  end subroutine check_curvature
 
 end module fuge_projected_gradients

@@ -1,55 +1,55 @@
-!> Which points change sides after the forces of a contact set are known, where the
-!> points are cells in a row.
+!> The exchange step of the contact set search: which points leave and which join the contact
+!> set, once the forces of the present set are known.
 !>
-!> Pressed together as far as x = b, bodies that want to touch as far as a < b pull
-!> beyond (a + b)/2, where the pressure ((a^2 + b^2)/2 - x^2)/sqrt(b^2 - x^2) changes its
-!> sign: twice as many cells must leave as pull. For a > b the gap beyond b goes on
-!> falling for half the way and is closed for one and a half: two cells in three that
-!> penetrate must join.
+!> Where the points are cells in a row, the exchange extrapolates to the true edge of contact.
+!> Let a contact segment be solved up to x = b while the true edge is at x = a.
+!> For a < b the pressure ((a^2 + b^2)/2 - x^2)/sqrt(b^2 - x^2) changes sign at about (a + b)/2:
+!> twice as many cells must leave as are in tension. For a > b the gap beyond b is negative over
+!> 3/2 of a - b: two of three penetrating cells must join (doc/theory.md).
 module fuge_set_exchange
   implicit none
   private
 
-  public :: exchange, exchange_in_row
+  public :: exchange, exchange_extrapolated
 
-  !> A run of so many cells is known well enough.
+  !> Runs of at least this many cells locate the edge well enough to extrapolate in full.
   integer, parameter :: LONG_RUN = 8
 
 contains
 
-  !> Every point that pulls leaves, every one that penetrates joins. All (n).
-  pure subroutine exchange(pulls, penetrates, contact)
-    logical, intent(in) :: pulls(:), penetrates(:)
+  !> Every tensile point leaves the contact set, every penetrating point joins it. All (n).
+  pure subroutine exchange(tensile, penetrating, contact)
+    logical, intent(in) :: tensile(:), penetrating(:)
     logical, intent(inout) :: contact(:)
 
-    contact = (contact .and. .not. pulls) .or. penetrates
+    contact = (contact .and. .not. tensile) .or. penetrating
   end subroutine exchange
 
-  !> The same with the foresight of the theory above, at the ends of each stretch of
-  !> contact, of which one cell at least stays.
-  pure subroutine exchange_in_row(pulls, penetrates, contact)
-    logical, intent(in) :: pulls(:), penetrates(:)
+  !> As `exchange`, but extrapolates to the true edge at the ends of contact segments, as derived
+  !> above. At least one cell of each segment stays in contact. All (n).
+  pure subroutine exchange_extrapolated(tensile, penetrating, contact)
+    logical, intent(in) :: tensile(:), penetrating(:)
     logical, intent(inout) :: contact(:)
     integer :: first, last
 
-    call exchange(pulls, penetrates, contact)
+    call exchange(tensile, penetrating, contact)
     first = 1
     do
-      call next_run(pulls, first, last)
-      if (first > size(pulls)) exit
-      call release_more(first, last, contact)
+      call next_run(tensile, first, last)
+      if (first > size(tensile)) exit
+      call extend_release(first, last, contact)
       first = last + 1
     end do
     first = 1
     do
-      call next_run(penetrates, first, last)
-      if (first > size(pulls)) exit
-      call join_fewer(first, last, contact)
+      call next_run(penetrating, first, last)
+      if (first > size(penetrating)) exit
+      call shorten_joining(first, last, contact)
       first = last + 1
     end do
-  end subroutine exchange_in_row
+  end subroutine exchange_extrapolated
 
-  !> The first run of true elements from `first` on; first > n if there is none.
+  !> The next run of true elements at or after `first`; first > n if there is none.
   pure subroutine next_run(mask, first, last)
     logical, intent(in) :: mask(:)
     integer, intent(inout) :: first
@@ -66,26 +66,23 @@ contains
     end do
   end subroutine next_run
 
-  !> A run that pulls at one end of a stretch takes as many cells with it; a short one
-  !> two fewer, because the grid may make it too long by those.
-  pure subroutine release_more(first, last, contact)
+  !> A tensile run at one end of a segment takes as many cells again with it; a short run takes
+  !> two fewer, because the grid alone may make it longer by two.
+  pure subroutine extend_release(first, last, contact)
     integer, intent(in) :: first, last
     logical, intent(inout) :: contact(:)
     integer :: more, k
-    logical :: touches_before, touches_after
+    logical :: contact_before, contact_after
 
     more = last - first + 1
     if (more < LONG_RUN) more = more - 2
     if (more < 1) return
-    touches_before = .false.
-    touches_after = .false.
-    if (first > 1) touches_before = contact(first - 1)
-    if (last < size(contact)) touches_after = contact(last + 1)
-    if (touches_before .eqv. touches_after) return
+    call find_neighbours(first, last, contact, contact_before, contact_after)
+    if (contact_before .eqv. contact_after) return
     do k = 1, more
-      if (touches_after) then
+      if (contact_after) then
         if (last + k + 1 > size(contact)) exit
-        ! The last cell of a stretch stays.
+        ! The last cell of a segment stays.
         if (.not. contact(last + k + 1)) exit
         contact(last + k) = .false.
       else
@@ -94,26 +91,35 @@ contains
         contact(first - k) = .false.
       end if
     end do
-  end subroutine release_more
+  end subroutine extend_release
 
-  !> Of a run that penetrates at one end of a stretch the far third stays open.
-  pure subroutine join_fewer(first, last, contact)
+  !> The far third of a penetrating run at one end of a segment stays open.
+  pure subroutine shorten_joining(first, last, contact)
     integer, intent(in) :: first, last
     logical, intent(inout) :: contact(:)
-    integer :: few
-    logical :: touches_before, touches_after
+    integer :: third
+    logical :: contact_before, contact_after
 
-    few = (last - first + 1)/3
-    touches_before = .false.
-    touches_after = .false.
-    if (first > 1) touches_before = contact(first - 1)
-    if (last < size(contact)) touches_after = contact(last + 1)
-    if (touches_before .eqv. touches_after) return
-    if (touches_before) then
-      contact(last - few + 1:last) = .false.
+    third = (last - first + 1)/3
+    call find_neighbours(first, last, contact, contact_before, contact_after)
+    if (contact_before .eqv. contact_after) return
+    if (contact_before) then
+      contact(last - third + 1:last) = .false.
     else
-      contact(first:first + few - 1) = .false.
+      contact(first:first + third - 1) = .false.
     end if
-  end subroutine join_fewer
+  end subroutine shorten_joining
+
+  !> Are the points before `first` and after `last` in contact?
+  pure subroutine find_neighbours(first, last, contact, contact_before, contact_after)
+    integer, intent(in) :: first, last
+    logical, intent(in) :: contact(:)
+    logical, intent(out) :: contact_before, contact_after
+
+    contact_before = .false.
+    contact_after = .false.
+    if (first > 1) contact_before = contact(first - 1)
+    if (last < size(contact)) contact_after = contact(last + 1)
+  end subroutine find_neighbours
 
 end module fuge_set_exchange
