@@ -81,8 +81,18 @@ if(TARGET fuge_sparse)
 endif()
 
 install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY "${PROJECT_BINARY_DIR}/modules/" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers}
-  FILES_MATCHING PATTERN "*.mod" PATTERN "*.smod")
+# Only the public modules are for users. gfortran's files of these are complete in themselves; those of other
+# compilers (flang) refer to the files of the modules that they use.
+set(modules_dir "${PROJECT_BINARY_DIR}/modules")
+if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
+  install(FILES "${modules_dir}/fuge.mod" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers})
+  if(TARGET fuge_sparse)
+    install(FILES "${modules_dir}/fuge_sparse.mod" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers})
+  endif()
+else()
+  install(DIRECTORY "${modules_dir}/" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers}
+    FILES_MATCHING PATTERN "*.mod")
+endif()
 
 configure_package_config_file(cmake/fuge-config.cmake.in fuge-config.cmake
   INSTALL_DESTINATION "${package_dir}")

@@ -1,14 +1,13 @@
 !> The paper's rubber disc: Tabelle 2, both load cases, Bild 5 and 6.
 !>
-!>     disc [folder with disc_pivots.csv and disc_results.csv]
+!>     disc [folder with disc_pivots.csv and disc_results.csv [folder for its tables]]
 !>
-!> Prints the paper's numbers beside those of fuge and writes disc_1.dat and
-!> disc_2.dat for the pictures.
+!> Prints the paper's numbers beside those of fuge; for the pictures it writes disc_1.dat and disc_2.dat.
 program disc
   use disc_rings, only: disc_influence, ring_radius, RINGS
+  use example_output, only: create_file
   use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_history, fuge_info, fuge_options, fuge_problem, &
-    fuge_solution, &
-    fuge_solver
+    fuge_solution, fuge_solver
   implicit none
 
   !> Datum of the gaps: in step 13 of Tabelle 2 the last gap leaves z by this much, mm.
@@ -116,7 +115,7 @@ contains
     real(dp), intent(in) :: gap(:)
     integer :: file, k
 
-    open (newunit=file, file='disc_'//achar(iachar('0') + case_number)//'.dat', status='replace', action='write')
+    call create_file('disc_'//achar(iachar('0') + case_number)//'.dat', 2, file)
     do k = 1, RINGS
       write (file, '(f8.1,es16.7)') ring_radius(k), gap(k)
     end do

@@ -1,5 +1,7 @@
 !> A shaft in a bush with clearance: supports on both sides, 0 <= c <= d.
 !>
+!>     play [folder for its table]
+!>
 !> The bush holds the shaft at nine places, with half of the clearance d above and half below;
 !> a weight P hangs at the overhanging end. A force of the lower side pushes the shaft up and
 !> counts positive, one of the upper side pushes it down and is negative.
@@ -7,8 +9,9 @@
 !> lower side at the outer end of the bush, bends upwards behind it and meets the upper side,
 !> which moves outwards as the load grows. Then it is free to sink and to tilt, and only the
 !> bush holds it.
-!> Writes play.csv: forces and gaps over the load.
+!> The table play.csv has forces and gaps over the load.
 program play
+  use example_output, only: create_file
   use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
   implicit none
 
@@ -37,7 +40,7 @@ contains
     call operator%set(alpha, info)
     if (info%failed()) error stop 'no influence matrix'
 
-    open (newunit=file, file='play.csv', status='replace', action='write')
+    call create_file('play.csv', 1, file)
     write (file, '(a,18(a,i0))') 'shaft,P [N]', (',f', k, k=1, SUPPORTS), (',c', k, k=1, SUPPORTS)
     print '(a)', 'The shaft clamped at x = 0'
     call raise_load(operator, x, clamped_shaft(), 'clamped', file)

@@ -1,14 +1,16 @@
 !> The paper's rigid punch y = 0.05 x**4 (mm) on an elastic half-plane: Bild 7 and 8.
 !>
+!>     punch [folder for its tables]
+!>
 !> Half model of 33 cells, 0.025 mm wide, side by side from x = 0; F in N per mm of
 !> thickness. The contact ends at the outer edge of the last cell with a force; the
 !> fall of the pressure tells its edge to third order in the width.
-!> Writes punch_pressure.dat, punch_edge.dat and, from the exact load path,
-!> punch_halfwidth.dat for the pictures.
+!> For the pictures it writes punch_pressure.dat, punch_edge.dat and, from the exact load path,
+!> punch_halfwidth.dat.
 program punch
+  use example_output, only: create_file
   use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, &
-    fuge_interval, &
-    fuge_load_path, fuge_path, fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver, FUGE_CENTRE, &
+    fuge_interval, fuge_load_path, fuge_path, fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver, FUGE_CENTRE, &
     FUGE_EDGE_REFINED
   implicit none
 
@@ -39,7 +41,7 @@ contains
 
     print '(a)', ' F [kN/mm]  half contact length [mm]    error    largest pressure [N/mm2]  error  residual'
     print '(a)', '            cells    edge      exact   of edge       fuge        exact'
-    open (newunit=file, file='punch_edge.dat', status='replace', action='write')
+    call create_file('punch_edge.dat', 1, file)
     do kilonewtons = 5, 50, 5
       call one_load(operator, problem, x, real(kilonewtons, dp), file)
     end do
@@ -119,7 +121,7 @@ contains
 
     call fuge_load_path(operator, gap, 50.0e3_dp, path, info)
     if (info%status /= 0) error stop 'the load path was not found'
-    open (newunit=file, file='punch_halfwidth.dat', status='replace', action='write')
+    call create_file('punch_halfwidth.dat', 1, file)
     do k = 1, path%events
       write (file, '(4es16.7)') path%load(k)/1.0e3_dp, x(path%point(k)) + 0.5_dp*SPACING, path%approach(k), &
         path%stiffness(k)/1.0e3_dp
@@ -165,7 +167,7 @@ contains
     real(dp), intent(in) :: x(:), pressure(:), a
     integer :: file, k
 
-    open (newunit=file, file='punch_pressure.dat', status='replace', action='write')
+    call create_file('punch_pressure.dat', 1, file)
     do k = 1, size(x)
       write (file, '(f8.4,2f14.3)') x(k), pressure(k), exact_pressure(x(k), a)
     end do

@@ -1,15 +1,16 @@
 !> A rough profile pressed on an elastic half-plane: real contact length over load.
 !>
-!>     rough [cells [profile]]
+!>     rough [cells [profile [folder for its tables]]]
 !>
-!> `cells`, a power of two, 2**18 unless given; `profile` a file with x and z on each line,
-!> without it a self-affine profile is made. The surfaces are periodic. Lengths count in
+!> `cells` is a power of two, 2**18 unless given; `profile` is a file with x and z on each line. Without it, or
+!> with -, a self-affine profile is generated. The surfaces are periodic. Lengths count in
 !> the unit of the profile, or in periods, and pressures in E*: mean pressure and contact
 !> do not depend on its value. While the contact is small its length is proportional
 !> to the load, A/A_0 = kappa p/(E* h') with the rms slope h'.
-!> Writes rough_load.csv and rough_window.csv for the pictures.
+!> For the pictures it writes rough_load.csv and rough_window.csv.
 program rough
   use, intrinsic :: iso_fortran_env, only: int64
+  use example_output, only: create_file
   use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver, &
     FUGE_PERIODIC
   use rough_profile, only: measured_profile, rms_slope, self_affine_profile
@@ -57,7 +58,7 @@ contains
     if (command_argument_count() < 1) return
     call get_command_argument(1, argument)
     read (argument, *, iostat=status) cells
-    if (status /= 0) error stop 'usage: rough [cells [profile]]'
+    if (status /= 0) error stop 'usage: rough [cells [profile [folder]]]'
     if (cells < 1024 .or. popcnt(cells) /= 1) error stop 'cells has to be a power of two, 1024 or more'
   end subroutine read_arguments
 
@@ -66,8 +67,8 @@ contains
     character(len=1024) :: path
     type(fuge_info) :: info
 
-    if (command_argument_count() > 1) then
-      call get_command_argument(2, path)
+    call get_command_argument(2, path)
+    if (path /= '' .and. path /= '-') then
       call measured_profile(trim(path), size(height), height, period, info)
       if (info%failed()) call give_up(info)
     else
@@ -89,7 +90,7 @@ contains
     integer :: file, k
 
     print '(a)', '   p/E*      contact    kappa    approach   residual  products   time [s]'
-    open (newunit=file, file='rough_load.csv', status='replace', action='write')
+    call create_file('rough_load.csv', 3, file)
     write (file, '(a)') 'pressure,contact,kappa,approach,residual,products,preconditionings,seconds,rms_slope'
     do k = 0, DECADES*LOADS_A_DECADE
       pressure = LARGEST*10.0_dp**(-real(k, dp)/real(LOADS_A_DECADE, dp))
@@ -142,7 +143,7 @@ contains
     middle = maxloc(solution%force, dim=1)
     first = max(1, middle - size(height)/(2*WINDOW))
     last = min(size(height), middle + size(height)/(2*WINDOW))
-    open (newunit=file, file='rough_window.csv', status='replace', action='write')
+    call create_file('rough_window.csv', 3, file)
     write (file, '(a)') 'x,profile,surface,pressure'
     do k = first, last
       write (file, '(3(es16.8,","),es16.8)') (real(k, dp) - 0.5_dp)*spacing, height(k), height(k) + solution%gap(k), &

@@ -1,5 +1,7 @@
 !> One crest of a wave pressed on an elastic half-plane: digits over unknowns.
 !>
+!>     smooth [folder for its table]
+!>
 !> The initial gap is d (1 - cos(k x)) on |x| <= pi/k, the contact |x| <= a. With J_n the Bessel
 !> functions the exact answer is
 !>
@@ -10,10 +12,11 @@
 !> First the grid: the iteration on more and more cells, the edges of contact refined from
 !> its forces. Then the engine for smooth punches, whose few coefficients are listed with what
 !> the pressure lacks without those after each. Everything is per unit depth.
-!> Writes smooth.csv: unknowns, the errors of the half width, approach and pressure, and
-!> the time of a solve.
+!> The table smooth.csv has the unknowns, the errors of half width, approach and pressure, and the time
+!> of a solve.
 program smooth
   use, intrinsic :: iso_fortran_env, only: int64
+  use example_output, only: create_file
   use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_halfplane_operator, fuge_info, fuge_interval, fuge_problem, &
     fuge_smooth_contact, fuge_solution, fuge_solve_smooth_punch, fuge_solver, FUGE_DONE, FUGE_FREE, FUGE_HAT
   use smooth_wave, only: wave_crest
@@ -37,7 +40,7 @@ contains
 
     crest = wave_crest(lower=-0.5_dp*LENGTH, upper=0.5_dp*LENGTH, amplitude=AMPLITUDE, number=NUMBER)
     print '(a,f6.3,a,f10.3,a)', 'Contact |x| <= ', HALF_WIDTH, ' mm under ', LOAD, ' N/mm; relative errors'
-    open (newunit=file, file='smooth.csv', status='replace', action='write')
+    call create_file('smooth.csv', 1, file)
     write (file, '(a)') 'engine,unknowns,half width,approach,pressure,time [s]'
     print '(/,a)', '       cells  half width    approach    pressure    time [ms]'
     cells = 64

@@ -1,16 +1,19 @@
 !> Tables of the example `solve_mtx`: CSV with comments after #.
 module solve_mtx_tables
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text
-  use fuge_text_writer, only: text_output
+  use, intrinsic :: iso_fortran_env, only: int64, output_unit
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text, FUGE_ERR_FILE
   implicit none
   private
 
   public :: write_contact, write_field
 
-  !> A file, or standard output.
+  !> A file, or standard output. After the first error nothing more is written, and `finish` reports it.
   type :: table
-    logical :: on_screen = .false.
-    type(text_output) :: file
+    integer :: unit = output_unit
+    integer :: failure = 0
+    integer(int64) :: bytes = 0_int64
+    character(len=:), allocatable :: path
+    character(len=256) :: reason = ''
   contains
     procedure :: create
     procedure :: put
@@ -84,31 +87,59 @@ contains
     call csv%finish(info)
   end subroutine write_field
 
+  !> Replace the file at `path`; standard output if that is empty. Error: FUGE_ERR_FILE.
   subroutine create(self, path, info)
-    class(table), intent(inout) :: self
+    class(table), intent(out) :: self
     character(len=*), intent(in) :: path
     type(fuge_info), intent(inout) :: info
 
-    self%on_screen = len_trim(path) == 0
-    if (.not. self%on_screen) call self%file%create(path, info)
+    self%path = path
+    if (len_trim(path) == 0) return
+    open (newunit=self%unit, file=path, status='replace', action='write', iostat=self%failure, iomsg=self%reason)
+    if (self%failure /= 0) call refuse(self, 'opened', info)
   end subroutine create
 
   subroutine put(self, line)
     class(table), intent(inout) :: self
     character(len=*), intent(in) :: line
 
-    if (self%on_screen) then
-      print '(a)', trim(line)
-    else
-      call self%file%put(line)
-    end if
+    if (self%failure /= 0) return
+    write (self%unit, '(a)', iostat=self%failure, iomsg=self%reason) trim(adjustl(line))
+    self%bytes = self%bytes + len_trim(adjustl(line)) + 1
   end subroutine put
 
+  !> Close the file. Error: FUGE_ERR_FILE if it is not complete.
   subroutine finish(self, info)
     class(table), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
 
-    if (.not. self%on_screen) call self%file%finish(info)
+    if (self%unit == output_unit) return
+    if (self%failure == 0) close (self%unit, iostat=self%failure, iomsg=self%reason)
+    if (self%failure == 0) call compare_size(self)
+    if (self%failure /= 0) call refuse(self, 'written', info)
   end subroutine finish
+
+  !> On a full disk a run-time library may report nothing: then the file is too short.
+  subroutine compare_size(self)
+    class(table), intent(inout) :: self
+    integer(int64) :: bytes
+
+    open (newunit=self%unit, file=self%path, status='old', action='read', iostat=self%failure, iomsg=self%reason)
+    if (self%failure /= 0) return
+    inquire (unit=self%unit, size=bytes)
+    close (self%unit)
+    if (bytes >= self%bytes) return
+    self%failure = 1
+    self%reason = 'it is shorter than it should be, the disk may be full'
+  end subroutine compare_size
+
+  subroutine refuse(self, verb, info)
+    class(table), intent(in) :: self
+    character(len=*), intent(in) :: verb
+    type(fuge_info), intent(inout) :: info
+
+    info%status = FUGE_ERR_FILE
+    info%message = '"'//self%path//'" cannot be '//verb//': '//trim(self%reason)
+  end subroutine refuse
 
 end module solve_mtx_tables

@@ -1,15 +1,17 @@
 !> A flat and a rounded punch on an elastic half-plane under an eccentric force.
 !>
+!>     tilt [folder for its tables]
+!>
 !> The force F acts at the distance e from the middle of the face |x| <= a, so that its moment
 !> is M = F e. The face may sink and tilt: two rigid motions, R = [1, x], whose resultants are
 !> F and M. The flat punch stays in full contact up to e = a/2 and then lifts off; the rounded
 !> one, y = x**2/(2 R), rolls until its contact reaches the corner. Beyond e = a both would
 !> tip over. Everything is per unit depth and compared with the exact answer.
-!> Writes tilt_length.csv and tilt_pressure.csv for the picture.
+!> For the picture it writes tilt_length.csv and tilt_pressure.csv.
 program tilt
+  use example_output, only: create_file
   use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, &
-    fuge_interval, &
-    fuge_problem, fuge_solution, fuge_solver, fuge_status_text, FUGE_ERR_NO_EQUILIBRIUM, FUGE_MEAN
+    fuge_interval, fuge_problem, fuge_solution, fuge_solver, fuge_status_text, FUGE_ERR_NO_EQUILIBRIUM, FUGE_MEAN
   implicit none
 
   !> N, mm.
@@ -43,7 +45,7 @@ contains
     if (.not. info%failed()) call operator%set(alpha, info)
     if (info%failed()) error stop 'no influence matrix'
 
-    open (newunit=file, file='tilt_length.csv', status='replace', action='write')
+    call create_file('tilt_length.csv', 1, file)
     write (file, '(a)') 'punch,eccentricity/a,length/2a,exact,rotation,exact,approach [mm],exact'
     call all_eccentricities(operator, x, 'flat', 0.0_dp, file)
     call all_eccentricities(operator, x, 'rounded', 1.0_dp/RADIUS, file)
@@ -208,7 +210,7 @@ contains
     do j = 1, size(solution)
       call press(operator, problem, QUARTERS(j)*HALF_FACE, solver, solution(j))
     end do
-    open (newunit=file, file='tilt_pressure.csv', status='replace', action='write')
+    call create_file('tilt_pressure.csv', 1, file)
     write (file, '(a)') 'x [mm],p(e=0) [N/mm2],p(e=a/4),p(e=a/2),p(e=3a/4)'
     do k = 1, size(x), 5
       write (file, '(f9.4,4('','',f12.4))') x(k), (solution(j)%force(k)/WIDTH, j=1, size(solution))

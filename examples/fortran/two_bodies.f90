@@ -1,5 +1,7 @@
 !> Two rigid flat punches side by side on one elastic half-plane, each with its own force.
 !>
+!>     two_bodies [folder for its table]
+!>
 !> Both sink without tilting: two rigid motions, each of which moves the cells of one punch
 !> only, with its force as resultant. Either punch sinks into the hollow of the other one.
 !> First equal forces over the distance, then one force is kept and the other one raised from
@@ -11,11 +13,11 @@
 !>
 !> + for the first punch, - for the second one; K the complete elliptic integral of the first
 !> kind, D the distance at which a line load displaces nothing.
-!> Writes two_bodies.csv: the approaches over the distance and over the force.
+!> The table two_bodies.csv has the approaches over the distance and over the force.
 program two_bodies
+  use example_output, only: create_file
   use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, &
-    fuge_solver, &
-    FUGE_MEAN
+    fuge_solver, FUGE_MEAN
   implicit none
 
   !> N, mm; cells of each punch.
@@ -39,7 +41,7 @@ contains
   subroutine run()
     integer :: file
 
-    open (newunit=file, file='two_bodies.csv', status='replace', action='write')
+    call create_file('two_bodies.csv', 1, file)
     write (file, '(a)') 'distance [mm],F_1 [N],F_2 [N],v_1 [mm],v_2 [mm],touching 1,touching 2'
     call move_apart(file)
     call raise_second(2.5_dp*HALF_FACE, file)

@@ -1,5 +1,6 @@
 # Headers, module files and documents are installed, each by its component.
-# ctest sets PREFIX, BUILD_DIR, SOURCE_DIR, SCRATCH, CONFIG, LIBDIR, DOCDIR, MANDIR, INCLUDEDIR and MODULEDIR.
+# ctest sets PREFIX, BUILD_DIR, SOURCE_DIR, SCRATCH, CONFIG, LIBDIR, DOCDIR, MANDIR, INCLUDEDIR, MODULEDIR
+# and COMPILER_ID.
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
@@ -17,7 +18,17 @@ function(expect_copies from pattern to)
 endfunction()
 
 expect_copies("${SOURCE_DIR}/include" *.h "${PREFIX}/${INCLUDEDIR}")
-expect_copies("${BUILD_DIR}/modules" *.mod "${PREFIX}/${MODULEDIR}")
+if(COMPILER_ID STREQUAL "GNU")
+  # The public modules are complete in themselves.
+  expect_copies("${BUILD_DIR}/modules" fuge.mod "${PREFIX}/${MODULEDIR}")
+  file(GLOB modules RELATIVE "${PREFIX}/${MODULEDIR}" "${PREFIX}/${MODULEDIR}/*")
+  list(REMOVE_ITEM modules fuge.mod fuge_sparse.mod)
+  if(modules)
+    message(SEND_ERROR "installed, but not public: ${modules}")
+  endif()
+else()
+  expect_copies("${BUILD_DIR}/modules" *.mod "${PREFIX}/${MODULEDIR}")
+endif()
 foreach(pattern IN ITEMS doc/*.md doc/*.png doc/*.svg README.md LICENSE CHANGELOG.md)
   expect_copies("${SOURCE_DIR}" ${pattern} "${PREFIX}/${DOCDIR}")
 endforeach()
