@@ -4,6 +4,7 @@
 # fuge_compat_add_program(<name> <a.pf>...): the test program, without a ctest.
 function(fuge_compat_add_program name)
   set(generated "${CMAKE_CURRENT_BINARY_DIR}/fuge_compat/${name}")
+  set(names "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/exported_names.txt")
   set(sources)
   set(FUGE_COMPAT_USES)
   set(FUGE_COMPAT_CALLS)
@@ -17,8 +18,8 @@ function(fuge_compat_add_program name)
     set(source "${generated}/${module}.F90")
     add_custom_command(
       OUTPUT "${source}"
-      COMMAND fuge_compat_translate "${pf}" "${source}"
-      DEPENDS "${pf}" fuge_compat_translate
+      COMMAND fuge_compat_translate "${pf}" "${source}" "${names}"
+      DEPENDS "${pf}" "${names}" fuge_compat_translate
       COMMENT "Translating ${module}.pf"
       VERBATIM)
     list(APPEND sources "${source}")

@@ -2,6 +2,7 @@
 ! module, <name>_suite, runs the tests. Whatever it does not know it refuses.
 module pf_translation
   use, intrinsic :: iso_fortran_env, only: iostat_end
+  use pf_module_names, only: module_names, read_names
   implicit none
   private
 
@@ -25,6 +26,9 @@ module pf_translation
     character(len=name_len), allocatable :: tests(:)
     character(len=name_len) :: before = ' ', after = ' '
     character(len=6) :: pending = ' ' ! the directive whose subroutine must follow
+    type(module_names) :: names
+    character(len=:), allocatable :: statement ! as far as it has been read
+    integer :: statement_line = 0 ! the line on which it begins
     integer :: in = -1, out = -1
     integer :: line = 0 ! number of lines read
     integer :: written = 0
@@ -32,18 +36,21 @@ module pf_translation
 
 contains
 
-  ! error stays unallocated on success; a refused file leaves no output behind, which
-  ! a build tool might take for a finished one.
-  subroutine translate(path, out_path, error)
-    character(len=*), intent(in) :: path, out_path
+  ! The file of names lists those that pFUnit exports. error stays unallocated on success;
+  ! a refused file leaves no output behind, which a build tool might take for a finished one.
+  subroutine translate(path, out_path, names_path, error)
+    character(len=*), intent(in) :: path, out_path, names_path
     character(len=:), allocatable, intent(out) :: error
     type(translation) :: this
     integer :: status
 
+    call read_names(names_path, this%names%exported, error)
+    if (allocated(error)) return
     this%path = path
     this%out_path = out_path
     this%file_name = path(scan(path, '/\', back=.true.) + 1:)
     allocate (this%tests(0))
+    this%statement = ''
     open (newunit=this%in, file=path, status='old', action='read', iostat=status)
     if (status /= 0) then
       error = path//': cannot be read'
@@ -120,6 +127,7 @@ contains
       call refuse(this, 'a directive must stand on a line of its own')
     else
       call note_statement(this, lower(code(first:)))
+      call check_names(this, lower(code(first:)))
       call put(this, line)
     end if
   end subroutine translate_line
@@ -270,6 +278,30 @@ contains
     end if
   end subroutine note_statement
 
+  ! Refuses the name of an entity of the module that pFUnit exports too.
+  subroutine check_names(this, line)
+    type(translation), intent(inout) :: this
+    character(len=*), intent(in) :: line
+    character(len=:), allocatable :: code, name
+    integer :: last
+
+    code = trim(line(:index(line//'!', '!') - 1))
+    if (this%statement == '') this%statement_line = this%line
+    if (code(1:1) == '&') code = code(2:)
+    this%statement = this%statement//code
+    last = len(this%statement)
+    if (continued(code)) then
+      this%statement(last:) = ' '
+      return
+    end if
+    do while (this%statement /= '' .and. .not. allocated(this%error))
+      last = index(this%statement//';', ';') - 1
+      call this%names%next(trim(adjustl(this%statement(:last))), name)
+      if (name /= '') call refuse(this, name//' is a name that pFUnit exports: choose another', this%statement_line)
+      this%statement = this%statement(min(last + 2, len(this%statement) + 1):)
+    end do
+  end subroutine check_names
+
   ! The name in "keyword name", with or without the suffix, or an empty string.
   pure function named(statement, keyword, suffix) result(name)
     character(len=*), intent(in) :: statement, keyword, suffix
@@ -332,11 +364,16 @@ contains
     call refuse(this, '@'//trim(this%pending)//' must be followed by "subroutine name()"')
   end subroutine refuse_pending
 
-  subroutine refuse(this, reason)
+  ! For the line that was read last, unless another one is named.
+  subroutine refuse(this, reason, line)
     type(translation), intent(inout) :: this
     character(len=*), intent(in) :: reason
+    integer, intent(in), optional :: line
+    integer :: number
 
-    this%error = this%path//':'//decimal(this%line)//': '//reason
+    number = this%line
+    if (present(line)) number = line
+    this%error = this%path//':'//decimal(number)//': '//reason
   end subroutine refuse
 
   ! One module that knows the tests; the driver calls its only public procedure.

@@ -1,4 +1,4 @@
-# cmake -D TRANSLATOR=<program> -D INPUT=<file.pf> -D OUTPUT=<file.F90> -P expect_refusal.cmake
+# cmake -D TRANSLATOR=<program> -D INPUT=<file.pf> -D NAMES=<file.txt> -D OUTPUT=<file.F90> -P expect_refusal.cmake
 # The first line of the .pf file must be "! refused: <line>: <reason>".
 file(STRINGS "${INPUT}" first LIMIT_COUNT 1)
 if(NOT first MATCHES "^! refused: ([0-9]+: .+)$")
@@ -6,7 +6,7 @@ if(NOT first MATCHES "^! refused: ([0-9]+: .+)$")
 endif()
 set(expected "${INPUT}:${CMAKE_MATCH_1}\n")
 file(WRITE "${OUTPUT}" "left over from an earlier run\n")
-execute_process(COMMAND "${TRANSLATOR}" "${INPUT}" "${OUTPUT}"
+execute_process(COMMAND "${TRANSLATOR}" "${INPUT}" "${OUTPUT}" "${NAMES}"
   RESULT_VARIABLE status ERROR_VARIABLE error)
 if(NOT status STREQUAL "1")
   message(FATAL_ERROR "exit status ${status}, not 1; message: ${error}")
