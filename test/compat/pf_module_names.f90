@@ -10,7 +10,8 @@ module pf_module_names
   integer, parameter :: name_len = 63
   character(len=*), parameter :: name_characters = 'abcdefghijklmnopqrstuvwxyz0123456789_'
   ! What may stand before `subroutine` or `function`; the words of types also begin declarations.
-  character(len=9), parameter :: prefixes(*) = [character(len=9) :: 'pure', 'impure', 'elemental', 'recursive', 'module']
+  character(len=9), parameter :: prefixes(*) = [character(len=9) :: 'pure', 'impure', 'elemental', 'recursive', &
+                                                'module']
   character(len=9), parameter :: types(*) = [character(len=9) :: 'integer', 'real', 'double', 'precision', 'complex', &
                                              'logical', 'character', 'type', 'class']
 

@@ -1,16 +1,15 @@
-!> Hard cases of general problems: modes that nearly depend, far-away points of reference,
-!> small play, loads at the edge of equilibrium.
+!> Hard cases of general problems: nearly dependent modes, far-away points of reference, little play, loads at the edge
+!> of equilibrium.
 !>
-!> Built from the answer in whole numbers below 2**53, as in hard_scenes: F, c and q first,
+!> As in hard_scenes, the answer F, c, q is chosen first, in whole numbers of which no sum reaches 2**53; then
 !> gap = c - alpha F + R q and w = R^T F.
 module hard_general
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    fuge_solver, &
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, &
     FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_NOT_UNIQUE
-  use general_reference, only: infinity
-  use hard_matrices, only: decimal, integer_bed
-  use hard_reference, only: integers
+  use fuge_number_text, only: text
+  use general_reference, only: infinity, integers, solve_general
+  use hard_matrices, only: integer_bed
   implicit none
   private
 
@@ -24,12 +23,12 @@ module hard_general
     character(len=64) :: why = ''
     real(dp), allocatable :: alpha(:, :)
     type(fuge_problem) :: problem
-    !> The answer; without `opening` where motions are not unique.
+    !> The answer; no `opening` where the motions are not unique.
     real(dp), allocatable :: force(:), opening(:)
-    !> Largest error of forces as parts of the largest, of gaps as parts of the lengths.
+    !> Largest error of forces relative to the largest force, of gaps relative to the lengths.
     real(dp) :: tolerance = 1.0e-12_dp
     integer :: status = FUGE_DONE
-    !> At the limit of double precision: an answer with a small residual will do too.
+    !> At the limit of double precision: an answer with a small residual is accepted too.
     logical :: hedged = .false.
   end type general_scene
 
@@ -57,8 +56,8 @@ contains
     end select
   end function numbered_general
 
-  !> A scene with this answer.
-  pure function made(name, why, modes, force, opening, motion) result(scene)
+  !> The problem that has this answer.
+  pure function from_answer(name, why, modes, force, opening, motion) result(scene)
     character(len=*), intent(in) :: name, why
     real(dp), intent(in) :: modes(:, :), force(:), opening(:), motion(:)
     type(general_scene) :: scene
@@ -71,9 +70,9 @@ contains
     allocate (scene%problem%modes, source=modes)
     allocate (scene%problem%gap, source=opening - matmul(scene%alpha, force) + matmul(modes, motion))
     allocate (scene%problem%resultant, source=matmul(force, modes))
-  end function made
+  end function from_answer
 
-  !> -8 .. 7
+  !> Coordinates of the points, -8 .. 7.
   pure function abscissa() result(x)
     real(dp) :: x(N)
     integer :: k
@@ -81,7 +80,7 @@ contains
     x = [(real(k - 1 - N/2, dp), k=1, N)]
   end function abscissa
 
-  !> Two of three points touch.
+  !> Forces and gaps of an answer in which two of three points touch.
   pure subroutine two_of_three(force, opening)
     real(dp), intent(out) :: force(N), opening(N)
     integer :: k
@@ -90,6 +89,7 @@ contains
     opening = [(real(merge(0, 1 + mod(k, 9), mod(k, 3) > 0), dp), k=1, N)]
   end subroutine two_of_three
 
+  !> Two modes that are linearly independent in their last bits only.
   pure function nearly_parallel(bits) result(scene)
     integer, intent(in) :: bits
     type(general_scene) :: scene
@@ -99,11 +99,12 @@ contains
     modes(:, 1) = 1.0_dp
     modes(:, 2) = abscissa()
     modes(:, 3) = scale(abscissa(), bits) + abscissa()**2
-    scene = made('almost parallel modes', 'two of three agree to 2**-'//decimal(bits), modes, force, opening, &
-                 [3.0_dp, 1.0_dp, 2.0_dp])
+    scene = from_answer('almost parallel modes', 'two of three agree to 2**-'//text(bits), modes, force, opening, &
+                        [3.0_dp, 1.0_dp, 2.0_dp])
     scene%tolerance = max(scene%tolerance, scale(4.0e-15_dp, bits))
   end function nearly_parallel
 
+  !> A tilt about a point far from the contact.
   pure function far_away(bits) result(scene)
     integer, intent(in) :: bits
     type(general_scene) :: scene
@@ -112,11 +113,12 @@ contains
     call two_of_three(force, opening)
     modes(:, 1) = 1.0_dp
     modes(:, 2) = abscissa() - scale(real(N, dp), bits)
-    scene = made('tilt about a far-away point', 'its distance is 2**'//decimal(bits)//' widths', modes, force, &
-                 opening, [5.0_dp, 3.0_dp])
+    scene = from_answer('tilt about a far-away point', 'its distance is 2**'//text(bits)//' widths', modes, force, &
+                        opening, [5.0_dp, 3.0_dp])
     scene%tolerance = max(scene%tolerance, scale(4.0e-15_dp, bits))
   end function far_away
 
+  !> A tilt in a very large or very small unit.
   pure function odd_units(bits) result(scene)
     integer, intent(in) :: bits
     type(general_scene) :: scene
@@ -125,11 +127,11 @@ contains
     call two_of_three(force, opening)
     modes(:, 1) = 1.0_dp
     modes(:, 2) = scale(abscissa(), bits)
-    scene = made('unit of the tilt', '2**'//decimal(bits)//' of that of the translation', modes, force, opening, &
-                 [5.0_dp, scale(3.0_dp, -bits)])
+    scene = from_answer('unit of the tilt', '2**'//text(bits)//' of that of the translation', modes, force, opening, &
+                        [5.0_dp, scale(3.0_dp, -bits)])
   end function odd_units
 
-  !> As many motions as points, or nearly so.
+  !> As many modes as points, or nearly so.
   pure function many_modes(m) result(scene)
     integer, intent(in) :: m
     type(general_scene) :: scene
@@ -142,13 +144,14 @@ contains
       call integers(seed, -3, 3, modes(:, j))
       modes(j, j) = modes(j, j) + 20.0_dp
     end do
-    ! All carry: fewer would not hold the motions.
+    ! All points carry: fewer could not resist the modes.
     force = [(real(1 + mod(j, 4), dp), j=1, N)]
     opening = 0.0_dp
-    scene = made('many motions', decimal(m)//' motions of '//decimal(N)//' points', modes, force, opening, &
-                 [(real(j, dp), j=1, m)])
+    scene = from_answer('many motions', text(m)//' motions of '//text(N)//' points', modes, force, opening, &
+                        [(real(j, dp), j=1, m)])
   end function many_modes
 
+  !> Two-sided points.
   pure function with_play(number) result(scene)
     integer, intent(in) :: number
     type(general_scene) :: scene
@@ -162,36 +165,37 @@ contains
     case (1)
       upper = 0.0_dp
       opening = 0.0_dp
-      scene = made('no play', 'all points tied', modes, force, opening, [7.0_dp, -2.0_dp])
+      scene = from_answer('no play', 'all points tied', modes, force, opening, [7.0_dp, -2.0_dp])
     case (2)
       call stops_of(force, spread(2.0_dp, 1, N), upper, opening)
-      scene = made('play of 1e-12 of the gaps', 'both stops are one but for rounding', modes, force, opening, &
-                   [scale(1.0_dp, 41), 0.0_dp])
+      scene = from_answer('play of 1e-12 of the gaps', 'both stops are one but for rounding', modes, force, opening, &
+                          [scale(1.0_dp, 41), 0.0_dp])
     case (3)
       call stops_of(force, spread(2.0_dp, 1, N), upper, opening)
-      scene = made('play of 1e-12, tilted', 'the motion is 1e12 of the play', modes, force, opening, &
-                   [scale(3.0_dp, 40), scale(1.0_dp, 38)])
+      scene = from_answer('play of 1e-12, tilted', 'the motion is 1e12 of the play', modes, force, opening, &
+                          [scale(3.0_dp, 40), scale(1.0_dp, 38)])
       ! The tilt moves points by 2**40, in double precision.
       scene%tolerance = 1.0e-4_dp
     case (4)
       call stops_of(force, [(real(2*k, dp), k=1, N)], upper, opening)
-      scene = made('all points two-sided', 'some at either stop, some between', modes, force, opening, [9.0_dp, 4.0_dp])
+      scene = from_answer('all points two-sided', 'some at either stop, some between', modes, force, opening, &
+                          [9.0_dp, 4.0_dp])
     case (5)
       force = -abs(force)
       call stops_of(force, [(real(2*k, dp), k=1, N)], upper, opening)
-      scene = made('pulled off', 'contact at the upper stops only', modes, force, opening, [-9.0_dp, 4.0_dp])
+      scene = from_answer('pulled off', 'contact at the upper stops only', modes, force, opening, [-9.0_dp, 4.0_dp])
     case default
       ! The resultants cancel.
       force = 0.0_dp
       force([1, 4, 5, 8]) = [1.0_dp, -1.0_dp, -1.0_dp, 1.0_dp]
       call stops_of(force, spread(4.0_dp, 1, N), upper, opening)
-      scene = made('two-sided without a load', 'forces that balance each other', modes, force, opening, &
-                   [1.0_dp, 2.0_dp])
+      scene = from_answer('two-sided without a load', 'forces that balance each other', modes, force, opening, &
+                          [1.0_dp, 2.0_dp])
     end select
     allocate (scene%problem%gap_upper, source=upper)
   end function with_play
 
-  !> Pushing at the lower stop, pulling at the upper one, in the middle without a force.
+  !> Points under compression are at the lower stop, under tension at the upper one, without a force in the middle.
   pure subroutine stops_of(force, play, upper, opening)
     real(dp), intent(in) :: force(:), play(:)
     real(dp), intent(out) :: upper(:), opening(:)
@@ -201,7 +205,7 @@ contains
     where (abs(force) <= 0.0_dp) opening = 0.5_dp*play
   end subroutine stops_of
 
-  !> Loads that just lift the other side off, or more than that.
+  !> Loads that just lift off all points but the last ones, or have no equilibrium.
   pure function at_the_edge(number) result(scene)
     integer, intent(in) :: number
     type(general_scene) :: scene
@@ -218,36 +222,39 @@ contains
     select case (number)
     case (1)
       force(N - 1:) = [1.0_dp, scale(1.0_dp, 40) - 1.0_dp]
-      scene = made('about to tip', 'load within 1e-12 of the last point', modes, force, opening, [4.0_dp, 1.0_dp])
+      scene = from_answer('about to tip', 'load within 1e-12 of the last point', modes, force, opening, &
+                          [4.0_dp, 1.0_dp])
       scene%tolerance = 1.0e-11_dp
     case (2)
       opening(N - 1) = 1.0_dp
-      scene = made('on the edge', 'load exactly at the last point', modes, force, opening, [4.0_dp, 1.0_dp])
+      scene = from_answer('on the edge', 'load exactly at the last point', modes, force, opening, [4.0_dp, 1.0_dp])
       call without_motions(scene)
     case (3)
-      scene = made('on the edge, weakly', 'and the next one touches without force', modes, force, opening, &
-                   [4.0_dp, 1.0_dp])
+      scene = from_answer('on the edge, weakly', 'and the next one touches without force', modes, force, opening, &
+                          [4.0_dp, 1.0_dp])
       call without_motions(scene)
     case (4)
-      scene = made('over the edge', 'load 1e-12 beyond the last point', modes, force, opening, [4.0_dp, 1.0_dp])
+      scene = from_answer('over the edge', 'load 1e-12 beyond the last point', modes, force, opening, [4.0_dp, 1.0_dp])
       scene%problem%resultant(2) = scene%problem%resultant(1)*LAST*(1.0_dp + 1.0e-12_dp)
       call without_answer(scene)
       scene%hedged = .true.
     case (5)
-      scene = made('well over the edge', 'load 1e-9 beyond the last point', modes, force, opening, [4.0_dp, 1.0_dp])
+      scene = from_answer('well over the edge', 'load 1e-9 beyond the last point', modes, force, opening, &
+                          [4.0_dp, 1.0_dp])
       scene%problem%resultant(2) = scene%problem%resultant(1)*LAST*(1.0_dp + 1.0e-9_dp)
       call without_answer(scene)
     case (6)
-      scene = made('no resultant', 'nothing holds the motions', modes, 0.0_dp*force, opening + 1.0_dp, [4.0_dp, 1.0_dp])
+      scene = from_answer('no resultant', 'no point resists the modes', modes, 0.0_dp*force, opening + 1.0_dp, &
+                          [4.0_dp, 1.0_dp])
       call without_motions(scene)
     case default
-      scene = made('small moment held', 'a stop at the first point holds a load over the edge', modes, force, opening, &
-                   [4.0_dp, 1.0_dp])
+      scene = from_answer('small moment held', 'a stop at the first point holds a load over the edge', modes, force, &
+                          opening, [4.0_dp, 1.0_dp])
       call hold_first_point(scene, modes)
     end select
   end function at_the_edge
 
-  !> Only forces are unique.
+  !> The motions of this scene are not unique, only its forces.
   pure subroutine without_motions(scene)
     type(general_scene), intent(inout) :: scene
 
@@ -255,6 +262,7 @@ contains
     scene%status = FUGE_WARN_NOT_UNIQUE
   end subroutine without_motions
 
+  !> This scene has no equilibrium.
   pure subroutine without_answer(scene)
     type(general_scene), intent(inout) :: scene
 
@@ -262,7 +270,7 @@ contains
     scene%status = FUGE_ERR_NO_EQUILIBRIUM
   end subroutine without_answer
 
-  !> The first point pulls by 1 at its upper stop: the load is 1e-6 beyond the last.
+  !> The first point carries a tension of 1 at its upper stop: the load is 1e-6 beyond the last point.
   pure subroutine hold_first_point(scene, modes)
     type(general_scene), intent(inout) :: scene
     real(dp), intent(in) :: modes(:, :)
@@ -273,22 +281,16 @@ contains
     scene%problem%resultant = matmul(scene%force, modes)
   end subroutine hold_first_point
 
+  !> Solve by the active set.
   subroutine solve_general_scene(scene, solution, info)
     type(general_scene), intent(in) :: scene
     type(fuge_solution), intent(out) :: solution
     type(fuge_info), intent(out) :: info
-    type(fuge_dense_operator) :: operator
-    type(fuge_solver) :: solver
-    real(dp), allocatable, target :: alpha(:, :)
 
-    ! The operator points to the matrix.
-    allocate (alpha, source=scene%alpha)
-    call operator%set(alpha, info)
-    if (info%failed()) return
-    call solver%solve(operator, scene%problem, solution, info, fuge_options(FUGE_ACTIVE_SET))
+    call solve_general(scene%alpha, scene%problem, solution, info, fuge_options(FUGE_ACTIVE_SET))
   end subroutine solve_general_scene
 
-  !> Largest difference of forces, as a part of the largest.
+  !> Largest error of a force, relative to the largest force.
   pure function general_force_error(scene, solution) result(error)
     type(general_scene), intent(in) :: scene
     type(fuge_solution), intent(in) :: solution
@@ -297,7 +299,7 @@ contains
     error = maxval(abs(solution%force - scene%force))/max(maxval(abs(scene%force)), tiny(error))
   end function general_force_error
 
-  !> Largest difference of gaps, as a part of the lengths.
+  !> Largest error of a gap, relative to the lengths.
   pure function general_gap_error(scene, solution) result(error)
     type(general_scene), intent(in) :: scene
     type(fuge_solution), intent(in) :: solution

@@ -2,15 +2,15 @@
 module hard_matrices
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp => fuge_dp, fuge_halfplane_matrix, fuge_info, FUGE_MEAN
-  use hard_reference, only: integers
+  use general_reference, only: integers
   implicit none
   private
 
-  public :: decimal, halfplane, integer_bed, places, ring, string, tridiagonal
+  public :: halfplane, integer_bed, cell_middles, ring_of_springs, string, tridiagonal
 
 contains
 
-  !> Cells of modulus 1.
+  !> The half-plane of plane modulus 1: mean displacements of cells with uniform pressure.
   pure function halfplane(x, width) result(alpha)
     real(dp), intent(in) :: x(:), width
     real(dp) :: alpha(size(x), size(x))
@@ -19,17 +19,17 @@ contains
     call fuge_halfplane_matrix(x, spread(width, 1, size(x)), 1.0_dp, FUGE_MEAN, alpha, info)
   end function halfplane
 
-  !> n places around 0.
-  pure function places(n, spacing) result(x)
+  !> The middles of n cells around 0.
+  pure function cell_middles(n, spacing) result(x)
     integer, intent(in) :: n
     real(dp), intent(in) :: spacing
     real(dp) :: x(n)
     integer :: k
 
     x = [(spacing*(real(k, dp) - 0.5_dp*real(n + 1, dp)), k=1, n)]
-  end function places
+  end function cell_middles
 
-  !> A stretched string: alpha falls with the distance, whole numbers for whole places.
+  !> A stretched string: alpha falls linearly with the distance, in whole numbers where x and `top` are whole.
   pure function string(x, top) result(alpha)
     real(dp), intent(in) :: x(:), top
     real(dp) :: alpha(size(x), size(x))
@@ -40,8 +40,8 @@ contains
     end do
   end function string
 
-  !> Springs in a ring that feel 7 neighbours on either side.
-  pure function ring(n) result(alpha)
+  !> A ring of springs, each of which also displaces 7 neighbours on either side.
+  pure function ring_of_springs(n) result(alpha)
     integer, intent(in) :: n
     real(dp) :: alpha(n, n)
     integer :: i, j, distance
@@ -52,8 +52,9 @@ contains
         alpha(i, j) = real(max(0, 8 - distance) + merge(1, 0, i == j), dp)
       end do
     end do
-  end function ring
+  end function ring_of_springs
 
+  !> 2 on the diagonal, -1 beside it.
   pure function tridiagonal(n) result(alpha)
     integer, intent(in) :: n
     real(dp) :: alpha(n, n)
@@ -64,7 +65,7 @@ contains
     end do
   end function tridiagonal
 
-  !> B B^T + n with random whole numbers from -2 to 2 in B.
+  !> B B^T + n I, where B has random whole numbers from -2 to 2.
   pure function integer_bed(n, start) result(alpha)
     integer, intent(in) :: n
     integer(int64), intent(in) :: start
@@ -81,15 +82,5 @@ contains
       alpha(k, k) = alpha(k, k) + real(n, dp)
     end do
   end function integer_bed
-
-  !> A whole number as text.
-  pure function decimal(value) result(string)
-    integer, intent(in) :: value
-    character(len=:), allocatable :: string
-    character(len=12) :: buffer
-
-    write (buffer, '(i0)') value
-    string = trim(buffer)
-  end function decimal
 
 end module hard_matrices

@@ -1,71 +1,30 @@
-!> What the hard cases are measured against. Nothing here comes from the library but
-!> the kind of its numbers.
+!> What the hard cases of one translation and one-sided points are tested against. Of the library only the kind of
+!> its numbers is used. Other than general_reference, lengths and residuals do not depend on the datum
+!> of gaps and matrix, and forces are exact for loads far below the natural one.
 module hard_reference
-  use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp => fuge_dp
+  use general_reference, only: eliminate
   implicit none
   private
 
-  public :: draw, integers, gauss, enumerate, violation, length_of, datum_of, deflection, is_definite
+  public :: enumerate, violation, length_of, datum_of, deflection, is_definite
 
 contains
 
-  !> Minimal standard generator: the same numbers, 0 < value < 1, with every compiler.
-  pure subroutine draw(seed, values)
-    integer(int64), intent(inout) :: seed
-    real(dp), intent(out) :: values(:)
-    integer :: k
-
-    do k = 1, size(values)
-      seed = mod(16807_int64*seed, 2147483647_int64)
-      values(k) = real(seed, dp)/2147483647.0_dp
-    end do
-  end subroutine draw
-
-  !> Whole numbers from `low` to `high`.
-  pure subroutine integers(seed, low, high, values)
-    integer(int64), intent(inout) :: seed
-    integer, intent(in) :: low, high
-    real(dp), intent(out) :: values(:)
-
-    call draw(seed, values)
-    values = real(low, dp) + aint(values*real(high - low + 1, dp))
-  end subroutine integers
-
-  !> Gauss-Jordan elimination with row interchanges; the matrix must be regular.
-  pure function gauss(matrix, rhs) result(x)
-    real(dp), intent(in) :: matrix(:, :), rhs(:)
-    real(dp) :: x(size(rhs)), work(size(rhs), size(rhs) + 1), row(size(rhs) + 1)
-    integer :: i, k, p, n
-
-    n = size(rhs)
-    work(:, :n) = matrix
-    work(:, n + 1) = rhs
-    do k = 1, n
-      p = k - 1 + maxloc(abs(work(k:, k)), dim=1)
-      row = work(p, :)
-      work(p, :) = work(k, :)
-      work(k, :) = row/row(k)
-      do i = 1, n
-        if (i /= k) work(i, :) = work(i, :) - work(i, k)*work(k, :)
-      end do
-    end do
-    x = work(:, n + 1)
-  end function gauss
-
-  !> The answer by trying every contact set; `worst` is its most negative force, as a
-  !> part of the load, or gap, as a part of the lengths.
+  !> The solution, found by trying every contact set; `worst` is its most negative force, relative to the load, or gap,
+  !> relative to the lengths.
   pure subroutine enumerate(alpha, gap, load, force, opening, approach, worst)
     real(dp), intent(in) :: alpha(:, :), gap(:), load
     real(dp), intent(out) :: force(:), opening(:), approach, worst
     real(dp) :: tried_force(size(gap)), tried_opening(size(gap)), tried_approach, tried
-    logical :: set(size(gap))
+    logical :: set(size(gap)), regular
     integer :: code, k
 
     worst = huge(worst)
     do code = 1, 2**size(gap) - 1
       set = [(btest(code, k - 1), k=1, size(gap))]
-      call try_set(alpha, gap, load, set, tried_force, tried_opening, tried_approach)
+      call try_set(alpha, gap, load, set, tried_force, tried_opening, tried_approach, regular)
+      if (.not. regular) cycle
       tried = max(0.0_dp, -minval(tried_force)/load, &
                   -minval(tried_opening)/length_of(alpha, gap, load))
       if (tried >= worst) cycle
@@ -76,11 +35,12 @@ contains
     end do
   end subroutine enumerate
 
-  !> Forces, gaps and approach if exactly the points of `set` touch.
-  pure subroutine try_set(alpha, gap, load, set, force, opening, approach)
+  !> Forces, gaps and approach if exactly the points of `set` touch, unless the linear system is singular.
+  pure subroutine try_set(alpha, gap, load, set, force, opening, approach, regular)
     real(dp), intent(in) :: alpha(:, :), gap(:), load
     logical, intent(in) :: set(:)
     real(dp), intent(out) :: force(:), opening(:), approach
+    logical, intent(out) :: regular
     real(dp) :: system(count(set) + 1, count(set) + 1), x(count(set) + 1)
     integer :: points(count(set)), k, m
 
@@ -90,16 +50,16 @@ contains
     system(:m, m + 1) = -1.0_dp
     system(m + 1, :m) = 1.0_dp
     system(m + 1, m + 1) = 0.0_dp
-    ! Gaps from one of the set: a small load is not lost beside large gaps.
-    x = gauss(system, [gap(points(1)) - gap(points), load])
+    ! Gaps relative to that of one point in the set: a small load is not lost in large gaps.
+    call eliminate(system, [gap(points(1)) - gap(points), load], x, regular)
     force = 0.0_dp
     force(points) = x(:m)
     approach = x(m + 1) + gap(points(1))
     opening = merge(0.0_dp, gap + matmul(alpha, force) - approach, set)
   end subroutine try_set
 
-  !> Is alpha positive definite on forces with zero sum? Meant for whole numbers, with
-  !> which the elimination is exact enough.
+  !> Is alpha positive definite for forces of zero sum? For matrices of small whole numbers, for which elimination is
+  !> exact enough.
   pure function is_definite(alpha) result(definite)
     real(dp), intent(in) :: alpha(:, :)
     logical :: definite
@@ -120,8 +80,8 @@ contains
     end do
   end function is_definite
 
-  !> The worst of equations (9) to (11), measured by one length and one force for all
-  !> points; what the rounding of the data and of v_0 does is left out.
+  !> The largest residual of equations (9) to (11), relative to one length and one force for all points; what rounding
+  !> of the data and of the approach explains is not counted.
   pure function violation(alpha, gap, load, force, opening, approach) result(worst)
     real(dp), intent(in) :: alpha(:, :), gap(:), load, force(:), opening(:), approach
     real(dp) :: worst, error(size(gap)), datum, length, rounding
@@ -134,8 +94,8 @@ contains
                 maxval(min(abs(force)/load, abs(opening)/length)), abs(sum(force) - load)/load)
   end function violation
 
-  !> A length to measure gaps by: their range, or the displacements that the load makes at
-  !> one point, whatever the datum of gaps and of alpha.
+  !> The length that gaps are compared with: their range or, if larger, the displacement by the load at one point;
+  !> independent of the datum of gaps and of alpha.
   pure function length_of(alpha, gap, load) result(length)
     real(dp), intent(in) :: alpha(:, :), gap(:), load
     real(dp) :: length
@@ -144,7 +104,7 @@ contains
     if (.not. length > 0.0_dp) length = max(abs(gap(1)), maxval(abs(alpha))*load, tiny(length))
   end function length_of
 
-  !> (alpha - datum) F, the datum taken out of each coefficient.
+  !> (alpha - datum) F, the datum subtracted from each coefficient.
   pure function deflection(alpha, datum, force) result(u)
     real(dp), intent(in) :: alpha(:, :), datum, force(:)
     real(dp) :: u(size(force))
@@ -156,7 +116,7 @@ contains
     end do
   end function deflection
 
-  !> The coefficient nearest to zero, 0 if there are both signs.
+  !> The coefficient nearest to zero, or 0 if there are both signs.
   pure function datum_of(alpha) result(datum)
     real(dp), intent(in) :: alpha(:, :)
     real(dp) :: datum

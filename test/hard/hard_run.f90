@@ -1,16 +1,17 @@
-!> One hard scene solved by one engine, and how far the answer is off.
+!> Solves a hard scene by one engine, and measures the errors of the answer.
 module hard_run
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver
+  use general_reference, only: solve_with
   use hard_reference, only: length_of, violation
   use hard_scenes, only: hard_scene
   implicit none
   private
 
-  public :: solve_scene, solve_again, force_error, gap_error, own_violation
+  public :: solve_scene, solve_scene_with, force_error, gap_error, own_violation
 
 contains
 
-  !> `method` as in fuge_options; the tableau takes the paper's rule.
+  !> Solve with a new solver. `method` as in fuge_options; the tableau uses the paper's pivot rule.
   subroutine solve_scene(scene, method, solution, info)
     type(hard_scene), intent(in) :: scene
     integer, intent(in) :: method
@@ -18,30 +19,24 @@ contains
     type(fuge_info), intent(out) :: info
     type(fuge_solver) :: solver
 
-    call solve_again(solver, scene, method, solution, info)
+    call solve_scene_with(solver, scene, method, solution, info)
   end subroutine solve_scene
 
-  !> The same with a solver that may have solved something else before.
-  subroutine solve_again(solver, scene, method, solution, info)
+  !> Solve with a solver that may have solved other scenes before.
+  subroutine solve_scene_with(solver, scene, method, solution, info)
     type(fuge_solver), intent(inout) :: solver
     type(hard_scene), intent(in) :: scene
     integer, intent(in) :: method
     type(fuge_solution), intent(out) :: solution
     type(fuge_info), intent(out) :: info
-    type(fuge_dense_operator) :: operator
     type(fuge_problem) :: problem
-    real(dp), allocatable, target :: alpha(:, :)
 
-    ! The operator points to the matrix.
-    allocate (alpha, source=scene%alpha)
-    call operator%set(alpha, info)
-    if (info%failed()) return
     allocate (problem%gap, source=scene%gap)
     allocate (problem%resultant, source=[scene%load])
-    call solver%solve(operator, problem, solution, info, fuge_options(method))
-  end subroutine solve_again
+    call solve_with(solver, scene%alpha, problem, solution, info, fuge_options(method))
+  end subroutine solve_scene_with
 
-  !> Largest difference of forces, as a part of the load.
+  !> Largest difference of forces, relative to the load.
   pure function force_error(scene, expected, found) result(error)
     type(hard_scene), intent(in) :: scene
     real(dp), intent(in) :: expected(:), found(:)
@@ -50,8 +45,7 @@ contains
     error = maxval(abs(found - expected))/scene%load
   end function force_error
 
-  !> Largest error of the gaps against the known ones, as a part of the lengths; that of
-  !> the approach beyond what its own rounding makes.
+  !> Largest error of gaps and approach, relative to the lengths; the rounding of the approach itself is not counted.
   pure function gap_error(scene, solution) result(error)
     type(hard_scene), intent(in) :: scene
     type(fuge_solution), intent(in) :: solution
@@ -62,7 +56,7 @@ contains
     error = max(maxval(abs(solution%gap - scene%opening)), approach)/length
   end function gap_error
 
-  !> Equations (9) to (11), without the library's certificate.
+  !> Largest residual of equations (9) to (11), computed without the library's certificate.
   pure function own_violation(scene, solution) result(worst)
     type(hard_scene), intent(in) :: scene
     type(fuge_solution), intent(in) :: solution

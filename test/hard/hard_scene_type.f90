@@ -1,12 +1,11 @@
-!> A hard case as data: a contact problem, built from its answer or given.
+!> A hard case as data: a contact problem with one translation and one-sided points, and what is known of its answer.
 module hard_scene_type
   use fuge, only: dp => fuge_dp, FUGE_DONE
   implicit none
   private
 
-  public :: built, given, answer
+  public :: from_answer, from_data, set_answer
 
-  !> A problem, and what is known of its answer.
   type, public :: hard_scene
     character(len=40) :: name = ''
     character(len=72) :: why = ''
@@ -15,58 +14,58 @@ module hard_scene_type
     !> The answer where it is known; without `force` where only gaps are unique.
     real(dp), allocatable :: force(:), opening(:)
     real(dp) :: approach = 0.0_dp
-    !> Are all numbers whole, and none rounds?
+    !> Are all numbers of problem and answer whole, and does no sum of them round?
     logical :: exact = .false.
-    !> Largest error of forces as a part of the load, of gaps as a part of the lengths.
+    !> Largest error of forces relative to the load, of gaps relative to the lengths.
     real(dp) :: tolerance = 1.0e-12_dp
-    !> What the engines have to say.
+    !> The status that each engine must return.
     integer :: tableau = FUGE_DONE
     integer :: active_set = FUGE_DONE
     integer :: iterative = FUGE_DONE
-    !> At the limit of double precision: a warning, or FUGE_ERR_NOT_DEFINITE, will do too.
+    !> At the limit of double precision: a warning or FUGE_ERR_NOT_DEFINITE is accepted too.
     logical :: hedged = .false.
-    !> Most pivots for each row of the tableau, most contact sets tried.
+    !> Largest number of pivots for each row of the tableau, of contact sets tried.
     integer :: most_pivots = 3
     integer :: most_sets = 20
-    !> Too large for a tableau in a test.
+    !> Does a tableau of this size take too long for a test?
     logical :: large = .false.
   end type hard_scene
 
 contains
 
-  !> The scene with this answer, all numbers whole.
-  pure function built(name, why, alpha, force, opening, approach) result(scene)
+  !> The problem that has this answer; all numbers are whole.
+  pure function from_answer(name, why, alpha, force, opening, approach) result(scene)
     character(len=*), intent(in) :: name, why
     real(dp), intent(in) :: alpha(:, :), force(:), opening(:), approach
     type(hard_scene) :: scene
 
-    scene = given(name, why, alpha, opening - matmul(alpha, force) + approach, sum(force))
-    call answer(scene, force, opening, approach)
+    scene = from_data(name, why, alpha, opening - matmul(alpha, force) + approach, sum(force))
+    call set_answer(scene, force, opening, approach)
     scene%exact = .true.
-  end function built
+  end function from_answer
 
-  !> A scene whose answer is not known, or set by the caller.
-  pure function given(name, why, alpha, gap, load) result(scene)
+  !> A problem whose answer is not known, or set by the caller.
+  pure function from_data(name, why, alpha, gap, load) result(scene)
     character(len=*), intent(in) :: name, why
     real(dp), intent(in) :: alpha(:, :), gap(:), load
     type(hard_scene) :: scene
 
     scene%name = name
     scene%why = why
-    ! Not by assignment: gfortran then reads the bounds that are not there yet.
+    ! Not by assignment, for which gfortran reads the bounds of arrays that are not allocated yet.
     allocate (scene%alpha, source=alpha)
     allocate (scene%gap, source=gap)
     scene%load = load
-  end function given
+  end function from_data
 
-  !> Add the answer that a scene is known to have.
-  pure subroutine answer(scene, force, opening, approach)
+  !> Add the known answer.
+  pure subroutine set_answer(scene, force, opening, approach)
     type(hard_scene), intent(inout) :: scene
     real(dp), intent(in) :: force(:), opening(:), approach
 
     allocate (scene%force, source=force)
     allocate (scene%opening, source=opening)
     scene%approach = approach
-  end subroutine answer
+  end subroutine set_answer
 
 end module hard_scene_type

@@ -1,20 +1,20 @@
-!> The tables of doc/stability.md: every hard scene by all engines, and those of general
-!> problems by the active set.
+!> The tables of doc/stability.md: every hard scene solved by all engines, and those of general problems by the active
+!> set.
 !>
-!> stability_table [file] writes them to a file or to the terminal, and stops with an
-!> error where a scene misses what it promises.
+!> stability_table [file] writes them to a file or to the terminal. It ends with an error if an answer without a
+!> warning has a large residual.
 program stability_table
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
   use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_TABLEAU, FUGE_ITERATIVE, FUGE_DONE
+  use fuge_number_text, only: text
   use general_reference, only: general_violation
   use hard_general, only: general_scene, numbered_general, solve_general_scene, general_force_error, &
     general_gap_error, GENERAL_SCENES
-  use hard_matrices, only: decimal
   use hard_run, only: solve_scene, force_error, gap_error, own_violation
   use hard_scenes, only: hard_scene, numbered_scene, SCENES
   implicit none
 
-  !> A residual above this needs a warning.
+  !> An answer with a larger residual must have a warning.
   real(dp), parameter :: MOST = 1.0e-10_dp
 
   call run()
@@ -58,7 +58,7 @@ contains
     character(len=:), allocatable :: row
 
     call solve_scene(scene, FUGE_ACTIVE_SET, fast, fast_info)
-    row = '| '//trim(scene%name)//' | '//decimal(size(scene%gap))//' | '//trim(scene%why)
+    row = '| '//trim(scene%name)//' | '//text(size(scene%gap))//' | '//trim(scene%why)
     if (scene%large) then
       row = row//' | | | | '
     else
@@ -84,8 +84,8 @@ contains
     real(dp) :: violation
 
     call solve_general_scene(scene, solution, info)
-    row = '| '//trim(scene%name)//' | '//decimal(scene%problem%points())//' | '//decimal(scene%problem%mode_count()) &
-      //' | '//trim(scene%why)//' | '//decimal(info%status)//' | '//decimal(info%iterations)//' | '
+    row = '| '//trim(scene%name)//' | '//text(scene%problem%points())//' | '//text(scene%problem%mode_count()) &
+      //' | '//trim(scene%why)//' | '//text(info%status)//' | '//text(info%iterations)//' | '
     if (info%failed()) then
       write (unit, '(a)') row//' | |'
       return
@@ -110,7 +110,7 @@ contains
     type(fuge_solution), intent(in) :: solution, other
     character(len=:), allocatable :: row
 
-    row = ' | '//decimal(info%status)//' | '//decimal(info%iterations)//' | '
+    row = ' | '//text(info%status)//' | '//text(info%iterations)//' | '
     if (info%failed()) then
       row = row//' | '
       return
@@ -125,7 +125,7 @@ contains
     end if
   end function cells
 
-  !> An answer without a warning has a small residual, by fuge and by these tests.
+  !> Count an answer without a warning whose residual, by the library or by hard_reference, is large.
   subroutine check(scene, info, solution, misses)
     type(hard_scene), intent(in) :: scene
     type(fuge_info), intent(in) :: info
@@ -141,7 +141,7 @@ contains
     if (.not. info%failed()) write (error_unit, '(2es12.3)') info%residual, own_violation(scene, solution)
   end subroutine check
 
-  !> One digit and the power of ten are enough.
+  !> One digit and a power of ten.
   function short(value) result(string)
     real(dp), intent(in) :: value
     character(len=:), allocatable :: string
@@ -155,7 +155,7 @@ contains
       digit = 1
       power = power + 1
     end if
-    string = decimal(digit)//'e'//decimal(power)
+    string = text(digit)//'e'//text(power)
   end function short
 
 end program stability_table

@@ -1,21 +1,22 @@
-!> What general problems are measured against: all states tried, the equations checked
-!> anew. Nothing here comes from the library but its types.
+!> What contact problems are tested against: the equations of every combination of states, solved one by one, and the
+!> residuals of an answer. Of the library only the types are used, and the solver where a test needs its answer.
 module general_reference
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
+    fuge_solver
   implicit none
   private
 
-  public :: draw, integers, solve_general, enumerate_states, general_violation, eliminate, infinity
+  public :: draw, integers, solve_general, solve_with, enumerate_states, general_violation, eliminate, infinity
   public :: play_of, is_excluded, is_prescribed, modes_of
 
-  !> Pivots below this part of the largest entry belong to a singular system.
+  !> A pivot below this fraction of the largest entry means that the system is singular.
   real(dp), parameter :: SINGULAR = 1.0e-10_dp
 
 contains
 
-  !> Minimal standard generator: the same numbers, 0 < value < 1, with every compiler.
+  !> Random numbers, 0 < value < 1, of the minimal standard generator: the same with every compiler.
   pure subroutine draw(seed, values)
     integer(int64), intent(inout) :: seed
     real(dp), intent(out) :: values(:)
@@ -27,7 +28,7 @@ contains
     end do
   end subroutine draw
 
-  !> Whole numbers from `low` to `high`.
+  !> Random whole numbers from `low` to `high`.
   pure subroutine integers(seed, low, high, values)
     integer(int64), intent(inout) :: seed
     integer, intent(in) :: low, high
@@ -43,23 +44,37 @@ contains
     infinity = ieee_value(infinity, ieee_positive_inf)
   end function infinity
 
-  !> One solve with a solver of its own.
-  subroutine solve_general(alpha, problem, solution, info)
+  !> Solve with a new solver.
+  subroutine solve_general(alpha, problem, solution, info, options)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(out) :: solution
     type(fuge_info), intent(out) :: info
-    type(fuge_dense_operator) :: operator
+    type(fuge_options), intent(in), optional :: options
     type(fuge_solver) :: solver
+
+    call solve_with(solver, alpha, problem, solution, info, options)
+  end subroutine solve_general
+
+  !> Solve with a solver that may have solved other problems before.
+  subroutine solve_with(solver, alpha, problem, solution, info, options)
+    type(fuge_solver), intent(inout) :: solver
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(out) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_options), intent(in), optional :: options
+    type(fuge_dense_operator) :: operator
     real(dp), allocatable, target :: matrix(:, :)
 
+    ! The operator points to the matrix.
     allocate (matrix, source=alpha)
     call operator%set(matrix, info)
     if (info%failed()) return
-    call solver%solve(operator, problem, solution, info)
-  end subroutine solve_general
+    call solver%solve(operator, problem, solution, info, options)
+  end subroutine solve_with
 
-  !> Play at a point, infinite where one-sided.
+  !> The distance between the two stops of a point, infinite where it is one-sided.
   pure function play_of(problem, point) result(play)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: point
@@ -87,7 +102,7 @@ contains
     if (allocated(problem%prescribed)) prescribed = problem%prescribed(mode)
   end function is_prescribed
 
-  !> R, (n, m).
+  !> The modes R, (n, m).
   pure function modes_of(problem) result(modes)
     type(fuge_problem), intent(in) :: problem
     real(dp) :: modes(problem%points(), problem%mode_count())
@@ -96,13 +111,13 @@ contains
     if (allocated(problem%modes)) modes = problem%modes
   end function modes_of
 
-  !> Try every state of every point: between the stops, at the lower, at the upper one.
-  !> `worst` is the least violation of signs and play, relative, that any of the regular
-  !> systems has, with its forces and motions; `all_regular` tells if none was singular.
-  pure subroutine enumerate_states(alpha, problem, force, rigid, worst, all_regular)
+  !> Try every combination of states: each point open, at its lower or at its upper stop. `force` and `motion` are
+  !> those of the regular system whose largest relative violation is least, `worst` is that violation;
+  !> `all_regular`: no system was singular.
+  pure subroutine enumerate_states(alpha, problem, force, motion, worst, all_regular)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(out) :: force(:), rigid(:), worst
+    real(dp), intent(out) :: force(:), motion(:), worst
     logical, intent(out) :: all_regular
     type(fuge_solution) :: tried
     integer :: state(size(force)), code, rest, k
@@ -111,7 +126,7 @@ contains
 
     worst = huge(worst)
     force = 0.0_dp
-    rigid = 0.0_dp
+    motion = 0.0_dp
     all_regular = .true.
     do code = 0, 3**size(state) - 1
       rest = code
@@ -127,10 +142,12 @@ contains
       if (violation >= worst) cycle
       worst = violation
       force = tried%force
-      rigid = tried%motion
+      motion = tried%motion
     end do
   end subroutine enumerate_states
 
+  !> Does the problem allow these states: excluded points are open, tied points at the lower stop, one-sided points
+  !> have no upper stop?
   pure function possible(problem, state)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: state(:)
@@ -149,7 +166,7 @@ contains
     end do
   end function possible
 
-  !> The linear system of one state: unknown forces and motions.
+  !> Forces, motions and gaps if each point has this state, unless the linear system is singular.
   pure subroutine try_state(alpha, problem, state, tried, regular)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
@@ -194,8 +211,7 @@ contains
     end if
   end subroutine try_state
 
-  !> Gauss-Jordan elimination with row interchanges; x is zero if the matrix is not
-  !> `regular`.
+  !> Solve by Gauss-Jordan elimination with row interchanges; x is zero if the matrix is not `regular`.
   pure subroutine eliminate(matrix, right, x, regular)
     real(dp), intent(in) :: matrix(:, :), right(:)
     real(dp), intent(out) :: x(:)
@@ -223,6 +239,7 @@ contains
     regular = .true.
   end subroutine eliminate
 
+  !> Is any component of the resultant that acts not zero?
   pure function has_load(problem)
     type(fuge_problem), intent(in) :: problem
     logical :: has_load
@@ -234,7 +251,7 @@ contains
     end do
   end function has_load
 
-  !> The worst of all equations, measured by one length and one force for all points.
+  !> The largest residual of all equations and inequalities, relative to one length and one force for all points.
   pure function general_violation(alpha, problem, solution) result(worst)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
@@ -250,7 +267,7 @@ contains
                     + matmul(abs(modes), abs(solution%motion)))
     length = max(length, tiny(length))
     largest = max(maxval(abs(solution%force)), tiny(largest))
-    ! Without a load forces may be rounding: then those count that displace at all.
+    ! Without a load all forces may be rounding errors: compare with the force that displaces by 1e-4 of the lengths.
     if (.not. has_load(problem)) largest = max(largest, 1.0e-4_dp*length/maxval(abs(alpha)))
     worst = maxval(abs(error))/length
     do k = 1, n
@@ -264,7 +281,7 @@ contains
             worst = max(worst, -f/largest, min(abs(f)/largest, abs(c)/length))
           else
             worst = max(worst, (c - play)/length)
-            ! Pushing at the lower stop, pulling at the upper one.
+            ! Compressive at the lower stop, tensile at the upper one.
             if (f > 0.0_dp) worst = max(worst, min(f/largest, abs(c)/length))
             if (f < 0.0_dp) worst = max(worst, min(-f/largest, abs(c - play)/length))
           end if
