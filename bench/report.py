@@ -257,7 +257,7 @@ def products_table(data):
             rows.append([f"{problem} 2^{n.bit_length() - 1}", f"{row['unknowns']:.0f}",
                          f"{row['products_or_pivots']:.0f} + {row['preconditionings'] or 0:.0f}", seconds(row["setup_s"]),
                          seconds(row["time_s"]), f"{row['time_over_limit']:.0f}", short(row["residual"]), cell(peer)])
-    head = ["problem", "in contact", "products, preconditionings", "operator", "solve", "over one product", "residual", "Tamaas, 1e-8"]
+    head = ["problem", "in contact", "products + preconditioner", "operator", "solve", "over one product", "residual", "Tamaas, 1e-8"]
     return table(head, rows)
 
 

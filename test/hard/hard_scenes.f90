@@ -93,7 +93,7 @@ contains
       scene = built('a third weakly active', '20 points with F = 0 and c = 0', integer_bed(60, 11_int64), third, &
                     opening, 500.0_dp)
     case (7)
-      scene = built('two points, one weakly active', 'rounding decides its side, diagonal 1536 and 24', &
+      scene = built('two points, one weakly active', 'rounding decides its state, diagonal 1536 and 24', &
                     reshape([1536.0_dp, -160.0_dp, -160.0_dp, 24.0_dp], [2, 2]), [9.0_dp, 0.0_dp], &
                     [0.0_dp, 0.0_dp], 77.0_dp)
     case (8)
@@ -409,7 +409,7 @@ contains
     integer, parameter :: N = 160
     character(len=32), parameter :: NAMES(SURFACES) = [character(len=32) :: 'crests 4 cells apart', &
       'one open cell', 'two punches', 'white noise', 'steps', 'plateau', 'spike']
-    character(len=40), parameter :: WHY(SURFACES) = [character(len=40) :: 'as many stretches as crests', &
+    character(len=40), parameter :: WHY(SURFACES) = [character(len=40) :: 'as many segments as crests', &
       'full contact but for a pit', 'far apart, one hardly loaded', 'no scale but that of the cells', &
       'singular edges', 'equal gaps', 'a cell that stands far out']
 
