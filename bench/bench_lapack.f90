@@ -1,4 +1,4 @@
-!> The two routines of LAPACK and BLAS that the benchmark itself needs.
+!> Interfaces of the two routines of LAPACK and BLAS that the benchmark itself needs.
 module bench_lapack
   use fuge, only: dp => fuge_dp
   implicit none

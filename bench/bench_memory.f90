@@ -1,4 +1,4 @@
-!> Resident memory of this process, as Linux tells it; elsewhere it is not known.
+!> Resident memory of this process as Linux reports it; unknown on other systems.
 module bench_memory
   use fuge, only: dp => fuge_dp
   implicit none
@@ -8,7 +8,7 @@ module bench_memory
 
 contains
 
-  !> Let the peak be what is resident now. `done`: it is.
+  !> Reset the peak to the memory that is resident now. `done`: the reset has worked.
   subroutine forget_peak(done)
     logical, intent(out) :: done
     integer :: unit, stat
@@ -34,7 +34,7 @@ contains
     bytes = status_value('VmHWM:')
   end function peak_resident
 
-  !> A line like "VmHWM:      1760 kB" of the process' status; negative if there is none.
+  !> The value of a line like "VmHWM:      1760 kB" of the process's status; negative if there is none.
   function status_value(word) result(bytes)
     character(len=*), intent(in) :: word
     real(dp) :: bytes

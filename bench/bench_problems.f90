@@ -21,13 +21,13 @@ module bench_problems
     character(len=16) :: name = ''
     real(dp), allocatable :: alpha(:, :), gap(:)
     real(dp) :: load = 0.0_dp
-    !> Beside the translation, a tilt x under a moment; not allocated: none.
+    !> Translation and, under a moment, tilt x; not allocated: translation only.
     real(dp), allocatable :: modes(:, :), resultant(:)
-    !> On the half-plane: modulus; centres and widths of the cells, (n); not allocated elsewhere.
+    !> On the half-plane: modulus; centres and widths of the cells, (n); not allocated for other problems.
     real(dp) :: e_star = 0.0_dp
     real(dp), allocatable :: x(:), width(:)
     integer :: element = FUGE_MEAN, boundary = FUGE_FREE
-    !> Are all cells equal?
+    !> All cells have the same width.
     logical :: uniform = .true.
     !> The known answer and where the middle of its contact is.
     class(closed_form), allocatable :: form
@@ -44,13 +44,13 @@ module bench_problems
   real(dp), parameter, public :: REACH = 0.8_dp
   real(dp), parameter :: LOAD = 30.0e3_dp
   real(dp), parameter :: QUARTIC = 0.05_dp, RADIUS = 7.0_dp
-  !> Part of the load that closes the wave; distance of the force from the middle of the face, in
+  !> Fraction of the load that closes the wave; distance of the force from the middle of the face, in
   !> half faces, within the kern and beyond it.
   real(dp), parameter :: OPEN_PART = 0.4_dp, ARM_INSIDE = 0.25_dp, ARM_BESIDE = 0.72_dp
   !> Rough profiles.
   integer, parameter :: LONGEST_WAVE = 4
   real(dp), parameter :: HURST = 0.8_dp, SLOPE_RMS = 0.1_dp
-  !> Random problems: what is added to the diagonal, and the part of the points in contact.
+  !> Random problems: what is added to the diagonal, and the fraction of the points in contact.
   real(dp), parameter :: RIDGE = 1.0e-3_dp, ACTIVE = 0.40_dp, ACTIVE_TOLERANCE = 0.02_dp
 
 contains
@@ -62,7 +62,7 @@ contains
     n = size(self%gap)
   end function points
 
-  !> Does the contact end at a corner, so that its edge is known?
+  !> True if the contact ends at a corner, so that its edge is known.
   pure function singular(self)
     class(bench_problem), intent(in) :: self
     logical :: singular
@@ -70,7 +70,7 @@ contains
     singular = any(self%name == [character(len=8) :: 'flat', 'tilted'])
   end function singular
 
-  !> What the element should say, (n): forces of the cells, or the pressure at the top of a hat.
+  !> Exact forces of the element, (n): forces of the cells, or the pressure at the peak of a hat.
   pure function exact_forces(self) result(force)
     class(bench_problem), intent(in) :: self
     real(dp) :: force(size(self%gap))
@@ -99,7 +99,7 @@ contains
     problem%x = 0.5_dp*(edges(2:) + edges(:n))
     call set_form(problem)
     allocate (problem%gap(n))
-    ! A force that is away from the middle tilts the face: it has no gaps of its own.
+    ! An eccentric force tilts the face, which is flat: its gaps are zero.
     problem%gap = 0.0_dp
     if (allocated(problem%modes)) return
     if (element == FUGE_MEAN) then
@@ -143,7 +143,7 @@ contains
     end select
   end subroutine set_form
 
-  !> Mean of the initial gap over cells, by three points of Gauss: exact for all but the wave.
+  !> Mean of the initial gap over cells, by three Gauss points: exact except for the wave.
   elemental function mean_gap(form, x, width) result(mean)
     class(closed_form), intent(in) :: form
     real(dp), intent(in) :: x, width
@@ -162,8 +162,8 @@ contains
     edges = [(REACH*real(2*k - n, dp)/real(n, dp), k=0, n)]
   end function uniform_edges
 
-  !> `n` cells from `left` to `right`, by a cosine finer towards both; beside each end that is
-  !> `open` three more of the last width, or if the ends are not `known` well some that double.
+  !> `n` cells from `left` to `right`, refined towards both ends by a cosine. Beside each end that is
+  !> `open` there are three more of the last width, or if the ends are not `known` well some that double.
   pure function graded_edges(left, right, n, open, known) result(edges)
     real(dp), intent(in) :: left, right
     integer, intent(in) :: n
@@ -182,7 +182,7 @@ contains
     if (open(2)) edges = [edges, (right + last*steps(k, known), k=1, beside)]
   end function graded_edges
 
-  !> How far cell k beside the contact reaches, in widths of the first.
+  !> Distance to which cell k beside the contact extends, in widths of the first.
   elemental function steps(k, equal)
     integer, intent(in) :: k
     logical, intent(in) :: equal
@@ -205,7 +205,7 @@ contains
     if (info%failed()) error stop 'no influence matrix of the half-plane'
   end subroutine add_matrix
 
-  !> That of a periodic surface, with a datum that makes it definite.
+  !> The influence matrix of a periodic surface, with a datum that makes it definite.
   subroutine add_circulant(problem)
     type(bench_problem), intent(inout) :: problem
     type(fuge_halfplane_operator) :: operator
@@ -230,7 +230,7 @@ contains
     end do
   end subroutine add_circulant
 
-  !> What a solver takes.
+  !> The problem as a solver takes it.
   pure function contact_problem(given) result(problem)
     type(bench_problem), intent(in) :: given
     type(fuge_problem) :: problem

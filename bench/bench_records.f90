@@ -1,5 +1,4 @@
-!> What the benchmark writes: rows of one table, and problems as raw files that other solvers
-!> read and answer.
+!> Output of the benchmark: rows of one table, and problems as raw files for other solvers.
 module bench_records
   use bench_problems, only: bench_problem, whole
   use fuge, only: dp => fuge_dp, FUGE_CENTRE, FUGE_HAT
@@ -8,8 +7,8 @@ module bench_records
 
   public :: open_table, write_row, write_problem, element_name, number
 
-  !> One measurement; the columns are explained in doc/performance.md. Negative: not known, an
-  !> empty field.
+  !> One measurement; doc/performance.md explains the columns. Negative: not known, an empty
+  !> field.
   type, public :: bench_row
     character(len=16) :: problem = '', method = '', element = ''
     integer :: n = 0, unknowns = -1, work = -1, preconditionings = -1

@@ -1,4 +1,4 @@
-!> A problem solved by an engine again and again: the fastest time, its limit, the judgement.
+!> Repeated solves of a problem by one engine: the fastest time, its limit, residual and errors.
 module bench_runs
   use bench_judge, only: judge
   use bench_lapack, only: dposv
@@ -15,14 +15,14 @@ module bench_runs
   !> Seconds that repetitions of one measurement may take together.
   real(dp), public :: patience = 0.1_dp
 
-  !> Products in one sample: one alone is at the mercy of the clock.
+  !> Products in one sample: a single one is too short for the clock.
   integer, parameter :: BATCH = 5
   !> The load step of the warm start.
   real(dp), parameter :: STEP = 1.01_dp
 
 contains
 
-  !> The row that a problem's measurements start from.
+  !> The row with which a problem's measurements start.
   function new_row(problem, name) result(row)
     type(bench_problem), intent(in) :: problem
     character(len=*), intent(in) :: name
@@ -33,9 +33,9 @@ contains
     if (allocated(problem%x)) row%element = element_name(problem%element)
   end function new_row
 
-  !> From a matrix to a certified answer by a dense engine, nothing known before. Its limit is what
-  !> the final contact block costs one call of LAPACK, without the copy it needs; both in turns,
-  !> so that a busy machine slows both.
+  !> A cold solve from a matrix to a certified answer by a dense engine. Its limit is the time of one LAPACK
+  !> call for the final contact block, without the copy it needs. The two are measured alternately, so that
+  !> a busy machine slows both.
   subroutine run_dense(problem, method, reference, row, force)
     type(bench_problem), intent(in), target :: problem
     integer, intent(in) :: method
@@ -67,7 +67,7 @@ contains
     call judge(problem, operator, force, reference, row)
   end subroutine run_dense
 
-  !> The active set, once.
+  !> One solve by the active set.
   subroutine solve_once(problem, force)
     type(bench_problem), intent(in), target :: problem
     real(dp), intent(out) :: force(:)
@@ -81,7 +81,7 @@ contains
     force = solution%force
   end subroutine solve_once
 
-  !> A fresh solver.
+  !> One solve by a new solver.
   subroutine solve_cold(operator, contact, options, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: contact
@@ -113,7 +113,7 @@ contains
     if (info /= 0) error stop 'the contact block is not positive definite'
   end subroutine run_limit
 
-  !> A solve after one at a load that was 1 % smaller; the operator stays. `row` comes from the
+  !> A solve after one at a load that was 1 % smaller, with the same operator. `row` is that of the
   !> cold solve.
   subroutine run_warm(problem, reference, row)
     type(bench_problem), intent(in), target :: problem
@@ -143,7 +143,7 @@ contains
     if (.not. info%failed()) call judge(problem, operator, solution%force, reference, row)
   end subroutine run_warm
 
-  !> By products only, the operator set; the limit is one product, in turns.
+  !> A solve by products only, without the set-up of the operator; the limit is one product, measured alternately.
   subroutine run_by_products(problem, operator, tolerance, reference, row, force)
     type(bench_problem), intent(in) :: problem
     class(fuge_operator), intent(in) :: operator
@@ -195,7 +195,7 @@ contains
     call watch%stop()
   end subroutine run_products
 
-  !> A warning or an error is shown as that.
+  !> The text of a warning or an error.
   subroutine note(watch, limit, info, row)
     type(stopwatch), intent(in) :: watch
     real(dp), intent(in) :: limit

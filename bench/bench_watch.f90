@@ -1,22 +1,22 @@
-!> Repeated timing: the fastest of as many runs as a part of a second allows. What others do
-!> on the machine only ever adds time; a long run counts by its processor time for that reason.
+!> Repeated timing: the fastest of as many runs as fit into a fraction of a second. Other programs on the
+!> machine can only add time; for that reason a long run is measured in processor time.
 module bench_watch
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp => fuge_dp
   implicit none
   private
 
-  !> Runs, and the time in seconds of one that is not repeated.
+  !> Number of runs, and the time in seconds above which a run is not repeated.
   integer, parameter :: LEAST = 3, MOST = 1000
   real(dp), parameter :: SLOW = 2.0_dp
-  !> Seconds from which on the processor's clock is fine enough.
+  !> From this time in seconds on the processor's clock is fine enough.
   real(dp), parameter :: LONG = 1.0e-3_dp
 
   type, public :: stopwatch
     integer :: runs = 0
-    !> The time in seconds that is enough once there are three runs.
+    !> After three runs no more are made beyond this total time in seconds.
     real(dp) :: budget = 0.1_dp
-    !> Of the fastest run, and of all, in seconds.
+    !> Time of the fastest run, and of all runs, in seconds.
     real(dp) :: best = huge(1.0_dp), spent = 0.0_dp
     integer(int64), private :: began = 0
     real(dp), private :: began_processor = 0.0_dp

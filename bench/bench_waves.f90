@@ -1,5 +1,5 @@
-!> Sums of many waves, by a fast Fourier transform of its own: the benchmark's profiles do
-!> not depend on what they measure.
+!> Sums of many waves, by the benchmark's own fast Fourier transform: its profiles do not depend
+!> on the code that it measures.
 module bench_waves
   use fuge, only: dp => fuge_dp
   implicit none
@@ -27,7 +27,7 @@ contains
     z = real(wave, dp)
   end subroutine sum_of_waves
 
-  !> The order in which halves of halves have to be combined.
+  !> The bit-reversed order.
   pure subroutine reverse_bits(wave)
     complex(dp), intent(inout) :: wave(0:)
     complex(dp) :: kept

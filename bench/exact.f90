@@ -2,8 +2,8 @@
 !>
 !>     exact DIRECTORY [quick] [write]
 !>
-!> appends to DIRECTORY/results.csv; `quick` leaves the finest grids out, `write` writes the
-!> problems for other solvers.
+!> appends to DIRECTORY/results.csv; `quick` omits the finest grids, `write` writes the problems for
+!> other solvers.
 program exact
   use bench_judge, only: approach_error, edge_interval
   use bench_problems, only: bench_problem, add_matrix, graded_edges, make_known, uniform_edges, KNOWN, REACH
@@ -15,16 +15,16 @@ program exact
     fuge_smooth_contact, fuge_solve_smooth_punch, FUGE_ACTIVE_SET, FUGE_MEAN, FUGE_TABLEAU
   implicit none
 
-  !> Cells: the grids of dense engines, powers of two up to this; of products only.
+  !> Largest numbers of cells, powers of two: for dense engines, and for products only.
   integer, parameter :: COARSEST = 16, FINEST = 4096, FINEST_QUICK = 512
   integer, parameter :: COARSEST_FFT = 64, FINEST_FFT = 2**20, FINEST_FFT_QUICK = 2**14
-  !> Only one problem goes beyond this, and to other solvers.
+  !> Above this size there is only one problem, also for other solvers.
   integer, parameter :: FINEST_OF_ALL = 1024, FINEST_TABLEAU = 256, FINEST_ITERATED = 256, FINEST_FOR_OTHERS = 2**16
-  !> Tolerance of the iteration, that of the library's options.
+  !> Tolerance of the iteration, the library's default.
   real(dp), parameter :: TOLERANCE = 1.0e-10_dp
   real(dp), parameter :: NONE(0) = [real(dp) ::]
 
-  !> What the command line asks for, and the unit of the table.
+  !> The options of the command line, and the unit of the table.
   type :: settings
     character(len=256) :: directory = ''
     integer :: table = 0
@@ -110,7 +110,7 @@ contains
     time = watch%best
   end function matrix_time
 
-  !> Cells that are finer towards the edges of a coarse solution, or towards the corners.
+  !> Cells refined towards the edges of a coarse solution, or towards the corners.
   subroutine run_graded(name, chosen)
     character(len=*), intent(in) :: name
     type(settings), intent(in) :: chosen
@@ -141,8 +141,8 @@ contains
     end do
   end subroutine run_graded
 
-  !> The whole way: coarse solution, its edges, grid and matrix. Beside a corner the other edge is
-  !> not known well from equal cells: again where the contact on that grid ends elsewhere.
+  !> All steps of the set-up: coarse solution, its edges, grid and matrix. If one edge is a corner, equal cells
+  !> give the other edge less accurately: the steps are repeated if the contact on that grid ends elsewhere.
   subroutine make_graded(name, n, problem)
     character(len=*), intent(in) :: name
     integer, intent(in) :: n
@@ -218,7 +218,7 @@ contains
       allocate (force(n))
       call run_by_products(problem, operator, TOLERANCE, NONE, row, force)
       call write_row(chosen%table, row)
-      ! For those who take profiles.
+      ! For solvers that take profiles.
       if (chosen%writes .and. name == 'wave' .and. n > FINEST_OF_ALL .and. n <= FINEST_FOR_OTHERS) then
         call write_problem(chosen%directory, problem, row, force)
       end if
@@ -227,7 +227,7 @@ contains
     end do
   end subroutine run_fft
 
-  !> No cells at all: the pressure as a series. Its errors are taken at the centres of many.
+  !> Without cells: the pressure as a series. Its errors are measured at the centres of many cells.
   subroutine run_smooth(name, chosen)
     character(len=*), intent(in) :: name
     type(settings), intent(in) :: chosen

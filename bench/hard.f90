@@ -1,4 +1,4 @@
-!> The hard scenes of test/hard for other solvers, and what they make of them.
+!> The hard scenes of test/hard for other solvers, and the table of their answers.
 !>
 !>     hard DIRECTORY write     writes the scenes
 !>     hard DIRECTORY           writes DIRECTORY/hard.md from the answers
@@ -13,7 +13,7 @@ program hard
 
   character(len=10), parameter :: PEERS(5) = [character(len=10) :: 'daqp', 'piqp', 'proxqp', 'quadprog', 'scipy_nnls']
 
-  !> A residual above this is no answer.
+  !> With a residual above this an answer counts as wrong.
   real(dp), parameter :: WRONG = 1.0e-6_dp
 
   !> A line of answers.csv.
@@ -51,7 +51,7 @@ contains
     close (unit)
   end subroutine run
 
-  !> As scene_NUMBER; its name would not do for a file.
+  !> The file name scene_NUMBER; the name of a scene may not be one.
   subroutine write_scene(directory, number, scene)
     character(len=*), intent(in) :: directory
     integer, intent(in) :: number

@@ -1,4 +1,4 @@
-!> Residuals and errors of what other solvers answered.
+!> Residuals and errors of the answers of other solvers.
 !>
 !>     judge DIRECTORY
 !>
@@ -12,7 +12,7 @@ program judge_answers
   use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_halfplane_operator, fuge_info, FUGE_MEAN
   implicit none
 
-  !> A problem as read, and what was measured with it.
+  !> A problem as read, and the measurements of it.
   type :: asked
     type(bench_problem) :: problem
     character(len=16) :: name = ''
@@ -105,7 +105,7 @@ contains
       case ('limit')
         read (word, *) question%limit
       case default
-        ! The rest is for other solvers.
+        ! The remaining fields are for other solvers.
         cycle
       end select
     end do
@@ -171,7 +171,7 @@ contains
     call write_row(table, row)
   end subroutine judge_one
 
-  !> Without a matrix the other solver's operator is its own, and its residual was told.
+  !> Without a matrix the other solver has its own operator, and reports its own residual.
   subroutine judge_profile(question, force, residual, row)
     type(asked), intent(in) :: question
     real(dp), intent(in) :: force(:), residual

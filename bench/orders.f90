@@ -1,5 +1,5 @@
-!> Errors of each element on many grids, for the orders in the width of the cells: the edge of
-!> the contact falls anywhere in a cell.
+!> Errors of each element on many grids, from which the orders in the cell width follow: the edge of
+!> the contact is anywhere in a cell.
 !>
 !>     orders DIRECTORY [quick]
 !>
@@ -16,7 +16,7 @@ program orders
   integer, parameter :: ELEMENTS(3) = [FUGE_CENTRE, FUGE_MEAN, FUGE_HAT]
   integer, parameter :: GRIDS = 40
   real(dp), parameter :: FEWEST = 40.0_dp, MOST = 4000.0_dp, MOST_QUICK = 1000.0_dp
-  !> Errors of the solve are to be far below those of the grid.
+  !> Tolerance: errors of the solve have to be far below those of the grid.
   real(dp), parameter :: TOLERANCE = 1.0e-13_dp
   real(dp), parameter :: NONE(0) = [real(dp) ::]
 

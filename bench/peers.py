@@ -2,7 +2,7 @@
 
     python peers.py DIRECTORY [quick] [once]
 
-`quick` gives a solver less time, `once` does not repeat what is fast.
+`quick` gives a solver less time, `once` does not repeat fast solves.
 
 Reads each DIRECTORY/NAME.txt and NAME.bin; writes the forces found to NAME.METHODTOLERANCE and a
 line for each solve to answers.csv: name, method, tolerance, time, residual, failure. The program
@@ -33,7 +33,7 @@ import scipy.linalg
 import scipy.optimize
 import tamaas
 
-# Seconds of the processor until a solver is stopped; a solve is repeated for some part of a second.
+# Processor time in seconds until a solver is stopped; a solve is repeated for a fraction of a second.
 TIMEOUT, TIMEOUT_QUICK = 20, 5
 BUSY = 3
 PATIENCE = 0.0 if "once" in sys.argv else 0.1
@@ -101,7 +101,7 @@ def by_tamaas(surface, e_star, length, pressure, tolerance):
     model.E, model.nu = e_star, 0.0
     kind = tamaas.PolonskyKeerRey.type.pressure
     solver = tamaas.PolonskyKeerRey(model, surface.copy(), tolerance, kind, kind)
-    # Where it ends is for the clock to say.
+    # Only the time limit ends it.
     solver.max_iter = 10**7
     error = solver.solve(pressure)
     if not error <= tolerance:
@@ -109,7 +109,7 @@ def by_tamaas(surface, e_star, length, pressure, tolerance):
     return np.array(model.traction).ravel() * length / len(surface)
 
 
-# Method, solver, tolerance, and looser ones where they are asked for.
+# Method, solver, tolerance, and larger tolerances where they are measured too.
 QUADRATIC = [
     ("daqp", by_daqp, "", []),
     ("piqp", by_piqp, "1e-12", ["1e-4", "1e-6", "1e-8", "1e-10"]),
@@ -120,7 +120,7 @@ QUADRATIC = [
 
 
 def in_short(error):
-    """What many words say, without commas."""
+    """A long message in short, without commas."""
     words = str(error).lower().replace("_", " ").replace(",", " ")
     for told, meant in (("positive definite", "not positive definite"), ("leading minor", "not positive definite"),
                         ("max iter", "iteration limit"), ("infs or nans", "not finite")):
@@ -141,8 +141,8 @@ def work(pipe, timeout, solver, *problem):
             start, processor = time.perf_counter(), time.thread_time()
             force = solver(*problem)
             spent = time.perf_counter() - start
-            # As the benchmark has it: a long run counts by its processor time (that of the thread: under a
-            # limit the clock of the process moves by ticks).
+            # As in the benchmark, a long run counts by its processor time (that of the thread: under a
+            # limit the clock of the process moves in ticks).
             times.append(min(spent, time.thread_time() - processor) if spent > 1e-3 else spent)
         pipe.send((force, min(times), ""))
     except Exception as error:
@@ -158,7 +158,7 @@ def run(solver, timeout, *problem):
     theirs.close()
     late = (None, None, f"more than {timeout} s")
     try:
-        # On a busy machine the processor's seconds are longer.
+        # On a busy machine processor time passes more slowly.
         found = ours.recv() if ours.poll(BUSY * timeout) else late
     except EOFError:
         found = None
@@ -203,7 +203,7 @@ def scaled(gap, load, tilt, moment, matrix):
 
 
 def own_residual(force, gap, load, e_star, length):
-    """As the program `judge` has it, with the operator of Tamaas: 2/(E* q) for each wave of the grid."""
+    """As in the program `judge`, with the operator of Tamaas: 2/(E* q) for each wave of the grid."""
     n = len(gap)
     wave = 2 * np.pi / length * np.arange(n // 2 + 1)
     wave[0] = np.inf
@@ -216,7 +216,7 @@ def own_residual(force, gap, load, e_star, length):
 
 
 class Answers:
-    """What was found, as files for `judge`; who ran out of time on a smaller problem is not asked again."""
+    """Answers as files for `judge`; a solver that ran out of time on a smaller problem is not run again."""
 
     def __init__(self, directory, timeout):
         self.directory, self.timeout, self.given_up = directory, timeout, {}
@@ -260,7 +260,7 @@ def main():
     names = [os.path.basename(path)[:-4] for path in glob.glob(os.path.join(directory, "*_*.txt"))]
     answers = Answers(directory, TIMEOUT_QUICK if "quick" in sys.argv[2:] else TIMEOUT)
     family = ""
-    # The smaller first.
+    # Smaller problems first.
     for name in sorted(names, key=lambda name: (name.split("_")[0], int(name.split("_")[1]))):
         if name.split("_")[0] != family:
             family = name.split("_")[0]

@@ -2,9 +2,9 @@
 
     python report.py DIRECTORY [DOCUMENT ...]
 
-writes DIRECTORY/speed_error.csv, growth.csv and tables.md; in each DOCUMENT it replaces what stands
-between `<!-- NAME begin -->` and `<!-- NAME end -->`. Needs nothing but Python. What was not
-measured is left out.
+writes DIRECTORY/speed_error.csv, growth.csv and tables.md; in each DOCUMENT it replaces the text
+between `<!-- NAME begin -->` and `<!-- NAME end -->`. Needs only Python. What was not measured is
+omitted.
 """
 import csv
 import math
@@ -16,9 +16,9 @@ import sys
 KNOWN = ("quartic", "cylinder", "wave", "flat", "tilted", "lifted")
 PEERS = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls", "tamaas")
 ENGINES = ("tableau", "active_set", "iterative_dense", "iterative_fft")
-# Errors nearer than this are rounding and what a solve leaves.
+# Errors that differ by less are rounding and the remaining residual of the solve.
 ROUNDING = 2e-12
-# Less memory is that of the program itself.
+# Less memory than this is that of the program itself.
 SMALL = 8e6
 
 
@@ -53,7 +53,7 @@ def seconds(value):
 
 
 def short(value):
-    """2e-5; 0 for what is nothing."""
+    """Such as 2e-5; 0 for zero."""
     if value is None:
         return ""
     return "0" if value == 0.0 else re.sub(r"e([+-])0*(\d+)", r"e\g<1>\2", f"{value:.0e}").replace("e+", "e")
@@ -95,14 +95,14 @@ def known_points(data):
             if method in ("active_set", "graded", "iterative_fft", "smooth"):
                 yield problem, method, row["n"], max(row["error_pressure"], 1e-16), total(row), row["failure"]
             elif method in PEERS and row["failure"]:
-                # A failure stands at the error that its grid would have had.
+                # A failure is placed at the error that its grid would have had.
                 yield problem, method, row["n"], grid.get(row["n"]), None, row["failure"]
             elif method in PEERS:
                 yield problem, method, row["n"], row["error_pressure"], total(row), ""
 
 
 def solver_points(data, problem, n):
-    """Residual over time; a failure stands at the tolerance asked for."""
+    """Residual over time; a failure is placed at the requested tolerance."""
     for row in data.where(problem=problem, n=n):
         method = row["method"]
         if method not in ("active_set", "iterative_dense", "iterative_fft", *PEERS):
@@ -150,7 +150,7 @@ def write_growth(path, data):
 # The tables.
 
 def choice_table(data):
-    """For an error asked for, the fastest way to it: a curve counts from where it stays below."""
+    """For a given error the fastest method; a curve counts from the grid on from which it stays below that error."""
     rows = []
     for column, text in (("error_pressure", "pressure"), ("error_halfwidth", "half width")):
         for target in (1e-3, 1e-6, 1e-9):
@@ -257,7 +257,7 @@ def products_table(data):
             rows.append([f"{problem} 2^{n.bit_length() - 1}", f"{row['unknowns']:.0f}",
                          f"{row['products_or_pivots']:.0f} + {row['preconditionings'] or 0:.0f}", seconds(row["setup_s"]),
                          seconds(row["time_s"]), f"{row['time_over_limit']:.0f}", short(row["residual"]), cell(peer)])
-    head = ["problem", "in contact", "products, preconditionings", "operator", "solve", "over one product", "residual", "Tamaas, 1e-8"]
+    head = ["problem", "in contact", "products + preconditioner", "operator", "solve", "over one product", "residual", "Tamaas, 1e-8"]
     return table(head, rows)
 
 
@@ -282,7 +282,7 @@ def growth_table(data):
 
 
 def crossing(data, slower, faster, cost):
-    """Smallest n of the growth curves from which on `faster` is faster."""
+    """Smallest n of the growth curves from which on `faster` is the faster one."""
     left = {row["n"]: cost(row) for row in data.where(problem="growth", method=slower)}
     right = {row["n"]: cost(row) for row in data.where(problem="growth", method=faster)}
     both = sorted(set(left) & set(right), reverse=True)
@@ -295,7 +295,7 @@ def crossing(data, slower, faster, cost):
 
 
 def crossing_list(data):
-    """Sentences, because some crossings are not there."""
+    """The crossings as sentences, because some do not exist."""
     names = {"tableau": "the tableau", "active_set": "the active set", "iterative_dense": "the iteration with a matrix",
              "iterative_fft": "the iteration by FFT"}
     lines = []
@@ -335,7 +335,7 @@ def main():
 
 
 def hard_tables(directory):
-    """What `stability_table` and `hard` wrote."""
+    """The tables that `stability_table` and `hard` have written."""
     if not os.path.exists(os.path.join(directory, "hard.md")):
         return {}
     with open(os.path.join(directory, "scenes.md")) as scenes, open(os.path.join(directory, "hard.md")) as peers:

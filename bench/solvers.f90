@@ -1,9 +1,9 @@
-!> Solver errors over time: random matrices and rough profiles, which have no closed form.
+!> Solver errors over time, for random matrices and rough profiles, which have no closed form.
 !>
 !>     solvers DIRECTORY [quick] [write]
 !>
-!> appends to DIRECTORY/results.csv; `quick` leaves the large ones out, `write` writes the
-!> problems for other solvers.
+!> appends to DIRECTORY/results.csv; `quick` omits the large problems, `write` writes the problems for
+!> other solvers.
 program solvers
   use bench_problems, only: bench_problem, make_random, make_rough
   use bench_records, only: bench_row, open_table, write_problem, write_row
@@ -16,7 +16,7 @@ program solvers
   integer, parameter :: ROUGH_SIZES(3) = [4096, 65536, 1048576], QUICK_ROUGH = 4096, FINEST_FOR_OTHERS = 65536
   character(len=5), parameter :: ROUGH(2) = ['light', 'heavy']
   real(dp), parameter :: PRESSURES(2) = [0.005_dp, 0.05_dp]
-  !> Of the iteration; the last one is the end.
+  !> Tolerances of the iteration; the last one solves to rounding.
   real(dp), parameter :: TOLERANCES(5) = [1.0e-2_dp, 1.0e-4_dp, 1.0e-6_dp, 1.0e-8_dp, 1.0e-10_dp], LAST = 1.0e-12_dp
   real(dp), parameter :: NONE(0) = [real(dp) ::]
 

@@ -66,7 +66,7 @@ do for [k = 1:9] {
   plot for [c = 1:11] file using (solved(panel, word(names, c))):5 with linespoints lt c, \
        for [c = 1:11] file using (failed(panel, word(names, c))):5 with points lt c pt 2 ps 1.6 lw 2
 }
-# The legend, below: marks of each curve, and what it is.
+# The legend below the panels: the mark of each curve and its name.
 set lmargin at screen 0.0
 set rmargin at screen 1.0
 set bmargin at screen 0.0

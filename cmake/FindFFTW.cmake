@@ -1,5 +1,5 @@
 # FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads.
-# FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a strange place.
+# FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a nonstandard location.
 find_package(PkgConfig QUIET)
 if(PkgConfig_FOUND)
   pkg_check_modules(PC_FFTW QUIET fftw3)
@@ -13,7 +13,7 @@ find_package_handle_standard_args(FFTW REQUIRED_VARS FFTW_LIBRARY FFTW_THREADS_L
   REASON_FAILURE_MESSAGE "install FFTW 3.3.5 or newer with threads (Debian: libfftw3-dev)")
 
 if(FFTW_FOUND AND NOT TARGET FFTW::threads)
-  # A static copy does not say what it needs itself.
+  # A static copy does not name the libraries that it needs.
   set(fftw_needs)
   if(UNIX)
     set(fftw_needs pthread m)

@@ -1,6 +1,6 @@
 # Headers, libraries, module files, CMake package, pkg-config files and documents.
 #
-# Both kinds of a library may live in one prefix: each has a file of targets of its own.
+# A static and a shared library may share a prefix: each has its own file of targets.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/fuge")
@@ -13,24 +13,24 @@ set(for_programs COMPONENT fuge_runtime)
 set(for_developers COMPONENT fuge_development)
 set(for_readers COMPONENT fuge_documents)
 
-# What a C linker has to add for a static Fortran library.
+# The libraries that a C linker has to add for a static Fortran library.
 set(fortran_runtime ${CMAKE_Fortran_IMPLICIT_LINK_LIBRARIES})
 list(REMOVE_ITEM fortran_runtime gcc gcc_s c)
 list(REMOVE_DUPLICATES fortran_runtime)
 set(fortran_runtime_dirs ${CMAKE_Fortran_IMPLICIT_LINK_DIRECTORIES})
 set(fortran_compiler "${CMAKE_Fortran_COMPILER_ID}-${CMAKE_Fortran_COMPILER_VERSION}")
 
-# result: linker flags for what the `...` libraries are
+# result: linker flags for the libraries `...`
 function(fuge_linker_flags result)
   set(libraries ${ARGN})
   list(TRANSFORM libraries PREPEND "-l" REGEX "^[^-/]")
-  # Directories that the C compiler does not search by itself.
+  # Directories that the C compiler does not search by default.
   set(dirs ${fortran_runtime_dirs})
   list(REMOVE_ITEM dirs "" ${CMAKE_C_IMPLICIT_LINK_DIRECTORIES})
   list(TRANSFORM dirs PREPEND "-L")
   set(flags ${dirs} ${libraries})
   list(REMOVE_DUPLICATES flags)
-  # All of the others may need it.
+  # Last, because any of the others may need it.
   list(REMOVE_ITEM flags -lm)
   list(APPEND flags -lm)
   list(JOIN flags " " flags)
@@ -60,12 +60,12 @@ function(fuge_install_library target package)
   endif()
   set(pc_libs -l${output_name})
   fuge_linker_flags(pc_private ${arg_NEEDS} ${fortran_runtime})
-  # A static library has no record of what it needs: then these are needed always.
+  # A static library does not record what it needs, so these are always listed.
   if(library_kind STREQUAL "static")
     string(APPEND pc_libs " ${pc_private}")
     set(pc_private)
   endif()
-  # The prefix seen from the .pc file, so that the installed tree can be moved.
+  # The prefix relative to the .pc file, so that the installed tree can be moved.
   file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
   string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
   configure_file(cmake/fuge.pc.in ${package}.pc @ONLY)

@@ -1,15 +1,15 @@
-# fuge_limit_symbols(target): a shared library shows its interface and nothing else.
+# fuge_limit_symbols(target): a shared library exports its interface and nothing else.
 #
-# That are the names of C, the modules (gfortran: __fuge_.., flang: _QMfuge..), whose types bring
-# tables of procedures and default values along, and the documented external names. Other linkers than
-# those that know version scripts show all there is.
+# These are the C names, the modules (gfortran: __fuge_.., flang: _QMfuge..) with the tables of procedures and
+# the default values of their types, and the documented external names. A linker without version scripts exports
+# everything.
 include(CheckLinkerFlag)
 
 set(FUGE_SYMBOLS "fuge_*" "__fuge_*" "_QMfuge*")
 if(EXISTS "${PROJECT_SOURCE_DIR}/cmake/external_names.txt")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cmake/external_names.txt)
   file(STRINGS cmake/external_names.txt external_names REGEX "^[a-z]")
-  # As gfortran and flang write the name of an external procedure.
+  # gfortran and flang append an underscore to the name of an external procedure.
   list(TRANSFORM external_names APPEND "_")
   list(APPEND FUGE_SYMBOLS ${external_names})
 endif()
