@@ -2,8 +2,8 @@
 module fuge_input_checks
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE
   implicit none
   private
 

@@ -16,11 +16,11 @@
 !> follows the shift for which K = 0. See doc/theory.md, "Edges of the contact".
 module fuge_edge_refinement
   use fuge_constants, only: PI
-  use fuge_input_checks, only: check_finite
   use fuge_halfplane_influence, only: check_halfplane, FUGE_CENTRE, FUGE_HAT
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_GRID
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_GRID
   implicit none
   private
 

@@ -4,11 +4,11 @@
 module fuge_certificate
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_operator_products, only: multiply
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
-  use fuge_number_text, only: text
   implicit none
   private
 

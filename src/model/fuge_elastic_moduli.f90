@@ -7,9 +7,9 @@
 module fuge_elastic_moduli
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, &
     FUGE_ERR_OVERFLOW
-  use fuge_number_text, only: text
   implicit none
   private
 

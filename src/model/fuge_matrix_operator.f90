@@ -5,10 +5,10 @@ module fuge_matrix_operator
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
     FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
-  use fuge_number_text, only: text
   implicit none
   private
 

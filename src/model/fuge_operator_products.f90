@@ -3,10 +3,10 @@
 module fuge_operator_products
   use fuge_input_checks, only: check_finite, is_finite_everywhere
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_OVERFLOW, &
     LOWEST_STATUS
-  use fuge_number_text, only: text
   implicit none
   private
 

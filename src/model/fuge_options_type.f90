@@ -2,8 +2,8 @@
 module fuge_options_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_OPTION
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_OPTION
   implicit none
   private
 

@@ -14,9 +14,9 @@ module fuge_problem_type
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP
-  use fuge_number_text, only: text
   implicit none
   private
 
