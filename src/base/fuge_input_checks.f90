@@ -1,21 +1,20 @@
-!> Checks that several modules share.
+!> Checks of input arrays for NaN and infinity.
 module fuge_input_checks
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE
   implicit none
   private
 
   public :: check_finite, is_finite_everywhere
 
-
   integer, parameter :: int64 = selected_int_kind(18)
 
 contains
 
-  !> Are all values finite? Looks at the bits of the exponent, in one pass without a
-  !> branch: NaN compared may trap.
+  !> Are all values finite? Reads the bits of the exponents, in one pass without a
+  !> branch, because a comparison with NaN may trap.
   pure function is_finite_everywhere(values) result(finite)
     real(dp), intent(in), contiguous :: values(:)
     logical :: finite
@@ -31,7 +30,7 @@ contains
   end function is_finite_everywhere
 
 
-  !> Refuse NaN and infinity, with the first index (FUGE_ERR_NOT_FINITE).
+  !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE); the message names the first such value `name`(k).
   pure subroutine check_finite(values, name, info)
     real(dp), intent(in) :: values(:)
     character(len=*), intent(in) :: name

@@ -1,4 +1,4 @@
-/* Locks for the whole process, which Fortran 2008 does not have: fuge_locks.f90 numbers them. */
+/* Locks for the whole process, which Fortran 2008 does not have; fuge_locks.f90 gives their numbers. */
 #if defined(_WIN32)
 
 #include <windows.h>

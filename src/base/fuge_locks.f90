@@ -1,4 +1,4 @@
-!> What only one thread of the process may do at a time.
+!> Locks for what only one thread of the process may do at a time.
 module fuge_locks
   use, intrinsic :: iso_c_binding, only: c_int
   implicit none
@@ -6,19 +6,20 @@ module fuge_locks
 
   public :: lock, unlock
 
-  !> Plans of FFTW are made.
+  !> Calls of the planner of FFTW, which is not thread-safe.
   integer(c_int), parameter, public :: LOCK_PLANNER = 0
-  !> Files are opened and closed: Fortran refuses to open one that another unit, and so
+  !> Opening and closing files: Fortran refuses to open a file that another unit, and so
   !> another thread, has open.
   integer(c_int), parameter, public :: LOCK_FILES = 1
 
   interface
-    !> Wait until no other thread holds the lock `which`, and hold it.
+    !> Wait until no other thread holds the lock `which`, then acquire it.
     subroutine lock(which) bind(c, name='fuge_lock')
       import :: c_int
       integer(c_int), intent(in), value :: which
     end subroutine lock
 
+    !> Release the lock `which`.
     subroutine unlock(which) bind(c, name='fuge_unlock')
       import :: c_int
       integer(c_int), intent(in), value :: which

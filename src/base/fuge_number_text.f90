@@ -1,7 +1,7 @@
 !> Numbers as text, for messages.
 !>
-!> Results have lengths that are known before the call: gfortran keeps the length of a
-!> deferred one (`len=:`) in a variable that all threads share.
+!> The length of each result is known before the call, because gfortran keeps the length of
+!> a deferred-length result (`len=:`) in a variable that all threads share.
 module fuge_number_text
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
@@ -10,7 +10,7 @@ module fuge_number_text
 
   public :: text
 
-  !> An integer, or a real number to six digits or so, without blanks.
+  !> An integer, or a real number to about six digits, without blanks.
   interface text
     module procedure text_integer
     module procedure text_real
@@ -37,7 +37,7 @@ contains
     character(len=24) :: field
 
     if (.not. ieee_is_finite(value)) then
-      ! Apart, because a comparison with NaN may trap.
+      ! On its own branch, because a comparison with NaN may trap.
       write (field, '(es13.5e3)') value
     else if (abs(value) >= 1.0e-3_dp .and. abs(value) < 1.0e5_dp) then
       write (field, '(f14.6)') value

@@ -61,6 +61,7 @@ module fuge_status
   !> A degree of freedom is out of range or named twice.
   integer, parameter, public :: FUGE_ERR_DOF = -22
 
+  !> The range of the codes.
   integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_DOF
   integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_NOT_UNIQUE
 
@@ -97,21 +98,21 @@ module fuge_status
   !> Length of a message; longer ones are cut.
   integer, parameter, public :: FUGE_MESSAGE_LENGTH = 256
 
-  !> What a call has to say of itself.
+  !> The report of a call.
   type, public :: fuge_info
     !> One of the codes above.
     integer :: status = FUGE_DONE
-    !> What is wrong, where (1-based index, value) and how to mend it; blank when done.
+    !> What is wrong, where (index from 1, value) and how to mend it; blank when done.
     character(len=FUGE_MESSAGE_LENGTH) :: message = ''
-    !> Pivots of the tableau, contact sets tried by the active set.
+    !> Pivots of the tableau, contact sets of the other engines.
     integer :: iterations = 0
     !> Points with a contact force.
     integer :: contacts = 0
-    !> Products A f of the operator, the certificate's included.
+    !> Products A f of the operator, including that of the certificate.
     integer :: products = 0
     !> Applications of a preconditioner.
     integer :: preconditionings = 0
-    !> The certificate: largest scaled violation, see `fuge_residual`.
+    !> The certificate: the largest relative violation, see `fuge_residual`; no unit.
     real(dp) :: residual = 0.0_dp
   contains
     procedure :: failed
@@ -119,7 +120,7 @@ module fuge_status
 
 contains
 
-  !> True for an error: outputs were left untouched.
+  !> Is it an error? Outputs were then left untouched.
   pure function failed(self)
     class(fuge_info), intent(in) :: self
     logical :: failed
@@ -145,7 +146,7 @@ contains
     if (status >= LOWEST_STATUS .and. status <= HIGHEST_STATUS) length = len_trim(STATUS_MEANINGS(status))
   end function meaning_length
 
-  !> The general meaning of a status code, in English.
+  !> The meaning of a status code, in English.
   pure function fuge_status_text(status) result(meaning)
     integer, intent(in) :: status
     character(len=meaning_length(status)) :: meaning

@@ -159,17 +159,17 @@ contains
     preconditioned = associated(self%inverse) .or. allocated(self%diagonal)
   end function has_preconditioner
 
-  subroutine precondition(self, length, force, status)
+  subroutine precondition(self, displacement, force, status)
     class(callback_operator), intent(in) :: self
-    real(dp), intent(in) :: length(:)
+    real(dp), intent(in) :: displacement(:)
     real(dp), intent(out) :: force(:)
     integer, intent(out) :: status
 
     if (allocated(self%diagonal)) then
-      force = length/self%diagonal
+      force = displacement/self%diagonal
       status = FUGE_DONE
     else
-      call call_back(self%inverse, length, force, self%user, status)
+      call call_back(self%inverse, displacement, force, self%user, status)
     end if
   end subroutine precondition
 

@@ -2,39 +2,40 @@
 !>
 !> A line load P per unit depth sinks the surface at distance r by
 !> -(2 P/(pi E*)) ln(r/D) (Flamant; K. L. Johnson, Contact Mechanics, 1985,
-!> section 2.2 and equation 2.19), E* = E/(1-nu^2) in plane strain. D is free:
-!> it moves the half-plane as a whole. Here D is twice the length covered by the
-!> cells, so that every coefficient is positive and the matrix positive definite;
-!> forces and gaps do not depend on it.
+!> section 2.2 and equation 2.19), E* = E/(1-nu^2) in plane strain. D is arbitrary: it
+!> shifts the half-plane as a whole. Here D is twice the length that the cells cover, so that
+!> every coefficient is positive and the matrix positive definite; forces and gaps do not
+!> depend on D.
 !>
-!> All elements are one function, the mean of ln|d + s - t| over s in a cell of
-!> one width and t in a cell of another:
+!> The coefficients of all elements are values of one function, the mean of ln|d + s - t| over
+!> s in a cell of one width and t in a cell of another:
 !>
-!> - FUGE_CENTRE: a uniform strip seen at a point, widths 0 and w;
-!> - FUGE_MEAN: a uniform strip seen by a cell, widths w_i and w_j;
-!> - FUGE_HAT: a hat of half-base w seen at a point, widths w and w, since the hat is the
-!>   convolution of two uniform strips.
+!> - FUGE_CENTRE: displacement at a point by a uniform strip, widths 0 and w;
+!> - FUGE_MEAN: mean displacement of a cell by a uniform strip, widths w_i and w_j;
+!> - FUGE_HAT: displacement at a point by a hat of half-base w, widths w and w, because the hat
+!>   is the convolution of two uniform strips.
 module fuge_halfplane_influence
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
+  use fuge_elastic_moduli, only: check_e_star
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, &
-    FUGE_ERR_ELEMENT, FUGE_ERR_GRID, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, &
+    FUGE_ERR_OVERFLOW
   implicit none
   private
 
-  public :: fuge_halfplane_matrix, check_halfplane, mean_log
+  public :: fuge_halfplane_matrix, check_halfplane, check_element, mean_log
 
   !> `element`: uniform pressure f/width on a cell, displacement at its centre; equal widths.
   integer, parameter, public :: FUGE_CENTRE = 0
   !> `element`: uniform pressure f/width on a cell, mean displacement of a cell; any widths.
   integer, parameter, public :: FUGE_MEAN = 1
-  !> `element`: pressure a hat with peak f/width at x and base 2 width, displacement at x;
+  !> `element`: a hat of pressure with peak f/width at x and base 2 width, displacement at x;
   !> equal widths.
   integer, parameter, public :: FUGE_HAT = 2
 
-  !> Widths that differ by less, relatively, are taken as equal.
+  !> Widths with a smaller relative difference count as equal.
   real(dp), parameter :: WIDTH_TOLERANCE = 1.0e-10_dp
 
 contains
@@ -44,8 +45,8 @@ contains
   !> `x` (n) centres and `width` (n) widths of the cells, length; `e_star` force per
   !> length squared; `element` as above; out: `alpha` (n, n), displacement into the
   !> body per force of a cell per unit depth. `symmetric` (default .false.) folds
-  !> a scene symmetric about x = 0: give only the cells with x >= 0, a force then
-  !> is the sum over a cell and its mirror image (the cell at 0 is its own).
+  !> a problem symmetric about x = 0: pass only the cells with x >= 0; each force is
+  !> then the sum over a cell and its mirror image (a cell at 0 is its own image).
   !> Errors, alpha untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
   !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, FUGE_ERR_OVERFLOW.
   pure subroutine fuge_halfplane_matrix(x, width, e_star, element, alpha, info, symmetric)
@@ -66,7 +67,7 @@ contains
     if (info%failed()) return
     if (size(alpha, 1) < n .or. size(alpha, 2) /= n) then
       call report(info, FUGE_ERR_SIZE, 'alpha is '//text(size(alpha, 1))//' by '//text(size(alpha, 2)) &
-                  //': it needs '//text(n)//' columns and as many rows at least')
+                  //': it needs '//text(n)//' columns and at least as many rows')
       return
     end if
 
@@ -96,7 +97,7 @@ contains
     end do
   end subroutine fuge_halfplane_matrix
 
-  !> Equal cells at equal distances, but for rounding: then only n coefficients differ.
+  !> Are all cells equal and equally spaced, up to rounding? Then alpha has only n different coefficients.
   pure function is_uniform(x, width) result(uniform)
     real(dp), intent(in) :: x(:), width(:)
     logical :: uniform
@@ -112,7 +113,7 @@ contains
     end do
   end function is_uniform
 
-  !> D: twice the length from the first cell's outer edge to the last one's.
+  !> D: twice the length from the outer edge of the first cell to that of the last one.
   pure function datum_length(x, width, folded) result(length)
     real(dp), intent(in) :: x(:), width(:)
     logical, intent(in) :: folded
@@ -125,8 +126,9 @@ contains
     end if
   end function datum_length
 
-  pure function cell_mean(distance, seen, loaded, element) result(mean)
-    real(dp), intent(in) :: distance, seen, loaded
+  !> The mean of ln for `element`, from a cell of width `loaded` to one of width `observed`.
+  pure function cell_mean(distance, observed, loaded, element) result(mean)
+    real(dp), intent(in) :: distance, observed, loaded
     integer, intent(in) :: element
     real(dp) :: mean
 
@@ -134,13 +136,13 @@ contains
     case (FUGE_CENTRE)
       mean = mean_log(distance, 0.0_dp, loaded)
     case (FUGE_MEAN)
-      mean = mean_log(distance, seen, loaded)
+      mean = mean_log(distance, observed, loaded)
     case default
       mean = mean_log(distance, loaded, loaded)
     end select
   end function cell_mean
 
-  !> Mean of ln|distance + s - t| over |s| <= a/2 and |t| <= b/2, to rounding.
+  !> Mean of ln|distance + s - t| over |s| <= a/2 and |t| <= b/2, accurate to rounding.
   !>
   !> `a` >= 0 and `b` >= 0 are lengths, not both zero; `distance` any length.
   elemental function mean_log(distance, a, b) result(mean)
@@ -152,37 +154,37 @@ contains
     wide = max(a, b)
     narrow = min(a, b)
     if (d > wide + narrow) then
-      mean = log(d) + far_part(0.5_dp*(wide + narrow)/d, 0.5_dp*(wide - narrow)/d)
+      mean = log(d) + far_field(0.5_dp*(wide + narrow)/d, 0.5_dp*(wide - narrow)/d)
     else
-      ! In units of the wide cell, so that all lengths are of order 1.
+      ! In units of the wider cell, so that all lengths are of order 1.
       mean = log(wide) + strip_mean(d/wide + 0.5_dp, narrow/wide) - strip_mean(d/wide - 0.5_dp, narrow/wide)
     end if
   end function mean_log
 
-  !> mean_log - ln(d) by the even moments of s - t; p and q are half the sum and
-  !> half the difference of the widths over d, p < 1/2.
+  !> mean_log - ln(d) from the even moments of s - t; p and q are half the sum and half the
+  !> difference of the widths over d, p < 1/2.
   !>
-  !> The moment of order 2k is 2 S_k/((2k+1)(2k+2)) with the sum S_k of all
-  !> p^2i q^2j, i + j = k: only positive terms, nothing cancels.
-  elemental function far_part(p, q) result(part)
+  !> The moment of order 2k is 2 S_k/((2k+1)(2k+2)) with S_k the sum of all p^2i q^2j,
+  !> i + j = k. All terms are positive: there is no cancellation.
+  elemental function far_field(p, q) result(correction)
     real(dp), intent(in) :: p, q
-    real(dp) :: part
+    real(dp) :: correction
     real(dp) :: moment_sum, power, term
     integer :: k
 
-    part = 0.0_dp
+    correction = 0.0_dp
     moment_sum = 1.0_dp
     power = 1.0_dp
     do k = 1, 40
       power = power*q**2
       moment_sum = moment_sum*p**2 + power
       term = moment_sum/real(k*(2*k + 1)*(2*k + 2), dp)
-      part = part - term
-      if (term <= 0.1_dp*epsilon(part)*abs(part)) exit
+      correction = correction - term
+      if (term <= 0.1_dp*epsilon(correction)*abs(correction)) exit
     end do
-  end function far_part
+  end function far_field
 
-  !> Mean over a width w of J(x) = x ln|x| - x, the integral of ln|x|, about c.
+  !> Mean of J(x) = x ln|x| - x, the integral of ln|x|, over a width w about c.
   elemental function strip_mean(c, w) result(mean)
     real(dp), intent(in) :: c, w
     real(dp) :: mean
@@ -193,7 +195,7 @@ contains
       mean = (double_integral(c + 0.5_dp*w) - double_integral(c - 0.5_dp*w))/w
       return
     end if
-    ! Taylor series in w/(2c): a difference quotient would lose digits for a narrow w.
+    ! Taylor series in w/(2c), because a difference quotient loses digits for a narrow w.
     mean = 0.0_dp
     if (abs(c) <= 0.0_dp) return
     ratio = (0.5_dp*w/c)**2
@@ -207,7 +209,7 @@ contains
     mean = c*(mean + log(abs(c)) - 1.0_dp)
   end function strip_mean
 
-  !> The integral of x ln|x| - x.
+  !> The integral of x ln|x| - x from 0.
   elemental function double_integral(x) result(integral)
     real(dp), intent(in) :: x
     real(dp) :: integral
@@ -216,7 +218,7 @@ contains
     if (abs(x) > 0.0_dp) integral = x**2*(0.5_dp*log(abs(x)) - 0.75_dp)
   end function double_integral
 
-  !> Refuse cells, modulus or element that make no influence matrix.
+  !> Refuse cells, a modulus or an element for which there is no influence matrix.
   !>
   !> Arguments and errors as for `fuge_halfplane_matrix`.
   pure subroutine check_halfplane(x, width, e_star, element, symmetric, info)
@@ -232,21 +234,26 @@ contains
     end if
     call check_finite(x, 'x', info)
     if (.not. info%failed()) call check_finite(width, 'width', info)
-    if (.not. info%failed()) call check_finite([e_star], 'e_star', info)
+    if (.not. info%failed()) call check_element(element, info)
+    if (.not. info%failed()) call check_e_star(e_star, info)
     if (info%failed()) return
-    if (all(element /= [FUGE_CENTRE, FUGE_MEAN, FUGE_HAT])) then
-      call report(info, FUGE_ERR_ELEMENT, 'element = '//text(element) &
-                  //' is unknown: use FUGE_CENTRE, FUGE_MEAN or FUGE_HAT')
-    else if (.not. e_star > 0.0_dp) then
-      call report(info, FUGE_ERR_MODULUS, 'e_star = '//text(e_star) &
-                  //' is not positive: it is E/(1 - nu^2) in plane strain')
-    else if (abs(exponent(e_star)) > LARGEST_EXPONENT_OF_2) then
+    if (abs(exponent(e_star)) > LARGEST_EXPONENT_OF_2) then
       call report(info, FUGE_ERR_OVERFLOW, 'e_star = '//text(e_star)//' is out of range: choose other units')
     else
       call check_cells(x, width, element, symmetric, info)
     end if
   end subroutine check_halfplane
 
+  !> Refuse an unknown element (FUGE_ERR_ELEMENT).
+  pure subroutine check_element(element, info)
+    integer, intent(in) :: element
+    type(fuge_info), intent(inout) :: info
+
+    if (all(element /= [FUGE_CENTRE, FUGE_MEAN, FUGE_HAT])) call report(info, FUGE_ERR_ELEMENT, 'element = ' &
+      //text(element)//' is unknown: use FUGE_CENTRE, FUGE_MEAN or FUGE_HAT')
+  end subroutine check_element
+
+  !> Refuse widths and centres out of range, and unequal widths where the element needs equal ones.
   pure subroutine check_cells(x, width, element, symmetric, info)
     real(dp), intent(in) :: x(:), width(:)
     integer, intent(in) :: element

@@ -1,34 +1,34 @@
-!> Elasticity of two bodies: one modulus for both, and each body's part of the displacement.
+!> Elasticity of two bodies: their combined modulus, and the share of each in the displacement.
 !>
 !> Two half-planes in frictionless contact deform like one of the combined modulus E*,
 !> 1/E* = 1/E1* + 1/E2*, against a rigid body (K. L. Johnson, Contact Mechanics, 1985,
-!> section 4.2). A rigid body has the modulus +infinity: ieee_value(1.0_dp,
+!> section 4.2). The modulus of a rigid body is +infinity: ieee_value(1.0_dp,
 !> ieee_positive_inf) in Fortran, INFINITY in C.
 module fuge_elastic_moduli
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, &
     FUGE_ERR_OVERFLOW
-  use fuge_number_text, only: text
   implicit none
   private
 
-  public :: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
+  public :: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, check_e_star
 
-  !> Plane strain (`state`): long bodies, no strain out of the plane.
+  !> Plane strain: bodies long across the plane, no strain out of the plane.
   integer, parameter, public :: FUGE_PLANE_STRAIN = 0
-  !> Plane stress (`state`): thin bodies, no stress out of the plane.
+  !> Plane stress: thin bodies, no stress out of the plane.
   integer, parameter, public :: FUGE_PLANE_STRESS = 1
 
 contains
 
-  !> The modulus of one body's surface, `modulus`: E/(1 - nu^2) in plane strain, E in
-  !> plane stress (Johnson, section 2.1).
+  !> The contact modulus of one body, `modulus`: E/(1 - nu^2) in plane strain, E in plane
+  !> stress (Johnson, section 2.1).
   !>
-  !> `young` force per length squared, +infinity for a rigid body; `poisson` in (-1, 0.5],
-  !> also in plane stress; `state` FUGE_PLANE_STRAIN or FUGE_PLANE_STRESS.
-  !> Errors, `modulus` untouched: FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION for `state`;
-  !> FUGE_ERR_MODULUS for `young` <= 0 and for `poisson`, because outside of its range the
+  !> `young` > 0 and `modulus` force per length squared, `young` +infinity for a rigid body;
+  !> `poisson` in (-1, 0.5], also in plane stress; `state` FUGE_PLANE_STRAIN or
+  !> FUGE_PLANE_STRESS. Errors, `modulus` untouched: FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION for
+  !> `state`; FUGE_ERR_MODULUS for `young` and for `poisson`, because outside its range the
   !> shear or the bulk modulus is not positive; FUGE_ERR_OVERFLOW.
   pure subroutine fuge_plane_modulus(young, poisson, state, modulus, info)
     real(dp), intent(in) :: young, poisson
@@ -61,26 +61,26 @@ contains
     type(fuge_info), intent(out) :: info
     real(dp) :: soft, stiff
 
-    call check_pair(e1, e2, info)
+    call check_moduli(e1, e2, info)
     if (info%failed()) return
     soft = min(e1, e2)
     stiff = max(e1, e2)
-    ! The quotient is at most 1, and 0 for a rigid body: nothing can overflow.
+    ! soft/stiff is at most 1, and 0 for a rigid body: no overflow.
     e_star = soft/(1.0_dp + soft/stiff)
   end subroutine fuge_combined_modulus
 
-  !> Parts of the displacement that bodies 1 and 2 take, u1 = `share1` u, u2 = `share2` u.
+  !> Shares of bodies 1 and 2 in the displacement: u1 = `share1` u, u2 = `share2` u.
   !>
-  !> `share1` = E*/E1* and `share2` = E*/E2*, without a unit, of sum 1; u is the
-  !> displacement alpha f with alpha for the combined modulus. Arguments and errors as for
-  !> `fuge_combined_modulus`; a rigid body has the share 0.
+  !> `share1` = E*/E1* and `share2` = E*/E2*, no unit, add up to 1; u = alpha f is the
+  !> displacement with alpha for the combined modulus. Arguments and errors as for
+  !> `fuge_combined_modulus`; the share of a rigid body is 0.
   pure subroutine fuge_displacement_shares(e1, e2, share1, share2, info)
     real(dp), intent(in) :: e1, e2
     real(dp), intent(inout) :: share1, share2
     type(fuge_info), intent(out) :: info
     real(dp) :: of_soft, of_stiff, ratio
 
-    call check_pair(e1, e2, info)
+    call check_moduli(e1, e2, info)
     if (info%failed()) return
     ratio = min(e1, e2)/max(e1, e2)
     of_soft = 1.0_dp/(1.0_dp + ratio)
@@ -95,7 +95,7 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: factor
 
-    ! As a product, because 1 - nu^2 cancels near nu = -1.
+    ! As a product, because 1 - nu^2 loses digits near nu = -1.
     factor = (1.0_dp - poisson)*(1.0_dp + poisson)
     if (ieee_is_finite(young) .and. young > huge(young)*min(factor, 1.0_dp)) then
       call report(info, FUGE_ERR_OVERFLOW, 'young = '//text(young)//' over 1 - nu^2 = '//text(factor) &
@@ -105,7 +105,21 @@ contains
     end if
   end subroutine divide_by_strain_factor
 
-  pure subroutine check_pair(e1, e2, info)
+  !> Refuse a combined modulus that is not finite (FUGE_ERR_NOT_FINITE) or not positive
+  !> (FUGE_ERR_MODULUS).
+  pure subroutine check_e_star(e_star, info)
+    real(dp), intent(in) :: e_star
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. ieee_is_finite(e_star)) then
+      call report(info, FUGE_ERR_NOT_FINITE, 'e_star = '//text(e_star)//' is not a finite number')
+    else if (.not. e_star > 0.0_dp) then
+      call report(info, FUGE_ERR_MODULUS, 'e_star = '//text(e_star) &
+                  //' is not positive: it is E/(1 - nu^2) in plane strain')
+    end if
+  end subroutine check_e_star
+
+  pure subroutine check_moduli(e1, e2, info)
     real(dp), intent(in) :: e1, e2
     type(fuge_info), intent(inout) :: info
 
@@ -114,9 +128,9 @@ contains
     if (info%failed()) return
     if (min(e1, e2) > huge(e1)) call report(info, FUGE_ERR_MODULUS, &
       'e1 and e2 are both infinite: one body at least must be elastic')
-  end subroutine check_pair
+  end subroutine check_moduli
 
-  !> Positive, maybe infinite. NaN is looked for first: comparing it may trap.
+  !> Refuse a modulus that is not positive. NaN comes first, because a comparison with it may trap.
   pure subroutine check_modulus(value, name, info)
     real(dp), intent(in) :: value
     character(len=*), intent(in) :: name

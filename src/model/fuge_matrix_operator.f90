@@ -1,46 +1,47 @@
-!> A dense influence matrix as an operator. The matrix stays the caller's: it is
-!> pointed to, never copied.
+!> A dense influence matrix as an operator. The matrix stays the caller's: the operator
+!> points to it and never copies it.
 module fuge_matrix_operator
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
     FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
-  use fuge_number_text, only: text
   implicit none
   private
 
   !> Largest asymmetry taken for rounding, relative to the range of the coefficients.
   real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
-  !> Side of the square tiles in which the matrix is compared with its transpose.
+  !> Rows and columns of the tiles in which the matrix is compared with its transpose.
   integer, parameter :: TILE = 64
 
   !> A symmetric influence matrix in full storage: `set` it, then solve.
   type, extends(fuge_operator), public :: fuge_dense_operator
-    !> Columns of the caller's matrix; rows beyond n are padding.
+    !> The caller's matrix; rows beyond n are padding.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
-    !> Coefficient nearest to zero, 0 if there are both signs: taken from a
-    !> coefficient it costs no digits.
-    real(dp), private :: constant = 0.0_dp
+    !> The coefficient nearest to zero, or 0 if there are both signs: subtracting it from the
+    !> coefficients costs no digits.
+    real(dp), private :: datum_value = 0.0_dp
   contains
     procedure :: set
     procedure :: points
     procedure :: apply
     procedure :: datum
-    procedure :: magnitude
+    procedure :: magnitude => dense_magnitude
   end type fuge_dense_operator
 
 contains
 
-  !> Take `alpha` as the influence matrix.
+  !> Point to `alpha` as the influence matrix.
   !>
   !> `alpha` is (n, n), or (lda, n) with lda > n where the first n rows count;
   !> length per force. It is not copied: declare it `target` and keep it
   !> unchanged as long as the operator lives.
   !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC,
-  !> FUGE_ERR_OVERFLOW; the operator is then as it was.
+  !> FUGE_ERR_OVERFLOW, FUGE_ERR_POINTER for a section that is not contiguous; they leave the
+  !> operator as it was.
   subroutine set(self, alpha, info)
     class(fuge_dense_operator), intent(inout) :: self
     real(dp), intent(in), target :: alpha(:, :)
@@ -52,10 +53,10 @@ contains
         //'array, whose first n rows count')
       return
     end if
-    call check_matrix(alpha, info, least, most)
+    call check_influence_matrix(alpha, info, least, most)
     if (info%failed()) return
-    self%constant = max(least, 0.0_dp) + min(most, 0.0_dp)
-    ! Through an address, because only `set` knows that alpha is contiguous.
+    self%datum_value = max(least, 0.0_dp) + min(most, 0.0_dp)
+    ! By its address, because the compiler does not know that alpha is contiguous.
     call c_f_pointer(c_loc(alpha(1, 1)), self%alpha, shape(alpha))
   end subroutine set
 
@@ -70,8 +71,8 @@ contains
 
   !> u = (A - datum) f: `force` (n), force; `displacement` (n), length; `status` is FUGE_DONE.
   !>
-  !> Column by column, not by BLAS: each coefficient loses the datum before it is
-  !> multiplied, and points without force cost nothing.
+  !> Column by column instead of by BLAS: the datum is subtracted from each coefficient before
+  !> it is multiplied, and points without force cost nothing.
   subroutine apply(self, force, displacement, status)
     class(fuge_dense_operator), intent(in) :: self
     real(dp), intent(in) :: force(:)
@@ -82,7 +83,7 @@ contains
     n = self%points()
     displacement = 0.0_dp
     do j = 1, n
-      if (abs(force(j)) > 0.0_dp) displacement = displacement + (self%alpha(:n, j) - self%constant)*force(j)
+      if (abs(force(j)) > 0.0_dp) displacement = displacement + (self%alpha(:n, j) - self%datum_value)*force(j)
     end do
     status = FUGE_DONE
   end subroutine apply
@@ -92,29 +93,29 @@ contains
     class(fuge_dense_operator), intent(in) :: self
     real(dp) :: datum
 
-    datum = self%constant
+    datum = self%datum_value
   end function datum
 
-  !> sum_j |A_ij - datum| |f_j| at each point, `length` (n); `force` (n).
-  subroutine magnitude(self, force, displacement, length)
+  !> `magnitude` (n), length: sum_j |A_ij - datum| |f_j| at each point, from `force` (n).
+  subroutine dense_magnitude(self, force, displacement, magnitude)
     class(fuge_dense_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
-    real(dp), intent(out) :: length(:)
+    real(dp), intent(out) :: magnitude(:)
     integer :: j, n
 
     n = size(displacement)
-    length = 0.0_dp
+    magnitude = 0.0_dp
     do j = 1, n
-      if (abs(force(j)) > 0.0_dp) length = length + abs((self%alpha(:n, j) - self%constant)*force(j))
+      if (abs(force(j)) > 0.0_dp) magnitude = magnitude + abs((self%alpha(:n, j) - self%datum_value)*force(j))
     end do
-  end subroutine magnitude
+  end subroutine dense_magnitude
 
-  !> Refuse a matrix that is not at least n by n, finite and symmetric; otherwise
-  !> tell its least and its largest coefficient.
+  !> Refuse a matrix with fewer rows than columns, one that is not finite or not symmetric;
+  !> `least` and `most` are its extreme coefficients.
   !>
   !> An asymmetry up to 1e-10 of the range of the coefficients passes as rounding.
   !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW.
-  pure subroutine check_matrix(alpha, info, least, most)
+  pure subroutine check_influence_matrix(alpha, info, least, most)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_info), intent(inout) :: info
     real(dp), intent(out) :: least, most
@@ -130,7 +131,7 @@ contains
       call report(info, FUGE_ERR_SIZE, 'alpha has '//text(size(alpha, 1))//' rows and '//text(n) &
         //' columns: its leading dimension must be at least n')
     else
-      call check_coefficients(alpha(:n, :), info)
+      call check_finite_coefficients(alpha(:n, :), info)
     end if
     if (info%failed()) return
     least = minval(alpha(:n, :))
@@ -146,9 +147,9 @@ contains
         //text(j)//','//text(i)//') differ by '//text(difference)//' (coefficients from '//text(least) &
         //' to '//text(most)//'): if that is rounding, pass (alpha + transpose(alpha))/2')
     end if
-  end subroutine check_matrix
+  end subroutine check_influence_matrix
 
-  pure subroutine check_coefficients(alpha, info)
+  pure subroutine check_finite_coefficients(alpha, info)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_info), intent(inout) :: info
     integer :: i, j
@@ -161,7 +162,7 @@ contains
         return
       end do
     end do
-  end subroutine check_coefficients
+  end subroutine check_finite_coefficients
 
   !> The largest difference |alpha(i,j) - alpha(j,i)| and where it is.
   pure subroutine find_asymmetry(alpha, row, column, difference)
@@ -173,7 +174,7 @@ contains
     row = 1
     column = 1
     difference = 0.0_dp
-    ! Square tiles: both a tile and its mirror stay in the cache.
+    ! By tiles, because a tile and its transpose both fit in the cache.
     do first_column = 1, size(alpha, 2), TILE
       do first_row = first_column, size(alpha, 2), TILE
         do j = first_column, min(first_column + TILE - 1, size(alpha, 2))

@@ -1,4 +1,4 @@
-!> Someone who watches a long solve and may end it.
+!> The progress monitor: it follows a long solve and may cancel it.
 module fuge_monitor_type
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_CANCELLED
@@ -7,7 +7,7 @@ module fuge_monitor_type
 
   public :: tell_monitor
 
-  !> Extend it; what the watcher needs to remember are components of the extension.
+  !> Extend it; components of the extension hold what the monitor needs to remember.
   type, abstract, public :: fuge_monitor
   contains
     procedure(report_progress), deferred :: progress
@@ -15,10 +15,10 @@ module fuge_monitor_type
 
   abstract interface
     !> Called once for each iteration. `iteration` grows from call to call of a solve;
-    !> `residual` >= 0, no unit, tells how far it still is: the part of the artificials
-    !> that is left for the tableau, the largest scaled violation for the others;
-    !> `contacts` is the number of points taken for touching. `cancel` .true. ends the
-    !> solve with FUGE_ERR_CANCELLED.
+    !> `residual` >= 0, no unit, is how far the solution still is: for the tableau the sum of
+    !> the artificial variables relative to its start, for the other engines the largest
+    !> scaled violation; `contacts` is the number of points in contact for now. `cancel`
+    !> .true. ends the solve with FUGE_ERR_CANCELLED.
     subroutine report_progress(self, iteration, residual, contacts, cancel)
       import :: fuge_monitor, dp
       class(fuge_monitor), intent(inout) :: self
@@ -28,31 +28,32 @@ module fuge_monitor_type
     end subroutine report_progress
   end interface
 
-  !> Hands on to the caller's monitor, or to nobody, so that engines need not ask whether
-  !> there is one; and goes on counting where one engine of a solve takes over from another.
+  !> Passes reports on to the caller's monitor if there is one, so that engines need not ask;
+  !> and goes on counting where one engine of a solve takes over from another.
   type, extends(fuge_monitor), public :: monitor_relay
+    !> The caller's monitor; null for none.
     class(fuge_monitor), pointer :: listener => null()
-    !> Iterations told so far.
-    integer :: told = 0
+    !> Number of the last iteration reported.
+    integer :: reported = 0
   contains
-    procedure :: progress => hand_on
+    procedure :: progress => relay_progress
   end type monitor_relay
 
 contains
 
-  subroutine hand_on(self, iteration, residual, contacts, cancel)
+  subroutine relay_progress(self, iteration, residual, contacts, cancel)
     class(monitor_relay), intent(inout) :: self
     integer, intent(in) :: iteration, contacts
     real(dp), intent(in) :: residual
     logical, intent(out) :: cancel
 
-    self%told = max(self%told + 1, iteration)
+    self%reported = max(self%reported + 1, iteration)
     cancel = .false.
-    if (associated(self%listener)) call self%listener%progress(self%told, residual, contacts, cancel)
-  end subroutine hand_on
+    if (associated(self%listener)) call self%listener%progress(self%reported, residual, contacts, cancel)
+  end subroutine relay_progress
 
-  !> What an engine calls in each iteration, arguments as for `progress`: `status` is
-  !> FUGE_DONE to go on or FUGE_ERR_CANCELLED.
+  !> Report one iteration of an engine; arguments as for `progress`. `status` is FUGE_DONE to
+  !> go on, or FUGE_ERR_CANCELLED.
   subroutine tell_monitor(monitor, iteration, residual, contacts, status)
     class(fuge_monitor), intent(inout) :: monitor
     integer, intent(in) :: iteration, contacts

@@ -1,12 +1,12 @@
-!> Products with an operator and with its preconditioner, counted and checked. All that need
-!> nothing but products make them here, so that a failure always ends in the same words.
+!> Products with an operator and with its preconditioner, counted and checked. The iterative
+!> engine and the certificate form theirs here, so that a failure has one message everywhere.
 module fuge_operator_products
   use fuge_input_checks, only: check_finite, is_finite_everywhere
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_OVERFLOW, &
     LOWEST_STATUS
-  use fuge_number_text, only: text
   implicit none
   private
 
@@ -14,12 +14,12 @@ module fuge_operator_products
 
 contains
 
-  !> displacement = (A - datum) force, one more in info%products.
+  !> u = (A - datum) f; adds 1 to info%products.
   !>
-  !> `force` (n), force; `displacement` (n), length. Errors, with the number of the product:
-  !> FUGE_ERR_CALLBACK where the operator fails or gives NaN or infinity, with the point;
-  !> FUGE_ERR_OVERFLOW where `force` itself is not finite; what the operator returned,
-  !> if it is an error of `fuge_status`.
+  !> `force` (n), force; `displacement` (n), length. The message has the number of the product.
+  !> Errors: FUGE_ERR_CALLBACK if the operator fails or returns NaN or infinity;
+  !> FUGE_ERR_OVERFLOW if `force` itself is not finite; the status that the operator returned
+  !> if that is an error of `fuge_status`.
   subroutine multiply(operator, force, displacement, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: force(:)
@@ -36,27 +36,28 @@ contains
     end if
   end subroutine multiply
 
-  !> force = M length by the preconditioner of the operator, which must have one; one more in
+  !> f = M u by the preconditioner of the operator, which must have one; adds 1 to
   !> info%preconditionings.
   !>
-  !> `length` (n), length; `force` (n), force. Errors as for `multiply`.
-  subroutine precondition(operator, length, force, info)
+  !> `displacement` (n), length; `force` (n), force. Errors as for `multiply`.
+  subroutine precondition(operator, displacement, force, info)
     class(fuge_operator), intent(in) :: operator
-    real(dp), intent(in) :: length(:)
+    real(dp), intent(in) :: displacement(:)
     real(dp), intent(out), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
     integer :: status
 
-    call operator%precondition(length, force, status)
+    call operator%precondition(displacement, force, status)
     info%preconditionings = info%preconditionings + 1
     if (status /= FUGE_DONE) then
       call report_status(status, 'preconditioner', info%preconditionings, info)
     else if (.not. is_finite_everywhere(force)) then
-      call report_not_finite(length, 'length', force, 'force', 'preconditioner', info%preconditionings, info)
+      call report_not_finite(displacement, 'displacement', force, 'force', 'preconditioner', info%preconditionings, &
+                             info)
     end if
   end subroutine precondition
 
-  !> An error of the library keeps its meaning; anything else is the operator's own.
+  !> An error of the library keeps its meaning; any other status is the operator's own.
   pure subroutine report_status(status, what, number, info)
     integer, intent(in) :: status, number
     character(len=*), intent(in) :: what
@@ -69,21 +70,21 @@ contains
     end if
   end subroutine report_status
 
-  !> The first value that is not finite, put down to what was given if that is not finite.
-  pure subroutine report_not_finite(given, given_name, made, made_name, what, number, info)
-    real(dp), intent(in) :: given(:), made(:)
-    character(len=*), intent(in) :: given_name, made_name, what
+  !> Name the first value that is not finite; the operator is to blame only if its input is finite.
+  pure subroutine report_not_finite(input, input_name, result, result_name, what, number, info)
+    real(dp), intent(in) :: input(:), result(:)
+    character(len=*), intent(in) :: input_name, result_name, what
     integer, intent(in) :: number
     type(fuge_info), intent(inout) :: info
-    type(fuge_info) :: found
+    type(fuge_info) :: check
 
-    call check_finite(given, given_name, found)
-    if (found%failed()) then
-      call report(info, FUGE_ERR_OVERFLOW, 'before '//what//' '//text(number)//' '//trim(found%message) &
+    call check_finite(input, input_name, check)
+    if (check%failed()) then
+      call report(info, FUGE_ERR_OVERFLOW, 'before '//what//' '//text(number)//', '//trim(check%message) &
                   //': choose units in which forces and lengths are nearer to 1')
     else
-      call check_finite(made, made_name, found)
-      call report(info, FUGE_ERR_CALLBACK, what//' '//text(number)//': '//trim(found%message) &
+      call check_finite(result, result_name, check)
+      call report(info, FUGE_ERR_CALLBACK, what//' '//text(number)//': '//trim(check%message) &
                   //': mend the operator''s callback')
     end if
   end subroutine report_not_finite

@@ -1,32 +1,32 @@
 !> The influence operator, abstract: displacements u = A f of the candidate points.
 !>
-!> Extend it to bring an operator of your own. A is symmetric and positive
-!> definite on the forces with zero resultant; u is positive into the body.
+!> Extend it for an operator of your own. A is symmetric and positive definite on the
+!> forces with zero resultant; u is positive into the body.
 module fuge_operator_type
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_SIZE
   implicit none
   private
 
-  !> Extend it: `points` and `apply` are needed, the others have defaults that do.
+  !> Extend it: `points` and `apply` are required, the other procedures have defaults.
   type, abstract, public :: fuge_operator
   contains
     !> Number of candidate points n; 0 while the operator is not set.
     procedure(count_points), deferred :: points
     !> u = (A - datum) f.
     procedure(multiply), deferred :: apply
-    !> A constant taken out of all of A in `apply`, 0 unless overridden: only v_0
-    !> sees it, and without it a large one costs the products their digits.
+    !> The constant that `apply` subtracts from all coefficients of A; 0 by default. It changes
+    !> v_0 only; left in A, a large constant costs the products their digits.
     procedure :: datum => no_datum
-    !> Lengths by which to judge errors of the displacements, see below.
+    !> The size of the terms of each displacement, by which its error is judged.
     procedure :: magnitude => largest_displacement
-    !> Is there a preconditioner? Without one the conjugate gradients run plain.
+    !> Is there a preconditioner? Without one the conjugate gradients are not preconditioned.
     procedure :: has_preconditioner => without_preconditioner
-    !> force = M length, M symmetric, positive definite and near the inverse of A.
-    procedure :: precondition => copy_through
-    !> Are the points cells side by side in the order of their numbers?
+    !> f = M u, with M symmetric, positive definite and close to the inverse of A.
+    procedure :: precondition => copy_displacement
+    !> Are the points equal cells side by side, numbered along the surface?
     procedure :: in_row => in_no_order
-    !> The same body on wider cells, for a first guess; none by default.
+    !> The same body on wider cells, for nested iteration; none by default.
     procedure :: coarsen => no_coarser
   end type fuge_operator
 
@@ -38,9 +38,10 @@ module fuge_operator_type
       integer :: n
     end function count_points
 
-    !> u = (A - datum) f: `force` (n), force; `displacement` (n), length; `status` is 0, or ends the solve:
-    !> an error of `fuge_status` with its meaning, any other as FUGE_ERR_CALLBACK with the
-    !> number in the message. NaN and infinity need no status, they are found.
+    !> u = (A - datum) f: `force` (n), force; `displacement` (n), length. A `status` other than 0
+    !> ends the solve: an error of `fuge_status` keeps its meaning, any other value becomes
+    !> FUGE_ERR_CALLBACK with the value in the message. NaN and infinity are detected and
+    !> need no status.
     subroutine multiply(self, force, displacement, status)
       import :: fuge_operator, dp
       class(fuge_operator), intent(in) :: self
@@ -52,7 +53,7 @@ module fuge_operator_type
 
 contains
 
-  !> False: there is no preconditioner unless an extension brings one.
+  !> False: there is no preconditioner unless an extension has one.
   function without_preconditioner(self) result(preconditioned)
     class(fuge_operator), intent(in) :: self
     logical :: preconditioned
@@ -60,18 +61,19 @@ contains
     preconditioned = self%points() < 0
   end function without_preconditioner
 
-  !> `length` (n); `force` (n); `status` as for `apply`. Called only where `has_preconditioner`.
-  subroutine copy_through(self, length, force, status)
+  !> f = M u: `displacement` (n), length; `force` (n), force; `status` as for `apply`. Called only
+  !> if `has_preconditioner` is true. The default is M = 1.
+  subroutine copy_displacement(self, displacement, force, status)
     class(fuge_operator), intent(in) :: self
-    real(dp), intent(in) :: length(:)
+    real(dp), intent(in) :: displacement(:)
     real(dp), intent(out) :: force(:)
     integer, intent(out) :: status
 
-    force = length
-    status = merge(FUGE_DONE, FUGE_ERR_SIZE, self%points() == size(length))
-  end subroutine copy_through
+    force = displacement
+    status = merge(FUGE_DONE, FUGE_ERR_SIZE, self%points() == size(displacement))
+  end subroutine copy_displacement
 
-  !> False: nothing is known of the places of the points.
+  !> False: the positions of the points are unknown.
   function in_no_order(self) result(in_row)
     class(fuge_operator), intent(in) :: self
     logical :: in_row
@@ -79,18 +81,18 @@ contains
     in_row = self%points() < 0
   end function in_no_order
 
-  !> `coarse` has n/2**doublings points, rounded up, each in the place of 2**doublings
-  !> consecutive ones of this operator (the last may stand for fewer), or stays
-  !> unallocated where there is no such operator. Only for points in a row.
-  subroutine no_coarser(self, doublings, coarse)
+  !> `coarse` has n/2**levels points, rounded up. Each replaces 2**levels consecutive points of
+  !> this operator, the last one maybe fewer. Unallocated if there is no such operator, as in
+  !> this default. Called only if `in_row` is true.
+  subroutine no_coarser(self, levels, coarse)
     class(fuge_operator), intent(in) :: self
-    integer, intent(in) :: doublings
+    integer, intent(in) :: levels
     class(fuge_operator), allocatable, intent(out) :: coarse
 
-    if (self%points() < 0 .and. doublings < 0) allocate (coarse, source=self)
+    if (self%points() < 0 .and. levels < 0) allocate (coarse, source=self)
   end subroutine no_coarser
 
-  !> 0: nothing is taken out.
+  !> 0: `apply` subtracts nothing.
   function no_datum(self) result(datum)
     class(fuge_operator), intent(in) :: self
     real(dp) :: datum
@@ -98,16 +100,16 @@ contains
     datum = 0.0_dp*real(self%points(), dp)
   end function no_datum
 
-  !> sum_j |A_ij - datum| |f_j| at each point, `length` (n): what the terms of a
-  !> displacement add up to before they cancel. `displacement` (n) is what `apply` made
-  !> of `force` (n); its largest value has to do where an operator does not override this.
-  subroutine largest_displacement(self, force, displacement, length)
+  !> `magnitude` (n), length: sum_j |A_ij - datum| |f_j| at each point, the size of the terms of
+  !> its displacement before they cancel. `displacement` (n) is what `apply` made of `force` (n);
+  !> this default takes the largest displacement for all points.
+  subroutine largest_displacement(self, force, displacement, magnitude)
     class(fuge_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
-    real(dp), intent(out) :: length(:)
+    real(dp), intent(out) :: magnitude(:)
 
-    length = 0.0_dp
-    if (self%points() == size(force)) length = maxval(abs(displacement))
+    magnitude = 0.0_dp
+    if (self%points() == size(force)) magnitude = maxval(abs(displacement))
   end subroutine largest_displacement
 
 end module fuge_operator_type

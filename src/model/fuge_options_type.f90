@@ -1,45 +1,45 @@
-!> Options of a solve. Every default stands here and nowhere else.
+!> Options of a solve. Every default is written here and nowhere else.
 module fuge_options_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_OPTION
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_OPTION
   implicit none
   private
 
   public :: check_options, iteration_limit
 
-  !> Iterations allowed for each row of the problem where max_iterations is 0.
+  !> Iterations allowed for each row of the problem if max_iterations is 0.
   integer, parameter, public :: ITERATIONS_PER_ROW = 50
 
   !> `method`: for a matrix the active set, or the tableau if the history is kept; for any
-  !> other operator the iteration.
+  !> other operator the iterative engine.
   integer, parameter, public :: FUGE_AUTO = 0
   !> `method`: the paper's tableau, Phase I of the simplex method.
   integer, parameter, public :: FUGE_TABLEAU = 1
-  !> `method`: block principal pivoting, the fast one for a matrix.
+  !> `method`: active sets by block principal pivoting, the fast method for a matrix.
   integer, parameter, public :: FUGE_ACTIVE_SET = 2
-  !> `method`: products only, the fast one for many points.
+  !> `method`: projected conjugate gradients, from products only; the fast method for many points.
   integer, parameter, public :: FUGE_ITERATIVE = 3
 
-  !> `pivot_rule` of the tableau: drive an artificial out, then lowest column number.
+  !> `pivot_rule` of the tableau: columns that drive an artificial out first, then the lowest number.
   integer, parameter, public :: FUGE_PAPER_RULE = 0
   !> `pivot_rule` of the tableau: most negative entry of the last row.
   integer, parameter, public :: FUGE_MOST_NEGATIVE = 1
   !> `pivot_rule` of the tableau: greatest decrease of the sum of artificials.
   integer, parameter, public :: FUGE_GREATEST_DECREASE = 2
 
-  !> How to solve; a new variable has the defaults.
+  !> How to solve. A new variable holds the defaults.
   type, public :: fuge_options
     !> Engine: FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET or FUGE_ITERATIVE.
     integer :: method = FUGE_AUTO
     !> Pricing of the tableau: FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE or FUGE_GREATEST_DECREASE.
     integer :: pivot_rule = FUGE_PAPER_RULE
-    !> Most pivots or contact sets tried; 0 allows ITERATIONS_PER_ROW for each row.
+    !> Most pivots or contact sets; 0 allows 50 for each row of the problem.
     integer :: max_iterations = 0
-    !> Keep basis and z of every pivot.
+    !> Keep the basis and the objective z of every pivot; tableau only.
     logical :: keep_history = .false.
-    !> Largest residual that counts as done; relative, no unit.
+    !> Largest residual without a warning; relative, no unit.
     real(dp) :: tolerance = 1.0e-10_dp
   end type fuge_options
 
@@ -65,7 +65,7 @@ contains
     end if
   end subroutine check_options
 
-  !> Most iterations for a problem with so many rows: those asked for, else in proportion to the rows.
+  !> Most iterations for a problem of `rows` rows: max_iterations, or in proportion to the rows if that is 0.
   pure function iteration_limit(options, rows) result(limit)
     type(fuge_options), intent(in) :: options
     integer, intent(in) :: rows
@@ -75,7 +75,7 @@ contains
     if (limit == 0) limit = int(min(real(ITERATIONS_PER_ROW, dp)*real(rows, dp), 1.0e9_dp))
   end function iteration_limit
 
-  !> Asked in this order, because comparing NaN may trap.
+  !> Finiteness comes first, because a comparison with NaN may trap.
   pure function is_between_0_and_1(value) result(between)
     real(dp), intent(in) :: value
     logical :: between

@@ -1,43 +1,48 @@
-!> The contact problem without its operator, and the check of its data.
+!> The contact problem without its operator, its solution, and the check of its data.
 !>
 !>     c = gap + A f - R q      R^T f = w
 !>     one-sided:  c >= 0, f >= 0, f c = 0
 !>     with play d:  0 <= c <= d;  f >= 0 where c = 0, f <= 0 where c = d, f = 0 between
 !>
-!> (paper, equations 9 to 11: R is the column of ones, q the approach v_0, w the load
-!> F_0). A play of zero ties a point: its gap stays zero, its force has either sign.
+!> These are Signorini's conditions: a linear complementarity problem, and for a symmetric
+!> positive definite A the KKT conditions of a convex quadratic program, whose multipliers are
+!> the gaps and the motions. In the paper's equations 9 to 11 R is the column of ones, q the
+!> approach v_0 and w the load F_0. A play of zero ties a point: its gap stays zero, its force
+!> has either sign.
 module fuge_problem_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP
-  use fuge_number_text, only: text
   implicit none
   private
 
   public :: set_problem, check_problem, check_load, check_play
 
-  !> The data beside the operator, in the operator's units. Components may be added:
-  !> set them by name; those not allocated have the meaning given.
+  !> The data of a contact problem except the operator, in the units of the operator. Set the
+  !> components by name: later versions may have more. What is not allocated has the default
+  !> that its comment gives.
   type, public :: fuge_problem
-    !> Initial gap a + b with the external load included, (n), length; any datum.
+    !> Initial gap g at each point, (n), length: the sum of both bodies' distances from a common
+    !> reference, displacements by external loads included. Its datum is free.
     real(dp), allocatable :: gap(:)
-    !> Play d >= 0 between the two stops, (n), length; infinity is one-sided, 0 ties the
-    !> point. Not allocated: one-sided everywhere.
+    !> Play d >= 0 between the lower and the upper stop, (n), length. Infinity: one-sided; 0: tied.
+    !> Not allocated: one-sided everywhere.
     real(dp), allocatable :: gap_upper(:)
-    !> Points that take no part, (n): no force, any gap. Not allocated: none.
+    !> Points excluded from contact, (n): no force, any gap. Not allocated: none.
     logical, allocatable :: excluded(:)
-    !> Rigid motions R, (n, m): how each moves the points apart (-) or together (+), per
-    !> unit of the motion. Not allocated: one translation, a column of ones.
+    !> Rigid modes R, (n, m), length per unit of the motion: how far each point closes (+) or
+    !> opens (-) with each mode. Not allocated: one translation, a column of ones.
     real(dp), allocatable :: modes(:, :)
-    !> Resultant w of the contact forces in each motion, (m), force, or force times the
-    !> unit of the mode; the load F_0 for the translation. Not read where prescribed.
+    !> Resultants w of the contact forces in the modes, (m), force times length per unit of the
+    !> motion: the load F_0 for a translation, a moment for a rotation. Not read where prescribed.
     real(dp), allocatable :: resultant(:)
-    !> Motions that are given instead of their resultants, (m). Not allocated: none.
+    !> Modes whose motion is prescribed instead of the resultant, (m). Not allocated: none.
     logical, allocatable :: prescribed(:)
-    !> The given motions, (m), read where prescribed.
+    !> Prescribed motions q, (m), length for a translation; read where prescribed.
     real(dp), allocatable :: motion(:)
   contains
     procedure :: points
@@ -45,19 +50,20 @@ module fuge_problem_type
     procedure :: is_plain
   end type fuge_problem
 
-  !> The answer, in the same units.
+  !> The solution of a contact problem, in the same units.
   type, public :: fuge_solution
-    !> Contact forces F, (n), force; negative only at the upper stop of a play and where tied.
+    !> Contact forces f, (n), force; negative only at the upper stop and at tied points.
     real(dp), allocatable :: force(:)
-    !> Gaps c, (n), length; negative only where excluded.
+    !> Gaps c under load, (n), length; negative only where excluded.
     real(dp), allocatable :: gap(:)
-    !> Rigid motions q, (m), length for m = 1: the approach v_0; prescribed ones included.
+    !> Motions q in the rigid modes, (m), prescribed ones included; for one translation the
+    !> approach v_0, length.
     real(dp), allocatable :: motion(:)
   end type fuge_solution
 
 contains
 
-  !> Number of points.
+  !> Number of points n; 0 without gaps.
   pure function points(self) result(n)
     class(fuge_problem), intent(in) :: self
     integer :: n
@@ -66,7 +72,7 @@ contains
     if (allocated(self%gap)) n = size(self%gap)
   end function points
 
-  !> Number m of rigid modes, prescribed ones included.
+  !> Number m of rigid modes, those with a prescribed motion included.
   pure function mode_count(self) result(m)
     class(fuge_problem), intent(in) :: self
     integer :: m
@@ -75,7 +81,7 @@ contains
     if (allocated(self%modes)) m = size(self%modes, 2)
   end function mode_count
 
-  !> The paper's problem: one free translation, one-sided, all points.
+  !> Is it the paper's problem? One free translation, one-sided contact at all points.
   pure function is_plain(self) result(plain)
     class(fuge_problem), intent(in) :: self
     logical :: plain
@@ -84,7 +90,7 @@ contains
     if (plain .and. allocated(self%prescribed)) plain = .not. any(self%prescribed)
   end function is_plain
 
-  !> A problem with one load. Error: FUGE_ERR_MEMORY.
+  !> The plain problem: `gap` (n), length, and one `load`, force. Error: FUGE_ERR_MEMORY.
   pure subroutine set_problem(gap, load, problem, info)
     real(dp), intent(in) :: gap(:), load
     type(fuge_problem), intent(out) :: problem
@@ -100,9 +106,10 @@ contains
     end if
   end subroutine set_problem
 
-  !> Refuse data that no engine can use: wrong sizes (FUGE_ERR_SIZE), NaN or
-  !> infinity (FUGE_ERR_NOT_FINITE), numbers near overflow (FUGE_ERR_OVERFLOW), a negative
-  !> play (FUGE_ERR_GAP), a load that pulls on a plain problem (FUGE_ERR_NO_EQUILIBRIUM).
+  !> Refuse data that no engine can use, for an operator of `n` points: wrong sizes
+  !> (FUGE_ERR_SIZE), NaN or infinity (FUGE_ERR_NOT_FINITE), numbers near overflow
+  !> (FUGE_ERR_OVERFLOW), a negative play (FUGE_ERR_GAP), a negative load of a plain problem
+  !> (FUGE_ERR_NO_EQUILIBRIUM).
   pure subroutine check_problem(problem, n, info)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
@@ -110,12 +117,12 @@ contains
 
     call check_length(problem%gap, n, 'gap', info)
     if (.not. info%failed()) call check_values(problem%gap, 'gap', info)
-    if (.not. info%failed()) call check_points(problem, n, info)
-    if (.not. info%failed()) call check_motions(problem, n, info)
+    if (.not. info%failed()) call check_stops(problem, n, info)
+    if (.not. info%failed()) call check_modes(problem, n, info)
   end subroutine check_problem
 
-  !> Play and exclusions.
-  pure subroutine check_points(problem, n, info)
+  !> Check play and exclusions.
+  pure subroutine check_stops(problem, n, info)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
     type(fuge_info), intent(inout) :: info
@@ -129,7 +136,7 @@ contains
       if (size(problem%excluded) /= n) call report(info, FUGE_ERR_SIZE, 'excluded has '//text(size(problem%excluded)) &
                                                    //' value(s): it needs '//text(n))
     end if
-  end subroutine check_points
+  end subroutine check_stops
 
   !> Refuse a play that is NaN (FUGE_ERR_NOT_FINITE) or negative (FUGE_ERR_GAP).
   pure subroutine check_play(gap_upper, info)
@@ -148,8 +155,8 @@ contains
     end do
   end subroutine check_play
 
-  !> Modes, resultants and prescribed motions.
-  pure subroutine check_motions(problem, n, info)
+  !> Check modes, resultants and prescribed motions.
+  pure subroutine check_modes(problem, n, info)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
     type(fuge_info), intent(inout) :: info
@@ -189,9 +196,9 @@ contains
     else
       call check_values(merge(problem%resultant, 0.0_dp, free), 'resultant', info)
     end if
-  end subroutine check_motions
+  end subroutine check_modes
 
-  !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE) or pulls
+  !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE) or negative
   !> (FUGE_ERR_NO_EQUILIBRIUM).
   pure subroutine check_load(load, info)
     real(dp), intent(in) :: load
@@ -205,7 +212,7 @@ contains
     end if
   end subroutine check_load
 
-  !> Finite, and far enough from overflow for sums.
+  !> Refuse values that are not finite, or too close to overflow to be summed.
   pure subroutine check_values(values, name, info)
     real(dp), intent(in) :: values(:)
     character(len=*), intent(in) :: name

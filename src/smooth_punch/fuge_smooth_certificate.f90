@@ -1,10 +1,10 @@
-!> The certificate of a smooth contact: how far pressure, approach and tilt are from the
-!> contact problem, by quadrature of the pressure as it is handed out.
+!> The certificate of a smooth contact: how far pressure, approach and tilt are from the contact
+!> problem, by quadrature of the pressure that is returned.
 !>
-!> Shares no formula with the search, which knows slopes only: displacements are integrals
-!> of the pressure times the logarithm of the distance, by the rule that takes this
-!> factor exactly (R. Kress, Linear Integral Equations, 1989, section 12.3), at points of
-!> its own, and they are held against the gap, not the slope.
+!> It shares no formula with the search, which uses slopes only. Displacements are integrals of
+!> the pressure times the logarithm of the distance, by a product rule that integrates this
+!> factor exactly (R. Kress, Linear Integral Equations, 1989, section 12.3), at points of its
+!> own, and are compared with the gap instead of the slope.
 module fuge_smooth_certificate
   use fuge_chebyshev, only: chebyshev_sum
   use fuge_constants, only: PI
@@ -17,24 +17,26 @@ module fuge_smooth_certificate
 
   public :: certify_contact
 
-  !> Places of the contact where the gap equation is formed, as angles over pi: x = centre
-  !> + half cos(angle). None is one of the points that series are made of.
+  !> Positions where the gap equation is evaluated, as angles over pi: x = centre +
+  !> half_width cos(angle). None of them is a node of a Chebyshev series.
   real(dp), parameter :: ANGLES(7) = [0.0317_dp, 0.1731_dp, 0.3259_dp, 0.4873_dp, 0.6689_dp, 0.8123_dp, 0.9641_dp]
-  !> Points of the rule beyond the number of coefficients.
+  !> Points of the quadrature rule beyond the number of coefficients.
   integer, parameter :: MORE_POINTS = 13
-  !> Roundings of the caller's own numbers that are not held against the answer.
+  !> Rounding errors of the caller's own numbers that do not count, in units of the last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
 
 contains
 
-  !> The largest of
-  !>   |gap + displacement - approach - tilt x| at places in the contact, relative to the
-  !>     height of the profile there over its lowest of these places and F/E*, less the
-  !>     rounding of gap, approach and x;
-  !>   the integral of the pressure less the force, relative to it, less the rounding of x;
-  !>   the integral of x times the pressure less the moment, relative to the force times
-  !>     the half width, less the rounding of x.
-  !> No unit. One call of the profile; `info` gets its errors.
+  !> The `residual`, no unit, is the largest of
+  !>
+  !> - |gap + displacement - approach - tilt x| at positions in the contact, relative to F/E* plus
+  !>   the height of the profile there above the lowest of these positions, less the rounding
+  !>   of gap, approach and x;
+  !> - the integral of the pressure less the force, relative to the force, less the rounding of x;
+  !> - the integral of x times the pressure less the moment, relative to the force times the half
+  !>   width, less the rounding of x.
+  !>
+  !> Calls the profile once. Errors: those of the profile.
   subroutine certify_contact(profile, contact, residual, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(fuge_smooth_contact), intent(in) :: contact
@@ -42,7 +44,7 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp), dimension(size(ANGLES)) :: x, gap, slope, error, height, rounding
     real(dp), dimension(size(contact%coefficients) + MORE_POINTS) :: t, force
-    real(dp) :: centre, unit, lever
+    real(dp) :: centre, compliance, arm
     integer :: k, n
 
     residual = 0.0_dp
@@ -55,32 +57,32 @@ contains
     t = [(cos(PI*(real(k, dp) - 0.5_dp)/real(n, dp)), k=1, n)]
     force = PI/real(n, dp)*contact%half_width*sqrt((1.0_dp - t)*(1.0_dp + t)) &
             *contact%pressure(centre + contact%half_width*t)
-    unit = 2.0_dp/(PI*contact%e_star)
+    compliance = 2.0_dp/(PI*contact%e_star)
     do k = 1, size(x)
       error(k) = gap(k) - contact%approach - contact%tilt*x(k) &
-                 - unit*log(contact%half_width/(2.0_dp*(profile%upper - profile%lower)))*contact%force &
-                 - unit*dot_product(log_distance(PI*ANGLES(k), t), force)
+                 - compliance*log(contact%half_width/(2.0_dp*(profile%upper - profile%lower)))*contact%force &
+                 - compliance*dot_product(log_distance(PI*ANGLES(k), t), force)
     end do
     height = abs((gap - minval(gap)) - contact%tilt*(x - x(minloc(gap, 1))))
     rounding = abs(gap) + abs(contact%approach) + (abs(contact%tilt) + abs(slope))*abs(x) &
-               + unit*contact%force*abs(centre)/contact%half_width
-    lever = sum(contact%half_width*t*(force/contact%force)) + centre - contact%moment/contact%force
-    residual = max(maxval(beyond(error, rounding)/(height + contact%force/contact%e_star)), &
-                   beyond(sum(force)/contact%force - 1.0_dp, abs(centre)/contact%half_width), &
-                   beyond(lever, abs(centre) + contact%half_width)/contact%half_width)
+               + compliance*contact%force*abs(centre)/contact%half_width
+    arm = sum(contact%half_width*t*(force/contact%force)) + centre - contact%moment/contact%force
+    residual = max(maxval(excess(error, rounding)/(height + contact%force/contact%e_star)), &
+                   excess(sum(force)/contact%force - 1.0_dp, abs(centre)/contact%half_width), &
+                   excess(arm, abs(centre) + contact%half_width)/contact%half_width)
     if (.not. residual <= huge(residual)) residual = huge(residual)
   end subroutine certify_contact
 
-  !> The size of an error less that of a rounding.
-  elemental function beyond(error, rounded) result(part)
+  !> |error| less the rounding of numbers of size `rounded`.
+  elemental function excess(error, rounded)
     real(dp), intent(in) :: error, rounded
-    real(dp) :: part
+    real(dp) :: excess
 
-    part = max(0.0_dp, abs(error) - ROUNDINGS*epsilon(error)*rounded)
-  end function beyond
+    excess = max(0.0_dp, abs(error) - ROUNDINGS*epsilon(error)*rounded)
+  end function excess
 
-  !> ln|cos(angle) - t| as far as the points t can tell: its Fourier series
-  !> -ln 2 - sum_m (2/m) cos(m angle) T_m(t), cut at their number.
+  !> ln|cos(angle) - t| to the degree that the points t resolve: its Chebyshev series
+  !> -ln 2 - sum_m (2/m) cos(m angle) T_m(t), truncated at their number.
   pure function log_distance(angle, t) result(logarithm)
     real(dp), intent(in) :: angle, t(:)
     real(dp) :: logarithm(size(t))

@@ -1,67 +1,68 @@
-!> Where the pressure that keeps an interval closed pushes.
+!> Parts of an interval in which the pressure that keeps the whole interval closed is compressive.
 module fuge_smooth_exclusion
   use fuge_chebyshev, only: chebyshev_points, chebyshev_values
   use fuge_kinds, only: dp
-  use fuge_smooth_newton, only: pressing
+  use fuge_smooth_newton, only: load_case
   use fuge_smooth_slope_series, only: slope_series
   implicit none
   private
 
-  public :: pushing_parts
+  public :: compressive_parts
 
-  !> Points for each coefficient.
-  integer, parameter :: DENSITY = 4
+  !> Points at which the pressure is sampled, for each coefficient.
+  integer, parameter :: RESAMPLING = 4
 
 contains
 
-  !> The stretches in which the pressure that keeps the whole interval, with these
-  !> `ends`, pushes, wider by a point of the sampling.
-  pure function pushing_parts(series, task, ends) result(stretches)
+  !> The compressive parts of the interval with these `ends`, (2, number of parts), length: left and
+  !> right end of each, from left to right, each part extended by one sampling point.
+  pure function compressive_parts(series, load, ends) result(parts)
     type(slope_series), intent(in) :: series
-    type(pressing), intent(in) :: task
+    type(load_case), intent(in) :: load
     real(dp), intent(in) :: ends(2)
-    real(dp), allocatable :: stretches(:, :)
-    real(dp), allocatable :: x(:), push(:)
-    logical, allocatable :: pushes(:)
-    integer :: n, k, found
+    real(dp), allocatable :: parts(:, :)
+    real(dp), allocatable :: x(:), pressure(:)
+    logical, allocatable :: compressive(:)
+    integer :: n, k, current
 
     n = 64
-    do while (n < DENSITY*size(series%a))
+    do while (n < RESAMPLING*size(series%coefficients))
       n = 2*n
     end do
-    allocate (x(0:n), push(0:n), pushes(-1:n + 1))
-    x = series%interval%anchor + (series%interval%offset + series%interval%half*chebyshev_points(n))
+    allocate (x(0:n), pressure(0:n), compressive(-1:n + 1))
+    x = series%interval%anchor + (series%interval%offset + series%interval%half_width*chebyshev_points(n))
     x(0) = ends(2)
     x(n) = ends(1)
-    push = chebyshev_values(closed_pressure(series, task), n)
-    pushes = .false.
-    pushes(0:n) = push > 0.0_dp
-    allocate (stretches(2, count(pushes(0:n) .and. .not. pushes(-1:n - 1))))
-    found = size(stretches, 2) + 1
+    pressure = chebyshev_values(closing_pressure(series, load), n)
+    compressive = .false.
+    compressive(0:n) = pressure > 0.0_dp
+    allocate (parts(2, count(compressive(0:n) .and. .not. compressive(-1:n - 1))))
+    current = size(parts, 2) + 1
     do k = 0, n
-      if (.not. pushes(k)) cycle
-      ! x falls from point to point.
-      if (.not. pushes(k - 1)) then
-        found = found - 1
-        stretches(2, found) = x(max(0, k - 1))
+      if (.not. compressive(k)) cycle
+      ! x decreases from point to point.
+      if (.not. compressive(k - 1)) then
+        current = current - 1
+        parts(2, current) = x(max(0, k - 1))
       end if
-      if (.not. pushes(k + 1)) stretches(1, found) = x(min(n, k + 1))
+      if (.not. compressive(k + 1)) parts(1, current) = x(min(n, k + 1))
     end do
-  end function pushing_parts
+  end function compressive_parts
 
-  !> p/E* times sqrt(1 - t**2), in T_k, for the force and no tilt: b_0 carries the force, and
-  !> -4 b_(k+1) = a_k - a_(k+2), twice a_0 for k = 0.
-  pure function closed_pressure(series, task) result(b)
+  !> Coefficients b_k in T_k of p/E* times sqrt(1 - t**2), for the pressure p that closes the interval
+  !> under the force without tilt: b_0 carries the force, and -4 b_(k+1) = a_k - a_(k+2) with the
+  !> coefficients of the slope, a_0 doubled.
+  pure function closing_pressure(series, load) result(b)
     type(slope_series), intent(in) :: series
-    type(pressing), intent(in) :: task
-    real(dp) :: b(0:size(series%a))
-    real(dp) :: a(0:size(series%a) + 1)
+    type(load_case), intent(in) :: load
+    real(dp) :: b(0:size(series%coefficients))
+    real(dp) :: a(0:size(series%coefficients) + 1)
 
     a = 0.0_dp
-    a(:size(series%a) - 1) = series%a
+    a(:size(series%coefficients) - 1) = series%coefficients
     a(0) = 2.0_dp*a(0)
-    b(0) = 0.25_dp*task%load/series%interval%half
-    b(1:) = -0.25_dp*(a(:size(series%a) - 1) - a(2:))
-  end function closed_pressure
+    b(0) = 0.25_dp*load%reduced_force/series%interval%half_width
+    b(1:) = -0.25_dp*(a(:size(series%coefficients) - 1) - a(2:))
+  end function closing_pressure
 
 end module fuge_smooth_exclusion

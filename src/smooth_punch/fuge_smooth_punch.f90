@@ -1,22 +1,25 @@
-!> Smooth punches on an elastic half-plane, to rounding with a few dozen coefficients.
+!> Smooth punches on an elastic half-plane, accurate to rounding with a few dozen coefficients.
 !>
-!> The ends of the contact are unknowns of their own, and the pressure is a Chebyshev
-!> series times the square root of the distances from both: for a smooth profile the error
-!> falls faster than any power of the number of coefficients. See doc/theory.md, "Smooth punches".
+!> The ends of the contact are unknowns of their own, and the pressure is a Chebyshev series
+!> times the square root of the distances from both ends. For a smooth profile this is a spectral
+!> method: the error decreases faster than any power of the number of coefficients. See
+!> doc/theory.md, "Smooth punches".
 module fuge_smooth_punch
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_4
+  use fuge_elastic_moduli, only: check_e_star
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_options_type, only: fuge_options
   use fuge_smooth_certificate, only: certify_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
-  use fuge_smooth_newton, only: pressing
+  use fuge_smooth_newton, only: load_case
   use fuge_smooth_profile_type, only: fuge_smooth_profile
-  use fuge_smooth_samples, only: lowest_place
-  use fuge_smooth_search, only: find_interval, interval_search, FOUND, PULLS, OVERLAPS, AT_END
-  use fuge_status, only: fuge_info, report, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_NO_EQUILIBRIUM, &
-    FUGE_ERR_OVERFLOW, FUGE_ERR_UNSUPPORTED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
-  use fuge_number_text, only: text
+  use fuge_smooth_samples, only: lowest_position
+  use fuge_smooth_search, only: find_contact_interval, interval_search, INTERVAL_FOUND, INTERVAL_IN_TENSION, &
+    INTERVAL_PENETRATED, INTERVAL_AT_END
+  use fuge_status, only: fuge_info, report, FUGE_ERR_WIDTH, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
+    FUGE_ERR_UNSUPPORTED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
   implicit none
   private
 
@@ -28,36 +31,22 @@ module fuge_smooth_punch
 
 contains
 
-  pure function between_length(ends) result(length)
-    real(dp), intent(in) :: ends(2)
-    integer :: length
-
-    length = len(text(ends(1))) + len(' .. ') + len(text(ends(2)))
-  end function between_length
-
-  pure function between(ends) result(words)
-    real(dp), intent(in) :: ends(2)
-    character(len=between_length(ends)) :: words
-
-    words = text(ends(1))//' .. '//text(ends(2))
-  end function between
-
   !> Press a smooth punch into a half-plane under a force.
   !>
   !> `profile`: its initial gap; `e_star` > 0 as in `fuge_halfplane_matrix`, force per
-  !> length squared; `force` >= 0 per depth; out: `contact`. With `moment`, the force times
-  !> its distance from x = 0, the punch may tilt as well; without, it only sinks. No force: it
-  !> touches at its lowest place (any tilt will do: FUGE_WARN_NOT_UNIQUE if it may tilt).
+  !> length squared; `force` >= 0 per unit depth; out: `contact`. With `moment`, the force times
+  !> its distance from x = 0, the punch may tilt as well; without it the tilt is 0. With zero force
+  !> the punch touches at its lowest point; if it may tilt, FUGE_WARN_NOT_UNIQUE.
   !>
-  !> The contact is one interval within the profile: the answer is checked to push
-  !> everywhere and to overlap nowhere, up to samples at a 512th of the profile.
-  !> info%iterations counts the series formed, info%residual is the certificate, from
-  !> quadratures of the pressure. FUGE_WARN_RESIDUAL: it or the estimated error are above the
-  !> default tolerance of `fuge_options`, as for a profile that is not smooth.
+  !> The contact is one interval within the profile. The solution is checked for tension and
+  !> penetration, with samples at every 512th of the profile. info%iterations counts the series
+  !> formed; info%residual is the certificate, from quadratures of the pressure.
+  !> FUGE_WARN_RESIDUAL: the residual or the estimated error is above the default tolerance of
+  !> `fuge_options`, as for a profile that is not smooth.
   !> Errors, `contact` untouched: FUGE_ERR_UNSUPPORTED if the contact is not one interval or
-  !> reaches an end of the profile, where the message says who can; FUGE_ERR_NOT_FINITE,
+  !> reaches an end of the profile, with a message that names another engine; FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_WIDTH unless lower < upper, FUGE_ERR_MODULUS,
-  !> FUGE_ERR_NO_EQUILIBRIUM for force < 0 or a resultant beside the profile,
+  !> FUGE_ERR_NO_EQUILIBRIUM for force < 0 or a line of action outside of the profile,
   !> FUGE_ERR_CALLBACK for a profile that fails.
   subroutine fuge_solve_smooth_punch(profile, e_star, force, contact, info, moment)
     class(fuge_smooth_profile), intent(in) :: profile
@@ -66,95 +55,96 @@ contains
     type(fuge_info), intent(out) :: info
     real(dp), intent(in), optional :: moment
     type(interval_search) :: search
-    type(pressing) :: task
-    real(dp) :: place, gap
+    type(load_case) :: load
+    real(dp) :: position, gap
 
-    task%tilts = present(moment)
-    call check_numbers(profile, e_star, force, info)
-    if (.not. info%failed() .and. task%tilts) call check_moment(profile, force, moment, task%line, info)
+    load%free_tilt = present(moment)
+    call check_data(profile, e_star, force, info)
+    if (.not. info%failed() .and. load%free_tilt) call check_moment(profile, force, moment, load%line_of_action, info)
     if (info%failed()) return
-    place = task%line
-    if (.not. task%tilts .or. .not. force > 0.0_dp) call lowest_place(profile, place, gap, info)
+    position = load%line_of_action
+    if (.not. load%free_tilt .or. .not. force > 0.0_dp) call lowest_position(profile, position, gap, info)
     if (info%failed()) return
     if (.not. force > 0.0_dp) then
-      contact = touching(place, gap, e_star)
-      if (task%tilts) call report(info, FUGE_WARN_NOT_UNIQUE, &
-                                  'without a force nothing holds the tilt: it is left at 0, others are possible')
+      contact = point_contact(position, gap, e_star)
+      if (load%free_tilt) call report(info, FUGE_WARN_NOT_UNIQUE, &
+                                      'without a force nothing resists a tilt: it is returned as 0, others are possible')
       return
     end if
 
-    task%load = 4.0_dp/PI*(force/e_star)
-    call find_interval(profile, e_star, task, place, search, info)
+    load%reduced_force = 4.0_dp/PI*(force/e_star)
+    call find_contact_interval(profile, e_star, load, position, search, info)
     info%iterations = search%steps
     if (info%failed()) return
-    if (search%outcome /= FOUND) then
-      call refuse(profile, search, task%tilts, info)
+    if (search%outcome /= INTERVAL_FOUND) then
+      call report_outcome(profile, search, load%free_tilt, info)
       return
     end if
     search%contact%force = force
-    if (task%tilts) search%contact%moment = moment
-    call judge(profile, search, info)
+    if (load%free_tilt) search%contact%moment = moment
+    call certify_search(profile, search, info)
     if (.not. info%failed()) contact = search%contact
   end subroutine fuge_solve_smooth_punch
 
-  subroutine check_numbers(profile, e_star, force, info)
+  !> Refuse numbers that no engine can use, and a negative force.
+  subroutine check_data(profile, e_star, force, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star, force
     type(fuge_info), intent(inout) :: info
 
     call check_finite([profile%lower], 'profile%lower', info)
     if (.not. info%failed()) call check_finite([profile%upper], 'profile%upper', info)
-    if (.not. info%failed()) call check_finite([e_star], 'e_star', info)
+    if (.not. info%failed()) call check_e_star(e_star, info)
     if (.not. info%failed()) call check_finite([force], 'force', info)
     if (info%failed()) return
     if (.not. profile%lower < profile%upper) then
       call report(info, FUGE_ERR_WIDTH, 'the profile goes from lower = '//text(profile%lower)//' to upper = ' &
                   //text(profile%upper)//': lower has to be less')
-    else if (.not. e_star > 0.0_dp) then
-      call report(info, FUGE_ERR_MODULUS, 'e_star = '//text(e_star) &
-                  //' is not positive: it is E/(1 - nu^2) in plane strain')
     else if (force < 0.0_dp) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'force = '//text(force)//' is negative: contact can only push')
     else if (any(abs(exponent([e_star, force, profile%upper - profile%lower])) > LARGEST_EXPONENT_OF_4) &
              .or. exponent(max(abs(profile%lower), abs(profile%upper))) > LARGEST_EXPONENT_OF_4) then
       call report(info, FUGE_ERR_OVERFLOW, 'e_star = '//text(e_star)//', force = '//text(force) &
-                  //' or the profile''s place is out of range: choose other units')
+                  //' or the position of the profile is out of range: choose other units')
     end if
-  end subroutine check_numbers
+  end subroutine check_data
 
-  !> `line`: where the force acts.
-  subroutine check_moment(profile, force, moment, line, info)
+  !> Refuse a moment without force, and a `line_of_action` outside of the profile, which is moment/force.
+  subroutine check_moment(profile, force, moment, line_of_action, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: force, moment
-    real(dp), intent(inout) :: line
+    real(dp), intent(inout) :: line_of_action
     type(fuge_info), intent(inout) :: info
 
     call check_finite([moment], 'moment', info)
     if (info%failed()) return
     if (force > 0.0_dp) then
-      if (exponent(moment) - exponent(force) < maxexponent(moment) - 2) line = moment/force
-      if (exponent(moment) - exponent(force) >= maxexponent(moment) - 2) line = sign(huge(line), moment)
-      if (line > profile%lower .and. line < profile%upper) return
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the force acts at moment/force = '//text(line) &
+      if (exponent(moment) - exponent(force) < maxexponent(moment) - 2) then
+        line_of_action = moment/force
+      else
+        line_of_action = sign(huge(line_of_action), moment)
+      end if
+      if (line_of_action > profile%lower .and. line_of_action < profile%upper) return
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the force acts at moment/force = '//text(line_of_action) &
                   //', not between the ends of the profile, '//text(profile%lower)//' and '//text(profile%upper))
     else if (abs(moment) > 0.0_dp) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'moment = '//text(moment)//' without a force: contact can only push')
     end if
   end subroutine check_moment
 
-  !> Contact without a force.
-  pure function touching(place, gap, e_star) result(contact)
-    real(dp), intent(in) :: place, gap, e_star
+  !> The contact without force: one point.
+  pure function point_contact(position, gap, e_star) result(contact)
+    real(dp), intent(in) :: position, gap, e_star
     type(fuge_smooth_contact) :: contact
 
-    contact%ends = place
+    contact%ends = position
     contact%end_gaps = gap
     contact%approach = gap
     contact%e_star = e_star
-  end function touching
+  end function point_contact
 
-  !> Certificate and warnings.
-  subroutine judge(profile, search, info)
+  !> Certify the contact found; warn of a large residual or estimated error.
+  subroutine certify_search(profile, search, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(interval_search), intent(in) :: search
     type(fuge_info), intent(inout) :: info
@@ -163,7 +153,7 @@ contains
     call certify_contact(profile, search%contact, info%residual, info)
     if (info%failed()) return
     worst = max(search%contact%end_error, search%contact%pressure_error)
-    info%residual = max(info%residual, search%violation%pull, search%violation%overlap)
+    info%residual = max(info%residual, search%violation%tension, search%violation%penetration)
     if (info%residual > DEFAULTS%tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'the residual is '//text(info%residual)//', the estimated error ' &
                   //text(worst)//': the profile is not smooth in the contact, or its slope is not that of its gap')
@@ -171,35 +161,50 @@ contains
       call report(info, FUGE_WARN_RESIDUAL, 'the estimated error is '//text(worst) &
                   //': the profile is not smooth in the contact')
     end if
-  end subroutine judge
+  end subroutine certify_search
 
-  !> Who can solve it, and what is wrong here.
-  subroutine refuse(profile, search, tilts, info)
+  !> Refuse: report why there is no single interval, and which engine to use.
+  subroutine report_outcome(profile, search, free_tilt, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(interval_search), intent(in) :: search
-    logical, intent(in) :: tilts
+    logical, intent(in) :: free_tilt
     type(fuge_info), intent(inout) :: info
     character(len=:), allocatable :: reason
 
     select case (search%outcome)
-    case (AT_END)
+    case (INTERVAL_AT_END)
       reason = 'the contact reaches the end of the profile, x = ' &
-               //text(merge(profile%lower, profile%upper, search%refused(1) <= profile%lower)) &
+               //text(merge(profile%lower, profile%upper, search%refused_ends(1) <= profile%lower)) &
                //', a corner if the punch ends there'
-    case (PULLS)
-      reason = 'the contact is not one interval: in '//between(search%refused)//' pressure would pull at x = ' &
-               //text(search%violation%pull_place)
-    case (OVERLAPS)
-      reason = 'the contact is not one interval: beside '//between(search%refused) &
-               //' the bodies would overlap at x = '//text(search%violation%overlap_place)
+    case (INTERVAL_IN_TENSION)
+      reason = 'the contact is not one interval: in '//interval_text(search%refused_ends) &
+               //' the pressure would be tensile at x = '//text(search%violation%tension_position)
+    case (INTERVAL_PENETRATED)
+      reason = 'the contact is not one interval: outside of '//interval_text(search%refused_ends) &
+               //' the punch would penetrate at x = '//text(search%violation%penetration_position)
     case default
       reason = 'no contact in one interval between the ends of the profile was found'
     end select
-    if (tilts) then
+    if (free_tilt) then
       call report(info, FUGE_ERR_UNSUPPORTED, reason//': use a dense half-plane matrix with the active set')
     else
       call report(info, FUGE_ERR_UNSUPPORTED, reason//OTHER_ENGINES)
     end if
-  end subroutine refuse
+  end subroutine report_outcome
+
+  pure function interval_text_length(ends) result(length)
+    real(dp), intent(in) :: ends(2)
+    integer :: length
+
+    length = len(text(ends(1))) + len(' .. ') + len(text(ends(2)))
+  end function interval_text_length
+
+  !> An interval as text, from its ends.
+  pure function interval_text(ends) result(string)
+    real(dp), intent(in) :: ends(2)
+    character(len=interval_text_length(ends)) :: string
+
+    string = text(ends(1))//' .. '//text(ends(2))
+  end function interval_text
 
 end module fuge_smooth_punch

@@ -1,4 +1,4 @@
-!> The whole profile of a smooth punch at sample points, and its lowest places.
+!> Sampling positions along the profile of a smooth punch, and its lowest point.
 module fuge_smooth_samples
   use fuge_kinds, only: dp
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
@@ -6,18 +6,18 @@ module fuge_smooth_samples
   implicit none
   private
 
-  public :: lowest_place, sample_places, near_places
+  public :: lowest_position, sample_positions, graded_distances
 
-  !> Equal steps from end to end: what is narrower may be overlooked.
+  !> Equal steps from end to end of a profile. Narrower details may be overlooked.
   integer, parameter, public :: STEPS = 512
-  !> Places beside an end of the contact: from this part of its half width, each farther
-  !> away by this factor.
-  real(dp), parameter :: NEAREST = 1.0e-2_dp, FACTOR = 1.15_dp
+  !> Sampling beside an end of the contact: distance of the first position in half widths, and the ratio
+  !> of each distance to the one before.
+  real(dp), parameter :: NEAREST = 1.0e-2_dp, GROWTH = 1.15_dp
 
 contains
 
-  !> STEPS + 1 places from lower to upper.
-  pure function sample_places(profile) result(x)
+  !> STEPS + 1 equidistant positions from lower to upper; length.
+  pure function sample_positions(profile) result(x)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp) :: x(0:STEPS)
     integer :: k
@@ -26,65 +26,66 @@ contains
       x(k) = profile%lower + (profile%upper - profile%lower)*(real(k, dp)/real(STEPS, dp))
     end do
     x(STEPS) = profile%upper
-  end function sample_places
+  end function sample_positions
 
-  !> Distances from an end of the contact, growing, up to `farthest`.
-  pure function near_places(half, farthest) result(distance)
-    real(dp), intent(in) :: half, farthest
-    real(dp), allocatable :: distance(:)
+  !> Sampling distances from an end of the contact, growing geometrically up to `farthest`; length.
+  pure function graded_distances(half_width, farthest) result(distances)
+    real(dp), intent(in) :: half_width, farthest
+    real(dp), allocatable :: distances(:)
     real(dp) :: ratio
-    integer :: k, places
+    integer :: k, number
 
-    ratio = farthest/(NEAREST*half)
-    places = 0
-    if (ratio > 1.0_dp) places = int(log(ratio)/log(FACTOR)) + 1
-    allocate (distance(places))
-    do k = 1, places
-      distance(k) = min(farthest, NEAREST*half*FACTOR**(k - 1))
+    ratio = farthest/(NEAREST*half_width)
+    number = 0
+    if (ratio > 1.0_dp) number = int(log(ratio)/log(GROWTH)) + 1
+    allocate (distances(number))
+    do k = 1, number
+      distances(k) = min(farthest, NEAREST*half_width*GROWTH**(k - 1))
     end do
-  end function near_places
+  end function graded_distances
 
-  !> The place of the smallest gap: the best sample, then the zero of the slope beside it.
-  subroutine lowest_place(profile, place, gap, info)
+  !> The position of the smallest gap, and that gap: the best sample, then the zero of the slope beside it.
+  !> Errors: those of the profile.
+  subroutine lowest_position(profile, position, gap, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    real(dp), intent(out) :: place, gap
+    real(dp), intent(out) :: position, gap
     type(fuge_info), intent(inout) :: info
     real(dp) :: x(0:STEPS), gaps(0:STEPS), slopes(0:STEPS)
     integer :: k
 
-    place = 0.0_dp
+    position = 0.0_dp
     gap = 0.0_dp
-    x = sample_places(profile)
+    x = sample_positions(profile)
     call sample_profile(profile, x, gaps, slopes, info)
     if (info%failed()) return
     k = minloc(gaps, 1) - 1
-    place = x(k)
+    position = x(k)
     gap = gaps(k)
     if (slopes(k) > 0.0_dp .and. k > 0) then
-      call halve(profile, x(k - 1), x(k), place, gap, info)
+      call bisect_slope(profile, x(k - 1), x(k), position, gap, info)
     else if (slopes(k) < 0.0_dp .and. k < STEPS) then
-      call halve(profile, x(k), x(k + 1), place, gap, info)
+      call bisect_slope(profile, x(k), x(k + 1), position, gap, info)
     end if
-  end subroutine lowest_place
+  end subroutine lowest_position
 
-  !> Where the slope changes its sign between two places; the better one of that and `place`.
-  subroutine halve(profile, left, right, place, gap, info)
+  !> Bisect for the change of sign of the slope between two positions; `position` is the lowest point met.
+  subroutine bisect_slope(profile, left, right, position, gap, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: left, right
-    real(dp), intent(inout) :: place, gap
+    real(dp), intent(inout) :: position, gap
     type(fuge_info), intent(inout) :: info
-    real(dp) :: low, high, middle(1), gap_there(1), slope(1)
+    real(dp) :: low, high, middle(1), middle_gap(1), slope(1)
 
     low = left
     high = right
     do
       middle = low + 0.5_dp*(high - low)
       if (.not. (middle(1) > low .and. middle(1) < high)) exit
-      call sample_profile(profile, middle, gap_there, slope, info)
+      call sample_profile(profile, middle, middle_gap, slope, info)
       if (info%failed()) return
-      if (gap_there(1) <= gap) then
-        gap = gap_there(1)
-        place = middle(1)
+      if (middle_gap(1) <= gap) then
+        gap = middle_gap(1)
+        position = middle(1)
       end if
       if (slope(1) > 0.0_dp) then
         high = middle(1)
@@ -92,6 +93,6 @@ contains
         low = middle(1)
       end if
     end do
-  end subroutine halve
+  end subroutine bisect_slope
 
 end module fuge_smooth_samples

@@ -1,288 +1,294 @@
 !> The search for the one interval in which a smooth punch touches.
 !>
-!> First from a guess: where the profile is lower than its lowest place plus 2 F/(pi E*),
-!> which is the contact of a parabola. Newton's method goes on from there.
+!> Newton's method starts from a guess: where the profile is lower than its lowest point plus
+!> 2 F/(pi E*), which is the contact of a parabola.
 !>
-!> If that does not end at an answer and the tilt is given, by exclusion. Let S hold the
-!> contact, and p_S be the pressure that keeps S closed under the force, pulling where it
-!> must. The inverse of the influence operator on S has no positive coefficients but on its
-!> diagonal, so that p_S is at least the pressure of the answer wherever this touches: what
-!> pulls is not in contact (R. Chandrasekaran, Opsearch 7, 1970, for matrices). So S, at first
-!> the whole profile, shrinks to where p_S pushes, until Newton's method takes over; where
-!> it falls into parts one of them holds the contact, if this is one interval. Then each
-!> part is tried. With a free tilt there is no such order: then from many guesses.
+!> If that does not lead to the solution and the tilt is 0, the search goes on by exclusion. Let S
+!> contain the contact, and let p_S be the pressure that keeps S closed under the force, tensile
+!> where it must be. The inverse of the influence operator on S has no positive coefficients off
+!> its diagonal, so that p_S is at least the pressure of the solution wherever that touches:
+!> where p_S is tensile there is no contact (R. Chandrasekaran, Opsearch 7, 1970, for matrices).
+!> So S, at first the whole profile, shrinks to where p_S is compressive, until Newton's method
+!> converges. If S falls into parts, one of them contains the contact, provided that this is one
+!> interval; then each part is tried. With a free tilt there is no such monotonicity, and Newton's
+!> method starts from many intervals around the line of action.
 module fuge_smooth_search
   use fuge_kinds, only: dp
-  use fuge_smooth_assembly, only: make_contact
+  use fuge_smooth_admissibility, only: check_admissibility, sign_violation
+  use fuge_smooth_assembly, only: assemble_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
-  use fuge_smooth_newton, only: find_ends, pressing, DEGREES
-  use fuge_smooth_exclusion, only: pushing_parts
+  use fuge_smooth_exclusion, only: compressive_parts
+  use fuge_smooth_newton, only: find_ends, load_case, MAX_DEGREE
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
-  use fuge_smooth_samples, only: sample_places
-  use fuge_smooth_admissibility, only: check_signs, sign_violation
-  use fuge_smooth_slope_series, only: compare_slope, expand_slope, place_interval, slope_series, FIRST_DEGREE
+  use fuge_smooth_samples, only: sample_positions
+  use fuge_smooth_slope_series, only: anchored_interval, expand_slope, measure_series_error, slope_series, FIRST_DEGREE
   use fuge_status, only: fuge_info
   implicit none
   private
 
-  public :: find_interval
+  public :: find_contact_interval
 
-  !> Why there is no answer, or that there is one.
-  integer, parameter, public :: FOUND = 0, NOT_FOUND = 1, PULLS = 2, OVERLAPS = 3, AT_END = 4
+  !> Outcome of a search: found, or the reason why not.
+  integer, parameter, public :: INTERVAL_FOUND = 0, INTERVAL_NOT_FOUND = 1, INTERVAL_IN_TENSION = 2, &
+    INTERVAL_PENETRATED = 3, INTERVAL_AT_END = 4
 
-  !> Course of a search: the contact, or why the best interval tried is none.
+  !> State of a search: the contact, or why the best interval tried is not the contact.
   type, public :: interval_search
-    integer :: outcome = NOT_FOUND
+    integer :: outcome = INTERVAL_NOT_FOUND
     type(fuge_smooth_contact) :: contact
     type(sign_violation) :: violation
-    !> The interval that was refused with the least violation.
-    real(dp) :: refused(2) = 0.0_dp
+    !> Ends of the interval that was refused with the least violation; length.
+    real(dp) :: refused_ends(2) = 0.0_dp
     !> Series formed so far.
     integer :: steps = 0
   end type interval_search
 
-  !> A violation of the signs below this is not one; or below so many estimated errors.
-  real(dp), parameter :: SIGN_TOLERANCE = 1.0e-10_dp, ERRORS = 10.0_dp
-  !> Halvings on the way to the lowest place.
+  !> Violations of the sign conditions up to this, or up to so many times the estimated error, are accepted.
+  real(dp), parameter :: SIGN_TOLERANCE = 1.0e-10_dp, ERROR_FACTOR = 10.0_dp
+  !> Halvings of the distance from a starting point.
   integer, parameter :: HALVINGS = 60
-  !> Of the search by exclusion: series, parts waiting, degree and precision of the series,
-  !> the least shrinking that goes on.
-  integer, parameter :: MOST_SERIES = 600, MOST_PARTS = 100, COARSE_DEGREES = 512
-  real(dp), parameter :: COARSE_GOAL = 1.0e-6_dp, SHRINKING = 0.98_dp
-  !> Newton's method is tried again when an interval is so much shorter.
-  real(dp), parameter :: WORTH_A_TRY = 0.4_dp
+  !> Search by exclusion: limits of the number of series and of pending parts, highest degree and
+  !> tolerance of a series, and the ratio of lengths above which shrinking stops.
+  integer, parameter :: MAX_SERIES = 600, MAX_PARTS = 100, COARSE_MAX_DEGREE = 512
+  real(dp), parameter :: COARSE_TOLERANCE = 1.0e-6_dp, SHRINKING = 0.98_dp
+  !> Newton's method is tried again when the interval has shrunk by this ratio.
+  real(dp), parameter :: RETRY_RATIO = 0.4_dp
 
 contains
 
-  !> `start`: a place in the contact, such as the lowest one.
-  subroutine find_interval(profile, e_star, task, start, search, info)
+  !> Find the contact of `profile` under `load`; `start` is a position in it, such as that of the lowest
+  !> point. Errors: those of the profile.
+  subroutine find_contact_interval(profile, e_star, load, start, search, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star, start
-    type(pressing), intent(in) :: task
+    type(load_case), intent(in) :: load
     type(interval_search), intent(out) :: search
     type(fuge_info), intent(inout) :: info
-    type(place_interval) :: first
+    type(anchored_interval) :: first
 
-    call guess(profile, task, start, first, info)
+    call guess_interval(profile, load, start, first, info)
     if (info%failed()) return
-    call try_interval(profile, e_star, task, first, search, info)
-    if (info%failed() .or. search%outcome == FOUND) return
-    if (task%tilts) then
-      call try_many(profile, e_star, task, search, info)
+    call try_interval(profile, e_star, load, first, search, info)
+    if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
+    if (load%free_tilt) then
+      call search_around_line(profile, e_star, load, search, info)
     else
-      call exclude(profile, e_star, task, search, info)
+      call search_by_exclusion(profile, e_star, load, search, info)
     end if
-  end subroutine find_interval
+  end subroutine find_contact_interval
 
-  !> The interval around `start` in which the profile, turned to be level there if it tilts, is
-  !> low.
-  subroutine guess(profile, task, start, first, info)
+  !> The interval around `start` in which the profile is low; with a free tilt it is first turned to
+  !> have the slope 0 at `start`.
+  subroutine guess_interval(profile, load, start, first, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(pressing), intent(in) :: task
+    type(load_case), intent(in) :: load
     real(dp), intent(in) :: start
-    type(place_interval), intent(out) :: first
+    type(anchored_interval), intent(out) :: first
     type(fuge_info), intent(inout) :: info
-    real(dp) :: distance(HALVINGS + 1, 2), x(HALVINGS + 1), gap(HALVINGS + 1), slope(HALVINGS + 1), level(1), turn(1)
+    real(dp) :: distances(HALVINGS + 1, 2), x(HALVINGS + 1), gap(HALVINGS + 1), slope(HALVINGS + 1), level(1), tilt(1)
     real(dp) :: reach(2)
     integer :: side, k
 
     first%anchor = start
-    call sample_profile(profile, [start], level, turn, info)
+    call sample_profile(profile, [start], level, tilt, info)
     if (info%failed()) return
-    if (.not. task%tilts) turn = 0.0_dp
-    distance(1, :) = [profile%lower - start, profile%upper - start]
+    if (.not. load%free_tilt) tilt = 0.0_dp
+    distances(1, :) = [profile%lower - start, profile%upper - start]
     do k = 2, HALVINGS + 1
-      distance(k, :) = 0.5_dp*distance(k - 1, :)
+      distances(k, :) = 0.5_dp*distances(k - 1, :)
     end do
     do side = 1, 2
-      x = max(profile%lower, min(profile%upper, start + distance(:, side)))
+      x = max(profile%lower, min(profile%upper, start + distances(:, side)))
       call sample_profile(profile, x, gap, slope, info)
       if (info%failed()) return
-      gap = gap - turn(1)*distance(:, side)
-      reach(side) = distance(HALVINGS + 1, side)
+      gap = gap - tilt(1)*distances(:, side)
+      reach(side) = distances(HALVINGS + 1, side)
       do k = HALVINGS, 1, -1
-        if (gap(k) - level(1) <= 0.5_dp*task%load) reach(side) = distance(k, side)
+        if (gap(k) - level(1) <= 0.5_dp*load%reduced_force) reach(side) = distances(k, side)
       end do
     end do
     first%offset = 0.5_dp*(reach(1) + reach(2))
-    first%half = 0.5_dp*(reach(2) - reach(1))
-  end subroutine guess
+    first%half_width = 0.5_dp*(reach(2) - reach(1))
+  end subroutine guess_interval
 
-  !> Newton's method from an interval; its end is the answer if the signs are right.
-  subroutine try_interval(profile, e_star, task, first, search, info)
+  !> Newton's method from an interval; where it converges is the contact if that is admissible.
+  subroutine try_interval(profile, e_star, load, first, search, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star
-    type(pressing), intent(in) :: task
-    type(place_interval), intent(in) :: first
+    type(load_case), intent(in) :: load
+    type(anchored_interval), intent(in) :: first
     type(interval_search), intent(inout) :: search
     type(fuge_info), intent(inout) :: info
     type(slope_series) :: series
     type(sign_violation) :: violation
     type(fuge_smooth_contact) :: contact
-    real(dp) :: allowed
+    real(dp) :: allowed_violation
     logical :: converged
 
-    call find_resolved(profile, task, first, series, converged, search%steps, info)
+    call solve_resolved(profile, load, first, series, converged, search%steps, info)
     if (info%failed() .or. .not. converged) return
-    call make_contact(profile, e_star, task, series, contact, info)
+    call assemble_contact(profile, e_star, load, series, contact, info)
     if (info%failed()) return
-    call check_signs(profile, contact, violation, info)
+    call check_admissibility(profile, contact, violation, info)
     if (info%failed()) return
-    allowed = max(SIGN_TOLERANCE, ERRORS*contact%pressure_error)
-    if (max(violation%pull, violation%overlap) <= allowed) then
-      search%outcome = FOUND
+    allowed_violation = max(SIGN_TOLERANCE, ERROR_FACTOR*contact%pressure_error)
+    if (max(violation%tension, violation%penetration) <= allowed_violation) then
+      search%outcome = INTERVAL_FOUND
       search%contact = contact
-    else if (search%outcome /= NOT_FOUND) then
-      ! The interval that comes closest is the one to be told of.
-      if (max(violation%pull, violation%overlap) &
-          >= max(search%violation%pull, search%violation%overlap)) return
+    else if (search%outcome /= INTERVAL_NOT_FOUND) then
+      ! The interval with the least violation is the one to be reported.
+      if (max(violation%tension, violation%penetration) &
+          >= max(search%violation%tension, search%violation%penetration)) return
     end if
     search%violation = violation
-    search%refused = contact%ends
-    if (search%outcome /= FOUND) search%outcome = merge(PULLS, OVERLAPS, violation%pull > violation%overlap)
+    search%refused_ends = contact%ends
+    if (search%outcome /= INTERVAL_FOUND) search%outcome = merge(INTERVAL_IN_TENSION, INTERVAL_PENETRATED, &
+                                                                 violation%tension > violation%penetration)
   end subroutine try_interval
 
-  !> Newton's method with a series that is held against the samples of the profile as well:
-  !> what lies between few points would be overlooked. Where it differs the degree rises.
-  subroutine find_resolved(profile, task, first, series, converged, steps, info)
+  !> Newton's method with a series that is also compared with samples of the whole profile, because few
+  !> nodes may miss a detail between them. Where the series differs, its degree is raised.
+  subroutine solve_resolved(profile, load, first, series, converged, steps, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(pressing), intent(in) :: task
-    type(place_interval), intent(in) :: first
+    type(load_case), intent(in) :: load
+    type(anchored_interval), intent(in) :: first
     type(slope_series), intent(out) :: series
     logical, intent(out) :: converged
     integer, intent(inout) :: steps
     type(fuge_info), intent(inout) :: info
-    type(place_interval) :: start
+    type(anchored_interval) :: start
     real(dp) :: difference
-    integer :: least
+    integer :: lowest_degree
 
     start = first
-    least = FIRST_DEGREE
+    lowest_degree = FIRST_DEGREE
     do
-      call find_ends(profile, task, start, least, series, converged, steps, info)
+      call find_ends(profile, load, start, lowest_degree, series, converged, steps, info)
       if (info%failed() .or. .not. converged) return
-      call compare_slope(profile, series, sample_places(profile), difference, info)
-      difference = difference/series%a(2)
-      if (info%failed() .or. difference <= max(SIGN_TOLERANCE, ERRORS*series%sum_error)) return
-      if (least >= DEGREES) exit
-      least = 8*least
-      if (least > DEGREES) least = DEGREES
+      call measure_series_error(profile, series, sample_positions(profile), difference, info)
+      difference = difference/series%coefficients(2)
+      if (info%failed() .or. difference <= max(SIGN_TOLERANCE, ERROR_FACTOR*series%series_error)) return
+      if (lowest_degree >= MAX_DEGREE) exit
+      lowest_degree = 8*lowest_degree
+      if (lowest_degree > MAX_DEGREE) lowest_degree = MAX_DEGREE
       start = series%interval
     end do
-    series%sum_error = max(series%sum_error, difference)
-  end subroutine find_resolved
+    series%series_error = max(series%series_error, difference)
+  end subroutine solve_resolved
 
-  !> From intervals of all lengths around the line of action.
-  subroutine try_many(profile, e_star, task, search, info)
+  !> Newton's method from intervals of all lengths around the line of action.
+  subroutine search_around_line(profile, e_star, load, search, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star
-    type(pressing), intent(in) :: task
+    type(load_case), intent(in) :: load
     type(interval_search), intent(inout) :: search
     type(fuge_info), intent(inout) :: info
-    real(dp) :: half, left, right
+    real(dp) :: half_width, left, right
     integer :: k
 
-    half = profile%upper - profile%lower
+    half_width = profile%upper - profile%lower
     do k = 1, HALVINGS
-      left = max(profile%lower, task%line - half)
-      right = min(profile%upper, task%line + half)
-      call try_interval(profile, e_star, task, interval_of([left, right]), search, info)
-      if (info%failed() .or. search%outcome == FOUND) return
-      half = 0.5_dp*half
-      if (half <= spacing(abs(task%line))) return
+      left = max(profile%lower, load%line_of_action - half_width)
+      right = min(profile%upper, load%line_of_action + half_width)
+      call try_interval(profile, e_star, load, interval_between([left, right]), search, info)
+      if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
+      half_width = 0.5_dp*half_width
+      if (half_width <= spacing(abs(load%line_of_action))) return
     end do
-  end subroutine try_many
+  end subroutine search_around_line
 
-  !> Shrink, part and try until nothing is left.
-  subroutine exclude(profile, e_star, task, search, info)
+  !> Search by exclusion: shrink the interval, split it and try its parts until none is left.
+  subroutine search_by_exclusion(profile, e_star, load, search, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star
-    type(pressing), intent(in) :: task
+    type(load_case), intent(in) :: load
     type(interval_search), intent(inout) :: search
     type(fuge_info), intent(inout) :: info
-    real(dp) :: waiting(2, MOST_PARTS), part(2)
-    real(dp), allocatable :: pushing(:, :)
+    real(dp) :: pending_parts(2, MAX_PARTS), part(2)
+    real(dp), allocatable :: compressive(:, :)
     integer :: parts
-    logical :: whole
+    logical :: unsplit
 
-    waiting(:, 1) = [profile%lower, profile%upper]
+    pending_parts(:, 1) = [profile%lower, profile%upper]
     parts = 1
-    whole = .true.
+    unsplit = .true.
     do while (parts > 0)
-      part = waiting(:, parts)
+      part = pending_parts(:, parts)
       parts = parts - 1
-      call shrink(profile, e_star, task, part, pushing, search, info)
-      if (info%failed() .or. search%outcome == FOUND .or. search%steps >= MOST_SERIES) return
-      if (size(pushing, 2) > 1) then
-        whole = .false.
-        call add_parts(pushing, waiting, parts)
+      call shrink_part(profile, e_star, load, part, compressive, search, info)
+      if (info%failed() .or. search%outcome == INTERVAL_FOUND .or. search%steps >= MAX_SERIES) return
+      if (size(compressive, 2) > 1) then
+        unsplit = .false.
+        call add_parts(compressive, pending_parts, parts)
         cycle
       end if
-      call try_interval(profile, e_star, task, interval_of(part), search, info)
-      if (info%failed() .or. search%outcome == FOUND) return
-      ! What is closed by pressure alone as far as an end of the profile is the answer.
-      if (whole .and. (part(1) <= profile%lower .or. part(2) >= profile%upper)) then
-        search%outcome = AT_END
-        search%refused = part
+      call try_interval(profile, e_star, load, interval_between(part), search, info)
+      if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
+      ! An interval that compressive pressure closes up to an end of the profile is the contact.
+      if (unsplit .and. (part(1) <= profile%lower .or. part(2) >= profile%upper)) then
+        search%outcome = INTERVAL_AT_END
+        search%refused_ends = part
       end if
     end do
-  end subroutine exclude
+  end subroutine search_by_exclusion
 
-  !> Shrink `part` as long as what pushes in it is one stretch and shorter: `pushing` at the
-  !> end. On the way Newton's method is tried.
-  subroutine shrink(profile, e_star, task, part, pushing, search, info)
+  !> Shrink `part` to where the pressure that closes it is compressive, as long as that is one shorter
+  !> interval; `compressive` has these intervals at the end. On the way Newton's method is tried.
+  subroutine shrink_part(profile, e_star, load, part, compressive, search, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star
-    type(pressing), intent(in) :: task
+    type(load_case), intent(in) :: load
     real(dp), intent(inout) :: part(2)
-    real(dp), allocatable, intent(out) :: pushing(:, :)
+    real(dp), allocatable, intent(out) :: compressive(:, :)
     type(interval_search), intent(inout) :: search
     type(fuge_info), intent(inout) :: info
     type(slope_series) :: series
-    real(dp) :: tried
+    real(dp) :: last_tried
 
-    allocate (pushing(2, 0))
-    tried = huge(tried)
-    do while (search%steps < MOST_SERIES)
-      if (part(2) - part(1) <= WORTH_A_TRY*tried) then
-        tried = part(2) - part(1)
-        call try_interval(profile, e_star, task, interval_of(part), search, info)
-        if (info%failed() .or. search%outcome == FOUND) return
+    allocate (compressive(2, 0))
+    last_tried = huge(last_tried)
+    do while (search%steps < MAX_SERIES)
+      if (part(2) - part(1) <= RETRY_RATIO*last_tried) then
+        last_tried = part(2) - part(1)
+        call try_interval(profile, e_star, load, interval_between(part), search, info)
+        if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
       end if
-      call expand_slope(profile, interval_of(part), COARSE_GOAL, [FIRST_DEGREE, COARSE_DEGREES], series, info)
+      call expand_slope(profile, interval_between(part), COARSE_TOLERANCE, [FIRST_DEGREE, COARSE_MAX_DEGREE], series, &
+                        info)
       search%steps = search%steps + 1
       if (info%failed()) return
-      deallocate (pushing)
-      allocate (pushing, source=pushing_parts(series, task, part))
-      if (size(pushing, 2) /= 1) return
-      if (pushing(2, 1) - pushing(1, 1) > SHRINKING*(part(2) - part(1))) return
-      part = pushing(:, 1)
+      deallocate (compressive)
+      allocate (compressive, source=compressive_parts(series, load, part))
+      if (size(compressive, 2) /= 1) return
+      if (compressive(2, 1) - compressive(1, 1) > SHRINKING*(part(2) - part(1))) return
+      part = compressive(:, 1)
     end do
-  end subroutine shrink
+  end subroutine shrink_part
 
-  pure function interval_of(ends) result(interval)
+  !> The interval with these ends.
+  pure function interval_between(ends) result(interval)
     real(dp), intent(in) :: ends(2)
-    type(place_interval) :: interval
+    type(anchored_interval) :: interval
 
     interval%anchor = 0.5_dp*(ends(1) + ends(2))
-    interval%half = 0.5_dp*(ends(2) - ends(1))
-  end function interval_of
+    interval%half_width = 0.5_dp*(ends(2) - ends(1))
+  end function interval_between
 
-  !> The longest part last, to be tried first.
-  pure subroutine add_parts(pushing, waiting, parts)
-    real(dp), intent(in) :: pushing(:, :)
-    real(dp), intent(inout) :: waiting(:, :)
+  !> Add parts to the pending ones, the longest one last, because the last one is tried first.
+  pure subroutine add_parts(compressive, pending_parts, parts)
+    real(dp), intent(in) :: compressive(:, :)
+    real(dp), intent(inout) :: pending_parts(:, :)
     integer, intent(inout) :: parts
     integer :: k, longest
 
-    longest = maxloc(pushing(2, :) - pushing(1, :), 1)
-    do k = 1, size(pushing, 2)
-      if (k == longest .or. parts >= size(waiting, 2) - 1) cycle
+    longest = maxloc(compressive(2, :) - compressive(1, :), 1)
+    do k = 1, size(compressive, 2)
+      if (k == longest .or. parts >= size(pending_parts, 2) - 1) cycle
       parts = parts + 1
-      waiting(:, parts) = pushing(:, k)
+      pending_parts(:, parts) = compressive(:, k)
     end do
     parts = parts + 1
-    waiting(:, parts) = pushing(:, longest)
+    pending_parts(:, parts) = compressive(:, longest)
   end subroutine add_parts
 
 end module fuge_smooth_search

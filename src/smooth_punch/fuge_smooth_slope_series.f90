@@ -1,4 +1,4 @@
-!> The slope of a punch on an interval as a Chebyshev series of just enough terms.
+!> The slope of a punch on an interval as a Chebyshev series with as many terms as its accuracy needs.
 module fuge_smooth_slope_series
   use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points, chebyshev_sum, &
     chebyshev_values
@@ -8,45 +8,47 @@ module fuge_smooth_slope_series
   implicit none
   private
 
-  public :: expand_slope, compare_slope
+  public :: expand_slope, measure_series_error
 
-  !> An interval: anchor + offset -+ half. The sum of the first two has more digits than one
-  !> number where the interval is far from 0 compared with its length.
-  type, public :: place_interval
-    real(dp) :: anchor = 0.0_dp, offset = 0.0_dp, half = 0.0_dp
-  end type place_interval
+  !> The interval with the ends anchor + offset -+ half_width; length. The middle is a sum of two numbers,
+  !> because one number has too few digits for a narrow interval far from 0.
+  type, public :: anchored_interval
+    real(dp) :: anchor = 0.0_dp, offset = 0.0_dp, half_width = 0.0_dp
+  end type anchored_interval
 
-  !> g'(x) = sum_k a_k T_k(t) at x = anchor + offset + half t.
+  !> g'(x) = sum_k a_k T_k(t) at x = anchor + offset + half_width t.
   type, public :: slope_series
-    type(place_interval) :: interval
-    !> a_0 .. a_n, n >= 3.
-    real(dp), allocatable :: a(:)
-    !> d_0 .. of the derivative by t.
-    real(dp), allocatable :: d(:)
-    !> Estimates of the error of the first coefficients, and of the whole sum; no unit.
-    real(dp) :: first_error = 0.0_dp, sum_error = 0.0_dp
+    type(anchored_interval) :: interval
+    !> Coefficients a_0 .. a_n, n >= 3; no unit.
+    real(dp), allocatable :: coefficients(:)
+    !> Coefficients d_0 .. d_(n-1) of the derivative by t.
+    real(dp), allocatable :: derivative(:)
+    !> Estimated errors of the leading coefficients, and of the whole sum; no unit.
+    real(dp) :: leading_error = 0.0_dp, series_error = 0.0_dp
   end type slope_series
 
-  !> Degree that is tried first; degrees are doubled.
+  !> The first degree tried; degrees are doubled.
   integer, parameter, public :: FIRST_DEGREE = 16
-  !> From here on coefficients that no longer fall are taken for rounding, if they are
-  !> this part of the largest.
+  !> From this degree on a tail below this fraction of the range of the slope counts as rounding if
+  !> doubling the degree has not reduced it below this ratio.
   integer, parameter :: PLATEAU_DEGREE = 64
   real(dp), parameter :: PLATEAU_SIZE = 1.0e-7_dp, PLATEAU_RATIO = 0.7_dp
 
-  !> Places of a comparison, beside those given.
-  integer, parameter :: COMPARISONS = 61
+  !> Positions of a comparison in addition to the samples.
+  integer, parameter :: CHECK_POINTS = 61
 
 contains
 
-  !> `goal`: the part of the range of the slope that may be missing; rounding is the limit
-  !> for less. `degrees`: the lowest and the highest one, powers of two, FIRST_DEGREE or more.
-  !> Where the highest does not do the series is what it can be, and its errors say so.
+  !> Expand the slope of `profile` on `interval`.
+  !>
+  !> `tolerance`: size of the tail allowed, relative to the range of the slope; the limit is rounding.
+  !> `degrees`: the lowest and the highest degree, powers of two, FIRST_DEGREE or more. If the
+  !> highest does not suffice, the errors of `series` say so.
   !> Errors: those of the profile.
-  subroutine expand_slope(profile, interval, goal, degrees, series, info)
+  subroutine expand_slope(profile, interval, tolerance, degrees, series, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(place_interval), intent(in) :: interval
-    real(dp), intent(in) :: goal
+    type(anchored_interval), intent(in) :: interval
+    real(dp), intent(in) :: tolerance
     integer, intent(in) :: degrees(2)
     type(slope_series), intent(out) :: series
     type(fuge_info), intent(inout) :: info
@@ -58,58 +60,58 @@ contains
     tail = huge(tail)
     n = degrees(1)
     do
-      call refine(profile, interval, n, slope, info)
+      call resample(profile, interval, n, slope, info)
       if (info%failed()) return
       if (allocated(a)) deallocate (a)
       allocate (a(n + 1))
       a = chebyshev_coefficients(slope)
-      if (abs(interval%anchor) > interval%half) a = a + place_correction(interval, a)
+      if (abs(interval%anchor) > interval%half_width) a = a + node_correction(interval, a)
       last_tail = tail
       tail = maxval(abs(a(3*n/4 + 2:)))
       range = maxval(slope) - minval(slope)
-      noise = roundings(slope, interval)
-      if (tail <= max(goal*range, noise) .or. n >= degrees(2)) exit
+      noise = rounding_noise(slope, interval)
+      if (tail <= max(tolerance*range, noise) .or. n >= degrees(2)) exit
       if (n >= PLATEAU_DEGREE .and. tail <= PLATEAU_SIZE*range .and. tail > PLATEAU_RATIO*last_tail) exit
       n = 2*n
     end do
-    call trim_series(a, max(noise, min(tail, goal*range)), series%a)
-    allocate (series%d(size(series%a) - 1))
-    series%d = chebyshev_derivative(series%a)
-    series%first_error = noise + tail
-    series%sum_error = noise + tail
-    ! What is left out falls like a power of its number.
-    if (tail > noise) series%sum_error = noise + 0.5_dp*real(n, dp)*tail
+    call truncate_series(a, max(noise, min(tail, tolerance*range)), series%coefficients)
+    allocate (series%derivative(size(series%coefficients) - 1))
+    series%derivative = chebyshev_derivative(series%coefficients)
+    series%leading_error = noise + tail
+    series%series_error = noise + tail
+    ! The coefficients beyond the tail decay algebraically.
+    if (tail > noise) series%series_error = noise + 0.5_dp*real(n, dp)*tail
   end subroutine expand_slope
 
-  !> How far the series is from the slope at places `x` of the profile within its interval,
-  !> and at others between them; no unit.
-  subroutine compare_slope(profile, series, x, difference, info)
+  !> Largest difference of the series from the slope of `profile`, no unit: at those of the positions `x`
+  !> that lie in the interval, and at others between them.
+  subroutine measure_series_error(profile, series, x, difference, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(slope_series), intent(in) :: series
     real(dp), intent(in) :: x(:)
     real(dp), intent(out) :: difference
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: t(:), places_there(:), gap(:), slope(:)
+    real(dp), allocatable :: t(:), positions(:), gap(:), slope(:)
     integer :: k
 
     associate (interval => series%interval)
-      allocate (t(size(x) + COMPARISONS))
-      t(:size(x)) = ((x - interval%anchor) - interval%offset)/interval%half
-      t(size(x) + 1:) = [(2.0_dp*(real(k, dp) - 0.4_dp)/real(COMPARISONS, dp) - 1.0_dp, k=1, COMPARISONS)]
+      allocate (t(size(x) + CHECK_POINTS))
+      t(:size(x)) = ((x - interval%anchor) - interval%offset)/interval%half_width
+      t(size(x) + 1:) = [(2.0_dp*(real(k, dp) - 0.4_dp)/real(CHECK_POINTS, dp) - 1.0_dp, k=1, CHECK_POINTS)]
       t = pack(t, abs(t) < 1.0_dp)
-      allocate (places_there(size(t)), gap(size(t)), slope(size(t)))
-      places_there = interval%anchor + (interval%offset + interval%half*t)
-      places_there = max(profile%lower, min(profile%upper, places_there))
-      call sample_profile(profile, places_there, gap, slope, info)
-      difference = maxval(abs(slope - chebyshev_sum(series%a, ((places_there - interval%anchor) - interval%offset) &
-                                                    /interval%half)))
+      allocate (positions(size(t)), gap(size(t)), slope(size(t)))
+      positions = interval%anchor + (interval%offset + interval%half_width*t)
+      positions = max(profile%lower, min(profile%upper, positions))
+      call sample_profile(profile, positions, gap, slope, info)
+      t = ((positions - interval%anchor) - interval%offset)/interval%half_width
+      difference = maxval(abs(slope - chebyshev_sum(series%coefficients, t)))
     end associate
-  end subroutine compare_slope
+  end subroutine measure_series_error
 
-  !> Values at the points of degree n; every other one is there already.
-  subroutine refine(profile, interval, n, slope, info)
+  !> Slopes at the nodes of degree n; on entry `slope` has those of degree n/2, or is not allocated.
+  subroutine resample(profile, interval, n, slope, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(place_interval), intent(in) :: interval
+    type(anchored_interval), intent(in) :: interval
     integer, intent(in) :: n
     real(dp), allocatable, intent(inout) :: slope(:)
     type(fuge_info), intent(inout) :: info
@@ -126,61 +128,62 @@ contains
       first = 1
       step = 2
     end if
-    ! The ends may be outside by a rounding.
-    x = max(profile%lower, min(profile%upper, places(interval, n)))
+    ! By rounding the ends may lie outside of the profile.
+    x = max(profile%lower, min(profile%upper, nodes(interval, n)))
     call sample_profile(profile, x(first:n:step), gap(first:n:step), values(first:n:step), info)
     all_slopes(first:n:step) = values(first:n:step)
     call move_alloc(all_slopes, slope)
-  end subroutine refine
+  end subroutine resample
 
-  !> The points of degree n, rounded to one number each.
-  pure function places(interval, n) result(x)
-    type(place_interval), intent(in) :: interval
+  !> The nodes of degree n, each rounded to one number; length.
+  pure function nodes(interval, n) result(x)
+    type(anchored_interval), intent(in) :: interval
     integer, intent(in) :: n
     real(dp) :: x(0:n)
 
-    x = interval%anchor + (interval%offset + interval%half*chebyshev_points(n))
-  end function places
+    x = interval%anchor + (interval%offset + interval%half_width*chebyshev_points(n))
+  end function nodes
 
-  !> What the rounding of the places has done to the coefficients `a` of the slope, to first
-  !> order: the distance lost times the derivative.
-  pure function place_correction(interval, a) result(change)
-    type(place_interval), intent(in) :: interval
+  !> Correction of the coefficients `a` for the rounding of the nodes, to first order: the distance
+  !> lost by rounding times the derivative.
+  pure function node_correction(interval, a) result(change)
+    type(anchored_interval), intent(in) :: interval
     real(dp), intent(in) :: a(:)
     real(dp) :: change(size(a))
-    real(dp) :: lost(size(a))
+    real(dp) :: lost_digits(size(a))
     integer :: n
 
     n = size(a) - 1
-    lost = (interval%offset + interval%half*chebyshev_points(n)) - (places(interval, n) - interval%anchor)
-    change = chebyshev_coefficients(lost/interval%half*chebyshev_values(chebyshev_derivative(a), n))
-  end function place_correction
+    lost_digits = (interval%offset + interval%half_width*chebyshev_points(n)) - (nodes(interval, n) - interval%anchor)
+    change = chebyshev_coefficients(lost_digits/interval%half_width*chebyshev_values(chebyshev_derivative(a), n))
+  end function node_correction
 
-  !> What rounding does to a coefficient: of the slope itself, of the place within the
-  !> interval, and of the anchor what the first order leaves.
-  pure function roundings(slope, interval) result(noise)
+  !> Rounding error of a coefficient: by rounding of the slope and of the position within the interval,
+  !> and by what the first-order correction for rounding of the anchor leaves.
+  pure function rounding_noise(slope, interval) result(noise)
     real(dp), intent(in) :: slope(:)
-    type(place_interval), intent(in) :: interval
+    type(anchored_interval), intent(in) :: interval
     real(dp) :: noise
     real(dp) :: range
 
     range = maxval(slope) - minval(slope)
-    noise = epsilon(noise)*(2.0_dp*maxval(abs(slope)) + 2.0_dp*range*(1.0_dp + abs(interval%offset)/interval%half))
-    noise = noise + real(size(slope), dp)*range*(epsilon(noise)*interval%anchor/interval%half)**2
-  end function roundings
+    noise = epsilon(noise) &
+            *(2.0_dp*maxval(abs(slope)) + 2.0_dp*range*(1.0_dp + abs(interval%offset)/interval%half_width))
+    noise = noise + real(size(slope), dp)*range*(epsilon(noise)*interval%anchor/interval%half_width)**2
+  end function rounding_noise
 
-  !> Leave out the last coefficients, none of them above `least`.
-  pure subroutine trim_series(a, least, trimmed)
-    real(dp), intent(in) :: a(:), least
-    real(dp), allocatable, intent(out) :: trimmed(:)
+  !> Drop the last coefficients, none of which exceeds `threshold`; at least 4 remain.
+  pure subroutine truncate_series(a, threshold, truncated)
+    real(dp), intent(in) :: a(:), threshold
+    real(dp), allocatable, intent(out) :: truncated(:)
     integer :: terms
 
     terms = size(a)
     do while (terms > 4)
-      if (abs(a(terms)) > least) exit
+      if (abs(a(terms)) > threshold) exit
       terms = terms - 1
     end do
-    allocate (trimmed, source=a(:terms))
-  end subroutine trim_series
+    allocate (truncated, source=a(:terms))
+  end subroutine truncate_series
 
 end module fuge_smooth_slope_series

@@ -96,7 +96,7 @@ contains
     if (.not. rests(problem)) then
       call run_engine(self, operator, problem, chosen, relay, answer, info)
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
-                                                         //text(relay%told)//' by the progress monitor')
+                                                         //text(relay%reported)//' by the progress monitor')
     else
       call rest_without_load(problem, answer)
     end if
