@@ -7,6 +7,7 @@
 module fuge_contact_set_search
   use fuge_blocking_step, only: step_back
   use fuge_contact_preconditioner, only: contact_preconditioner
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_number_text, only: text
@@ -260,9 +261,9 @@ contains
       call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, .true., monitor, iterate, info)
       if (info%failed()) exit
       if (any(iterate%contact .and. iterate%force <= 0.0_dp)) then
-        state = merge(1, 0, iterate%contact)
+        state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
         call step_back(iterate%force, 0.0_dp, tied, state, feasible, newest, locked)
-        iterate%contact = state /= 0
+        iterate%contact = state /= FUGE_OPEN
         iterate%force = feasible
       else
         if (newest > 0) locked = locked .and. locked(newest)
