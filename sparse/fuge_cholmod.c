@@ -1,5 +1,5 @@
-/* CHOLMOD as fuge uses it: the only place that names it, in C because its structs belong
- * to its header.  A factor keeps its own workspace: one thread at a time. */
+/* The only file that calls CHOLMOD; it is in C because CHOLMOD's header declares the structs.
+ * A factor has its own workspace, so that only one thread at a time may use it. */
 #include <cholmod.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,8 +11,8 @@ typedef struct factor {
   cholmod_factor *l;
 } factor;
 
-int fuge_cholmod_factorise(int n, const int *column, const int *row, const double *value, const double *diagonal,
-                           void **destination, double *pivot, int *weakest);
+int fuge_cholmod_factorise(int n, const int *column, const int *row, const double *value, void **destination,
+                           double *pivots, int *failed);
 int fuge_cholmod_solve(void *source, int n, int columns, double *block);
 void fuge_cholmod_free(void *source);
 
@@ -24,23 +24,11 @@ static double simplicial_pivot(const cholmod_factor *l, SuiteSparse_long k)
   return l->is_ll ? entry * entry : entry;
 }
 
-static void compare(const cholmod_factor *l, SuiteSparse_long k, double found, const double *diagonal, double *pivot,
-                    int *weakest)
+/* The pivots in the order of the matrix. */
+static void copy_pivots(const cholmod_factor *l, double *pivots)
 {
-  SuiteSparse_long place = ((const SuiteSparse_long *)l->Perm)[k];
-  double relative = found / diagonal[place];
+  const SuiteSparse_long *place = l->Perm;
 
-  /* Not >=, so that NaN is taken. */
-  if (!(relative >= *pivot)) {
-    *pivot = relative;
-    *weakest = (int)place + 1;
-  }
-}
-
-static void find_least_pivot(const cholmod_factor *l, const double *diagonal, double *pivot, int *weakest)
-{
-  *pivot = 1.0;
-  *weakest = 0;
   if (l->is_super) {
     const SuiteSparse_long *first = l->super, *rows = l->pi, *values = l->px;
 
@@ -51,16 +39,16 @@ static void find_least_pivot(const cholmod_factor *l, const double *diagonal, do
       for (SuiteSparse_long k = first[s]; k < first[s + 1]; k++) {
         double root = x[(k - first[s]) * (height + 1)];
 
-        compare(l, k, root * root, diagonal, pivot, weakest);
+        pivots[place[k]] = root * root;
       }
     }
   } else {
     for (SuiteSparse_long k = 0; k < (SuiteSparse_long)l->n; k++)
-      compare(l, k, simplicial_pivot(l, k), diagonal, pivot, weakest);
+      pivots[place[k]] = simplicial_pivot(l, k);
   }
 }
 
-/* The upper triangle, counted from 1, as CHOLMOD wants it; NULL without memory. */
+/* A copy for CHOLMOD, counted from 0, of an upper triangle counted from 1; NULL without memory. */
 static cholmod_sparse *copy_matrix(int n, const int *column, const int *row, const double *value,
                                    cholmod_common *common)
 {
@@ -77,16 +65,15 @@ static cholmod_sparse *copy_matrix(int n, const int *column, const int *row, con
   return a;
 }
 
-int fuge_cholmod_factorise(int n, const int *column, const int *row, const double *value, const double *diagonal,
-                           void **destination, double *pivot, int *weakest)
+int fuge_cholmod_factorise(int n, const int *column, const int *row, const double *value, void **destination,
+                           double *pivots, int *failed)
 {
   factor *f = calloc(1, sizeof *f);
   cholmod_sparse *a;
   int status = NO_MEMORY;
 
   *destination = NULL;
-  *pivot = 0.0;
-  *weakest = 0;
+  *failed = 0;
   if (!f)
     return NO_MEMORY;
   cholmod_l_start(&f->common);
@@ -99,17 +86,15 @@ int fuge_cholmod_factorise(int n, const int *column, const int *row, const doubl
     cholmod_l_free_sparse(&a, &f->common);
   }
   if (status == DONE && f->l->minor < f->l->n) {
-    *weakest = (int)((const SuiteSparse_long *)f->l->Perm)[f->l->minor] + 1;
+    *failed = (int)((const SuiteSparse_long *)f->l->Perm)[f->l->minor] + 1;
     status = NOT_DEFINITE;
-  } else if (status == DONE) {
-    find_least_pivot(f->l, diagonal, pivot, weakest);
-    if (!(*pivot > 0.0))
-      status = NOT_DEFINITE;
   }
-  if (status == DONE)
+  if (status == DONE) {
+    copy_pivots(f->l, pivots);
     *destination = f;
-  else
+  } else {
     fuge_cholmod_free(f);
+  }
   return status;
 }
 

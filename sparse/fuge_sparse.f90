@@ -1,7 +1,9 @@
-!> A sparse stiffness matrix, factorised by CHOLMOD: a component of its own, so that who
-!> does not need it need not link it.
+!> A sparse stiffness matrix, factorised by CHOLMOD. It is a library of its own, so that programs
+!> that do not need it need not link it.
 module fuge_sparse
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_associated
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_compressed_columns, only: compress_columns, compressed_columns, matrix_triplets
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY
   use fuge_stiffness_check, only: check_entry, check_pair
@@ -10,14 +12,8 @@ module fuge_sparse
   implicit none
   private
 
-  !> What fuge_cholmod_factorise says when it finds no memory.
+  !> What fuge_cholmod_factorise returns without memory.
   integer(c_int), parameter :: NO_MEMORY = 2
-
-  !> Rows and values of compressed columns, the rows of each column ascending.
-  type :: compressed_columns
-    integer, allocatable :: column(:), row(:)
-    real(dp), allocatable :: value(:)
-  end type compressed_columns
 
   !> A sparse stiffness matrix in compressed columns: `set` it, then condense.
   type, extends(fuge_stiffness), public :: fuge_sparse_stiffness
@@ -28,7 +24,7 @@ module fuge_sparse
     procedure :: degrees
     procedure :: diagonal
     procedure :: multiply
-    procedure :: factorise
+    procedure :: cholesky
   end type fuge_sparse_stiffness
 
   type, extends(stiffness_factor) :: sparse_factor
@@ -39,16 +35,17 @@ module fuge_sparse
   end type sparse_factor
 
   interface
-    !> fuge_cholmod.c: least pivot relative to `diagonal`; 0 done, 1 not definite, 2 no memory.
-    function cholmod_factorise(n, column, row, value, diagonal, factor, pivot, weakest) &
+    !> Factor and pivots (n); `failed` is the row at which a factorisation stopped, else 0.
+    !> Result: 0 done, 1 not definite, 2 no memory.
+    function cholmod_factorise(n, column, row, value, factor, pivots, failed) &
       bind(c, name='fuge_cholmod_factorise') result(status)
       import :: c_int, c_double, c_ptr
       integer(c_int), intent(in), value :: n
       integer(c_int), intent(in) :: column(*), row(*)
-      real(c_double), intent(in) :: value(*), diagonal(*)
+      real(c_double), intent(in) :: value(*)
       type(c_ptr), intent(out) :: factor
-      real(c_double), intent(out) :: pivot
-      integer(c_int), intent(out) :: weakest
+      real(c_double), intent(out) :: pivots(*)
+      integer(c_int), intent(out) :: failed
       integer(c_int) :: status
     end function cholmod_factorise
 
@@ -68,14 +65,14 @@ module fuge_sparse
 
 contains
 
-  !> Take a matrix in compressed columns, counted from 1.
+  !> Copy a stiffness matrix in compressed columns, counted from 1.
   !>
   !> `column` (degrees + 1), `row` and `value` (column(degrees + 1) - 1): column j holds
-  !> the entries column(j) .. column(j + 1) - 1, rows in any order, those named twice are
-  !> added. Both triangles, or one of them. Force per displacement. It is copied.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_DOF for a row out of range, FUGE_ERR_NOT_FINITE,
-  !> FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_MEMORY; the stiffness is then as
-  !> it was.
+  !> the entries column(j) .. column(j + 1) - 1, force per displacement. The rows of a column
+  !> may be in any order, repeated entries are added; the matrix has both triangles, or one of
+  !> them.
+  !> Errors, the stiffness unchanged: FUGE_ERR_SIZE, FUGE_ERR_DOF for a row out of range,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_MEMORY.
   subroutine set(self, column, row, value, info)
     class(fuge_sparse_stiffness), intent(inout) :: self
     integer, intent(in) :: column(:), row(:)
@@ -93,23 +90,23 @@ contains
       return
     end if
     if (.not. has_triangle(upper)) then
-      call take(lower, self%upper)
+      call move_columns(lower, self%upper)
     else
       if (has_triangle(lower)) call check_symmetry(lower, upper, info)
-      if (.not. info%failed()) call take(upper, self%upper)
+      if (.not. info%failed()) call move_columns(upper, self%upper)
     end if
   end subroutine set
 
-  !> Move without a copy.
-  pure subroutine take(source, destination)
+  !> Move a matrix without a copy.
+  pure subroutine move_columns(source, destination)
     type(compressed_columns), intent(inout) :: source, destination
 
     call move_alloc(source%column, destination%column)
     call move_alloc(source%row, destination%row)
     call move_alloc(source%value, destination%value)
-  end subroutine take
+  end subroutine move_columns
 
-  !> Do the columns make sense?
+  !> Refuse columns that are not in order, rows out of range, and unusable values.
   pure subroutine check_columns(column, row, value, info)
     integer, intent(in) :: column(:), row(:)
     real(dp), intent(in) :: value(:)
@@ -118,8 +115,8 @@ contains
 
     n = size(column) - 1
     if (n < 1) then
-      call report(info, FUGE_ERR_SIZE, 'column has '//text(n + 1)//' value(s): it needs one more than there are ' &
-                  //'columns')
+      call report(info, FUGE_ERR_SIZE, 'column has '//text(n + 1)//' value(s): it needs one more than the matrix ' &
+                  //'has columns, and the matrix at least one')
       return
     else if (column(1) /= 1) then
       call report(info, FUGE_ERR_SIZE, 'column(1) = '//text(column(1))//': columns and rows count from 1')
@@ -127,13 +124,14 @@ contains
     end if
     do j = 1, n
       if (column(j + 1) >= column(j)) cycle
-      call report(info, FUGE_ERR_SIZE, 'column('//text(j + 1)//') = '//text(column(j + 1))//' is less than the one ' &
-                  //'before it: column j ends where j + 1 begins')
+      call report(info, FUGE_ERR_SIZE, 'column('//text(j + 1)//') = '//text(column(j + 1))//' is less than ' &
+                  //'column('//text(j)//') = '//text(column(j))//': each column begins where the one before it ends')
       return
     end do
     if (min(size(row), size(value)) < column(n + 1) - 1) then
       call report(info, FUGE_ERR_SIZE, 'row has '//text(size(row))//' and value '//text(size(value)) &
-                  //' entries: column asks for '//text(column(n + 1) - 1))
+                  //' value(s): column(' &
+                  //text(n + 1)//') = '//text(column(n + 1))//' needs '//text(column(n + 1) - 1)//' of each')
       return
     end if
     do j = 1, n
@@ -151,99 +149,63 @@ contains
   end subroutine check_columns
 
   !> The upper triangle of K, and of its transpose: entry (i, j) of `lower` is entry (j, i)
-  !> of K; the diagonal is in both.
+  !> of K; both contain the diagonal.
   pure subroutine split_triangles(column, row, value, lower, upper, stat)
     integer, intent(in) :: column(:), row(:)
     real(dp), intent(in) :: value(:)
     type(compressed_columns), intent(out) :: lower, upper
     integer, intent(out) :: stat
-    type(compressed_columns) :: transposed, sorted
 
-    call transpose_columns(column, row, value, transposed, stat)
-    if (stat == 0) call transpose_columns(transposed%column, transposed%row, transposed%value, sorted, stat)
-    if (stat == 0) call keep_upper(transposed, lower, stat)
-    if (stat == 0) call keep_upper(sorted, upper, stat)
+    call compress_triangle(column, row, value, .false., lower, stat)
+    if (stat == 0) call compress_triangle(column, row, value, .true., upper, stat)
   end subroutine split_triangles
 
-  !> The transposed matrix, by a counting sort: its rows ascend in each column.
-  pure subroutine transpose_columns(column, row, value, transposed, stat)
+  !> The upper triangle of K, or of its transpose if not `upper`; repeated entries are added.
+  pure subroutine compress_triangle(column, row, value, upper, triangle, stat)
     integer, intent(in) :: column(:), row(:)
     real(dp), intent(in) :: value(:)
-    type(compressed_columns), intent(out) :: transposed
+    logical, intent(in) :: upper
+    type(compressed_columns), intent(out) :: triangle
     integer, intent(out) :: stat
-    integer :: entries, j, n, p, q
+    type(matrix_triplets) :: triplets
+    integer :: j, n, overflow, p
 
     n = size(column) - 1
-    entries = column(n + 1) - 1
-    allocate (transposed%column(n + 1), transposed%row(entries), transposed%value(entries), stat=stat)
+    call triplets%reserve(count_in_triangle(column, row, upper), stat)
     if (stat /= 0) return
-    transposed%column = 0
-    do p = 1, entries
-      transposed%column(row(p)) = transposed%column(row(p)) + 1
-    end do
-    ! Each column's end, which then moves down to its beginning.
-    transposed%column(n + 1) = entries + 1
-    do j = n, 1, -1
-      transposed%column(j) = transposed%column(j + 1) - transposed%column(j)
-    end do
-    transposed%column(:n) = [transposed%column(2:)]
-    do j = n, 1, -1
-      do p = column(j + 1) - 1, column(j), -1
-        q = transposed%column(row(p)) - 1
-        transposed%column(row(p)) = q
-        transposed%row(q) = j
-        transposed%value(q) = value(p)
-      end do
-    end do
-  end subroutine transpose_columns
-
-  !> The entries on and above the diagonal, those named twice added.
-  pure subroutine keep_upper(sorted, upper, stat)
-    type(compressed_columns), intent(in) :: sorted
-    type(compressed_columns), intent(out) :: upper
-    integer, intent(out) :: stat
-    integer :: j, n, p, q
-
-    n = size(sorted%column) - 1
-    allocate (upper%column(n + 1), upper%row(size(sorted%row)), upper%value(size(sorted%row)), stat=stat)
-    if (stat /= 0) return
-    q = 0
-    upper%column(1) = 1
     do j = 1, n
-      do p = sorted%column(j), sorted%column(j + 1) - 1
-        if (sorted%row(p) > j) exit
-        if (q >= upper%column(j)) then
-          if (upper%row(q) == sorted%row(p)) then
-            upper%value(q) = upper%value(q) + sorted%value(p)
-            cycle
-          end if
+      do p = column(j), column(j + 1) - 1
+        if (upper .and. row(p) <= j) then
+          call triplets%append(row(p), j, value(p))
+        else if (.not. upper .and. row(p) >= j) then
+          call triplets%append(j, row(p), value(p))
         end if
-        q = q + 1
-        upper%row(q) = sorted%row(p)
-        upper%value(q) = sorted%value(p)
       end do
-      upper%column(j + 1) = q + 1
     end do
-    call shorten(upper, q, stat)
-  end subroutine keep_upper
+    ! No sum overflows, because `check_entry` has refused entries near overflow.
+    call compress_columns(triplets, n, n, triangle, overflow, stat)
+  end subroutine compress_triangle
 
-  !> Give back what is not needed.
-  pure subroutine shorten(matrix, entries, stat)
-    type(compressed_columns), intent(inout) :: matrix
-    integer, intent(in) :: entries
-    integer, intent(out) :: stat
-    integer, allocatable :: row(:)
-    real(dp), allocatable :: value(:)
+  !> Number of entries on and above the diagonal, or on and below it if not `upper`.
+  pure function count_in_triangle(column, row, upper) result(entries)
+    integer, intent(in) :: column(:), row(:)
+    logical, intent(in) :: upper
+    integer(int64) :: entries
+    integer :: j
 
-    allocate (row(entries), value(entries), stat=stat)
-    if (stat /= 0) return
-    row = matrix%row(:entries)
-    value = matrix%value(:entries)
-    call move_alloc(row, matrix%row)
-    call move_alloc(value, matrix%value)
-  end subroutine shorten
+    entries = 0_int64
+    do j = 1, size(column) - 1
+      associate (rows => row(column(j):column(j + 1) - 1))
+        if (upper) then
+          entries = entries + int(count(rows <= j), int64)
+        else
+          entries = entries + int(count(rows >= j), int64)
+        end if
+      end associate
+    end do
+  end function count_in_triangle
 
-  !> Are there entries beside the diagonal?
+  !> Does the matrix have entries off the diagonal?
   pure function has_triangle(matrix) result(filled)
     type(compressed_columns), intent(in) :: matrix
     logical :: filled
@@ -257,7 +219,7 @@ contains
     end do
   end function has_triangle
 
-  !> Compare the triangles; an entry that is missing is zero.
+  !> Refuse triangles that differ; a missing entry counts as zero.
   pure subroutine check_symmetry(lower, upper, info)
     type(compressed_columns), intent(in) :: lower, upper
     type(fuge_info), intent(inout) :: info
@@ -287,7 +249,7 @@ contains
     end do
   end subroutine check_symmetry
 
-  !> Row of entry p of column j, beyond the diagonal where the column has ended.
+  !> Row of entry p of column j; j + 1, below the diagonal, where the column has ended.
   pure function row_at(matrix, j, p) result(i)
     type(compressed_columns), intent(in) :: matrix
     integer, intent(in) :: j, p
@@ -297,6 +259,7 @@ contains
     if (p < matrix%column(j + 1)) i = matrix%row(p)
   end function row_at
 
+  !> The diagonal `terms` of a matrix from its upper triangle.
   pure subroutine find_diagonal(upper, terms)
     type(compressed_columns), intent(in) :: upper
     real(dp), intent(out) :: terms(:)
@@ -350,69 +313,68 @@ contains
     end do
   end subroutine multiply
 
-  !> Cholesky factor without the rows and columns `held`; arguments as in `fuge_stiffness_type`.
-  subroutine factorise(self, held, shift, factor, pivot, weakest, status)
+  !> Cholesky factor of the constrained matrix; arguments as in `fuge_stiffness_type`.
+  subroutine cholesky(self, constrained, shift, factor, pivots, failed, status)
     class(fuge_sparse_stiffness), intent(in) :: self
-    logical, intent(in) :: held(:)
+    logical, intent(in) :: constrained(:)
     real(dp), intent(in) :: shift
     class(stiffness_factor), allocatable, intent(out) :: factor
-    real(dp), intent(out) :: pivot
-    integer, intent(out) :: weakest, status
+    real(dp), intent(out) :: pivots(:)
+    integer, intent(out) :: failed, status
     type(sparse_factor), allocatable :: own
-    type(compressed_columns) :: free
-    real(dp), allocatable :: terms(:)
+    type(compressed_columns) :: matrix
     integer(c_int) :: outcome, place
     integer :: stat
 
-    pivot = 0.0_dp
-    weakest = 0
+    pivots = 0.0_dp
+    failed = 0
     status = FUGE_ERR_MEMORY
-    call keep_free(self%upper, held, shift, free, stat)
-    if (stat == 0) allocate (own, terms(size(held)), stat=stat)
+    call copy_constrained(self%upper, constrained, shift, matrix, stat)
+    if (stat == 0) allocate (own, stat=stat)
     if (stat /= 0) return
-    call find_diagonal(self%upper, terms)
-    where (held) terms = 1.0_dp
-    outcome = cholmod_factorise(int(size(held), c_int), free%column, free%row, free%value, terms, own%cholmod, pivot, &
-                                place)
-    weakest = int(place)
+    outcome = cholmod_factorise(int(size(constrained), c_int), matrix%column, matrix%row, matrix%value, own%cholmod, &
+                                pivots, place)
+    failed = int(place)
     if (outcome == NO_MEMORY) return
     status = FUGE_DONE
     if (outcome == 0) call move_alloc(own, factor)
-  end subroutine factorise
+  end subroutine cholesky
 
-  !> The upper triangle with rows and columns that are held replaced by those of the identity.
-  pure subroutine keep_free(upper, held, shift, free, stat)
+  !> The upper triangle with the constrained rows and columns replaced by those of the
+  !> identity, the rest of the diagonal multiplied by 1 + `shift`.
+  pure subroutine copy_constrained(upper, constrained, shift, matrix, stat)
     type(compressed_columns), intent(in) :: upper
-    logical, intent(in) :: held(:)
+    logical, intent(in) :: constrained(:)
     real(dp), intent(in) :: shift
-    type(compressed_columns), intent(out) :: free
+    type(compressed_columns), intent(out) :: matrix
     integer, intent(out) :: stat
     integer :: i, j, p, q
 
-    allocate (free%column(size(upper%column)), free%row(size(upper%row) + count(held)), &
-              free%value(size(upper%row) + count(held)), stat=stat)
+    allocate (matrix%column(size(upper%column)), matrix%row(size(upper%row) + count(constrained)), &
+              matrix%value(size(upper%row) + count(constrained)), stat=stat)
     if (stat /= 0) return
     q = 0
-    free%column(1) = 1
-    do j = 1, size(held)
-      if (held(j)) then
+    matrix%column(1) = 1
+    do j = 1, size(constrained)
+      if (constrained(j)) then
         q = q + 1
-        free%row(q) = j
-        free%value(q) = 1.0_dp
+        matrix%row(q) = j
+        matrix%value(q) = 1.0_dp
       else
         do p = upper%column(j), upper%column(j + 1) - 1
           i = upper%row(p)
-          if (held(i)) cycle
+          if (constrained(i)) cycle
           q = q + 1
-          free%row(q) = i
-          free%value(q) = upper%value(p)
-          if (i == j) free%value(q) = free%value(q)*(1.0_dp + shift)
+          matrix%row(q) = i
+          matrix%value(q) = upper%value(p)
+          if (i == j) matrix%value(q) = matrix%value(q)*(1.0_dp + shift)
         end do
       end if
-      free%column(j + 1) = q + 1
+      matrix%column(j + 1) = q + 1
     end do
-  end subroutine keep_free
+  end subroutine copy_constrained
 
+  !> Replace loads by displacements; arguments as in `fuge_stiffness_type`.
   subroutine solve(self, block, status)
     class(sparse_factor), intent(in) :: self
     real(dp), intent(inout), contiguous :: block(:, :)
@@ -423,6 +385,7 @@ contains
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, outcome == 0)
   end subroutine solve
 
+  !> Free the factor of CHOLMOD.
   subroutine release(self)
     type(sparse_factor), intent(inout) :: self
 

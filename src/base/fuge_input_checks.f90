@@ -7,9 +7,11 @@ module fuge_input_checks
   implicit none
   private
 
-  public :: check_finite, is_finite_everywhere
+  public :: check_finite, find_asymmetry, is_finite_everywhere
 
   integer, parameter :: int64 = selected_int_kind(18)
+  !> Edge of the square tiles in which a matrix is compared with its transpose.
+  integer, parameter :: TILE = 64
 
 contains
 
@@ -29,7 +31,6 @@ contains
     finite = worst < exponent_bits
   end function is_finite_everywhere
 
-
   !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE); the message names the first such value `name`(k).
   pure subroutine check_finite(values, name, info)
     real(dp), intent(in) :: values(:)
@@ -44,5 +45,38 @@ contains
       return
     end do
   end subroutine check_finite
+
+  !> The coefficients (row, column) and (column, row) of a square matrix that differ most beyond
+  !> what is allowed, `tolerance` weight(row) weight(column).
+  !>
+  !> `matrix` (m, n), m >= n, of which the first n rows count; `weight` (n), not negative.
+  !> row > column; both are zero if no difference exceeds what is allowed.
+  pure subroutine find_asymmetry(matrix, weight, tolerance, row, column)
+    real(dp), intent(in) :: matrix(:, :), weight(:), tolerance
+    integer, intent(out) :: row, column
+    real(dp) :: difference, largest
+    integer :: i, j, first_row, first_column, n
+
+    n = size(matrix, 2)
+    row = 0
+    column = 0
+    largest = 0.0_dp
+    ! A tile and its transpose both stay in the cache.
+    do first_column = 1, n, TILE
+      do first_row = first_column, n, TILE
+        do j = first_column, min(first_column + TILE - 1, n)
+          do i = max(first_row, j + 1), min(first_row + TILE - 1, n)
+            difference = abs(matrix(i, j) - matrix(j, i))
+            if (difference <= largest) cycle
+            difference = difference - tolerance*weight(i)*weight(j)
+            if (difference <= largest) cycle
+            largest = difference
+            row = i
+            column = j
+          end do
+        end do
+      end do
+    end do
+  end subroutine find_asymmetry
 
 end module fuge_input_checks

@@ -1,5 +1,5 @@
-!> An elastic body beside its stiffness: supports, load, rigid motions, contact points; and
-!> the check of these data.
+!> The data of an elastic body except its stiffness: supports, load, rigid modes and contact
+!> points; and their checks.
 module fuge_body_type
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: check_finite
@@ -12,50 +12,53 @@ module fuge_body_type
 
   public :: check_body, check_load_field
 
-  !> The data of a body with nd degrees of freedom, numbered from 1. Components may be
-  !> added: set them by name; those not allocated have the meaning given.
+  !> The data of a body with nd degrees of freedom, numbered from 1. Set components by name, since
+  !> later versions may add some.
   !>
   !> Contact point i moves by u_i = sum over k of normal(k,i) u(dof(k,i)), and its contact
   !> force f_i acts on the body as normal(k,i) f_i at dof(k,i): `normal` points into the
-  !> body. A pair of bodies in one stiffness has the degrees of freedom of both sides in
-  !> each column, with normals of opposite directions.
+  !> body. For a pair of bodies in one stiffness, each column has the degrees of freedom of both
+  !> bodies, with normals of opposite directions.
   type, public :: fuge_body
-    !> Degrees of freedom that are held. Not allocated: none.
+    !> Fixed degrees of freedom. Not allocated: none.
     integer, allocatable :: fixed(:)
-    !> Their given displacements, (size(fixed)). Not allocated: zero.
+    !> Prescribed displacements of `fixed`, (size(fixed)). Not allocated: zero.
     real(dp), allocatable :: displacement(:)
     !> External load, (nd), force. Not allocated: none.
     real(dp), allocatable :: load(:)
-    !> The body floats, and its rigid motions on its supports are looked for.
+    !> The body floats: find the rigid modes that its supports leave.
     logical :: floats = .false.
-    !> The rigid motions, if they are known, (nd, m). Not allocated: none, unless the body floats.
+    !> Known rigid modes Z, (nd, m), for example by `fuge_rigid_modes`. Not allocated: none, unless
+    !> the body floats.
     real(dp), allocatable :: rigid_modes(:, :)
-    !> Degrees of freedom of the contact points, (width, n); 0: none.
+    !> Degrees of freedom of the contact points, (width, n); unused places are 0.
     integer, allocatable :: dof(:, :)
-    !> Directions of the contact forces on the body, (width, n).
+    !> Normals: directions of the contact forces on the body, (width, n).
     real(dp), allocatable :: normal(:, :)
   end type fuge_body
 
 contains
 
-  !> Refuse data that fit no body with `degrees` degrees of freedom. FUGE_ERR_SIZE;
-  !> FUGE_ERR_DOF for one out of range or repeated; FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION for
-  !> modes both given and looked for; FUGE_ERR_MEMORY.
+  !> Refuse data that do not fit a body with `degrees` degrees of freedom.
+  !>
+  !> Errors: FUGE_ERR_SIZE; FUGE_ERR_DOF for a degree of freedom out of range or repeated;
+  !> FUGE_ERR_NOT_FINITE; FUGE_ERR_OVERFLOW; FUGE_ERR_OPTION for rigid modes that are both supplied
+  !> and to be found; FUGE_ERR_MEMORY.
   pure subroutine check_body(body, degrees, info)
     type(fuge_body), intent(in) :: body
     integer, intent(in) :: degrees
     type(fuge_info), intent(inout) :: info
 
-    if (body%floats .and. allocated(body%rigid_modes)) call report(info, FUGE_ERR_OPTION, &
-                                                                   'the body has modes, and floats ' &
-      //'is set: either give the rigid motions or have them looked for')
+    if (body%floats .and. allocated(body%rigid_modes)) call report(info, FUGE_ERR_OPTION, 'both rigid_modes and ' &
+      //'floats are set: supply the rigid modes, or set floats to have them found')
     if (.not. info%failed()) call check_supports(body, degrees, info)
     if (info%failed()) return
     if (allocated(body%load)) call check_load_field(body%load, degrees, info)
     if (.not. info%failed()) call check_contact(body, degrees, info)
   end subroutine check_body
 
-  !> Refuse an external load that is not (degrees) or not finite.
+  !> Refuse an external load of another size than `degrees` (FUGE_ERR_SIZE), not finite
+  !> (FUGE_ERR_NOT_FINITE) or out of range (FUGE_ERR_OVERFLOW).
   pure subroutine check_load_field(load, degrees, info)
     real(dp), intent(in) :: load(:)
     integer, intent(in) :: degrees
@@ -66,10 +69,12 @@ contains
                   //text(degrees)//' degrees of freedom')
     else
       call check_finite(load, 'load', info)
-      if (.not. info%failed()) call check_size(load, 'load', LARGEST_EXPONENT, info)
+      if (.not. info%failed()) call check_range(load, 'load', LARGEST_EXPONENT, info)
     end if
   end subroutine check_load_field
 
+  !> Refuse fixed degrees of freedom that are out of range or repeated, and displacements that do
+  !> not fit them.
   pure subroutine check_supports(body, degrees, info)
     type(fuge_body), intent(in) :: body
     integer, intent(in) :: degrees
@@ -78,7 +83,7 @@ contains
     integer :: k, stat
 
     if (allocated(body%displacement) .and. .not. allocated(body%fixed)) call report(info, FUGE_ERR_SIZE, &
-      'displacement is given, but fixed is not: displacements belong to fixed degrees of freedom')
+      'displacement is set, but fixed is not: displacements belong to fixed degrees of freedom')
     if (.not. allocated(body%fixed) .or. info%failed()) return
     if (allocated(body%displacement)) then
       if (size(body%displacement) /= size(body%fixed)) then
@@ -98,12 +103,12 @@ contains
     do k = 1, size(body%fixed)
       associate (dof => body%fixed(k))
         if (dof < 1 .or. dof > degrees) then
-          call report(info, FUGE_ERR_DOF, 'fixed('//text(k)//') = '//text(dof)//' is not one of '//text(degrees) &
-                      //' degrees of freedom')
+          call report(info, FUGE_ERR_DOF, 'fixed('//text(k)//') = '//text(dof)//' is not one of the ' &
+                      //text(degrees)//' degrees of freedom')
           return
         else if (place(dof) > 0) then
           call report(info, FUGE_ERR_DOF, 'fixed('//text(place(dof))//') and fixed('//text(k)//') are both degree of ' &
-                      //'freedom '//text(dof)//': name it once')
+                      //'freedom '//text(dof)//': remove one of them')
           return
         end if
         place(dof) = k
@@ -111,6 +116,7 @@ contains
     end do
   end subroutine check_supports
 
+  !> Refuse contact points without data, out of range or repeated.
   pure subroutine check_contact(body, degrees, info)
     type(fuge_body), intent(in) :: body
     integer, intent(in) :: degrees
@@ -118,12 +124,12 @@ contains
     integer :: i
 
     if (.not. (allocated(body%dof) .and. allocated(body%normal))) then
-      call report(info, FUGE_ERR_SIZE, 'dof or normal is not allocated: they say which degrees of freedom can touch')
+      call report(info, FUGE_ERR_SIZE, 'dof or normal is not allocated: both are needed to define the contact points')
     else if (size(body%dof) < 1) then
       call report(info, FUGE_ERR_SIZE, 'dof is empty: at least one contact point is needed')
     else if (any(shape(body%dof) /= shape(body%normal))) then
       call report(info, FUGE_ERR_SIZE, 'normal is '//text(size(body%normal, 1))//' by '//text(size(body%normal, 2)) &
-                  //', dof '//text(size(body%dof, 1))//' by '//text(size(body%dof, 2))//': they belong together')
+                  //', dof '//text(size(body%dof, 1))//' by '//text(size(body%dof, 2))//': they need the same shape')
     end if
     if (info%failed()) return
     do i = 1, size(body%dof, 2)
@@ -133,7 +139,8 @@ contains
     call check_repeated(body, degrees, info)
   end subroutine check_contact
 
-  !> One contact point.
+  !> Refuse a contact point whose normal is unusable, or whose degrees of freedom are out of range,
+  !> repeated or all absent.
   pure subroutine check_point(dof, normal, i, degrees, info)
     integer, intent(in) :: dof(:), i, degrees
     real(dp), intent(in) :: normal(:)
@@ -141,13 +148,13 @@ contains
     integer :: k
 
     call check_finite(normal, 'contact point '//text(i)//': normal', info)
-    ! Squared in alpha.
-    if (.not. info%failed()) call check_size(normal, 'contact point '//text(i)//': normal', LARGEST_EXPONENT/4, info)
+    ! alpha contains squares of normals.
+    if (.not. info%failed()) call check_range(normal, 'contact point '//text(i)//': normal', LARGEST_EXPONENT/4, info)
     if (info%failed()) return
     do k = 1, size(dof)
       if (dof(k) < 0 .or. dof(k) > degrees) then
         call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//': dof('//text(k)//') = '//text(dof(k)) &
-                    //' is not one of '//text(degrees)//' degrees of freedom')
+                    //' is not one of the '//text(degrees)//' degrees of freedom')
       else if (dof(k) > 0 .and. any(dof(:k - 1) == dof(k))) then
         call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//' names degree of freedom '//text(dof(k)) &
                     //' twice: add up its normals')
@@ -155,12 +162,12 @@ contains
       if (info%failed()) return
     end do
     if (.not. any(dof > 0 .and. abs(normal) > 0.0_dp)) call report(info, FUGE_ERR_DOF, 'contact point '//text(i) &
-      //' moves with no degree of freedom: its dof or its normal is zero')
+      //' moves with no degree of freedom: it needs at least one with a normal other than zero')
   end subroutine check_point
 
-  !> Refuse numbers that are not zero and out of the range of 2**-`most` .. 2**`most`
+  !> Refuse values other than zero outside the range 2**-`most` .. 2**`most`
   !> (FUGE_ERR_OVERFLOW).
-  pure subroutine check_size(values, name, most, info)
+  pure subroutine check_range(values, name, most, info)
     real(dp), intent(in) :: values(:)
     character(len=*), intent(in) :: name
     integer, intent(in) :: most
@@ -173,10 +180,10 @@ contains
                   //'choose other units')
       return
     end do
-  end subroutine check_size
+  end subroutine check_range
 
-  !> Refuse points that move alike: their forces could not be told apart. Only points with
-  !> the same lowest degree of freedom are compared.
+  !> Refuse two contact points with parallel displacements, for which alpha is singular. Only
+  !> points with the same lowest degree of freedom are compared.
   pure subroutine check_repeated(body, degrees, info)
     type(fuge_body), intent(in) :: body
     integer, intent(in) :: degrees
@@ -195,9 +202,9 @@ contains
       j = last(low)
       do while (j > 0)
         if (move_alike(body%dof(:, i), body%normal(:, i), body%dof(:, j), body%normal(:, j))) then
-          call report(info, FUGE_ERR_DOF, 'contact points '//text(j)//' and '//text(i)//' are the same: both move ' &
-                      //'degree of freedom '//text(low)//' along one line; name the point once, for two stops with ' &
-                      //'gap_upper')
+          call report(info, FUGE_ERR_DOF, 'contact points '//text(j)//' and '//text(i)//' are the same: both have ' &
+                      //'degree of freedom '//text(low)//' and parallel normals; keep one of them, with gap_upper ' &
+                      //'if the point has two stops')
           return
         end if
         j = before(j)
@@ -207,7 +214,7 @@ contains
     end do
   end subroutine check_repeated
 
-  !> The same degrees of freedom, with parallel normals?
+  !> Do two contact points have the same degrees of freedom and parallel normals?
   pure function move_alike(dof, normal, dof_other, normal_other) result(alike)
     integer, intent(in) :: dof(:), dof_other(:)
     real(dp), intent(in) :: normal(:), normal_other(:)

@@ -1,70 +1,71 @@
-!> From the stiffness of a body to the influence matrix of its contact points, and back from
-!> contact forces to the displacements of all degrees of freedom.
+!> Static condensation: from the stiffness matrix of a body to the influence matrix of its contact
+!> points, and back from contact forces to the displacements of all degrees of freedom.
 !>
-!> With N the directions of the contact forces (n columns), p the external load and G the
-!> inverse of K where supports and pins are held,
+!> With N the normals of the contact points (n columns), p the external load and G the inverse of
+!> K with supports and pins constrained,
 !>
-!>     alpha = N^T G N,    b = N^T u_p,    u_p = G p (and what the supports impose),
+!>     alpha = N^T G N,    b = N^T u_p,    u_p = G p (plus the displacements of the supports),
 !>     u = u_p + G N f + Z q.
 !>
-!> Z are the rigid motions of a body that floats; one degree of freedom is pinned for each,
-!> whose reaction is zero once forces are in equilibrium, so that no answer depends on the
-!> choice. The gaps are then g + b + alpha f - R q with R = -N^T Z, and equilibrium is
-!> R^T f = w with w = Z^T p: the general problem. A motion that moves no contact point, such
-!> as sliding along a flat one, is left out; nothing may drive it.
+!> alpha is the inverse of the Schur complement of K in the contact points. Z are the rigid modes
+!> of a floating body. One degree of freedom is pinned for each; its reaction is zero when the
+!> forces are in equilibrium, so that no result depends on the choice. The gaps are then
+!> g + b + alpha f - R q with R = -N^T Z, and equilibrium is R^T f = w with w = Z^T p: the general
+!> problem. A rigid mode that moves no contact point, such as sliding along a flat one, is left
+!> out; the load must not drive it.
 module fuge_condensation
-  use fuge_body_type, only: fuge_body, check_body, check_load_field
+  use fuge_body_type, only: check_body, check_load_field, fuge_body
+  use fuge_contact_modes, only: check_unresisted, find_contact_modes, load_resultant, split_rigid_modes, ROUNDING_ERROR
+  use fuge_contact_normals, only: add_contact_forces, add_point_force, check_free_points, displacement_scale, &
+    pin_scale, point_displacement
   use fuge_input_checks, only: check_finite, is_finite_everywhere
-  use fuge_contact_normals, only: add_force, add_contact_forces, check_free_points, keep_off, &
-    moved, softness
-  use fuge_contact_modes, only: split_motions, modes_of_points, work_of_load, check_sliding, ROUNDED
   use fuge_kinds, only: dp
-  use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_rigid_body_modes, only: find_motions, check_motions, choose_pins, unit_at_pins
-  use fuge_smallest_eigenvalue, only: find_softest_motion, unscale
-  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
-    FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, FUGE_DONE
-  use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   use fuge_number_text, only: text
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_rigid_body_modes, only: check_rigid_modes, choose_pins, find_rigid_modes, normalise_at_pins
+  use fuge_smallest_eigenvalue, only: find_smallest_eigenvalue, unscale
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, &
+    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
+  use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
   private
 
   public :: fuge_condense, condense_to_recover
 
-  !> Right-hand sides that are solved together.
+  !> Number of right-hand sides that are solved together.
   integer, parameter :: BLOCK = 64
-  !> A pivot below so many roundings of its diagonal term is none.
-  real(dp), parameter :: NO_PIVOT = 16.0_dp*epsilon(1.0_dp)
-  !> Below, the softest motion lets less than some four digits be promised; often there
-  !> are two or three more.
-  real(dp), parameter :: SOFT = 1.0e4_dp*epsilon(1.0_dp)
-  !> Largest residual of K u = forces that counts as solved, relative to its parts.
-  real(dp), parameter :: SOLVED = 1.0e-10_dp
+  !> A pivot below this fraction of its diagonal term counts as zero.
+  real(dp), parameter :: SMALLEST_PIVOT = 16.0_dp*epsilon(1.0_dp)
+  !> With a smallest eigenvalue below this, alpha may have fewer than four correct digits; often it
+  !> has two or three more.
+  real(dp), parameter :: NEARLY_SINGULAR = 1.0e4_dp*epsilon(1.0_dp)
+  !> Largest residual of K u = forces that counts as solved, relative to the largest force.
+  real(dp), parameter :: RESIDUAL_TOLERANCE = 1.0e-10_dp
 
   !> A body condensed to its contact points.
   type, public :: fuge_condensed
     !> Influence matrix, (n, n), length per force.
     real(dp), allocatable :: alpha(:, :)
-    !> b: displacements of the contact points by load and supports, (n), length.
+    !> b: displacements of the contact points due to load and supports, (n), length.
     real(dp), allocatable :: displacement(:)
-    !> R: rigid motions that the contact has to hold, (n, m); m = 0 for a body that does not float.
+    !> R: rigid modes at the contact points, (n, m); m = 0 for a body that does not float.
     real(dp), allocatable :: modes(:, :)
-    !> w: the load's work in each, (m): the resultant of the contact forces.
+    !> w: work of the load in each mode, (m): the resultant of the contact forces.
     real(dp), allocatable :: resultant(:)
     class(fuge_stiffness), allocatable, private :: stiffness
     class(stiffness_factor), allocatable, private :: factor
     type(fuge_body), private :: body
-    !> Supports and pins.
-    logical, allocatable, private :: held(:)
-    !> Square root of the diagonal of K, by which degrees of freedom of any unit compare; zero
-    !> where fixed.
+    !> Supports and pins, (degrees).
+    logical, allocatable, private :: constrained(:)
+    !> Square root of the diagonal of K, (degrees), which makes displacements of any unit
+    !> comparable; zero where fixed.
     real(dp), allocatable, private :: scale(:)
-    !> Z of `modes`, and those motions that move no contact point, (degrees, ..).
-    real(dp), allocatable, private :: motions(:, :), sliding(:, :)
-    !> Relative error of the motions.
-    real(dp), private :: error = ROUNDED
+    !> Z of `modes`, (degrees, m), and the rigid modes that move no contact point.
+    real(dp), allocatable, private :: rigid_modes(:, :), unresisted_modes(:, :)
+    !> Relative error of the rigid modes.
+    real(dp), private :: mode_error = ROUNDING_ERROR
     !> u_p, (degrees).
-    real(dp), allocatable, private :: by_load(:)
+    real(dp), allocatable, private :: load_displacement(:)
   contains
     procedure :: pose
     procedure :: recover
@@ -77,14 +78,15 @@ contains
   !> Condense a body to its contact points.
   !>
   !> `stiffness` is any extension of fuge_stiffness, set before; of a dense or band matrix
-  !> only the reference is kept, for `recover`. Cost: one Cholesky factorisation and n
-  !> solves in blocks of 64, four for the softest motion and the load, and where rigid
-  !> motions are looked for another factorisation. `condensed` is replaced when done or warned.
-  !> Warning: FUGE_WARN_RESIDUAL where K is so near to singular that few digits of alpha may
-  !> be left. Errors, which name the degree of freedom or the point:
+  !> only the reference is kept, for `recover`. Cost: one Cholesky factorisation, n solves in
+  !> blocks of 64, four solves for the smallest eigenvalue and the load, and another
+  !> factorisation if rigid modes are to be found. `condensed` is replaced on success or warning.
+  !> Warning: FUGE_WARN_RESIDUAL if K is so near to singular that alpha may have few correct
+  !> digits. Errors, which name the degree of freedom or the point:
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE,
-  !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MODES, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM for a
-  !> load along a motion that no contact can hold, FUGE_ERR_MEMORY.
+  !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MODES, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_NO_EQUILIBRIUM for a load that drives a mode which no contact can resist,
+  !> FUGE_ERR_MEMORY.
   subroutine fuge_condense(stiffness, body, condensed, info)
     class(fuge_stiffness), intent(in) :: stiffness
     type(fuge_body), intent(in) :: body
@@ -94,8 +96,9 @@ contains
     call condense(stiffness, body, .true., condensed, info)
   end subroutine fuge_condense
 
-  !> The same without alpha and its n solves, for who knows the contact forces already and
-  !> wants `recover` only: the pins are those of `fuge_condense` for the same body.
+  !> As `fuge_condense` but without alpha and its n solves, for callers that already know the
+  !> contact forces and need `recover` only. The pins are those of `fuge_condense` for the same
+  !> body.
   subroutine condense_to_recover(stiffness, body, condensed, info)
     class(fuge_stiffness), intent(in) :: stiffness
     type(fuge_body), intent(in) :: body
@@ -105,13 +108,14 @@ contains
     call condense(stiffness, body, .false., condensed, info)
   end subroutine condense_to_recover
 
+  !> `fuge_condense`, or `condense_to_recover` if not `with_alpha`.
   subroutine condense(stiffness, body, with_alpha, condensed, info)
     class(fuge_stiffness), intent(in) :: stiffness
     type(fuge_body), intent(in) :: body
     logical, intent(in) :: with_alpha
     type(fuge_condensed), intent(inout) :: condensed
     type(fuge_info), intent(out) :: info
-    type(fuge_condensed) :: made
+    type(fuge_condensed) :: result
     type(fuge_info) :: warning
     integer, allocatable :: pins(:)
     integer :: stat
@@ -122,52 +126,51 @@ contains
     end if
     call check_body(body, stiffness%degrees(), info)
     if (info%failed()) return
-    allocate (made%stiffness, source=stiffness, stat=stat)
+    allocate (result%stiffness, source=stiffness, stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the stiffness')
-    made%body = body
-    if (.not. info%failed()) call hold(made, pins, info)
-    if (.not. info%failed()) call factorise(made, info)
+    result%body = body
+    if (.not. info%failed()) call constrain(result, pins, info)
+    if (.not. info%failed()) call factorise(result, info)
     warning = info
-    if (made%body%floats .and. .not. info%failed()) then
-      call unit_at_pins(made%stiffness, made%factor, made%held, pins, made%motions, info)
+    if (result%body%floats .and. .not. info%failed()) then
+      call normalise_at_pins(result%stiffness, result%factor, result%constrained, pins, result%rigid_modes, info)
     end if
-    if (with_alpha .and. .not. info%failed()) call find_alpha(made, info)
-    if (.not. info%failed()) call find_modes(made, info)
-    if (.not. info%failed()) call apply_load(made, info)
+    if (with_alpha .and. .not. info%failed()) call find_alpha(result, info)
+    if (.not. info%failed()) call keep_resisted_modes(result, info)
+    if (.not. info%failed()) call apply_load(result, info)
     if (.not. info%failed()) then
       info%status = warning%status
       info%message = warning%message
-      call take(made, condensed)
+      call move_condensed(result, condensed)
     end if
-    call made%clear()
+    call result%clear()
   end subroutine condense
 
-  !> Another external load on the same body: `displacement` and `resultant` follow, with one
-  !> solve.
+  !> Replace the external load; `displacement` and `resultant` are updated with one solve.
   !>
-  !> `load` (degrees), force. Errors: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE,
-  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY; all is then as it was.
+  !> `load` (degrees), force. Errors, everything unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY.
   subroutine set_load(self, load, info)
     class(fuge_condensed), intent(inout) :: self
     real(dp), intent(in) :: load(:)
     type(fuge_info), intent(out) :: info
-    real(dp), allocatable :: before(:)
+    real(dp), allocatable :: previous(:)
 
     if (.not. allocated(self%factor)) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'nothing has been condensed')
+      call report(info, FUGE_ERR_CALL_ORDER, 'no body has been condensed: call fuge_condense first')
       return
     end if
-    call check_load_field(load, size(self%held), info)
+    call check_load_field(load, size(self%constrained), info)
     if (info%failed()) return
-    call move_alloc(self%body%load, before)
+    call move_alloc(self%body%load, previous)
     self%body%load = load
     call apply_load(self, info)
-    if (info%failed()) call move_alloc(before, self%body%load)
+    if (info%failed()) call move_alloc(previous, self%body%load)
   end subroutine set_load
 
-  !> Pose the contact problem: gap + b; and, if the body floats, its motions and their
-  !> resultants. Other components stay: without modes that is one translation, of a rigid
-  !> counter-body under a load, whose resultant is yours to set.
+  !> Pose the contact problem: set the gaps to `gap` + b and, if the body floats, `modes` and
+  !> `resultant` to its own. Other components of `problem` are unchanged: a problem without modes
+  !> has one translation, that of a rigid counter-body, and the caller sets its resultant.
   !>
   !> `gap` (n), initial gaps, length. Errors: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE.
   subroutine pose(self, gap, problem, info)
@@ -177,7 +180,7 @@ contains
     type(fuge_info), intent(out) :: info
 
     if (.not. allocated(self%displacement)) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'nothing has been condensed')
+      call report(info, FUGE_ERR_CALL_ORDER, 'no body has been condensed: call fuge_condense first')
     else if (size(gap) /= size(self%displacement)) then
       call report(info, FUGE_ERR_SIZE, 'gap has '//text(size(gap))//' value(s): it needs one for each of ' &
                   //text(size(self%displacement))//' contact points')
@@ -189,13 +192,14 @@ contains
     problem%resultant = self%resultant
   end subroutine pose
 
-  !> Displacements of all degrees of freedom in the solved contact.
+  !> Displacements of all degrees of freedom for a solution of the contact problem.
   !>
-  !> `u` (degrees), length. Of the solution the forces and the first m rigid motions are
-  !> read, m the number of `modes`. A motion that moves no contact point is left at zero at
-  !> its pin. info%residual is the largest force that K u leaves unbalanced at a free degree
-  !> of freedom, relative to its parts; above 1e-10 FUGE_WARN_RESIDUAL.
-  !> Errors: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY; `u` is then as it was.
+  !> `u` (degrees), length. Of the solution, the forces and the first m motions are used, with m
+  !> the number of `modes`. A rigid mode that moves no contact point is zero at its pin.
+  !> info%residual is the largest force that K u leaves unbalanced at a free degree of freedom,
+  !> relative to the largest force; FUGE_WARN_RESIDUAL if it exceeds 1e-10.
+  !> Errors, `u` unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
+  !> FUGE_ERR_MEMORY.
   subroutine recover(self, solution, u, info)
     class(fuge_condensed), intent(in) :: self
     type(fuge_solution), intent(in) :: solution
@@ -210,23 +214,24 @@ contains
     if (stat == 0) then
       forces = 0.0_dp
       call add_contact_forces(self%body, solution%force, forces)
-      field(:, 1) = merge(0.0_dp, forces, self%held)
+      field(:, 1) = merge(0.0_dp, forces, self%constrained)
       call self%factor%solve(field, stat)
     end if
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
       return
     end if
-    field(:, 1) = self%by_load + field(:, 1)
-    do j = 1, size(self%motions, 2)
-      field(:, 1) = field(:, 1) + self%motions(:, j)*solution%motion(j)
+    field(:, 1) = self%load_displacement + field(:, 1)
+    do j = 1, size(self%rigid_modes, 2)
+      field(:, 1) = field(:, 1) + self%rigid_modes(:, j)*solution%motion(j)
     end do
     call find_residual(self, solution, field(:, 1), info)
     if (.not. info%failed()) u = field(:, 1)
   end subroutine recover
 
-  !> Give back the stiffness and its factor, by far the most of the memory; alpha and what
-  !> else can be read stay. Done by itself when the variable ends, but not by flang 22.
+  !> Free the stiffness and its factor, by far the largest part of the memory; the public
+  !> components stay. It happens automatically when the variable goes out of scope, but not with
+  !> flang 22.
   subroutine clear(self)
     class(fuge_condensed), intent(inout) :: self
 
@@ -234,7 +239,7 @@ contains
     if (allocated(self%factor)) deallocate (self%factor)
   end subroutine clear
 
-  !> Does the solution belong here?
+  !> Refuse a solution, or a number of displacements, that does not fit this body.
   pure subroutine check_recovery(self, solution, degrees, info)
     class(fuge_condensed), intent(in) :: self
     type(fuge_solution), intent(in) :: solution
@@ -243,10 +248,10 @@ contains
     integer :: m, n
 
     if (.not. allocated(self%factor)) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'nothing has been condensed')
+      call report(info, FUGE_ERR_CALL_ORDER, 'no body has been condensed: call fuge_condense first')
       return
     else if (.not. (allocated(solution%force) .and. allocated(solution%motion))) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'the solution holds no forces: solve first')
+      call report(info, FUGE_ERR_CALL_ORDER, 'the solution has no forces: solve the contact problem first')
       return
     end if
     n = size(self%displacement)
@@ -255,25 +260,25 @@ contains
       call report(info, FUGE_ERR_SIZE, 'the solution has '//text(size(solution%force))//' forces and ' &
                   //text(size(solution%motion))//' motions: this body has '//text(n)//' contact points and '//text(m) &
                   //' motions')
-    else if (degrees /= size(self%held)) then
+    else if (degrees /= size(self%constrained)) then
       call report(info, FUGE_ERR_SIZE, 'u has '//text(degrees)//' value(s): it needs one for each of ' &
-                  //text(size(self%held))//' degrees of freedom')
+                  //text(size(self%constrained))//' degrees of freedom')
     else
       call check_finite(solution%force, 'force', info)
       if (.not. info%failed()) call check_finite(solution%motion(:m), 'motion', info)
     end if
   end subroutine check_recovery
 
-  !> What K u leaves of the loads, from K itself.
+  !> The residual of K u = forces, with K itself and not its factor; a warning if it is large.
   subroutine find_residual(self, solution, u, info)
     class(fuge_condensed), intent(in) :: self
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: u(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: forces(:), left(:), product(:), magnitude(:)
+    real(dp), allocatable :: forces(:), residual(:), product(:), magnitude(:)
     integer :: stat
 
-    allocate (forces(size(u)), left(size(u)), product(size(u)), magnitude(size(u)), stat=stat)
+    allocate (forces(size(u)), residual(size(u)), product(size(u)), magnitude(size(u)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the residual')
       return
@@ -281,108 +286,110 @@ contains
     forces = 0.0_dp
     call add_contact_forces(self%body, solution%force, forces)
     call self%stiffness%multiply(u, product, magnitude)
-    left = product - forces
+    residual = product - forces
     magnitude = magnitude + abs(forces)
     if (allocated(self%body%load)) then
-      left = left - self%body%load
+      residual = residual - self%body%load
       magnitude = magnitude + abs(self%body%load)
     end if
-    call unscale(left, self%scale)
+    call unscale(residual, self%scale)
     call unscale(magnitude, self%scale)
-    if (maxval(magnitude) > 0.0_dp) info%residual = maxval(abs(left))/maxval(magnitude)
-    if (info%residual > SOLVED) call report(info, FUGE_WARN_RESIDUAL, 'displacements given, but degree of freedom ' &
-      //text(maxloc(abs(left), 1))//' is out of balance by '//text(info%residual)//' of the largest force')
+    if (maxval(magnitude) > 0.0_dp) info%residual = maxval(abs(residual))/maxval(magnitude)
+    if (info%residual > RESIDUAL_TOLERANCE) call report(info, FUGE_WARN_RESIDUAL, &
+      'the displacements leave degree of freedom '//text(maxloc(abs(residual), 1))//' out of balance by ' &
+      //text(info%residual)//' of the largest force')
   end subroutine find_residual
 
-  !> Mark the supports, find or check the motions and choose where to pin them.
-  subroutine hold(made, pins, info)
-    type(fuge_condensed), intent(inout) :: made
+  !> Mark the supports, find or check the rigid modes and choose their pins.
+  subroutine constrain(self, pins, info)
+    type(fuge_condensed), intent(inout) :: self
     integer, allocatable, intent(out) :: pins(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: all_scale(:)
     integer :: degrees, stat
 
-    degrees = made%stiffness%degrees()
-    allocate (made%held(degrees), made%scale(degrees), all_scale(degrees), stat=stat)
+    degrees = self%stiffness%degrees()
+    allocate (self%constrained(degrees), self%scale(degrees), all_scale(degrees), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(degrees)//' degrees of freedom')
       return
     end if
-    made%held = .false.
-    if (allocated(made%body%fixed)) made%held(made%body%fixed) = .true.
-    call find_scale(made, all_scale, info)
-    if (.not. info%failed()) call check_free_points(made%body, made%held, info)
+    self%constrained = .false.
+    if (allocated(self%body%fixed)) self%constrained(self%body%fixed) = .true.
+    call find_scale(self, all_scale, info)
+    if (.not. info%failed()) call check_free_points(self%body, self%constrained, info)
     if (info%failed()) return
-    if (made%body%floats) then
-      call find_motions(made%stiffness, made%held, made%scale, made%motions, info)
-    else if (allocated(made%body%rigid_modes)) then
-      call check_motions(made%stiffness, made%held, all_scale, made%body%rigid_modes, info)
-      if (.not. info%failed()) made%motions = made%body%rigid_modes
+    if (self%body%floats) then
+      call find_rigid_modes(self%stiffness, self%constrained, self%scale, self%rigid_modes, info)
+    else if (allocated(self%body%rigid_modes)) then
+      call check_rigid_modes(self%stiffness, self%constrained, all_scale, self%body%rigid_modes, info)
+      if (.not. info%failed()) self%rigid_modes = self%body%rigid_modes
     else
-      allocate (made%motions(degrees, 0))
+      allocate (self%rigid_modes(degrees, 0))
     end if
-    if (.not. info%failed()) call choose_pins(keep_off(made%body, made%scale), made%motions, pins, info)
-    if (.not. info%failed()) made%held(pins) = .true.
-  end subroutine hold
+    if (.not. info%failed()) call choose_pins(pin_scale(self%body, self%scale), self%rigid_modes, pins, info)
+    if (.not. info%failed()) self%constrained(pins) = .true.
+  end subroutine constrain
 
-  !> Square roots of the diagonal of K, in made%scale zero where fixed; refuse a free degree
-  !> of freedom without stiffness.
-  subroutine find_scale(made, all_scale, info)
-    type(fuge_condensed), intent(inout) :: made
+  !> Square roots of the diagonal of K: `all_scale` (degrees), and self%scale, zero where fixed.
+  !> Refuse a free degree of freedom without stiffness.
+  subroutine find_scale(self, all_scale, info)
+    type(fuge_condensed), intent(inout) :: self
     real(dp), intent(out) :: all_scale(:)
     type(fuge_info), intent(inout) :: info
     integer :: j
 
-    call made%stiffness%diagonal(all_scale)
+    call self%stiffness%diagonal(all_scale)
     do j = 1, size(all_scale)
       if (all_scale(j) > 0.0_dp) then
         all_scale(j) = sqrt(all_scale(j))
-      else if (made%held(j)) then
+      else if (self%constrained(j)) then
         all_scale(j) = 0.0_dp
       else
         call report(info, FUGE_ERR_NOT_DEFINITE, 'degree of freedom '//text(j)//' has the stiffness ' &
-                    //text(all_scale(j))//' on the diagonal: it needs a positive one, or to be fixed')
+                    //text(all_scale(j))//' on the diagonal: make it positive, or fix the degree of freedom')
         return
       end if
     end do
-    made%scale = merge(0.0_dp, all_scale, made%held)
+    self%scale = merge(0.0_dp, all_scale, self%constrained)
   end subroutine find_scale
 
-  !> Factorise what is free; refuse a body that still floats, and warn if it nearly does.
-  subroutine factorise(made, info)
-    type(fuge_condensed), intent(inout) :: made
+  !> Factorise with supports and pins; refuse a body that still floats, warn if it nearly does.
+  subroutine factorise(self, info)
+    type(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
     real(dp) :: pivot, quotient
     integer :: status, weakest
 
-    call made%stiffness%factorise(made%held, 0.0_dp, made%factor, pivot, weakest, status)
+    call self%stiffness%factorise(self%constrained, 0.0_dp, self%factor, pivot, weakest, status)
     quotient = 0.0_dp
-    if (status == FUGE_DONE .and. pivot > NO_PIVOT) call find_softest_motion(made%stiffness, made%factor, &
-      merge(0.0_dp, made%scale, made%held), quotient, weakest, status)
-    ! Motions found by the factor are as exact as it is.
-    if (made%body%floats) made%error = max(made%error, epsilon(quotient)/max(quotient, epsilon(quotient)))
+    if (status == FUGE_DONE .and. pivot > SMALLEST_PIVOT) call find_smallest_eigenvalue( &
+      self%stiffness, self%factor, merge(0.0_dp, self%scale, self%constrained), quotient, weakest, status)
+    ! Rigid modes computed with the factor are as accurate as the factor.
+    if (self%body%floats) self%mode_error = max(self%mode_error, epsilon(quotient)/max(quotient, epsilon(quotient)))
     if (status /= FUGE_DONE) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the factor of the stiffness matrix')
     else if (.not. quotient > epsilon(quotient)) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive definite: with ' &
-                  //text(count(made%held))//' held, supports and pins, degree of freedom '//text(weakest) &
-                  //' still moves freely; fix that motion, or set floats (modes) if the body floats')
-    else if (quotient < SOFT) then
-      call report(info, FUGE_WARN_RESIDUAL, 'the stiffness matrix is nearly singular: the motion that moves degree ' &
-                  //'of freedom '//text(weakest)//' most has '//text(quotient)//' of the stiffness of its parts; as ' &
-                  //'few as '//text(max(nint(-log10(epsilon(quotient)/quotient)), 0))//' digits of alpha may be left')
+                  //text(count(self%constrained))//' fixed or pinned, degree of freedom '//text(weakest) &
+                  //' still moves freely; fix it, or set floats or rigid_modes if the body floats')
+    else if (quotient < NEARLY_SINGULAR) then
+      call report(info, FUGE_WARN_RESIDUAL, 'the stiffness matrix is nearly singular: its softest mode, which ' &
+                  //'moves degree of freedom '//text(weakest)//' most, has the relative stiffness '//text(quotient) &
+                  //'; alpha may have only '//text(max(nint(-log10(epsilon(quotient)/quotient)), 0)) &
+                  //' correct digits')
     end if
   end subroutine factorise
 
   !> alpha = N^T G N, a block of columns at a time.
-  subroutine find_alpha(made, info)
-    type(fuge_condensed), intent(inout) :: made
+  subroutine find_alpha(self, info)
+    type(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: columns(:, :)
     integer :: first, i, j, last, n, stat
 
-    n = size(made%body%dof, 2)
-    allocate (made%alpha(n, n), columns(size(made%held), min(BLOCK, n)), stat=stat)
+    n = size(self%body%dof, 2)
+    allocate (self%alpha(n, n), columns(size(self%constrained), min(BLOCK, n)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the influence matrix of '//text(n)//' contact points')
       return
@@ -391,117 +398,119 @@ contains
       last = min(first + BLOCK - 1, n)
       columns = 0.0_dp
       do j = first, last
-        call add_force(made%body%dof(:, j), made%body%normal(:, j), 1.0_dp, columns(:, j - first + 1))
-        where (made%held) columns(:, j - first + 1) = 0.0_dp
+        call add_point_force(self%body%dof(:, j), self%body%normal(:, j), 1.0_dp, columns(:, j - first + 1))
+        where (self%constrained) columns(:, j - first + 1) = 0.0_dp
       end do
-      call made%factor%solve(columns(:, :last - first + 1), stat)
+      call self%factor%solve(columns(:, :last - first + 1), stat)
       if (stat /= FUGE_DONE) then
         call report(info, stat, 'no memory to solve for '//text(last - first + 1)//' right-hand sides')
         return
       end if
       do j = first, last
         do i = 1, n
-          made%alpha(i, j) = moved(made%body%dof(:, i), made%body%normal(:, i), columns(:, j - first + 1))
+          self%alpha(i, j) = point_displacement(self%body%dof(:, i), self%body%normal(:, i), columns(:, j - first + 1))
         end do
       end do
     end do
     do j = 1, n
-      if (is_finite_everywhere(made%alpha(:, j)) .and. made%alpha(j, j) < huge(1.0_dp)) cycle
+      if (is_finite_everywhere(self%alpha(:, j)) .and. self%alpha(j, j) < huge(1.0_dp)) cycle
       call report(info, FUGE_ERR_OVERFLOW, 'the influence of contact point '//text(j)//' overflows: choose other ' &
                   //'units, or normals of length one')
       return
     end do
     do j = 2, n
       do i = 1, j - 1
-        made%alpha(i, j) = 0.5_dp*(made%alpha(i, j) + made%alpha(j, i))
-        made%alpha(j, i) = made%alpha(i, j)
+        self%alpha(i, j) = 0.5_dp*(self%alpha(i, j) + self%alpha(j, i))
+        self%alpha(j, i) = self%alpha(i, j)
       end do
     end do
   end subroutine find_alpha
 
-  !> R = -N^T Z, without what the contact cannot feel.
-  subroutine find_modes(made, info)
-    type(fuge_condensed), intent(inout) :: made
+  !> R = -N^T Z; keep the modes that the contact points resist.
+  subroutine keep_resisted_modes(self, info)
+    type(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
-    logical :: felt(size(made%motions, 2))
-    real(dp), allocatable :: kept(:, :)
+    logical :: resisted(size(self%rigid_modes, 2))
+    real(dp), allocatable :: remaining(:, :)
     integer, allocatable :: columns(:)
     integer :: j, stat
 
-    call modes_of_points(made%body, made%motions, made%scale, made%error, made%modes, stat)
-    if (stat == 0) call split_motions(made%motions, made%modes, made%scale, softness(made%body, made%scale), &
-                                      made%error, felt, made%sliding, stat)
+    call find_contact_modes(self%body, self%rigid_modes, self%scale, self%mode_error, self%modes, stat)
+    if (stat == 0) call split_rigid_modes(self%rigid_modes, self%modes, self%scale, &
+                                          displacement_scale(self%body, self%scale), self%mode_error, resisted, &
+                                          self%unresisted_modes, stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of the contact points')
-    else if (.not. all(felt)) then
-      columns = pack([(j, j=1, size(felt))], felt)
-      kept = made%modes(:, columns)
-      call move_alloc(kept, made%modes)
-      kept = made%motions(:, columns)
-      call move_alloc(kept, made%motions)
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid modes of the contact points')
+    else if (.not. all(resisted)) then
+      columns = pack([(j, j=1, size(resisted))], resisted)
+      remaining = self%modes(:, columns)
+      call move_alloc(remaining, self%modes)
+      remaining = self%rigid_modes(:, columns)
+      call move_alloc(remaining, self%rigid_modes)
     end if
-  end subroutine find_modes
+  end subroutine keep_resisted_modes
 
-  !> u_p, b and w by the external load and the displacements of the supports.
-  subroutine apply_load(made, info)
-    class(fuge_condensed), intent(inout) :: made
+  !> u_p, b and w due to the external load and the displacements of the supports.
+  subroutine apply_load(self, info)
+    class(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: field(:, :), given(:), product(:), magnitude(:), by_load(:), resultant(:), displacement(:)
+    real(dp), allocatable :: field(:, :), prescribed(:), product(:), magnitude(:)
+    real(dp), allocatable :: load_displacement(:), resultant(:), displacement(:)
     integer :: i, m, n, degrees, stat
 
-    degrees = size(made%held)
-    n = size(made%body%dof, 2)
-    m = size(made%modes, 2)
-    allocate (field(degrees, 1), given(degrees), product(degrees), magnitude(degrees), resultant(m), displacement(n), &
-              stat=stat)
+    degrees = size(self%constrained)
+    n = size(self%body%dof, 2)
+    m = size(self%modes, 2)
+    allocate (field(degrees, 1), prescribed(degrees), product(degrees), magnitude(degrees), resultant(m), &
+              displacement(n), stat=stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements by the load')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements due to the load')
       return
     end if
     field = 0.0_dp
-    if (allocated(made%body%load)) field(:, 1) = made%body%load
-    call check_sliding(made%sliding, field(:, 1), made%scale, made%error, info)
+    if (allocated(self%body%load)) field(:, 1) = self%body%load
+    call check_unresisted(self%unresisted_modes, field(:, 1), self%scale, self%mode_error, info)
     if (info%failed()) return
-    resultant = work_of_load(made%motions, field(:, 1), made%scale, made%error)
-    given = 0.0_dp
-    if (allocated(made%body%displacement)) then
-      given(made%body%fixed) = made%body%displacement
-      call made%stiffness%multiply(given, product, magnitude)
+    resultant = load_resultant(self%rigid_modes, field(:, 1), self%scale, self%mode_error)
+    prescribed = 0.0_dp
+    if (allocated(self%body%displacement)) then
+      prescribed(self%body%fixed) = self%body%displacement
+      call self%stiffness%multiply(prescribed, product, magnitude)
       field(:, 1) = field(:, 1) - product
     end if
-    where (made%held) field(:, 1) = 0.0_dp
-    call made%factor%solve(field, stat)
+    where (self%constrained) field(:, 1) = 0.0_dp
+    call self%factor%solve(field, stat)
     if (stat /= FUGE_DONE) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements by the load')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements due to the load')
       return
     end if
-    by_load = field(:, 1) + given
+    load_displacement = field(:, 1) + prescribed
     do i = 1, n
-      displacement(i) = moved(made%body%dof(:, i), made%body%normal(:, i), by_load)
+      displacement(i) = point_displacement(self%body%dof(:, i), self%body%normal(:, i), load_displacement)
     end do
-    call move_alloc(by_load, made%by_load)
-    call move_alloc(displacement, made%displacement)
-    call move_alloc(resultant, made%resultant)
+    call move_alloc(load_displacement, self%load_displacement)
+    call move_alloc(displacement, self%displacement)
+    call move_alloc(resultant, self%resultant)
   end subroutine apply_load
 
-  !> Move what has been made to where it is wanted, without a copy.
-  subroutine take(made, condensed)
-    type(fuge_condensed), intent(inout) :: made, condensed
+  !> Move all components without a copy.
+  subroutine move_condensed(source, destination)
+    type(fuge_condensed), intent(inout) :: source, destination
 
-    call condensed%clear()
-    call move_alloc(made%alpha, condensed%alpha)
-    call move_alloc(made%displacement, condensed%displacement)
-    call move_alloc(made%modes, condensed%modes)
-    call move_alloc(made%resultant, condensed%resultant)
-    call move_alloc(made%stiffness, condensed%stiffness)
-    call move_alloc(made%factor, condensed%factor)
-    call move_alloc(made%held, condensed%held)
-    call move_alloc(made%scale, condensed%scale)
-    call move_alloc(made%motions, condensed%motions)
-    call move_alloc(made%sliding, condensed%sliding)
-    call move_alloc(made%by_load, condensed%by_load)
-    condensed%error = made%error
-    condensed%body = made%body
-  end subroutine take
+    call destination%clear()
+    call move_alloc(source%alpha, destination%alpha)
+    call move_alloc(source%displacement, destination%displacement)
+    call move_alloc(source%modes, destination%modes)
+    call move_alloc(source%resultant, destination%resultant)
+    call move_alloc(source%stiffness, destination%stiffness)
+    call move_alloc(source%factor, destination%factor)
+    call move_alloc(source%constrained, destination%constrained)
+    call move_alloc(source%scale, destination%scale)
+    call move_alloc(source%rigid_modes, destination%rigid_modes)
+    call move_alloc(source%unresisted_modes, destination%unresisted_modes)
+    call move_alloc(source%load_displacement, destination%load_displacement)
+    destination%mode_error = source%mode_error
+    destination%body = source%body
+  end subroutine move_condensed
 
 end module fuge_condensation

@@ -1,7 +1,8 @@
-!> Which rigid motions of a body its contact points feel.
+!> The rigid modes of a body at its contact points: R = -N^T Z, the resultant w = Z^T p, and the
+!> modes that no contact force resists.
 module fuge_contact_modes
   use fuge_body_type, only: fuge_body
-  use fuge_contact_normals, only: moved, softness
+  use fuge_contact_normals, only: displacement_scale, point_displacement
   use fuge_kinds, only: dp
   use fuge_pivoted_qr, only: combine_independent, factorise_pivoted, numerical_rank
   use fuge_status, only: fuge_info, report, FUGE_ERR_NO_EQUILIBRIUM
@@ -9,98 +10,100 @@ module fuge_contact_modes
   implicit none
   private
 
-  public :: split_motions, modes_of_points, work_of_load, check_sliding
+  public :: check_unresisted, find_contact_modes, load_resultant, split_rigid_modes
 
-  !> Motions of the contact points below this fraction of the body's are none, and so are
-  !> loads that drive them.
-  real(dp), parameter :: STILL = 1.0e-8_dp
-  !> Relative error of motions that are exact but for rounding.
-  real(dp), parameter, public :: ROUNDED = 1.0e3_dp*epsilon(1.0_dp)
+  !> Displacements of the contact points below this fraction of those of the body count as
+  !> zero, and so does the work of a load below this fraction of its terms.
+  real(dp), parameter :: MODE_TOLERANCE = 1.0e-8_dp
+  !> Relative error of rigid modes that are exact except for rounding.
+  real(dp), parameter, public :: ROUNDING_ERROR = 1.0e3_dp*epsilon(1.0_dp)
 
 contains
 
-  !> Which motions the contact points feel, one independent of the other; of the rest
-  !> `sliding` is made, those parts that move no contact point. Pivoted QR factors of the
-  !> motions of the contact points, scaled: R P = Q (R_1 R_2).
+  !> Split the rigid modes by pivoted QR of their values at the contact points: an independent
+  !> subset, which the contact points resist, and combinations of the others with it that move
+  !> no contact point.
   !>
-  !> `motions` (degrees, m) move the body, `modes` (n, m) its contact points; `scale` of
-  !> the degrees of freedom and `soft` of the points make both free of units.
-  !> `error` is the relative one of the motions; `sliding` (degrees, m - count(felt)).
+  !> `rigid_modes` Z (degrees, m) and `modes` R (n, m). `scale` (degrees) and `point_scale` (n),
+  !> from `displacement_scale`, make them dimensionless. `mode_error`: relative error of the
+  !> rigid modes. `resisted` (m) marks the subset; `unresisted` (degrees, m - count(resisted)).
   !> `stat` is not zero without memory.
-  subroutine split_motions(motions, modes, scale, soft, error, felt, sliding, stat)
-    real(dp), intent(in) :: motions(:, :), modes(:, :), scale(:), soft(:), error
-    logical, intent(out) :: felt(:)
-    real(dp), allocatable, intent(out) :: sliding(:, :)
+  subroutine split_rigid_modes(rigid_modes, modes, scale, point_scale, mode_error, resisted, unresisted, stat)
+    real(dp), intent(in) :: rigid_modes(:, :), modes(:, :), scale(:), point_scale(:), mode_error
+    logical, intent(out) :: resisted(:)
+    real(dp), allocatable, intent(out) :: unresisted(:, :)
     integer, intent(out) :: stat
-    real(dp), allocatable :: r(:, :), mix(:, :)
-    real(dp) :: unit(size(felt)), tau(size(felt))
-    integer :: order(size(felt)), i, k, m, n, rank
+    real(dp), allocatable :: r(:, :), coefficients(:, :)
+    real(dp) :: unit(size(resisted)), tau(size(resisted))
+    integer :: order(size(resisted)), i, k, m, n, rank
 
-    m = size(felt)
+    m = size(resisted)
     n = size(modes, 1)
-    felt = .true.
+    resisted = .true.
     allocate (r(n, m), stat=stat)
-    if (stat == 0 .and. m < 1) allocate (sliding(size(scale), 0), stat=stat)
+    if (stat == 0 .and. m < 1) allocate (unresisted(size(scale), 0), stat=stat)
     if (stat /= 0 .or. m < 1) return
     do k = 1, m
-      unit(k) = maxval(abs(motions(:, k))*scale)
-      r(:, k) = modes(:, k)/(unit(k)*soft)
+      unit(k) = maxval(abs(rigid_modes(:, k))*scale)
+      r(:, k) = modes(:, k)/(unit(k)*point_scale)
     end do
     call factorise_pivoted(r, tau, order, stat)
     if (stat /= 0) return
-    rank = numerical_rank(r, 0.0_dp, max(STILL, error))
-    felt(order(rank + 1:)) = .false.
-    allocate (mix(rank, m - rank), sliding(size(scale), m - rank), stat=stat)
+    rank = numerical_rank(r, 0.0_dp, max(MODE_TOLERANCE, mode_error))
+    resisted(order(rank + 1:)) = .false.
+    allocate (coefficients(rank, m - rank), unresisted(size(scale), m - rank), stat=stat)
     if (stat /= 0) return
-    ! z_k - z_1 R_1^-1 R_2 for each motion k beyond the rank.
-    call combine_independent(r, rank, mix)
+    ! z_k - Z_1 R_1^-1 r_k for each mode k beyond the rank.
+    call combine_independent(r, rank, coefficients)
     do k = 1, m - rank
-      sliding(:, k) = motions(:, order(rank + k))/unit(order(rank + k))
+      unresisted(:, k) = rigid_modes(:, order(rank + k))/unit(order(rank + k))
       do i = 1, rank
-        sliding(:, k) = sliding(:, k) - motions(:, order(i))*(mix(i, k)/unit(order(i)))
+        unresisted(:, k) = unresisted(:, k) - rigid_modes(:, order(i))*(coefficients(i, k)/unit(order(i)))
       end do
     end do
-  end subroutine split_motions
+  end subroutine split_rigid_modes
 
-  !> R = -N^T Z, `modes` (n, m). A point that a motion does not move gets a true zero, not
-  !> the rounding of one: along that a solver would go far. `stat` is not zero without memory.
-  subroutine modes_of_points(body, motions, scale, error, modes, stat)
+  !> R = -N^T Z, `modes` (n, m). Where a mode does not move a point, R is set to exactly zero: a
+  !> remainder of rounding size would let the point resist the mode with huge forces.
+  !> `stat` is not zero without memory.
+  subroutine find_contact_modes(body, rigid_modes, scale, mode_error, modes, stat)
     type(fuge_body), intent(in) :: body
-    real(dp), intent(in) :: motions(:, :), scale(:), error
+    real(dp), intent(in) :: rigid_modes(:, :), scale(:), mode_error
     real(dp), allocatable, intent(out) :: modes(:, :)
     integer, intent(out) :: stat
-    real(dp) :: soft(size(body%dof, 2)), largest
+    real(dp) :: point_scale(size(body%dof, 2)), largest
     integer :: i, j
 
-    allocate (modes(size(body%dof, 2), size(motions, 2)), stat=stat)
+    allocate (modes(size(body%dof, 2), size(rigid_modes, 2)), stat=stat)
     if (stat /= 0) return
-    soft = softness(body, scale)
-    do j = 1, size(motions, 2)
-      largest = maxval(abs(motions(:, j))*scale)
-      do i = 1, size(soft)
-        modes(i, j) = -moved(body%dof(:, i), body%normal(:, i), motions(:, j))
-        if (abs(modes(i, j)) <= error*largest*soft(i)) modes(i, j) = 0.0_dp
+    point_scale = displacement_scale(body, scale)
+    do j = 1, size(rigid_modes, 2)
+      largest = maxval(abs(rigid_modes(:, j))*scale)
+      do i = 1, size(point_scale)
+        modes(i, j) = -point_displacement(body%dof(:, i), body%normal(:, i), rigid_modes(:, j))
+        if (abs(modes(i, j)) <= mode_error*largest*point_scale(i)) modes(i, j) = 0.0_dp
       end do
     end do
-  end subroutine modes_of_points
+  end subroutine find_contact_modes
 
-  !> w = Z^T p, (m); zero where only error is left of parts that cancel, because contact
-  !> could not hold that if it points the wrong way.
-  pure function work_of_load(motions, load, scale, error) result(work)
-    real(dp), intent(in) :: motions(:, :), load(:), scale(:), error
-    real(dp) :: work(size(motions, 2))
+  !> w = Z^T p, (m). A sum whose terms cancel except for errors of the modes is set to exactly
+  !> zero: of the wrong sign, contact could not balance it.
+  pure function load_resultant(rigid_modes, load, scale, mode_error) result(work)
+    real(dp), intent(in) :: rigid_modes(:, :), load(:), scale(:), mode_error
+    real(dp) :: work(size(rigid_modes, 2))
     integer :: j
 
     do j = 1, size(work)
-      work(j) = dot_product(motions(:, j), load)
-      if (abs(work(j)) <= error_of_work(motions(:, j), load, scale, error)) work(j) = 0.0_dp
+      work(j) = dot_product(rigid_modes(:, j), load)
+      if (abs(work(j)) <= error_of_work(rigid_modes(:, j), load, scale, mode_error)) work(j) = 0.0_dp
     end do
-  end function work_of_load
+  end function load_resultant
 
-  !> The work of all forces in an error of the motion relative to its largest way. The sum
-  !> of the products alone would not do: across the motion it is error itself.
-  pure function error_of_work(motion, load, scale, error) result(work)
-    real(dp), intent(in) :: motion(:), load(:), scale(:), error
+  !> Largest error in the work of a load that errors of the mode, relative to its largest
+  !> displacement, can cause. The sum of the terms |z_i p_i| is no scale for it: for loads
+  !> perpendicular to the mode it consists of error alone.
+  pure function error_of_work(mode, load, scale, mode_error) result(work)
+    real(dp), intent(in) :: mode(:), load(:), scale(:), mode_error
     real(dp) :: work, forces
     integer :: i
 
@@ -108,27 +111,27 @@ contains
     do i = 1, size(load)
       if (scale(i) > 0.0_dp) forces = forces + abs(load(i))/scale(i)
     end do
-    work = error*maxval(abs(motion)*scale)*forces
+    work = mode_error*maxval(abs(mode)*scale)*forces
   end function error_of_work
 
-  !> Refuse a load that drives one of the motions `sliding`, which no contact can hold
-  !> (FUGE_ERR_NO_EQUILIBRIUM).
-  pure subroutine check_sliding(sliding, load, scale, error, info)
-    real(dp), intent(in), allocatable :: sliding(:, :)
-    real(dp), intent(in) :: load(:), scale(:), error
+  !> Refuse a load that does work in one of the `unresisted` modes, (degrees, any number), which
+  !> no contact force can balance (FUGE_ERR_NO_EQUILIBRIUM).
+  pure subroutine check_unresisted(unresisted, load, scale, mode_error, info)
+    real(dp), intent(in), allocatable :: unresisted(:, :)
+    real(dp), intent(in) :: load(:), scale(:), mode_error
     type(fuge_info), intent(inout) :: info
     integer :: j, k
 
-    if (.not. allocated(sliding)) return
-    do k = 1, size(sliding, 2)
-      if (abs(dot_product(sliding(:, k), load)) <= STILL*sum(abs(sliding(:, k)*load)) &
-          + error_of_work(sliding(:, k), load, scale, error)) cycle
-      j = maxloc(abs(sliding(:, k))*scale, 1)
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point and ' &
-                  //'most of all degree of freedom '//text(j)//': no contact force can hold it; fix one, or ' &
-                  //'balance the load')
+    if (.not. allocated(unresisted)) return
+    do k = 1, size(unresisted, 2)
+      if (abs(dot_product(unresisted(:, k), load)) <= MODE_TOLERANCE*sum(abs(unresisted(:, k)*load)) &
+          + error_of_work(unresisted(:, k), load, scale, mode_error)) cycle
+      j = maxloc(abs(unresisted(:, k))*scale, 1)
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point, ' &
+                  //'and degree of freedom '//text(j)//' most: no contact force can hold it; fix that degree of ' &
+                  //'freedom, or balance the load')
       return
     end do
-  end subroutine check_sliding
+  end subroutine check_unresisted
 
 end module fuge_contact_modes

@@ -1,4 +1,4 @@
-!> The contact points of a body among its degrees of freedom: N f and N^T u.
+!> The normals N of the contact points, (degrees, n): N f and N^T u.
 module fuge_contact_normals
   use fuge_body_type, only: fuge_body
   use fuge_kinds, only: dp
@@ -7,11 +7,11 @@ module fuge_contact_normals
   implicit none
   private
 
-  public :: add_contact_forces, add_force, check_free_points, keep_off, moved, softness
+  public :: add_contact_forces, add_point_force, check_free_points, displacement_scale, pin_scale, point_displacement
 
 contains
 
-  !> Add the forces of all contact points to a field of loads.
+  !> Add the forces of all contact points, N f, to the loads `field` (degrees); `force` (n).
   pure subroutine add_contact_forces(body, force, field)
     type(fuge_body), intent(in) :: body
     real(dp), intent(in) :: force(:)
@@ -19,12 +19,13 @@ contains
     integer :: i
 
     do i = 1, size(force)
-      call add_force(body%dof(:, i), body%normal(:, i), force(i), field)
+      call add_point_force(body%dof(:, i), body%normal(:, i), force(i), field)
     end do
   end subroutine add_contact_forces
 
-  !> Add the force of one contact point to a field of loads: N f.
-  pure subroutine add_force(dof, normal, force, field)
+  !> Add the force of one contact point, a column of N times `force`, to the loads `field`
+  !> (degrees).
+  pure subroutine add_point_force(dof, normal, force, field)
     integer, intent(in) :: dof(:)
     real(dp), intent(in) :: normal(:), force
     real(dp), intent(inout) :: field(:)
@@ -33,23 +34,24 @@ contains
     do k = 1, size(dof)
       if (dof(k) > 0) field(dof(k)) = field(dof(k)) + normal(k)*force
     end do
-  end subroutine add_force
+  end subroutine add_point_force
 
-  !> How far a contact point moves in a field of displacements: N^T u.
-  pure function moved(dof, normal, field) result(distance)
+  !> Displacement of a contact point, a row of N^T u, in the displacements `field` (degrees).
+  pure function point_displacement(dof, normal, field) result(displacement)
     integer, intent(in) :: dof(:)
     real(dp), intent(in) :: normal(:), field(:)
-    real(dp) :: distance
+    real(dp) :: displacement
     integer :: k
 
-    distance = 0.0_dp
+    displacement = 0.0_dp
     do k = 1, size(dof)
-      if (dof(k) > 0) distance = distance + normal(k)*field(dof(k))
+      if (dof(k) > 0) displacement = displacement + normal(k)*field(dof(k))
     end do
-  end function moved
+  end function point_displacement
 
-  !> How far each contact point moves when all scaled degrees of freedom move by one, (n).
-  pure function softness(body, scale) result(length)
+  !> Displacement of each contact point, (n), when every scaled degree of freedom moves by one in
+  !> the sense that adds to it; `scale` (degrees), zero where fixed.
+  pure function displacement_scale(body, scale) result(length)
     type(fuge_body), intent(in) :: body
     real(dp), intent(in) :: scale(:)
     real(dp) :: length(size(body%dof, 2))
@@ -62,29 +64,29 @@ contains
         if (scale(body%dof(k, i)) > 0.0_dp) length(i) = length(i) + abs(body%normal(k, i))/scale(body%dof(k, i))
       end do
     end do
-  end function softness
+  end function displacement_scale
 
-  !> The scale for the choice of pins: they had better not be where contact forces act, whose
-  !> influence they would take away.
-  pure function keep_off(body, scale) result(preferred)
+  !> The `scale` (degrees) for the choice of pins, reduced where contact forces act: a pin there
+  !> would remove the influence of the force.
+  pure function pin_scale(body, scale) result(reduced)
     type(fuge_body), intent(in) :: body
     real(dp), intent(in) :: scale(:)
-    real(dp), allocatable :: preferred(:)
+    real(dp), allocatable :: reduced(:)
     integer :: i, k
 
-    preferred = scale
+    reduced = scale
     do i = 1, size(body%dof, 2)
       do k = 1, size(body%dof, 1)
-        ! From the scale, because a degree of freedom may belong to several points.
-        if (body%dof(k, i) > 0) preferred(body%dof(k, i)) = 1.0e-3_dp*scale(body%dof(k, i))
+        ! Not times 1e-3 again: a degree of freedom may belong to several points.
+        if (body%dof(k, i) > 0) reduced(body%dof(k, i)) = 1.0e-3_dp*scale(body%dof(k, i))
       end do
     end do
-  end function keep_off
+  end function pin_scale
 
-  !> Refuse a contact point all of whose degrees of freedom are held (FUGE_ERR_DOF).
-  pure subroutine check_free_points(body, held, info)
+  !> Refuse a contact point all of whose degrees of freedom are `constrained` (FUGE_ERR_DOF).
+  pure subroutine check_free_points(body, constrained, info)
     type(fuge_body), intent(in) :: body
-    logical, intent(in) :: held(:)
+    logical, intent(in) :: constrained(:)
     type(fuge_info), intent(inout) :: info
     integer :: i, k
     logical :: moves
@@ -93,11 +95,11 @@ contains
       moves = .false.
       do k = 1, size(body%dof, 1)
         if (body%dof(k, i) < 1) cycle
-        moves = moves .or. (abs(body%normal(k, i)) > 0.0_dp .and. .not. held(body%dof(k, i)))
+        moves = moves .or. (abs(body%normal(k, i)) > 0.0_dp .and. .not. constrained(body%dof(k, i)))
       end do
       if (moves) cycle
-      call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//' is held by the supports in the direction of its ' &
-                  //'force: leave it out, or free degree of freedom '//text(maxval(body%dof(:, i))))
+      call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//' cannot move in the direction of its force, ' &
+                  //'because of the supports: leave it out, or free degree of freedom '//text(maxval(body%dof(:, i))))
       return
     end do
   end subroutine check_free_points

@@ -1,4 +1,4 @@
-!> Rigid motions of a body from the places of its nodes.
+!> The rigid modes of a body from the positions of its nodes.
 module fuge_nodal_modes
   use fuge_kinds, only: dp
   implicit none
@@ -8,13 +8,13 @@ module fuge_nodal_modes
 
 contains
 
-  !> Rigid motions of nodes in the plane or in space, for `modes` of a fuge_body.
+  !> Rigid modes of nodes in the plane or in space, for `rigid_modes` of a fuge_body.
   !>
   !> `position` is (2, nodes) or (3, nodes), length. The result has a row for each degree of
-  !> freedom, node by node its displacements along the axes, and 3 or 6 columns: the
-  !> translations along the axes, then the small rotations about axes through the centre of
-  !> the nodes: about z in the plane, else about x, y, z. A body with rotations among its
-  !> degrees of freedom adds rows of its own.
+  !> freedom, node by node the displacements along the axes, and 3 or 6 columns: the
+  !> translations along the axes, then small rotations about axes through the centre of the
+  !> nodes, in the plane about z, in space about x, y and z. If a body has rotations among its
+  !> degrees of freedom, insert their rows yourself.
   pure function fuge_rigid_modes(position) result(modes)
     real(dp), intent(in) :: position(:, :)
     real(dp) :: modes(size(position), 3*size(position, 1) - 3)

@@ -1,8 +1,8 @@
-!> The rigid motions of a body that floats: the motions Z with K Z = 0, found or given, and
-!> the degrees of freedom to pin so that the rest is definite.
+!> The rigid modes of a floating body, the null space Z of K: computed, or supplied and checked;
+!> and the degrees of freedom to pin so that K becomes positive definite.
 !>
-!> Lengths and angles are compared after scaling with the square root s of the diagonal of
-!> K, so that no answer depends on the units of a degree of freedom.
+!> Displacements and rotations are compared after scaling with s, the square root of the diagonal
+!> of K, so that no result depends on the units of a degree of freedom.
 module fuge_rigid_body_modes
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
@@ -15,42 +15,45 @@ module fuge_rigid_body_modes
   implicit none
   private
 
-  public :: find_motions, check_motions, choose_pins, unit_at_pins
+  public :: check_rigid_modes, choose_pins, find_rigid_modes, normalise_at_pins
 
-  !> Keeps the factor of the floating body definite: far above rounding, far below the
-  !> elastic modes of any mesh that double precision can solve.
+  !> Makes K + SHIFT diag(K) of a floating body positive definite: far above rounding, far below
+  !> the elastic modes of any mesh that can be solved in double precision.
   real(dp), parameter :: SHIFT = 1.0e-12_dp
-  !> Solves with the shifted factor: each divides what is elastic by (stiffness + SHIFT)/SHIFT.
+  !> Steps of the subspace iteration; each divides an elastic mode of the relative stiffness k by
+  !> (k + SHIFT)/SHIFT.
   integer, parameter :: SWEEPS = 5
-  !> Motions sought at first; one body has six, and something elastic should be among them.
+  !> Modes of the first subspace: the six of one body, and an elastic one to compare them with.
   integer, parameter :: FIRST_BLOCK = 8
-  !> A stiffness below so many roundings is none.
+  !> A stiffness below this fraction of its terms counts as zero.
   real(dp), parameter :: NO_STIFFNESS = 20.0_dp*epsilon(1.0_dp)
-  !> What is softest of the elastic motions is mixed into those found in the ratio of
-  !> NO_STIFFNESS to its stiffness, because K itself is rounded; so much is too much.
+  !> Largest acceptable fraction of the softest elastic mode in a computed rigid mode. Because K
+  !> is rounded, that fraction is NO_STIFFNESS over the relative stiffness of the elastic mode.
   real(dp), parameter :: LARGEST_ERROR = 1.0e-4_dp
-  !> Largest force that a given motion may meet, relative to its parts.
-  real(dp), parameter :: MOTION_TOLERANCE = 1.0e-8_dp
-  !> Below, given motions depend on each other.
+  !> Largest force K z on a supplied rigid mode z, relative to its terms |K| |z|.
+  real(dp), parameter :: FORCE_TOLERANCE = 1.0e-8_dp
+  !> Modes whose remainder after elimination is below this fraction are linearly dependent.
   real(dp), parameter :: RANK_TOLERANCE = 1.0e-10_dp
 
 contains
 
-  !> Find all motions without stiffness that leave `fixed` at rest: subspace iteration with
-  !> the inverse of K + SHIFT diag(K), until an elastic one turns up.
+  !> Find all modes without stiffness that do not move the `fixed` degrees of freedom: subspace
+  !> iteration with the inverse of K + SHIFT diag(K), in a subspace that grows until it contains an
+  !> elastic mode.
   !>
-  !> `scale` is s, zero where fixed; `motions` (degrees, number found). Errors: FUGE_ERR_NOT_DEFINITE where K resists a
-  !> motion negatively, or so little that it may be rounding; FUGE_ERR_MEMORY.
-  subroutine find_motions(stiffness, fixed, scale, motions, info)
+  !> `fixed` (degrees); `scale` is s, (degrees), zero where fixed; `rigid_modes` (degrees, number
+  !> of modes). Errors: FUGE_ERR_NOT_DEFINITE if K is indefinite, or if an elastic mode is too soft
+  !> to be told from the rigid ones; FUGE_ERR_MEMORY.
+  subroutine find_rigid_modes(stiffness, fixed, scale, rigid_modes, info)
     class(fuge_stiffness), intent(in) :: stiffness
     logical, intent(in) :: fixed(:)
     real(dp), intent(in) :: scale(:)
-    real(dp), allocatable, intent(out) :: motions(:, :)
+    real(dp), allocatable, intent(out) :: rigid_modes(:, :)
     type(fuge_info), intent(inout) :: info
     class(stiffness_factor), allocatable :: factor
-    real(dp), allocatable :: y(:, :), quotient(:), noise(:)
+    real(dp), allocatable :: y(:, :), quotient(:), magnitudes(:)
     real(dp) :: error, pivot
-    integer :: found, free, status, width, weakest
+    integer :: rigid, free, status, width, weakest
 
     error = 0.0_dp
     free = count(.not. fixed)
@@ -58,47 +61,48 @@ contains
     if (status /= 0) then
       call report(info, status, 'no memory for the factor of the stiffness matrix')
     else if (pivot <= 0.0_dp) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive semidefinite: a motion of ' &
-                  //'degree of freedom '//text(weakest)//' gains energy; look for wrong signs or elements turned ' &
-                  //'inside out')
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive semidefinite: displacing ' &
+                  //'degree of freedom '//text(weakest)//' releases energy; look for wrong signs or inverted ' &
+                  //'elements')
     end if
     if (info%failed()) return
     width = min(FIRST_BLOCK, free)
     do
-      call lowest_motions(stiffness, factor, scale, width, y, quotient, noise, status)
+      call find_softest_modes(stiffness, factor, scale, width, y, quotient, magnitudes, status)
       if (status /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(width)//' motions of the body')
+        call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(width)//' modes of the body')
         return
       end if
-      found = count(quotient <= NO_STIFFNESS*noise)
-      if (found < width .or. width == free) exit
+      rigid = count(quotient <= NO_STIFFNESS*magnitudes)
+      if (rigid < width .or. width == free) exit
       width = min(2*width, free)
     end do
-    if (found < width .and. found > 0) error = NO_STIFFNESS*noise(1)/quotient(found + 1)
+    if (rigid < width .and. rigid > 0) error = NO_STIFFNESS*magnitudes(1)/quotient(rigid + 1)
     if (error > LARGEST_ERROR) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'the body floats, and an elastic motion is so soft (' &
-                  //text(quotient(found + 1))//' of the diagonal) that rigid ones are hard to tell from it: give the ' &
-                  //'rigid motions as modes')
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the body floats, and an elastic mode is so soft (' &
+                  //text(quotient(rigid + 1))//' of the diagonal) that the rigid modes cannot be told from it: ' &
+                  //'supply the rigid modes')
       return
     end if
-    motions = y(:, :found)
-  end subroutine find_motions
+    rigid_modes = y(:, :rigid)
+  end subroutine find_rigid_modes
 
-  !> The `width` softest motions y (degrees, width), their stiffness relative to the
-  !> diagonal of K, ascending, and the parts of which that is the sum.
-  subroutine lowest_motions(stiffness, factor, scale, width, y, quotient, noise, status)
+  !> The `width` softest modes y (degrees, width), their Rayleigh `quotient` (width) y^T K y
+  !> relative to the diagonal of K, ascending, and the `magnitudes` (width) of its terms, all
+  !> equal to the largest. `status` is not zero without memory.
+  subroutine find_softest_modes(stiffness, factor, scale, width, y, quotient, magnitudes, status)
     class(fuge_stiffness), intent(in) :: stiffness
     class(stiffness_factor), intent(in) :: factor
     real(dp), intent(in) :: scale(:)
     integer, intent(in) :: width
-    real(dp), allocatable, intent(out) :: y(:, :), quotient(:), noise(:)
+    real(dp), allocatable, intent(out) :: y(:, :), quotient(:), magnitudes(:)
     integer, intent(out) :: status
     integer :: order(width), j, k, n, rank, sweep
 
     n = size(scale)
-    allocate (y(n, width), quotient(width), noise(width), stat=status)
+    allocate (y(n, width), quotient(width), magnitudes(width), stat=status)
     if (status /= 0) return
-    ! Any start will do that is not orthogonal to what is sought.
+    ! Any start that is not orthogonal to the softest modes.
     do k = 1, width
       do j = 1, n
         y(j, k) = modulo(real(j, dp)*sqrt(real(k, dp) + 0.7_dp), 1.0_dp) - 0.5_dp
@@ -119,16 +123,16 @@ contains
     end do
     call orthonormalise(y, 0.0_dp, order, rank, status)
     if (status /= 0) return
-    call rotate_to_softest(stiffness, scale, y, quotient, noise, status)
-  end subroutine lowest_motions
+    call rotate_to_ritz_vectors(stiffness, scale, y, quotient, magnitudes, status)
+  end subroutine find_softest_modes
 
-  !> Rayleigh and Ritz: the stiffness of the scaled motions y among each other; y is then
-  !> rotated, and unscaled.
-  subroutine rotate_to_softest(stiffness, scale, y, quotient, noise, status)
+  !> Rayleigh-Ritz procedure: replace the scaled orthonormal modes y by the eigenvectors of K in
+  !> their span, unscaled. Results as in `find_softest_modes`.
+  subroutine rotate_to_ritz_vectors(stiffness, scale, y, quotient, magnitudes, status)
     class(fuge_stiffness), intent(in) :: stiffness
     real(dp), intent(in) :: scale(:)
     real(dp), intent(inout) :: y(:, :)
-    real(dp), intent(out) :: quotient(:), noise(:)
+    real(dp), intent(out) :: quotient(:), magnitudes(:)
     integer, intent(out) :: status
     real(dp), allocatable :: product(:), magnitude(:), z(:), ritz(:, :), work(:)
     integer :: k, width
@@ -143,67 +147,70 @@ contains
       call unscale(product, scale)
       call unscale(magnitude, scale)
       ritz(:, k) = matmul(product, y)
-      noise(k) = dot_product(magnitude, abs(y(:, k)))
+      magnitudes(k) = dot_product(magnitude, abs(y(:, k)))
     end do
-    noise = maxval(noise)
+    magnitudes = maxval(magnitudes)
     call dsyev('V', 'U', width, ritz, width, quotient, work, size(work), status)
     if (status /= 0) return
     y = matmul(y, ritz)
     do k = 1, width
       call unscale(y(:, k), scale)
     end do
-  end subroutine rotate_to_softest
+  end subroutine rotate_to_ritz_vectors
 
-  !> Refuse given motions that the body resists, or that move what is fixed.
+  !> Refuse supplied rigid modes that the stiffness resists, or that move `fixed` degrees of
+  !> freedom.
   !>
-  !> `motions` (degrees, m). Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_MODES,
-  !> FUGE_ERR_MEMORY.
-  subroutine check_motions(stiffness, fixed, scale, motions, info)
+  !> `fixed` (degrees); `scale` (degrees), s, also where fixed; `rigid_modes` (degrees, m).
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_MODES, FUGE_ERR_MEMORY.
+  subroutine check_rigid_modes(stiffness, fixed, scale, rigid_modes, info)
     class(fuge_stiffness), intent(in) :: stiffness
     logical, intent(in) :: fixed(:)
-    real(dp), intent(in) :: scale(:), motions(:, :)
+    real(dp), intent(in) :: scale(:), rigid_modes(:, :)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: product(:), magnitude(:)
-    real(dp) :: force, parts
+    real(dp) :: force, largest
     integer :: j, k, stat
 
-    if (size(motions, 1) /= size(scale)) then
-      call report(info, FUGE_ERR_SIZE, 'modes has '//text(size(motions, 1))//' rows: it needs one for each of ' &
-                  //text(size(scale))//' degrees of freedom')
+    if (size(rigid_modes, 1) /= size(scale)) then
+      call report(info, FUGE_ERR_SIZE, 'rigid_modes has '//text(size(rigid_modes, 1))//' rows: it needs one for ' &
+                  //'each of '//text(size(scale))//' degrees of freedom')
       return
     end if
     allocate (product(size(scale)), magnitude(size(scale)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to check the modes')
-    do k = 1, size(motions, 2)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to check the rigid modes')
+    do k = 1, size(rigid_modes, 2)
       if (info%failed()) return
-      call check_finite(motions(:, k), 'mode '//text(k)//' ', info)
+      call check_finite(rigid_modes(:, k), 'mode '//text(k)//' ', info)
       if (info%failed()) return
-      j = maxloc(abs(motions(:, k))*scale, 1, fixed)
+      j = maxloc(abs(rigid_modes(:, k))*scale, 1, fixed)
       if (j > 0) then
-        if (abs(motions(j, k))*scale(j) > RANK_TOLERANCE*maxval(abs(motions(:, k))*scale)) then
+        if (abs(rigid_modes(j, k))*scale(j) > RANK_TOLERANCE*maxval(abs(rigid_modes(:, k))*scale)) then
           call report(info, FUGE_ERR_MODES, 'mode '//text(k)//' moves degree of freedom '//text(j)//', which is ' &
                       //'fixed: a rigid motion leaves the supports at rest')
           return
         end if
       end if
-      call stiffness%multiply(motions(:, k), product, magnitude)
+      call stiffness%multiply(rigid_modes(:, k), product, magnitude)
       call unscale(product, scale)
       call unscale(magnitude, scale)
       force = maxval(abs(product))
-      parts = maxval(magnitude)
+      largest = maxval(magnitude)
       j = maxloc(abs(product), 1)
-      if (force > MOTION_TOLERANCE*parts) call report(info, FUGE_ERR_MODES, 'mode '//text(k)//' is not rigid: the ' &
-        //'stiffness resists it at degree of freedom '//text(j)//' with '//text(force/parts)//' of its parts')
+      if (force <= FORCE_TOLERANCE*largest) cycle
+      call report(info, FUGE_ERR_MODES, 'mode '//text(k)//' is not rigid: the stiffness resists it at degree of ' &
+                  //'freedom '//text(j)//', with a force of '//text(force/largest)//' of its largest term')
     end do
-  end subroutine check_motions
+  end subroutine check_rigid_modes
 
-  !> Choose for each motion a degree of freedom to pin, so that none is left: the pivots of
-  !> the scaled motions.
+  !> Choose one degree of freedom to pin for each rigid mode, so that the pinned body has none:
+  !> the columns that pivoted QR of the scaled modes selects.
   !>
-  !> `scale` is s, zero where fixed; `pins` (m). Errors: FUGE_ERR_MODES where motions depend
-  !> on each other, FUGE_ERR_MEMORY.
-  subroutine choose_pins(scale, motions, pins, info)
-    real(dp), intent(in) :: scale(:), motions(:, :)
+  !> `scale` (degrees): s, zero where fixed, smaller where a pin should rather not be;
+  !> `rigid_modes` (degrees, m); `pins` (m). Errors: FUGE_ERR_MODES if modes are linearly
+  !> dependent, FUGE_ERR_MEMORY.
+  subroutine choose_pins(scale, rigid_modes, pins, info)
+    real(dp), intent(in) :: scale(:), rigid_modes(:, :)
     integer, allocatable, intent(out) :: pins(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: rows(:, :), tau(:)
@@ -212,54 +219,56 @@ contains
     integer :: k, m, n, stat
 
     n = size(scale)
-    m = size(motions, 2)
+    m = size(rigid_modes, 2)
     allocate (rows(m, n), order(n), tau(m), stat=stat)
     if (stat == 0) then
       do k = 1, m
-        rows(k, :) = motions(:, k)*scale
+        rows(k, :) = rigid_modes(:, k)*scale
         largest = maxval(abs(rows(k, :)))
         if (largest > 0.0_dp) rows(k, :) = rows(k, :)/largest
       end do
       call factorise_pivoted(rows, tau, order, stat)
     end if
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to look for degrees of freedom that hold the body')
+      call report(info, FUGE_ERR_MEMORY, 'no memory to choose the degrees of freedom to pin')
     else if (numerical_rank(rows, RANK_TOLERANCE, 0.0_dp) < m) then
-      call report(info, FUGE_ERR_MODES, 'the '//text(m)//' modes of the body depend on each other, or one moves ' &
-                  //'nothing: leave out what the others make up')
+      call report(info, FUGE_ERR_MODES, 'the '//text(m)//' rigid modes of the body are linearly dependent: ' &
+                  //'leave out modes that are zero or combinations of others')
     end if
     if (info%failed()) return
     pins = order(:m)
   end subroutine choose_pins
 
-  !> Motion k moves pin k by one, and no other pin: by the stiffness with the pins held, and
-  !> so without what the motions found have of elastic ones.
+  !> Recompute the rigid modes so that mode k displaces pin k by one and no other pin, from the
+  !> stiffness with the pins constrained, Z_f = -K_ff^-1 K_fp. Elastic modes that the subspace
+  !> iteration has left in them vanish.
   !>
-  !> `motions` (degrees, size(pins)), `held` with supports and pins. Error: FUGE_ERR_MEMORY.
-  subroutine unit_at_pins(stiffness, factor, held, pins, motions, info)
+  !> `factor` without the `constrained` degrees of freedom, supports and pins; `rigid_modes`
+  !> (degrees, size(pins)). Error: FUGE_ERR_MEMORY.
+  subroutine normalise_at_pins(stiffness, factor, constrained, pins, rigid_modes, info)
     class(fuge_stiffness), intent(in) :: stiffness
     class(stiffness_factor), intent(in) :: factor
-    logical, intent(in) :: held(:)
+    logical, intent(in) :: constrained(:)
     integer, intent(in) :: pins(:)
-    real(dp), intent(inout), contiguous :: motions(:, :)
+    real(dp), intent(inout), contiguous :: rigid_modes(:, :)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: unit(:), magnitude(:)
     integer :: k, stat
 
-    allocate (unit(size(held)), magnitude(size(held)), stat=stat)
+    allocate (unit(size(constrained)), magnitude(size(constrained)), stat=stat)
     if (stat == 0) then
       do k = 1, size(pins)
         unit = 0.0_dp
         unit(pins(k)) = -1.0_dp
-        call stiffness%multiply(unit, motions(:, k), magnitude)
-        where (held) motions(:, k) = 0.0_dp
+        call stiffness%multiply(unit, rigid_modes(:, k), magnitude)
+        where (constrained) rigid_modes(:, k) = 0.0_dp
       end do
-      call factor%solve(motions, stat)
+      call factor%solve(rigid_modes, stat)
     end if
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of the body')
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid modes of the body')
     do k = 1, size(pins)
-      motions(pins(k), k) = 1.0_dp
+      rigid_modes(pins(k), k) = 1.0_dp
     end do
-  end subroutine unit_at_pins
+  end subroutine normalise_at_pins
 
 end module fuge_rigid_body_modes

@@ -1,6 +1,6 @@
-!> How near to singular a factored stiffness is: the softest motion that its supports leave,
-!> by inverse iteration. A small pivot is no measure of that: rounding grows on the way to
-!> the last one, and a body eliminated from its free end has none.
+!> How near to singular a factored stiffness is: its smallest eigenvalue after scaling to a unit
+!> diagonal, by inverse iteration. The least pivot does not measure that: rounding errors
+!> accumulate up to the last pivot, and a body eliminated from its free end has no small pivot.
 module fuge_smallest_eigenvalue
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE
@@ -8,18 +8,19 @@ module fuge_smallest_eigenvalue
   implicit none
   private
 
-  public :: find_softest_motion, unscale
+  public :: find_smallest_eigenvalue, unscale
 
+  !> Steps of the inverse iteration.
   integer, parameter :: STEPS = 3
 
 contains
 
-  !> `quotient`: stiffness of the softest motion relative to the parts of which it is the
-  !> sum, from K itself; `place`: the degree of freedom that it moves most.
+  !> `quotient`: Rayleigh quotient y^T K y of the softest mode y relative to the magnitude of its
+  !> terms, |y|^T |K| |y|; `place`: the degree of freedom that y moves most.
   !>
-  !> `scale` (degrees): square root of the diagonal of K, zero where held. `status` is not
+  !> `scale` (degrees): square root of the diagonal of K, zero where constrained. `status` is not
   !> zero without memory.
-  subroutine find_softest_motion(stiffness, factor, scale, quotient, place, status)
+  subroutine find_smallest_eigenvalue(stiffness, factor, scale, quotient, place, status)
     class(fuge_stiffness), intent(in) :: stiffness
     class(stiffness_factor), intent(in) :: factor
     real(dp), intent(in) :: scale(:)
@@ -32,7 +33,7 @@ contains
     place = 0
     allocate (y(size(scale), 1), product(size(scale)), magnitude(size(scale)), stat=status)
     if (status /= FUGE_DONE .or. .not. any(scale > 0.0_dp)) return
-    ! Any start will do that is not orthogonal to what is sought.
+    ! Any start that is not orthogonal to the softest mode.
     do j = 1, size(scale)
       y(j, 1) = modulo(real(j, dp)*sqrt(2.0_dp), 1.0_dp) - 0.3_dp
     end do
@@ -47,11 +48,11 @@ contains
     place = maxloc(abs(y(:, 1)), 1)
     call unscale(y(:, 1), scale)
     call stiffness%multiply(y(:, 1), product, magnitude)
-    ! Both are sums over all degrees of freedom; those held do not move.
+    ! Both are sums over all degrees of freedom, but the constrained ones do not move.
     quotient = dot_product(y(:, 1), product)/dot_product(abs(y(:, 1)), magnitude)
-  end subroutine find_softest_motion
+  end subroutine find_smallest_eigenvalue
 
-  !> Divide by the scale, zero where that is zero.
+  !> Divide y (degrees) by the scale; y becomes zero where the scale is zero.
   pure subroutine unscale(y, scale)
     real(dp), intent(inout) :: y(:)
     real(dp), intent(in) :: scale(:)

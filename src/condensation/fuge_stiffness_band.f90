@@ -1,5 +1,5 @@
-!> A stiffness matrix in LAPACK's symmetric band storage. It stays the caller's: it is
-!> pointed to, and copied once by the factorisation.
+!> A stiffness matrix in LAPACK's symmetric band storage. The stiffness refers to the caller's
+!> array; only the factorisation makes a copy.
 module fuge_stiffness_band
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
   use fuge_kinds, only: dp
@@ -16,16 +16,16 @@ module fuge_stiffness_band
     private
     !> Columns of the caller's band; rows beyond width + 1 are padding.
     real(dp), pointer, contiguous :: band(:, :) => null()
-    !> Diagonals beside the main one.
+    !> Number of diagonals above or below the main one.
     integer :: width = 0
-    !> The upper triangle is stored, else the lower one.
+    !> The upper triangle is stored; otherwise the lower one.
     logical :: upper = .true.
   contains
     procedure, public :: set
     procedure, public :: degrees
     procedure, public :: diagonal
     procedure, public :: multiply
-    procedure, public :: factorise
+    procedure, public :: cholesky
     procedure :: first_row
     procedure :: last_row
     procedure :: offset
@@ -40,29 +40,29 @@ module fuge_stiffness_band
 
 contains
 
-  !> Take `band` as the stiffness matrix.
+  !> Use `band` as the stiffness matrix.
   !>
-  !> `band` is (width + 1, degrees), or (lda, degrees) with `width` given: LAPACK's band
+  !> `band` is (width + 1, degrees), or (lda, degrees) with `width` present: LAPACK's band
   !> storage of the upper triangle, K(i,j) in band(width + 1 + i - j, j), or of the lower
-  !> one, K(i,j) in band(1 + i - j, j); force per displacement. It is not copied: declare
-  !> it `target` and keep it unchanged as long as the stiffness lives.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW; the
-  !> stiffness is then as it was.
+  !> one, K(i,j) in band(1 + i - j, j); force per displacement. The array is not copied: declare
+  !> it `target` and keep it unchanged as long as the stiffness is used.
+  !> Errors, the stiffness unchanged: FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE,
+  !> FUGE_ERR_OVERFLOW.
   subroutine set(self, band, upper, info, width)
     class(fuge_band_stiffness), intent(inout) :: self
     real(dp), intent(in), target :: band(:, :)
     logical, intent(in) :: upper
     type(fuge_info), intent(out) :: info
     integer, intent(in), optional :: width
-    type(fuge_band_stiffness) :: taken
+    type(fuge_band_stiffness) :: checked
     integer :: i, j
 
-    taken%width = size(band, 1) - 1
-    if (present(width)) taken%width = width
-    taken%upper = upper
-    if (size(band, 2) < 1 .or. taken%width < 0 .or. taken%width > size(band, 1) - 1) then
+    checked%width = size(band, 1) - 1
+    if (present(width)) checked%width = width
+    checked%upper = upper
+    if (size(band, 2) < 1 .or. checked%width < 0 .or. checked%width > size(band, 1) - 1) then
       call report(info, FUGE_ERR_SIZE, 'the band has '//text(size(band, 1))//' rows and '//text(size(band, 2)) &
-                  //' columns: for width '//text(taken%width)//' it needs a column for each degree of freedom and ' &
+                  //' columns: for width '//text(checked%width)//' it needs a column for each degree of freedom and ' &
                   //'width + 1 rows')
     else if (.not. is_contiguous(band)) then
       call report(info, FUGE_ERR_POINTER, 'the band is a section with gaps between its columns: pass the whole array ' &
@@ -70,14 +70,14 @@ contains
     end if
     if (info%failed()) return
     ! Through an address, because only `set` knows that the band is contiguous.
-    call c_f_pointer(c_loc(band(1, 1)), taken%band, shape(band))
+    call c_f_pointer(c_loc(band(1, 1)), checked%band, shape(band))
     do j = 1, size(band, 2)
-      i = taken%first_row(j)
-      call check_entries(taken%band(i + taken%offset(j):taken%last_row(j) + taken%offset(j), j), i, j, info)
+      i = checked%first_row(j)
+      call check_entries(checked%band(i + checked%offset(j):checked%last_row(j) + checked%offset(j), j), i, j, info)
       if (info%failed()) return
     end do
-    self%band => taken%band
-    self%width = taken%width
+    self%band => checked%band
+    self%width = checked%width
     self%upper = upper
   end subroutine set
 
@@ -110,7 +110,7 @@ contains
     if (.not. self%upper) i = min(self%degrees(), j + self%width)
   end function last_row
 
-  !> What to add to a row of the matrix for its row of the band, in column j.
+  !> Row i of column j of the matrix is row i + offset(j) of the band.
   pure function offset(self, j)
     class(fuge_band_stiffness), intent(in) :: self
     integer, intent(in) :: j
@@ -150,64 +150,57 @@ contains
     end do
   end subroutine multiply
 
-  !> Cholesky factor without the rows and columns `held`; arguments as in `fuge_stiffness_type`.
-  subroutine factorise(self, held, shift, factor, pivot, weakest, status)
+  !> Cholesky factor of the constrained matrix; arguments as in `fuge_stiffness_type`.
+  subroutine cholesky(self, constrained, shift, factor, pivots, failed, status)
     class(fuge_band_stiffness), intent(in) :: self
-    logical, intent(in) :: held(:)
+    logical, intent(in) :: constrained(:)
     real(dp), intent(in) :: shift
     class(stiffness_factor), allocatable, intent(out) :: factor
-    real(dp), intent(out) :: pivot
-    integer, intent(out) :: weakest, status
+    real(dp), intent(out) :: pivots(:)
+    integer, intent(out) :: failed, status
     type(band_factor), allocatable :: own
-    integer :: j, n, stat
+    integer :: n, stat
 
     n = self%degrees()
-    pivot = 0.0_dp
-    weakest = 0
+    pivots = 0.0_dp
+    failed = 0
     status = FUGE_ERR_MEMORY
     allocate (own, stat=stat)
     if (stat == 0) allocate (own%band(self%width + 1, n), stat=stat)
     if (stat /= 0) return
     status = FUGE_DONE
     own%triangle = merge('U', 'L', self%upper)
-    call copy_free(self, held, shift, own%band)
-    call dpbtrf(own%triangle, n, self%width, own%band, self%width + 1, weakest)
-    if (weakest /= 0) return
-    pivot = 1.0_dp
-    do j = 1, n
-      if (held(j)) cycle
-      associate (term => self%band(j + self%offset(j), j), root => own%band(j + self%offset(j), j))
-        if (root**2 < pivot*term) then
-          pivot = root**2/term
-          weakest = j
-        end if
-      end associate
-    end do
+    call copy_constrained(self, constrained, shift, own%band)
+    call dpbtrf(own%triangle, n, self%width, own%band, self%width + 1, failed)
+    if (failed /= 0) return
+    pivots = own%band(1 + self%offset(1), :)**2
     call move_alloc(own, factor)
-  end subroutine factorise
+  end subroutine cholesky
 
-  !> The band with rows and columns that are held replaced by those of the identity.
-  pure subroutine copy_free(self, held, shift, band)
+  !> The band with the constrained rows and columns replaced by those of the identity, the rest
+  !> of the diagonal multiplied by 1 + `shift`.
+  pure subroutine copy_constrained(self, constrained, shift, band)
     type(fuge_band_stiffness), intent(in) :: self
-    logical, intent(in) :: held(:)
+    logical, intent(in) :: constrained(:)
     real(dp), intent(in) :: shift
     real(dp), intent(out) :: band(:, :)
     integer :: i, j, row
 
     band = 0.0_dp
-    do j = 1, size(held)
+    do j = 1, size(constrained)
       row = j + self%offset(j)
-      if (held(j)) then
+      if (constrained(j)) then
         band(row, j) = 1.0_dp
         cycle
       end if
       do i = self%first_row(j), self%last_row(j)
-        if (.not. held(i)) band(i + self%offset(j), j) = self%band(i + self%offset(j), j)
+        if (.not. constrained(i)) band(i + self%offset(j), j) = self%band(i + self%offset(j), j)
       end do
       band(row, j) = band(row, j)*(1.0_dp + shift)
     end do
-  end subroutine copy_free
+  end subroutine copy_constrained
 
+  !> Replace loads by displacements; arguments as in `fuge_stiffness_type`.
   subroutine solve(self, block, status)
     class(band_factor), intent(in) :: self
     real(dp), intent(inout), contiguous :: block(:, :)

@@ -1,4 +1,4 @@
-!> What every stiffness matrix has to be, however it is stored.
+!> Checks of the entries of a stiffness matrix, the same for each kind of storage.
 module fuge_stiffness_check
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_constants, only: LARGEST_EXPONENT
@@ -11,27 +11,29 @@ module fuge_stiffness_check
 
   public :: check_entries, check_entry, check_pair
 
-  !> Largest asymmetry taken for rounding, relative to the two diagonal terms.
-  real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
+  !> Largest asymmetry that counts as rounding, relative to the square roots of the two diagonal
+  !> terms.
+  real(dp), parameter, public :: SYMMETRY_TOLERANCE = 1.0e-10_dp
 
 contains
 
-  pure function place_length(i, j) result(length)
+  pure function entry_name_length(i, j) result(length)
     integer, intent(in) :: i, j
     integer :: length
 
     length = len('stiffness(,)') + len(text(i)) + len(text(j))
-  end function place_length
+  end function entry_name_length
 
-  pure function place(i, j)
+  !> Entry (i, j) as messages name it.
+  pure function entry_name(i, j) result(name)
     integer, intent(in) :: i, j
-    character(len=place_length(i, j)) :: place
+    character(len=entry_name_length(i, j)) :: name
 
-    place = 'stiffness('//text(i)//','//text(j)//')'
-  end function place
+    name = 'stiffness('//text(i)//','//text(j)//')'
+  end function entry_name
 
   !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE) and numbers near overflow
-  !> (FUGE_ERR_OVERFLOW) in a part of column j that begins at row `first`.
+  !> (FUGE_ERR_OVERFLOW) in `entries`, the rows of column j from `first` on.
   pure subroutine check_entries(entries, first, j, info)
     real(dp), intent(in), contiguous :: entries(:)
     integer, intent(in) :: first, j
@@ -48,22 +50,23 @@ contains
     end do
   end subroutine check_entries
 
-  !> The same for one entry, (i, j).
+  !> Refuse entry (i, j) if it is NaN or infinity (FUGE_ERR_NOT_FINITE) or near overflow
+  !> (FUGE_ERR_OVERFLOW).
   pure subroutine check_entry(entry, i, j, info)
     real(dp), intent(in) :: entry
     integer, intent(in) :: i, j
     type(fuge_info), intent(inout) :: info
 
     if (.not. ieee_is_finite(entry)) then
-      call report(info, FUGE_ERR_NOT_FINITE, place(i, j)//' = '//text(entry)//' is not a finite number')
+      call report(info, FUGE_ERR_NOT_FINITE, entry_name(i, j)//' = '//text(entry)//' is not a finite number')
     else if (exponent(entry) > LARGEST_EXPONENT) then
-      call report(info, FUGE_ERR_OVERFLOW, place(i, j)//' = '//text(entry) &
+      call report(info, FUGE_ERR_OVERFLOW, entry_name(i, j)//' = '//text(entry) &
                   //' is near overflow: choose units in which it is smaller')
     end if
   end subroutine check_entry
 
-  !> Refuse entries (i, j) and (j, i) that differ by more than rounding
-  !> (FUGE_ERR_NOT_SYMMETRIC), seen beside the diagonal terms of i and j.
+  !> Refuse entries (i, j), `above`, and (j, i), `below`, that differ by more than rounding,
+  !> relative to the diagonal terms of i and j (FUGE_ERR_NOT_SYMMETRIC).
   pure subroutine check_pair(i, j, above, below, diagonal_i, diagonal_j, info)
     integer, intent(in) :: i, j
     real(dp), intent(in) :: above, below, diagonal_i, diagonal_j
@@ -71,7 +74,7 @@ contains
 
     if (.not. abs(above - below) > 0.0_dp) return
     if (abs(above - below) <= SYMMETRY_TOLERANCE*sqrt(abs(diagonal_i))*sqrt(abs(diagonal_j))) return
-    call report(info, FUGE_ERR_NOT_SYMMETRIC, place(i, j)//' = '//text(above)//' and '//place(j, i)//' = ' &
+    call report(info, FUGE_ERR_NOT_SYMMETRIC, entry_name(i, j)//' = '//text(above)//' and '//entry_name(j, i)//' = ' &
                 //text(below)//' differ: a stiffness matrix is symmetric; if that is rounding, pass (K + ' &
                 //'transpose(K))/2')
   end subroutine check_pair

@@ -1,18 +1,16 @@
-!> A stiffness matrix in full storage. It stays the caller's: it is pointed to, and copied
-!> once by the factorisation.
+!> A stiffness matrix in full storage. The stiffness refers to the caller's array; only the
+!> factorisation makes a copy.
 module fuge_stiffness_dense
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+  use fuge_input_checks, only: find_asymmetry
   use fuge_kinds, only: dp
   use fuge_lapack, only: dpotrf, dpotrs
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY
-  use fuge_stiffness_check, only: check_entries, check_pair
+  use fuge_stiffness_check, only: check_entries, check_pair, SYMMETRY_TOLERANCE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   use fuge_number_text, only: text
   implicit none
   private
-
-  !> Side of the square tiles in which the matrix is compared with its transpose.
-  integer, parameter :: TILE = 64
 
   !> A stiffness matrix in full storage: `set` it, then condense.
   type, extends(fuge_stiffness), public :: fuge_dense_stiffness
@@ -23,7 +21,7 @@ module fuge_stiffness_dense
     procedure :: degrees
     procedure :: diagonal
     procedure :: multiply
-    procedure :: factorise
+    procedure :: cholesky
   end type fuge_dense_stiffness
 
   type, extends(stiffness_factor) :: dense_factor
@@ -34,13 +32,13 @@ module fuge_stiffness_dense
 
 contains
 
-  !> Take `matrix` as the stiffness matrix.
+  !> Use `matrix` as the stiffness matrix.
   !>
   !> `matrix` is (degrees, degrees), or (lda, degrees) with lda larger, both triangles
-  !> filled; force per displacement. It is not copied: declare it `target` and keep it
-  !> unchanged as long as the stiffness lives.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW,
-  !> FUGE_ERR_NOT_SYMMETRIC; the stiffness is then as it was.
+  !> filled; force per displacement. The array is not copied: declare it `target` and keep it
+  !> unchanged as long as the stiffness is used.
+  !> Errors, the stiffness unchanged: FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE,
+  !> FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_SYMMETRIC.
   subroutine set(self, matrix, info)
     class(fuge_dense_stiffness), intent(inout) :: self
     real(dp), intent(in), target :: matrix(:, :)
@@ -51,7 +49,7 @@ contains
                   //text(size(matrix, 2))//' columns: it needs at least one column, and a row for each')
     else if (.not. is_contiguous(matrix)) then
       call report(info, FUGE_ERR_POINTER, 'the stiffness matrix is a section with gaps between its columns: pass ' &
-                  //'the whole array, whose first rows count')
+                  //'the whole array; rows beyond the degrees of freedom are ignored')
     else
       call check_matrix(matrix, info)
     end if
@@ -97,68 +95,54 @@ contains
     end do
   end subroutine multiply
 
-  !> Cholesky factor without the rows and columns `held`; arguments as in `fuge_stiffness_type`.
-  subroutine factorise(self, held, shift, factor, pivot, weakest, status)
+  !> Cholesky factor of the constrained matrix; arguments as in `fuge_stiffness_type`.
+  subroutine cholesky(self, constrained, shift, factor, pivots, failed, status)
     class(fuge_dense_stiffness), intent(in) :: self
-    logical, intent(in) :: held(:)
+    logical, intent(in) :: constrained(:)
     real(dp), intent(in) :: shift
     class(stiffness_factor), allocatable, intent(out) :: factor
-    real(dp), intent(out) :: pivot
-    integer, intent(out) :: weakest, status
+    real(dp), intent(out) :: pivots(:)
+    integer, intent(out) :: failed, status
     type(dense_factor), allocatable :: own
-    integer :: n, stat
+    integer :: j, n, stat
 
     n = self%degrees()
-    pivot = 0.0_dp
-    weakest = 0
+    pivots = 0.0_dp
+    failed = 0
     status = FUGE_ERR_MEMORY
     allocate (own, stat=stat)
     if (stat == 0) allocate (own%upper(n, n), stat=stat)
     if (stat /= 0) return
     status = FUGE_DONE
-    call copy_free(self%matrix, held, shift, own%upper)
-    call dpotrf('U', n, own%upper, n, weakest)
-    if (weakest /= 0) return
-    call find_least_pivot(self%matrix, own%upper, held, pivot, weakest)
+    call copy_constrained(self%matrix, constrained, shift, own%upper)
+    call dpotrf('U', n, own%upper, n, failed)
+    if (failed /= 0) return
+    do j = 1, n
+      pivots(j) = own%upper(j, j)**2
+    end do
     call move_alloc(own, factor)
-  end subroutine factorise
+  end subroutine cholesky
 
-  !> The upper triangle with rows and columns that are held replaced by those of the identity.
-  pure subroutine copy_free(matrix, held, shift, upper)
+  !> The upper triangle with the constrained rows and columns replaced by those of the
+  !> identity, the rest of the diagonal multiplied by 1 + `shift`.
+  pure subroutine copy_constrained(matrix, constrained, shift, upper)
     real(dp), intent(in) :: matrix(:, :), shift
-    logical, intent(in) :: held(:)
+    logical, intent(in) :: constrained(:)
     real(dp), intent(out) :: upper(:, :)
     integer :: j
 
-    do j = 1, size(held)
-      if (held(j)) then
+    do j = 1, size(constrained)
+      if (constrained(j)) then
         upper(:j - 1, j) = 0.0_dp
         upper(j, j) = 1.0_dp
       else
-        upper(:j - 1, j) = merge(0.0_dp, matrix(:j - 1, j), held(:j - 1))
+        upper(:j - 1, j) = merge(0.0_dp, matrix(:j - 1, j), constrained(:j - 1))
         upper(j, j) = matrix(j, j)*(1.0_dp + shift)
       end if
     end do
-  end subroutine copy_free
+  end subroutine copy_constrained
 
-  pure subroutine find_least_pivot(matrix, upper, held, pivot, weakest)
-    real(dp), intent(in) :: matrix(:, :), upper(:, :)
-    logical, intent(in) :: held(:)
-    real(dp), intent(out) :: pivot
-    integer, intent(out) :: weakest
-    integer :: j
-
-    pivot = 1.0_dp
-    weakest = 0
-    do j = 1, size(held)
-      if (held(j)) cycle
-      if (upper(j, j)**2 < pivot*matrix(j, j)) then
-        pivot = upper(j, j)**2/matrix(j, j)
-        weakest = j
-      end if
-    end do
-  end subroutine find_least_pivot
-
+  !> Replace loads by displacements; arguments as in `fuge_stiffness_type`.
   subroutine solve(self, block, status)
     class(dense_factor), intent(in) :: self
     real(dp), intent(inout), contiguous :: block(:, :)
@@ -170,27 +154,21 @@ contains
     status = FUGE_DONE
   end subroutine solve
 
-  !> Finite and symmetric; tile by tile, so that rows are read from the cache.
+  !> Refuse entries that are not finite or near overflow, and a matrix that is not symmetric.
   pure subroutine check_matrix(matrix, info)
     real(dp), intent(in), contiguous :: matrix(:, :)
     type(fuge_info), intent(inout) :: info
-    integer :: i, i0, j, j0, n
+    real(dp) :: weight(size(matrix, 2))
+    integer :: i, j, n
 
     n = size(matrix, 2)
     do j = 1, n
       call check_entries(matrix(:n, j), 1, j, info)
       if (info%failed()) return
+      weight(j) = sqrt(abs(matrix(j, j)))
     end do
-    do j0 = 1, n, TILE
-      do i0 = 1, j0, TILE
-        do j = j0, min(j0 + TILE - 1, n)
-          do i = i0, min(i0 + TILE - 1, j - 1)
-            call check_pair(i, j, matrix(i, j), matrix(j, i), matrix(i, i), matrix(j, j), info)
-            if (info%failed()) return
-          end do
-        end do
-      end do
-    end do
+    call find_asymmetry(matrix, weight, SYMMETRY_TOLERANCE, i, j)
+    if (i > 0) call check_pair(j, i, matrix(j, i), matrix(i, j), matrix(j, j), matrix(i, i), info)
   end subroutine check_matrix
 
 end module fuge_stiffness_dense

@@ -1,14 +1,15 @@
-!> A stiffness matrix K as condensation sees it: its products, and its Cholesky factor once
-!> enough degrees of freedom are held. Extended by each way to store K.
+!> A stiffness matrix K as condensation needs it: its diagonal, its products, and its Cholesky
+!> factor with enough degrees of freedom constrained. Each kind of storage extends it.
 module fuge_stiffness_type
   use fuge_kinds, only: dp
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
 
-  !> Cholesky factor of a stiffness matrix whose held degrees of freedom are cut out.
+  !> Cholesky factor of a stiffness matrix without the constrained degrees of freedom.
   type, abstract, public :: stiffness_factor
   contains
-    !> Replace loads (degrees, any number) by displacements; those held have to be zero and stay so.
+    !> Replace loads by displacements.
     procedure(solve_for_block), deferred :: solve
   end type stiffness_factor
 
@@ -19,10 +20,11 @@ module fuge_stiffness_type
     procedure(count_degrees), deferred :: degrees
     !> The diagonal.
     procedure(get_diagonal), deferred :: diagonal
-    !> K u, and |K| |u|, by which the rounding of K u is judged.
+    !> K u, and |K| |u|, which scales the rounding error of K u.
     procedure(multiply_vector), deferred :: multiply
-    !> Cholesky factor without the rows and columns `held`.
-    procedure(factorise_free), deferred :: factorise
+    !> Cholesky factor and all its pivots, in the storage of the extension.
+    procedure(factorise_storage), deferred :: cholesky
+    procedure :: factorise
   end type fuge_stiffness
 
   abstract interface
@@ -48,21 +50,25 @@ module fuge_stiffness_type
       real(dp), intent(out) :: product(:), magnitude(:)
     end subroutine multiply_vector
 
-    !> `held` (degrees): .true. for the rows and columns that are cut out. Each diagonal term
-    !> is taken 1 + `shift` times. `pivot` is the least pivot relative to its diagonal term, at
-    !> the degree of freedom `weakest`; where the matrix is not definite, pivot <= 0 and
-    !> `factor` is not allocated. Status: FUGE_DONE or FUGE_ERR_MEMORY.
-    subroutine factorise_free(self, held, shift, factor, pivot, weakest, status)
+    !> Cholesky factor of K with the `constrained` rows and columns (degrees) replaced by those
+    !> of the identity, and each other diagonal term multiplied by 1 + `shift`.
+    !>
+    !> `pivots` (degrees): squares of the diagonal of the factor. `failed` is the degree of
+    !> freedom at which a factorisation stopped because K is not definite, else 0.
+    !> `status` is FUGE_DONE or FUGE_ERR_MEMORY. `factor` is allocated if `status` is FUGE_DONE
+    !> and `failed` is 0.
+    subroutine factorise_storage(self, constrained, shift, factor, pivots, failed, status)
       import :: fuge_stiffness, stiffness_factor, dp
       class(fuge_stiffness), intent(in) :: self
-      logical, intent(in) :: held(:)
+      logical, intent(in) :: constrained(:)
       real(dp), intent(in) :: shift
       class(stiffness_factor), allocatable, intent(out) :: factor
-      real(dp), intent(out) :: pivot
-      integer, intent(out) :: weakest, status
-    end subroutine factorise_free
+      real(dp), intent(out) :: pivots(:)
+      integer, intent(out) :: failed, status
+    end subroutine factorise_storage
 
-    !> `block` (degrees, any number): loads in, displacements out; status: FUGE_DONE or FUGE_ERR_MEMORY.
+    !> `block` (degrees, any number): on entry loads, zero where constrained; on return
+    !> displacements, zero where constrained. `status` is FUGE_DONE or FUGE_ERR_MEMORY.
     subroutine solve_for_block(self, block, status)
       import :: stiffness_factor, dp
       class(stiffness_factor), intent(in) :: self
@@ -70,5 +76,59 @@ module fuge_stiffness_type
       integer, intent(out) :: status
     end subroutine solve_for_block
   end interface
+
+contains
+
+  !> Cholesky factor of K without the `constrained` rows and columns (degrees), and its least
+  !> pivot.
+  !>
+  !> Each diagonal term of K is multiplied by 1 + `shift`. `pivot` is the least pivot relative
+  !> to the diagonal term of K, at the degree of freedom `weakest`, which is 0 if no pivot is
+  !> less than 1. If K is not definite, `pivot` is 0 and `factor` is not allocated.
+  !> `status` is FUGE_DONE or FUGE_ERR_MEMORY.
+  subroutine factorise(self, constrained, shift, factor, pivot, weakest, status)
+    class(fuge_stiffness), intent(in) :: self
+    logical, intent(in) :: constrained(:)
+    real(dp), intent(in) :: shift
+    class(stiffness_factor), allocatable, intent(out) :: factor
+    real(dp), intent(out) :: pivot
+    integer, intent(out) :: weakest, status
+    real(dp), allocatable :: pivots(:), terms(:)
+    integer :: stat
+
+    pivot = 0.0_dp
+    weakest = 0
+    status = FUGE_ERR_MEMORY
+    allocate (pivots(size(constrained)), terms(size(constrained)), stat=stat)
+    if (stat /= 0) return
+    call self%cholesky(constrained, shift, factor, pivots, weakest, status)
+    if (.not. allocated(factor)) return
+    call self%diagonal(terms)
+    call find_least_pivot(pivots, terms, constrained, pivot, weakest)
+    ! A factor L D L^T is computed to the end even if K is indefinite.
+    if (.not. pivot > 0.0_dp) deallocate (factor)
+  end subroutine factorise
+
+  !> The least of the pivots relative to the diagonal `terms`; the first that is not positive
+  !> ends the search.
+  pure subroutine find_least_pivot(pivots, terms, constrained, pivot, weakest)
+    real(dp), intent(in) :: pivots(:), terms(:)
+    logical, intent(in) :: constrained(:)
+    real(dp), intent(out) :: pivot
+    integer, intent(out) :: weakest
+    integer :: j
+
+    pivot = 1.0_dp
+    weakest = 0
+    do j = 1, size(pivots)
+      if (constrained(j) .or. pivots(j) >= pivot*terms(j)) cycle
+      pivot = pivots(j)/terms(j)
+      weakest = j
+      ! NaN is not positive either.
+      if (pivot > 0.0_dp) cycle
+      pivot = 0.0_dp
+      exit
+    end do
+  end subroutine find_least_pivot
 
 end module fuge_stiffness_type

@@ -4,7 +4,7 @@ module fuge_legacy_body
   use fuge_body_type, only: fuge_body, check_body
   use fuge_input_checks, only: check_finite
   use fuge_condensation, only: fuge_condense, fuge_condensed, condense_to_recover
-  use fuge_contact_normals, only: add_contact_forces, moved
+  use fuge_contact_normals, only: add_contact_forces, point_displacement
   use fuge_kinds, only: dp
   use fuge_legacy, only: check_modes
   use fuge_problem_type, only: fuge_solution
@@ -141,7 +141,7 @@ contains
     kept = 0
     do j = 1, size(held)
       do i = 1, n
-        modes(i, j) = -moved(body%dof(:, i), body%normal(:, i), body%rigid_modes(:, j))
+        modes(i, j) = -point_displacement(body%dof(:, i), body%normal(:, i), body%rigid_modes(:, j))
       end do
       resultant(j) = dot_product(body%rigid_modes(:, j), body%load)
       held(j) = 1

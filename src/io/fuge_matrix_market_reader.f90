@@ -1,25 +1,37 @@
-!> Matrix Market files read: dense, or as compressed columns.
+!> Matrix Market files: read a matrix into a dense array or into compressed columns.
 !>
 !> Real and integer matrices in coordinate or array format, general or symmetric. A symmetric
-!> file holds the lower triangle, a matrix is always given whole. Entries of a coordinate
-!> file that name the same place are added, as contributions of several elements: the format
-!> does not say what they mean. Comments and blank lines may be anywhere after the first
-!> line, each entry has a line of its own.
+!> file holds the lower triangle; the matrix returned has both. The format does not say what
+!> repeated entries of a coordinate file mean; they are added, like contributions of finite
+!> elements. Comments and blank lines may follow anywhere after the first line; each entry has a
+!> line of its own.
 module fuge_matrix_market_reader
   use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_compressed_columns, only: compress_columns, compressed_columns, matrix_triplets, sum_overflows
   use fuge_kinds, only: dp
   use fuge_matrix_market_lines, only: is_skipped, matrix_layout, read_banner, read_entry, read_sizes, read_value
-  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
   use fuge_text_reader, only: text_file
-  use fuge_compressed_columns, only: order_triplets, sum_overflows, sum_repeated
   implicit none
   private
 
   public :: fuge_read_matrix, fuge_read_sparse
 
-  !> Bytes of an entry with its line feed, at least.
+  !> Least number of bytes of an entry, its line feed included.
   integer(int64), parameter :: SHORTEST_ENTRY = 6_int64, SHORTEST_VALUE = 2_int64
+
+  !> A Matrix Market file that is read entry by entry.
+  type :: matrix_file
+    type(text_file) :: file
+    type(matrix_layout) :: layout
+    !> Number of entries read.
+    integer(int64) :: count = 0_int64
+    !> The last entry read.
+    integer :: row = 0
+    integer :: column = 1
+    real(dp) :: value = 0.0_dp
+  end type matrix_file
 
 contains
 
@@ -27,335 +39,253 @@ contains
   !>
   !> `matrix` (rows, columns) is allocated afresh, with zeros where a coordinate file has no
   !> entry, in the unit of the file.
-  !> Errors, `matrix` untouched: FUGE_ERR_FILE with file, line and reason, FUGE_ERR_MEMORY.
+  !> Errors, `matrix` unchanged: FUGE_ERR_FILE with file, line and reason; FUGE_ERR_MEMORY.
   subroutine fuge_read_matrix(path, matrix, info)
     character(len=*), intent(in) :: path
     real(dp), allocatable, intent(inout) :: matrix(:, :)
     type(fuge_info), intent(out) :: info
-    type(text_file) :: file
-    type(matrix_layout) :: layout
+    type(matrix_file) :: source
     real(dp), allocatable :: entries(:, :)
     integer :: status
 
-    call file%load(path, info)
-    if (.not. info%failed()) call read_header(file, layout, info)
+    call open_matrix(path, source, info)
     if (info%failed()) return
-    allocate (entries(layout%rows, layout%columns), stat=status)
+    allocate (entries(source%layout%rows, source%layout%columns), stat=status)
     if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, file%name//': no memory for a dense matrix of '//text(layout%rows)//' x ' &
-                  //text(layout%columns)//': read it with fuge_read_sparse')
+      call report(info, FUGE_ERR_MEMORY, source%file%name//': no memory for a dense matrix of ' &
+                  //text(source%layout%rows)//' x '//text(source%layout%columns)//': read it with fuge_read_sparse')
       return
     end if
-    if (layout%coordinate) then
-      call read_scattered(file, layout, entries, info)
-    else
-      call read_by_columns(file, layout, entries, info)
-    end if
+    call read_dense(source, entries, info)
     if (.not. info%failed()) call move_alloc(entries, matrix)
   end subroutine fuge_read_matrix
 
   !> Read a matrix from a Matrix Market file into compressed columns.
   !>
   !> Column j has the rows `row`(k) and the values `value`(k), k = `column`(j) ..
-  !> `column`(j + 1) - 1, rows ascending, each once; `column` has one element more than there
-  !> are columns. Of an array file what is not 0 is kept, of a coordinate file all entries.
+  !> `column`(j + 1) - 1, rows ascending, each once; `column` has one element more than the
+  !> matrix has columns. Zeros of an array file are left out, those of a coordinate file kept.
   !> The three arrays are allocated afresh.
-  !> Errors, outputs untouched: FUGE_ERR_FILE with file, line and reason, FUGE_ERR_MEMORY.
+  !> Errors, outputs unchanged: FUGE_ERR_FILE with file, line and reason; FUGE_ERR_MEMORY.
   subroutine fuge_read_sparse(path, rows, column, row, value, info)
     character(len=*), intent(in) :: path
     integer, intent(inout) :: rows
     integer, allocatable, intent(inout) :: column(:), row(:)
     real(dp), allocatable, intent(inout) :: value(:)
     type(fuge_info), intent(out) :: info
-    type(text_file) :: file
-    type(matrix_layout) :: layout
-    integer, allocatable :: i(:), j(:), order(:), begin(:)
-    real(dp), allocatable :: entry(:)
-    integer(int64) :: most
-    integer :: count, status
+    type(matrix_file) :: source
+    type(matrix_triplets) :: triplets
+    type(compressed_columns) :: matrix
+    integer :: overflow, status
 
-    call file%load(path, info)
-    if (.not. info%failed()) call read_header(file, layout, info)
+    call open_matrix(path, source, info)
     if (info%failed()) return
-    status = 1
-    ! Compressed columns count with default integers.
-    most = room(layout)
-    if (most < int(huge(1), int64)) allocate (i(most), j(most), entry(most), stat=status)
+    call triplets%reserve(entries_of_both_triangles(source%layout), status)
     if (status == 0) then
-      if (layout%coordinate) then
-        call read_triplets(file, layout, i, j, entry, count, info)
-      else
-        call read_what_is_not_zero(file, layout, i, j, entry, count, info)
-      end if
+      call read_triplets(source, triplets, info)
       if (info%failed()) return
-      deallocate (file%content)
-      call order_triplets(layout%rows, layout%columns, i(:count), j(:count), order, begin, status)
+      deallocate (source%file%content)
+      call compress_columns(triplets, source%layout%rows, source%layout%columns, matrix, overflow, status)
     end if
-    if (status == 0) call hand_over(file%name, i, entry, order, begin, column, row, value, status, info)
-    if (status /= 0) call report(info, FUGE_ERR_MEMORY, file%name//': no memory for the entries of a matrix of ' &
-                                 //text(layout%rows)//' x '//text(layout%columns))
-    if (.not. info%failed()) rows = layout%rows
+    if (status /= 0) then
+      call report(info, FUGE_ERR_MEMORY, source%file%name//': no memory for the entries of a matrix of ' &
+                  //text(source%layout%rows)//' x '//text(source%layout%columns))
+    else if (overflow > 0) then
+      call report(info, FUGE_ERR_FILE, source%file%name//': '//overflow_reason(matrix%row(overflow), &
+                                                                               count(matrix%column <= overflow)))
+    end if
+    if (info%failed()) return
+    rows = source%layout%rows
+    call move_alloc(matrix%column, column)
+    call move_alloc(matrix%row, row)
+    call move_alloc(matrix%value, value)
   end subroutine fuge_read_sparse
 
-  !> Banner and sizes.
-  subroutine read_header(file, layout, info)
-    type(text_file), intent(inout) :: file
-    type(matrix_layout), intent(out) :: layout
+  pure function reason_length(row, column) result(length)
+    integer, intent(in) :: row, column
+    integer :: length
+
+    length = len('the sum of the entries for (, ) is out of range') + len(text(row)) + len(text(column))
+  end function reason_length
+
+  !> Why entries of the same place are refused.
+  pure function overflow_reason(row, column) result(reason)
+    integer, intent(in) :: row, column
+    character(len=reason_length(row, column)) :: reason
+
+    reason = 'the sum of the entries for ('//text(row)//', '//text(column)//') is out of range'
+  end function overflow_reason
+
+  !> Load a file and read its banner and sizes.
+  subroutine open_matrix(path, source, info)
+    character(len=*), intent(in) :: path
+    type(matrix_file), intent(inout) :: source
+    type(fuge_info), intent(inout) :: info
+
+    call source%file%load(path, info)
+    if (.not. info%failed()) call read_header(source, info)
+  end subroutine open_matrix
+
+  !> Read banner and sizes; refuse a file that is too short for its number of entries.
+  subroutine read_header(source, info)
+    type(matrix_file), intent(inout) :: source
     type(fuge_info), intent(inout) :: info
     character(len=:), allocatable :: reason
-    integer(int64) :: bytes
-    logical :: found
+    logical :: exists
 
-    call file%advance(found)
-    if (.not. found) then
-      call report(info, FUGE_ERR_FILE, file%name//' is empty, or no regular file')
+    call source%file%advance(exists)
+    if (.not. exists) then
+      call report(info, FUGE_ERR_FILE, source%file%name//' is empty, or not a regular file')
       return
     end if
-    call read_banner(file%content(file%first:file%last), layout, reason)
+    call read_banner(source%file%content(source%file%first:source%file%last), source%layout, reason)
     if (.not. allocated(reason)) then
-      call next_entry(file, found)
-      if (found) then
-        call read_sizes(file%content(file%first:file%last), layout, reason)
+      call next_line(source, exists)
+      if (exists) then
+        call read_sizes(source%file%content(source%file%first:source%file%last), source%layout, reason)
       else
         reason = 'the file ends before the line with the sizes'
       end if
     end if
     if (allocated(reason)) then
-      call file%refuse(reason, info)
-      return
+      call source%file%refuse(reason, info)
+    else
+      call check_length(source, info)
     end if
-    ! Do not ask for memory that a wrong number says.
-    bytes = len(file%content, kind=int64) - file%last
-    bytes = bytes/merge(SHORTEST_ENTRY, SHORTEST_VALUE, layout%coordinate)
-    if (layout%entries > bytes + 1_int64) call count_entries(file, layout, info)
   end subroutine read_header
 
-  !> Go to the next line that is not skipped.
-  pure subroutine next_entry(file, found)
-    type(text_file), intent(inout) :: file
-    logical, intent(out) :: found
+  !> Refuse a file that cannot hold as many entries as it announces, before memory for them is
+  !> allocated.
+  pure subroutine check_length(source, info)
+    type(matrix_file), intent(inout) :: source
+    type(fuge_info), intent(inout) :: info
+    integer(int64) :: bytes
+    logical :: exists
+
+    bytes = len(source%file%content, kind=int64) - source%file%last
+    bytes = bytes/merge(SHORTEST_ENTRY, SHORTEST_VALUE, source%layout%coordinate)
+    if (source%layout%entries <= bytes + 1_int64) return
+    ! Count the lines for the message.
+    do
+      call next_line(source, exists)
+      if (.not. exists) exit
+      source%count = source%count + 1_int64
+    end do
+    call refuse_end(source, info)
+  end subroutine check_length
+
+  !> Advance to the next line that is neither blank nor a comment; `exists` is false at the end
+  !> of the file.
+  pure subroutine next_line(source, exists)
+    type(matrix_file), intent(inout) :: source
+    logical, intent(out) :: exists
 
     do
-      call file%advance(found)
-      if (.not. found) return
-      if (.not. is_skipped(file%content(file%first:file%last))) return
+      call source%file%advance(exists)
+      if (.not. exists) return
+      if (.not. is_skipped(source%file%content(source%file%first:source%file%last))) return
     end do
-  end subroutine next_entry
+  end subroutine next_line
 
-  !> Refuse a file that ends too early.
-  pure subroutine count_entries(file, layout, info)
-    type(text_file), intent(inout) :: file
-    type(matrix_layout), intent(in) :: layout
+  !> Report that the file ends before its last entry (FUGE_ERR_FILE).
+  pure subroutine refuse_end(source, info)
+    type(matrix_file), intent(in) :: source
     type(fuge_info), intent(inout) :: info
-    integer(int64) :: count
-    logical :: found
+    character(len=24) :: present_entries, announced
 
-    count = -1_int64
-    found = .true.
-    do while (found)
-      call next_entry(file, found)
-      count = count + 1_int64
-    end do
-    call refuse_end(file, layout, count, info)
-  end subroutine count_entries
-
-  pure subroutine refuse_end(file, layout, count, info)
-    type(text_file), intent(in) :: file
-    type(matrix_layout), intent(in) :: layout
-    integer(int64), intent(in) :: count
-    type(fuge_info), intent(inout) :: info
-    character(len=24) :: there, wanted
-
-    write (there, '(i0)') count
-    write (wanted, '(i0)') layout%entries
-    call file%refuse('the file ends after '//trim(there)//' of '//trim(wanted)//' entries', info)
+    write (present_entries, '(i0)') source%count
+    write (announced, '(i0)') source%layout%entries
+    call source%file%refuse('the file ends after '//trim(present_entries)//' of '//trim(announced)//' entries', info)
   end subroutine refuse_end
 
-  !> Nothing may follow the last entry.
-  pure subroutine check_end(file, info)
-    type(text_file), intent(inout) :: file
+  !> Refuse a file with more entries than it announces (FUGE_ERR_FILE).
+  pure subroutine check_end(source, info)
+    type(matrix_file), intent(inout) :: source
     type(fuge_info), intent(inout) :: info
-    logical :: found
+    logical :: exists
 
-    if (info%failed()) return
-    call next_entry(file, found)
-    if (found) call file%refuse('more entries than the line with the sizes says', info)
+    call next_line(source, exists)
+    if (exists) call source%file%refuse('more entries than the line with the sizes announces', info)
   end subroutine check_end
 
-  !> The next line as an entry; `count` have been read before.
-  pure subroutine take_entry(file, layout, count, row, column, value, info)
-    type(text_file), intent(inout) :: file
-    type(matrix_layout), intent(in) :: layout
-    integer(int64), intent(in) :: count
-    integer, intent(out) :: row, column
-    real(dp), intent(out) :: value
+  !> Read the next entry: its place from the line or, in an array file, from its number.
+  pure subroutine next_entry(source, info)
+    type(matrix_file), intent(inout) :: source
     type(fuge_info), intent(inout) :: info
     character(len=:), allocatable :: reason
-    logical :: found
+    logical :: exists
 
-    row = 0
-    column = 0
-    value = 0.0_dp
-    call next_entry(file, found)
-    if (.not. found) then
-      call refuse_end(file, layout, count, info)
+    call next_line(source, exists)
+    if (.not. exists) then
+      call refuse_end(source, info)
       return
     end if
-    if (layout%coordinate) then
-      call read_entry(file%content(file%first:file%last), layout, row, column, value, reason)
+    if (source%layout%coordinate) then
+      call read_entry(source%file%content(source%file%first:source%file%last), source%layout, source%row, &
+                      source%column, source%value, reason)
     else
-      call read_value(file%content(file%first:file%last), layout, value, reason)
+      source%row = source%row + 1
+      if (source%row > source%layout%rows) then
+        source%column = source%column + 1
+        source%row = merge(source%column, 1, source%layout%symmetric)
+      end if
+      call read_value(source%file%content(source%file%first:source%file%last), source%layout, source%value, reason)
     end if
-    if (allocated(reason)) call file%refuse(reason, info)
-  end subroutine take_entry
+    source%count = source%count + 1_int64
+    if (allocated(reason)) call source%file%refuse(reason, info)
+  end subroutine next_entry
 
-  pure subroutine read_by_columns(file, layout, matrix, info)
-    type(text_file), intent(inout) :: file
-    type(matrix_layout), intent(in) :: layout
-    real(dp), intent(inout) :: matrix(:, :)
+  !> Read all entries into a dense array, (rows, columns).
+  pure subroutine read_dense(source, matrix, info)
+    type(matrix_file), intent(inout) :: source
+    real(dp), intent(out) :: matrix(:, :)
     type(fuge_info), intent(inout) :: info
-    integer(int64) :: count
-    integer :: i, j, row, column
-
-    count = 0_int64
-    do j = 1, layout%columns
-      do i = merge(j, 1, layout%symmetric), layout%rows
-        call take_entry(file, layout, count, row, column, matrix(i, j), info)
-        if (info%failed()) return
-        count = count + 1_int64
-        if (layout%symmetric) matrix(j, i) = matrix(i, j)
-      end do
-    end do
-    call check_end(file, info)
-  end subroutine read_by_columns
-
-  pure subroutine read_scattered(file, layout, matrix, info)
-    type(text_file), intent(inout) :: file
-    type(matrix_layout), intent(in) :: layout
-    real(dp), intent(inout) :: matrix(:, :)
-    type(fuge_info), intent(inout) :: info
-    integer(int64) :: count
     integer :: i, j
-    real(dp) :: value
 
     matrix = 0.0_dp
-    do count = 0_int64, layout%entries - 1_int64
-      call take_entry(file, layout, count, i, j, value, info)
+    do while (source%count < source%layout%entries)
+      call next_entry(source, info)
       if (info%failed()) return
-      if (sum_overflows(matrix(i, j), value)) then
-        call file%refuse('the entries for ('//text(i)//', '//text(j)//') have a sum that is out of range', info)
+      i = source%row
+      j = source%column
+      if (.not. source%layout%coordinate) then
+        matrix(i, j) = source%value
+      else if (sum_overflows(matrix(i, j), source%value)) then
+        call source%file%refuse(overflow_reason(i, j), info)
         return
+      else
+        matrix(i, j) = matrix(i, j) + source%value
       end if
-      matrix(i, j) = matrix(i, j) + value
-      if (layout%symmetric) matrix(j, i) = matrix(i, j)
+      if (source%layout%symmetric) matrix(j, i) = matrix(i, j)
     end do
-    call check_end(file, info)
-  end subroutine read_scattered
+    call check_end(source, info)
+  end subroutine read_dense
 
-  !> For all entries, in a symmetric file for their mirror images too.
-  pure function room(layout)
+  !> Number of entries with those above the diagonal that a symmetric file leaves out, at most.
+  pure function entries_of_both_triangles(layout) result(entries)
     type(matrix_layout), intent(in) :: layout
-    integer(int64) :: room
+    integer(int64) :: entries
 
-    room = layout%entries
-    if (layout%symmetric) room = 2_int64*room
-  end function room
+    entries = layout%entries
+    if (layout%symmetric) entries = 2_int64*entries
+  end function entries_of_both_triangles
 
-  pure subroutine read_triplets(file, layout, i, j, entry, count, info)
-    type(text_file), intent(inout) :: file
-    type(matrix_layout), intent(in) :: layout
-    integer, intent(inout) :: i(:), j(:)
-    real(dp), intent(inout) :: entry(:)
-    integer, intent(out) :: count
+  !> Read all entries as triplets, without the zeros of an array file.
+  pure subroutine read_triplets(source, triplets, info)
+    type(matrix_file), intent(inout) :: source
+    type(matrix_triplets), intent(inout) :: triplets
     type(fuge_info), intent(inout) :: info
-    integer(int64) :: line
-    integer :: row, column
-    real(dp) :: value
 
-    count = 0
-    do line = 0_int64, layout%entries - 1_int64
-      call take_entry(file, layout, line, row, column, value, info)
+    do while (source%count < source%layout%entries)
+      call next_entry(source, info)
       if (info%failed()) return
-      call append(row, column, value, layout%symmetric, i, j, entry, count)
+      associate (i => source%row, j => source%column, value => source%value)
+        if (.not. (source%layout%coordinate .or. abs(value) > 0.0_dp)) cycle
+        call triplets%append(i, j, value)
+        if (source%layout%symmetric .and. i /= j) call triplets%append(j, i, value)
+      end associate
     end do
-    call check_end(file, info)
+    call check_end(source, info)
   end subroutine read_triplets
-
-  pure subroutine read_what_is_not_zero(file, layout, i, j, entry, count, info)
-    type(text_file), intent(inout) :: file
-    type(matrix_layout), intent(in) :: layout
-    integer, intent(inout) :: i(:), j(:)
-    real(dp), intent(inout) :: entry(:)
-    integer, intent(out) :: count
-    type(fuge_info), intent(inout) :: info
-    integer(int64) :: line
-    integer :: row, column, k, l
-    real(dp) :: value
-
-    count = 0
-    line = 0_int64
-    do l = 1, layout%columns
-      do k = merge(l, 1, layout%symmetric), layout%rows
-        call take_entry(file, layout, line, row, column, value, info)
-        if (info%failed()) return
-        line = line + 1_int64
-        if (abs(value) > 0.0_dp) call append(k, l, value, layout%symmetric, i, j, entry, count)
-      end do
-    end do
-    call check_end(file, info)
-  end subroutine read_what_is_not_zero
-
-  pure subroutine append(row, column, value, symmetric, i, j, entry, count)
-    integer, intent(in) :: row, column
-    real(dp), intent(in) :: value
-    logical, intent(in) :: symmetric
-    integer, intent(inout) :: i(:), j(:), count
-    real(dp), intent(inout) :: entry(:)
-
-    count = count + 1
-    i(count) = row
-    j(count) = column
-    entry(count) = value
-    if (.not. symmetric .or. row == column) return
-    count = count + 1
-    i(count) = column
-    j(count) = row
-    entry(count) = value
-  end subroutine append
-
-  !> All or none.
-  pure subroutine hand_over(name, i, entry, order, begin, column, row, value, status, info)
-    character(len=*), intent(in) :: name
-    integer, allocatable, intent(inout) :: i(:), order(:), begin(:)
-    real(dp), allocatable, intent(inout) :: entry(:)
-    integer, allocatable, intent(inout) :: column(:), row(:)
-    real(dp), allocatable, intent(inout) :: value(:)
-    integer, intent(out) :: status
-    type(fuge_info), intent(inout) :: info
-    integer, allocatable :: new_row(:)
-    real(dp), allocatable :: new_value(:)
-    integer :: last, overflow
-
-    last = size(order)
-    allocate (new_row(last), new_value(last), stat=status)
-    if (status /= 0) return
-    new_row = i(order)
-    new_value = entry(order)
-    call sum_repeated(begin, new_row, new_value, overflow)
-    if (overflow > 0) then
-      call report(info, FUGE_ERR_FILE, name//': the entries for ('//text(new_row(overflow))//', ' &
-                  //text(count(begin <= overflow))//') have a sum that is out of range')
-      return
-    end if
-    call move_alloc(begin, column)
-    last = column(size(column)) - 1
-    if (last == size(new_row)) then
-      call move_alloc(new_row, row)
-      call move_alloc(new_value, value)
-    else
-      row = new_row(:last)
-      value = new_value(:last)
-    end if
-  end subroutine hand_over
 
 end module fuge_matrix_market_reader

@@ -4,6 +4,7 @@ module fuge_matrix_operator
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
   use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_input_checks, only: find_asymmetry
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
@@ -14,8 +15,6 @@ module fuge_matrix_operator
 
   !> Largest asymmetry taken for rounding, relative to the range of the coefficients.
   real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
-  !> Rows and columns of the tiles in which the matrix is compared with its transpose.
-  integer, parameter :: TILE = 64
 
   !> A symmetric influence matrix in full storage: `set` it, then solve.
   type, extends(fuge_operator), public :: fuge_dense_operator
@@ -119,7 +118,7 @@ contains
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_info), intent(inout) :: info
     real(dp), intent(out) :: least, most
-    real(dp) :: difference
+    real(dp) :: weight(size(alpha, 2))
     integer :: i, j, n
 
     least = 0.0_dp
@@ -141,11 +140,12 @@ contains
         //': choose units in which it is smaller')
       return
     end if
-    call find_asymmetry(alpha(:n, :), i, j, difference)
-    if (difference > SYMMETRY_TOLERANCE*(most - least)) then
+    weight = 1.0_dp
+    call find_asymmetry(alpha, weight, SYMMETRY_TOLERANCE*(most - least), i, j)
+    if (i > 0) then
       call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//text(i)//','//text(j)//') and alpha(' &
-        //text(j)//','//text(i)//') differ by '//text(difference)//' (coefficients from '//text(least) &
-        //' to '//text(most)//'): if that is rounding, pass (alpha + transpose(alpha))/2')
+        //text(j)//','//text(i)//') differ by '//text(abs(alpha(i, j) - alpha(j, i))) &
+        //' (coefficients from '//text(least)//' to '//text(most)//'): if that is rounding, pass (alpha + transpose(alpha))/2')
     end if
   end subroutine check_influence_matrix
 
@@ -163,31 +163,5 @@ contains
       end do
     end do
   end subroutine check_finite_coefficients
-
-  !> The largest difference |alpha(i,j) - alpha(j,i)| and where it is.
-  pure subroutine find_asymmetry(alpha, row, column, difference)
-    real(dp), intent(in) :: alpha(:, :)
-    integer, intent(out) :: row, column
-    real(dp), intent(out) :: difference
-    integer :: i, j, first_row, first_column
-
-    row = 1
-    column = 1
-    difference = 0.0_dp
-    ! By tiles, because a tile and its transpose both fit in the cache.
-    do first_column = 1, size(alpha, 2), TILE
-      do first_row = first_column, size(alpha, 2), TILE
-        do j = first_column, min(first_column + TILE - 1, size(alpha, 2))
-          do i = max(first_row, j + 1), min(first_row + TILE - 1, size(alpha, 2))
-            if (abs(alpha(i, j) - alpha(j, i)) > difference) then
-              difference = abs(alpha(i, j) - alpha(j, i))
-              row = i
-              column = j
-            end if
-          end do
-        end do
-      end do
-    end do
-  end subroutine find_asymmetry
 
 end module fuge_matrix_operator
