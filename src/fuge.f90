@@ -1,26 +1,27 @@
 !> The whole public interface of fuge, frictionless elastic contact.
 module fuge
-  use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
-    FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
   use fuge_body_type, only: fuge_body
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_condensation, only: fuge_condense, fuge_condensed
+  use fuge_contact_path, only: fuge_follow_path, fuge_load_path
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
-  use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval, FUGE_EDGE_REFINED, FUGE_EDGE_FEW_CELLS, &
     FUGE_EDGE_SINGULAR, FUGE_EDGE_GRID_END
-  use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
+  use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
+    FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
   use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: fuge_dp
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
+  use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nodal_modes, only: fuge_rigid_modes
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET, FUGE_ITERATIVE, &
     FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
-  use fuge_path_types, only: fuge_follow_path, fuge_general_path, fuge_load_path, fuge_path
+  use fuge_path_type, only: fuge_path
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_profile_files, only: fuge_read_profile, fuge_sample_profile, fuge_level_profile, &
     FUGE_LEVEL_MEAN, FUGE_LEVEL_LINE

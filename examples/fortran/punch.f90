@@ -122,13 +122,13 @@ contains
     call fuge_load_path(operator, gap, 50.0e3_dp, path, info)
     if (info%status /= 0) error stop 'the load path was not found'
     call create_file('punch_halfwidth.dat', 1, file)
-    do k = 1, path%events
-      write (file, '(4es16.7)') path%load(k)/1.0e3_dp, x(path%point(k)) + 0.5_dp*SPACING, path%approach(k), &
-        path%stiffness(k)/1.0e3_dp
+    do k = 2, path%entries
+      write (file, '(4es16.7)') path%parameter(k)/1.0e3_dp, x(path%point(k)) + 0.5_dp*SPACING, path%motion(1, k), &
+        1.0_dp/path%rate(1, k)/1.0e3_dp
     end do
     close (file)
-    print '(/,a,i0,a)', 'From 0 to 50 kN/mm the contact changes ', path%events, ' times (punch_halfwidth.dat);'
-    print '(a,f8.4,a)', 'the last time at ', path%load(path%events)/1.0e3_dp, ' kN/mm'
+    print '(/,a,i0,a)', 'From 0 to 50 kN/mm the contact changes ', path%entries - 1, ' times (punch_halfwidth.dat);'
+    print '(a,f8.4,a)', 'the last time at ', path%parameter(path%entries)/1.0e3_dp, ' kN/mm'
   end subroutine all_loads
 
   subroutine one_load(operator, problem, x, kilonewtons, file)

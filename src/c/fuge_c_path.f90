@@ -3,7 +3,8 @@ module fuge_c_path
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_solver, only: take_solver, require_problem
   use fuge_c_types, only: operator_handle, solver_handle, copy_string, copy_reals, copy_integers
-  use fuge_path_types, only: fuge_follow_path, fuge_general_path, fuge_load_path, fuge_path
+  use fuge_contact_path, only: fuge_follow_path, fuge_load_path
+  use fuge_path_type, only: fuge_path
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
   implicit none
   private
@@ -22,7 +23,7 @@ contains
     integer(c_int), pointer :: number
     type(fuge_path) :: path
     type(fuge_info) :: info
-    integer :: count
+    integer :: last
 
     if (.not. (c_associated(operator) .and. c_associated(gap) .and. c_associated(events))) then
       call report(info, FUGE_ERR_POINTER, 'operator, gap or events is NULL')
@@ -36,14 +37,15 @@ contains
     call copy_string(info%message, message, length)
     status = int(info%status, c_int)
     if (info%failed()) return
-    count = min(path%events, int(capacity))
-    call copy_reals(path%load(:count), loads)
-    call copy_reals(path%approach(:count), approach)
-    call copy_reals(path%stiffness(:count), stiffness)
-    call copy_integers(path%point(:count), point)
-    call copy_integers(path%contacts(:count), contacts)
+    ! The start, without load, is no event here.
+    last = 1 + min(path%entries - 1, int(capacity))
+    call copy_reals(path%parameter(2:last), loads)
+    call copy_reals(path%motion(1, 2:last), approach)
+    call copy_reals(1.0_c_double/path%rate(1, 2:last), stiffness)
+    call copy_integers(merge(path%point(2:last), -path%point(2:last), path%state(2:last) /= 0), point)
+    call copy_integers(path%contacts(2:last), contacts)
     call c_f_pointer(events, number)
-    number = int(path%events, c_int)
+    number = int(path%entries - 1, c_int)
   end function c_load_path
 
   function c_follow_path(solver, finish, capacity, parameter, motion, rate, point, state, contacts, entries, message, &
@@ -55,7 +57,7 @@ contains
     type(solver_handle), pointer :: handle
     real(c_double), pointer :: values(:)
     integer(c_int), pointer :: number
-    type(fuge_general_path) :: path
+    type(fuge_path) :: path
     type(fuge_info) :: info
     integer :: count
 

@@ -1,66 +1,81 @@
 !> The dense engines on the paper's problem, called from a matrix, gaps and a load.
 module plain_runs
-  use fuge_block_pivoting, only: run_active_set
-  use fuge_kkt_factor, only: contact_factor
+  use fuge_block_pivoting, only: run_block_pivoting
+  use fuge_kkt_factor, only: kkt_factor
   use fuge_definiteness, only: check_definite
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_problem_type, only: fuge_problem, set_problem
   use fuge_canonical_problem, only: canonical_problem, make_canonical
+  use fuge_contact_solution, only: allocate_solution, contact_solution
+  use fuge_options_type, only: fuge_options
   use fuge_status, only: fuge_info
   use fuge_paper_tableau, only: run_phase_one
   implicit none
   private
 
-  public :: run_plain, plain_phase, plain_definite
+  public :: make_plain, run_plain, plain_phase, plain_definite
 
 contains
 
-  !> As `run_active_set`, with the contact set as a mask and one motion.
+  !> As `run_block_pivoting`, with the contact set as a mask and one motion.
   subroutine run_plain(alpha, datum, gap, load, limit, monitor, factor, contact, force, gap_out, approach, iterations, &
                        status)
-    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in), contiguous, target :: alpha(:, :)
     real(dp), intent(in) :: datum, gap(:), load
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
-    type(contact_factor), intent(inout) :: factor
+    type(kkt_factor), intent(inout) :: factor
     logical, intent(inout) :: contact(:)
     real(dp), intent(out) :: force(:), gap_out(:), approach
     integer, intent(out) :: iterations, status
-    type(fuge_problem) :: problem
     type(canonical_problem) :: canonical
+    type(contact_solution) :: solution
     type(fuge_info) :: info
-    integer :: state(size(gap))
-    real(dp) :: motion(1)
+
+    call make_plain(alpha, datum, gap, load, canonical)
+    call allocate_solution(size(gap), 1, solution, info)
+    solution%state = merge(1, 0, contact)
+    call run_block_pivoting(canonical, limit, monitor, factor, solution, iterations, status)
+    contact = solution%state /= 0
+    force = solution%force
+    gap_out = solution%gap
+    approach = solution%motion(1)
+  end subroutine run_plain
+
+  !> The plain problem as the engines take it.
+  subroutine make_plain(alpha, datum, gap, load, canonical)
+    real(dp), intent(in), contiguous, target :: alpha(:, :)
+    real(dp), intent(in) :: datum, gap(:), load
+    type(canonical_problem), intent(out) :: canonical
+    real(dp), pointer, contiguous :: matrix(:, :)
+    type(fuge_problem) :: problem
+    type(fuge_info) :: info
 
     call set_problem(gap, load, problem, info)
     call make_canonical(problem, canonical, info)
-    state = merge(1, 0, contact)
-    call run_active_set(alpha, datum, canonical, limit, monitor, factor, state, force, gap_out, motion, iterations, &
-                        status)
-    contact = state /= 0
-    approach = motion(1)
-  end subroutine run_plain
+    matrix => alpha
+    call canonical%set_matrix(matrix, datum)
+  end subroutine make_plain
 
   !> As `run_phase_one`, with the contact set as a mask.
   subroutine plain_phase(alpha, gap, load, rule, max_pivots, keep_history, monitor, history, contact, pivots, status)
-    real(dp), intent(in) :: alpha(:, :), gap(:), load
+    real(dp), intent(in), contiguous, target :: alpha(:, :)
+    real(dp), intent(in) :: gap(:), load
     integer, intent(in) :: rule, max_pivots
     logical, intent(in) :: keep_history
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_history), intent(inout) :: history
     logical, intent(out) :: contact(:)
     integer, intent(out) :: pivots, status
-    type(fuge_problem) :: problem
     type(canonical_problem) :: canonical
-    type(fuge_info) :: info
     integer :: state(size(gap))
 
-    call set_problem(gap, load, problem, info)
-    call make_canonical(problem, canonical, info)
-    call run_phase_one(alpha, 0.0_dp, canonical, rule, max_pivots, keep_history, monitor, history, state, pivots, &
-                       status)
+    call make_plain(alpha, 0.0_dp, gap, load, canonical)
+    call run_phase_one(canonical, fuge_options(pivot_rule=rule, keep_history=keep_history), max_pivots, monitor, &
+                       history, &
+                       state, pivots, status)
     contact = state /= 0
   end subroutine plain_phase
 

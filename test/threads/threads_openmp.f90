@@ -2,7 +2,7 @@
 !> All answers must be those of the same loop run by one thread, bit for bit.
 program threads_openmp
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_general_path, fuge_follow_path, fuge_halfplane_matrix, &
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_follow_path, fuge_halfplane_matrix, &
     fuge_halfplane_operator, fuge_info, fuge_load_path, fuge_operator, fuge_options, fuge_path, fuge_problem, &
     fuge_solution, fuge_solver, FUGE_ACTIVE_SET, FUGE_ERR_OPTION, FUGE_ITERATIVE, FUGE_MEAN, FUGE_TABLEAU
   use omp_lib, only: omp_get_num_threads
@@ -68,7 +68,7 @@ contains
     type(fuge_halfplane_operator) :: own
     type(fuge_problem) :: problem
     type(fuge_path) :: path
-    type(fuge_general_path) :: general
+    type(fuge_path) :: general
     type(fuge_info) :: info
     integer :: k, part
 
@@ -88,7 +88,7 @@ contains
     call solve_with(dense, problem, FUGE_ACTIVE_SET, value(2*part + 1:3*part))
     call fuge_load_path(dense, problem%gap, LOAD, path, info)
     if (info%failed()) call stop_with(info%message)
-    value(3*part + 1) = path%approach(path%events)
+    value(3*part + 1) = path%motion(1, path%entries)
     call fuge_follow_path(dense, problem, [2.0_dp*LOAD], general, info)
     if (info%failed()) call stop_with(info%message)
     value(3*part + 2) = general%parameter(general%entries)

@@ -1,112 +1,107 @@
-!> The active-set engine: from checked data and a guess of the contact set to a solution and its status in words.
+!> The active-set engine: from checked data, and a guess of the contact set if there is one, to a solution and
+!> its status in words.
 module fuge_active_set_engine
-  use fuge_block_pivoting, only: run_active_set
+  use fuge_block_pivoting, only: run_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
+  use fuge_contact_solution, only: contact_solution
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
   use fuge_engine_messages, only: explain_status
-  use fuge_free_modes, only: find_free_way
-  use fuge_initial_set, only: guess_contact_set
-  use fuge_initial_states, only: guess_sides
+  use fuge_free_modes, only: find_free_motion
+  use fuge_initial_set, only: guess_initial_set
   use fuge_kinds, only: dp
-  use fuge_kkt_factor, only: contact_factor
+  use fuge_kkt_factor, only: kkt_factor
   use fuge_matrix_checks, only: check_magnitudes, check_pairs
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: text
   use fuge_options_type, only: fuge_options, iteration_limit
-  use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE
   implicit none
   private
 
-  public :: solve_by_active_set, solve_from
+  public :: solve_by_active_set, solve_from_set
 
 contains
 
-  !> Block principal pivoting. `state` (n): on entry a guess, or none to have one made; on
-  !> return the contact set, with its `factor`. `answer%motion` are the motions of the scene.
-  subroutine solve_by_active_set(alpha, datum, canonical, options, monitor, state, factor, answer, info)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum
+  !> Solve by block principal pivoting.
+  !>
+  !> `canonical` with its matrix; `solution` allocated, its state (n) a guess on entry, or all open to have one
+  !> made; on return solution and `factor` belong together. Errors in `info`.
+  subroutine solve_by_active_set(canonical, options, monitor, factor, solution, info)
     type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
-    integer, intent(inout) :: state(:)
-    type(contact_factor), intent(inout) :: factor
-    type(fuge_solution), intent(inout) :: answer
+    type(kkt_factor), intent(inout) :: factor
+    type(contact_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
-    logical :: contact(size(state))
     integer :: sets
 
-    call check_magnitudes(alpha(:size(alpha, 2), :), canonical%largest_load(), info)
-    ! Opposite forces are in equilibrium only where all motions move both points alike.
-    if (canonical%plain .and. .not. info%failed()) call check_pairs(alpha, info)
+    call check_magnitudes(canonical%alpha(:size(canonical%gap), :), canonical%largest_load(), info)
+    ! Opposite forces are in equilibrium only where all modes move both points alike.
+    if (canonical%plain .and. .not. info%failed()) call check_pairs(canonical%alpha, info)
     if (info%failed()) return
-    ! A guess from another problem may know of stops and points that are no more.
-    where (canonical%excluded) state = 0
-    where (canonical%upper >= huge(1.0_dp)) state = max(state, 0)
-    if (.not. any(state /= 0)) then
-      if (canonical%plain) then
-        call guess_contact_set(alpha, canonical%gap, canonical%load(1), contact, info%products)
-        state = merge(1, 0, contact)
-      else
-        state = merge(1, 0, abs(canonical%start) > 0.0_dp .or. canonical%gap < 0.0_dp)
-        call guess_sides(alpha, canonical, state, info%products)
-      end if
-    end if
-    call solve_from(alpha, datum, canonical, iteration_limit(options, size(state) + 1), monitor, state, factor, &
-                    answer, sets, &
-                    info)
+    ! A guess from another problem may name stops and points that this one does not have.
+    where (canonical%excluded) solution%state = FUGE_OPEN
+    where (canonical%upper >= huge(1.0_dp)) solution%state = max(solution%state, FUGE_OPEN)
+    if (all(solution%state == FUGE_OPEN)) call make_guess(canonical, solution%state, info%products)
+    call solve_from_set(canonical, iteration_limit(options, size(solution%state) + 1), monitor, factor, solution, &
+                        sets, &
+                        info)
     info%iterations = sets
   end subroutine solve_by_active_set
 
-  !> From a contact set, found or guessed, to the answer and its words. `sets` counts
-  !> those tried.
-  subroutine solve_from(alpha, datum, canonical, limit, monitor, state, factor, answer, sets, info)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum
+  !> A first contact set; where projected gradients find none, the points that carry the load or overlap.
+  subroutine make_guess(canonical, state, products)
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(out) :: state(:)
+    integer, intent(inout) :: products
+
+    if (canonical%plain) then
+      state = FUGE_AT_LOWER_STOP
+    else
+      state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, abs(canonical%feasible_force) > 0.0_dp .or. canonical%gap < 0.0_dp)
+    end if
+    call guess_initial_set(canonical, state, products)
+  end subroutine make_guess
+
+  !> From a contact set, found or guessed, to the solution and its status in words. `sets` counts those tried.
+  subroutine solve_from_set(canonical, limit, monitor, factor, solution, sets, info)
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
-    integer, intent(inout) :: state(:)
-    type(contact_factor), intent(inout) :: factor
-    type(fuge_solution), intent(inout) :: answer
+    type(kkt_factor), intent(inout) :: factor
+    type(contact_solution), intent(inout) :: solution
     integer, intent(out) :: sets
     type(fuge_info), intent(inout) :: info
-    real(dp) :: constant
     integer :: more, status
 
-    ! Without a translation nothing takes up a constant taken out of alpha.
-    constant = merge(datum, 0.0_dp, canonical%has_translation)
-    call run_active_set(alpha, constant, canonical, limit, monitor, factor, state, answer%force, answer%gap, &
-                        answer%motion, sets, status)
-    if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
+    call run_block_pivoting(canonical, limit, monitor, factor, solution, sets, status)
+    if (status == FUGE_DONE .and. factor%regularisation > 0.0_dp) then
       ! A set tried on the way was singular; the last one need not be.
-      factor = contact_factor()
-      call run_active_set(alpha, constant, canonical, limit, monitor, factor, state, answer%force, answer%gap, &
-                          answer%motion, more, status)
+      factor = kkt_factor()
+      call run_block_pivoting(canonical, limit, monitor, factor, solution, more, status)
       sets = sets + more
     end if
-    call explain_status(status, limit, count(state /= 0), info)
-    if (status == FUGE_DONE .and. factor%ridge > 0.0_dp) then
+    call explain_status(status, limit, count(solution%state /= FUGE_OPEN), info)
+    if (status == FUGE_DONE .and. factor%regularisation > 0.0_dp) then
       call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
                   //'the forces are not; those given are near the least squares')
     else if (status == FUGE_DONE .and. .not. canonical%plain) then
-      call report_free_way(canonical, state, answer, info)
+      call report_free_motion(canonical, solution, info)
     end if
-  end subroutine solve_from
+  end subroutine solve_from_set
 
-  !> Name a motion that the contact does not hold.
-  subroutine report_free_way(canonical, state, answer, info)
+  !> Warn of a motion that the contact does not resist, by the mode that dominates it.
+  subroutine report_free_motion(canonical, solution, info)
     type(canonical_problem), intent(in) :: canonical
-    integer, intent(in) :: state(:)
-    type(fuge_solution), intent(in) :: answer
+    type(contact_solution), intent(in) :: solution
     type(fuge_info), intent(inout) :: info
-    real(dp) :: way(size(canonical%load))
+    real(dp) :: motion(size(canonical%load))
 
-    if (size(way) < 1) return
-    call find_free_way(canonical, state, answer%force, answer%gap, way)
-    if (.not. any(abs(way) > 0.0_dp)) return
-    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not hold motion '//text(canonical%named_motion(way)) &
+    if (size(motion) < 1) return
+    call find_free_motion(canonical, solution, motion)
+    if (.not. any(abs(motion) > 0.0_dp)) return
+    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not hold motion '//text(canonical%dominant_mode(motion)) &
                 //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
-  end subroutine report_free_way
+  end subroutine report_free_motion
 
 end module fuge_active_set_engine

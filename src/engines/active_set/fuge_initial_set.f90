@@ -1,100 +1,259 @@
-!> A first guess of the contact set by a few projected conjugate gradients
-!> (I. A. Polonsky, L. M. Keer, Wear 231, 1999), each two products with alpha.
+!> A first guess of the contact set by a few projected conjugate gradients (I. A. Polonsky, L. M. Keer, Wear 231,
+!> 1999), each two products with alpha; with any number of rigid modes and two stops.
 module fuge_initial_set
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgemv
+  use fuge_lapack, only: dgemv, dgesv
   implicit none
   private
 
-  public :: guess_contact_set
+  public :: guess_initial_set
 
   !> Most iterations; one costs about as much as a few percent of a factorisation.
   integer, parameter :: MOST_ITERATIONS = 12
-  !> Good enough when fewer than one point in this many changes sides, this many times running:
-  !> beside wide cells nothing may happen for once.
+  !> Converged when fewer than one contact point in this many changes, this many times in a row: once is not enough
+  !> on graded grids.
   integer, parameter :: SETTLED = 64, QUIET = 2
-  !> Nor if more than one open point in this many has changed: those may be few and wide.
+  !> For the plain problem, not converged while more than one open point in this many changes: those may be few
+  !> and far apart.
   integer, parameter :: FEW_OPEN = 8
-  !> Slopes below this part of the lengths that make them are rounding.
+  !> Rounds of restoring equilibrium and opening the points that then pull.
+  integer, parameter :: ROUNDS = 2
+  !> Slopes below this fraction of the lengths that make them are rounding.
   real(dp), parameter :: ROUNDING = 1.0e-13_dp
+  !> Modes that the contact resists by less than this fraction are left alone.
+  real(dp), parameter :: HARDLY_RESISTED = 1.0e-12_dp
+  !> A play beyond this many lengths of the problem counts as none.
+  real(dp), parameter :: FAR = 1.0e8_dp
+
+  !> Forces as fractions of a force of the problem, lengths as fractions of a length of it, so that units do not
+  !> matter.
+  type :: scaled_problem
+    real(dp), allocatable :: gap(:), upper(:), load(:)
+    !> Scaled length per scaled force and unit of alpha; zero if there is no load to compare forces with.
+    real(dp) :: factor = 0.0_dp
+    logical, allocatable :: tied(:)
+  end type scaled_problem
 
 contains
 
-  !> The points that probably touch, (n), at least one.
+  !> The states (n) that the points probably have.
   !>
-  !> `alpha` (at least n rows, n columns), `gap` (n), `load` > 0; `products` is raised
-  !> by the products with alpha. Forces are kept as parts of the load and lengths as
-  !> parts of a length of the scene, so that units do not matter.
-  subroutine guess_contact_set(alpha, gap, load, contact, products)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: gap(:), load
-    logical, intent(out) :: contact(:)
-    integer, intent(inout) :: products
-    real(dp), dimension(size(gap)) :: part, slope, direction, change, reduced_gap
-    real(dp) :: unit, previous, squares, step, curvature, lowest, total, noise
-    logical :: before(size(gap)), restarted
-    integer :: iteration, quiet_for, changes, n
+  !> `canonical` with its matrix. On entry `state` is a fallback, kept if there is no load or if nothing touches;
+  !> `products` grows by the products with alpha.
+  subroutine guess_initial_set(canonical, state, products)
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(inout) :: state(:), products
+    type(scaled_problem) :: scaled
+    real(dp), dimension(size(state)) :: force, rigid_gap, slope, direction, change
+    real(dp) :: previous, squares, step, curvature, noise
+    integer :: fallback(size(state)), before(size(state)), iteration, quiet_for
+    logical :: restarted
 
-    n = size(gap)
-    lowest = minval(gap)
-    unit = max(maxval(gap) - lowest, load*maxval(abs(alpha(1:n, 1) - alpha(1, 1))))
-    if (.not. unit > 0.0_dp) unit = 1.0_dp
-    reduced_gap = (gap - lowest)/unit
-    part = 1.0_dp/real(n, dp)
-    contact = .true.
+    call make_scaled(canonical, scaled)
+    if (.not. scaled%factor > 0.0_dp) return
+    fallback = state
+    call start(canonical, scaled, state, force)
     direction = 0.0_dp
     previous = 1.0_dp
     restarted = .true.
     quiet_for = 0
     do iteration = 1, MOST_ITERATIONS
-      call multiply(alpha, part, load/unit, slope)
-      slope = slope + reduced_gap
-      noise = ROUNDING*maxval(abs(slope))
-      slope = slope - mean_of(slope, contact)
-      if (maxval(abs(slope), mask=contact) <= noise) exit
-      squares = sum(slope**2, mask=contact)
+      call multiply(canonical%alpha, force, scaled%factor, rigid_gap)
+      rigid_gap = rigid_gap + scaled%gap
+      noise = ROUNDING*maxval(abs(rigid_gap))
+      slope = rigid_gap
+      where (state < FUGE_OPEN) slope = rigid_gap - scaled%upper
+      call remove_rigid_part(canonical, state /= FUGE_OPEN, slope, rigid_gap)
+      if (maxval(abs(slope), mask=state /= FUGE_OPEN) <= noise) exit
+      squares = sum(slope**2, mask=state /= FUGE_OPEN)
       if (.not. squares > 0.0_dp) exit
       if (restarted) direction = 0.0_dp
-      direction = merge(slope + (squares/previous)*direction, 0.0_dp, contact)
+      direction = merge(slope + (squares/previous)*direction, 0.0_dp, state /= FUGE_OPEN)
       previous = squares
-      call multiply(alpha, direction, load/unit, change)
+      call multiply(canonical%alpha, direction, scaled%factor, change)
       products = products + 2
-      change = change - mean_of(change, contact)
-      curvature = sum(change*direction, mask=contact)
+      call remove_rigid_part(canonical, state /= FUGE_OPEN, change)
+      curvature = sum(change*direction, mask=state /= FUGE_OPEN)
       if (.not. curvature > 0.0_dp) exit
-      step = sum(slope*direction, mask=contact)/curvature
-      before = contact
-      part = max(part - step*direction, 0.0_dp)
-      restarted = any(part <= 0.0_dp .and. slope < 0.0_dp)
-      where (part <= 0.0_dp .and. slope < 0.0_dp) part = -step*slope
-      total = sum(part)
-      ! Nothing is left of the forces after a step along rounding.
-      if (.not. total > 0.0_dp) exit
-      part = part/total
-      contact = part > 0.0_dp
-      changes = count(contact .neqv. before)
-      quiet_for = merge(quiet_for + 1, 0, &
-                        changes*SETTLED < count(contact) .and. changes*FEW_OPEN <= count(.not. contact))
+      step = sum(slope*direction, mask=state /= FUGE_OPEN)/curvature
+      before = state
+      force = force - step*direction
+      call exchange(scaled, canonical%excluded, rigid_gap, step, state, force, restarted)
+      call restore_equilibrium(canonical, scaled, state, force)
+      if (.not. any(state /= FUGE_OPEN)) then
+        state = before
+        exit
+      end if
+      quiet_for = merge(quiet_for + 1, 0, is_settled(canonical, before, state))
       if (quiet_for >= QUIET) exit
     end do
-  end subroutine guess_contact_set
+    ! Nothing touched from the start, or numbers have overflowed.
+    if (.not. (any(state /= FUGE_OPEN) .and. all(abs(force) <= huge(force)))) state = fallback
+  end subroutine guess_initial_set
 
-  subroutine multiply(alpha, part, factor, length)
+  !> The problem without units.
+  pure subroutine make_scaled(canonical, scaled)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(out) :: scaled
+    real(dp) :: lowest, largest, length
+    integer :: k, n
+
+    n = size(canonical%gap)
+    scaled%load = canonical%load
+    if (.not. any(abs(canonical%load) > 0.0_dp)) return
+    largest = maxval(abs(canonical%load))
+    lowest = 0.0_dp
+    if (canonical%has_translation) lowest = minval(canonical%gap, mask=.not. canonical%excluded)
+    scaled%gap = merge(0.0_dp, canonical%gap - lowest, canonical%excluded)
+    if (canonical%plain) then
+      ! A constant in all of alpha does not displace points against each other.
+      length = max(maxval(scaled%gap), largest*maxval(abs(canonical%alpha(1:n, 1) - canonical%alpha(1, 1))))
+      if (.not. length > 0.0_dp) length = 1.0_dp
+    else
+      length = max(maxval(abs(scaled%gap)), largest*maxval([(abs(canonical%alpha(k, k)), k=1, n)]))
+      if (.not. length > 0.0_dp) return
+    end if
+    scaled%gap = scaled%gap/length
+    scaled%load = canonical%load/largest
+    scaled%factor = largest/length
+    allocate (scaled%upper(n))
+    scaled%upper = huge(1.0_dp)
+    where (canonical%upper/FAR < length) scaled%upper = canonical%upper/length
+    scaled%tied = canonical%is_tied()
+  end subroutine make_scaled
+
+  !> Even forces at all points that need no second stop.
+  subroutine start(canonical, scaled, state, force)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(in) :: scaled
+    integer, intent(inout) :: state(:)
+    real(dp), intent(out) :: force(:)
+
+    if (canonical%plain) then
+      state = FUGE_AT_LOWER_STOP
+      force = 1.0_dp/real(size(force), dp)
+    else
+      state = merge(FUGE_OPEN, FUGE_AT_LOWER_STOP, &
+                    canonical%excluded .or. (scaled%upper < huge(1.0_dp) .and. .not. scaled%tied))
+      force = 0.0_dp
+      call restore_equilibrium(canonical, scaled, state, force)
+    end if
+  end subroutine start
+
+  subroutine multiply(alpha, force, factor, displacement)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: part(:), factor
-    real(dp), intent(out) :: length(:)
-    integer :: n
+    real(dp), intent(in) :: force(:), factor
+    real(dp), intent(out) :: displacement(:)
 
-    n = size(part)
-    call dgemv('N', n, n, factor, alpha, size(alpha, 1), part, 1, 0.0_dp, length, 1)
+    call dgemv('N', size(force), size(force), factor, alpha, size(alpha, 1), force, 1, 0.0_dp, displacement, 1)
   end subroutine multiply
 
-  pure function mean_of(values, mask) result(mean)
-    real(dp), intent(in) :: values(:)
-    logical, intent(in) :: mask(:)
-    real(dp) :: mean
+  !> Points whose force no longer pushes at their stop open; open ones beyond a stop join it. `joined` if any did.
+  pure subroutine exchange(scaled, excluded, gap, step, state, force, joined)
+    type(scaled_problem), intent(in) :: scaled
+    logical, intent(in) :: excluded(:)
+    real(dp), intent(in) :: gap(:), step
+    integer, intent(inout) :: state(:)
+    real(dp), intent(inout) :: force(:)
+    logical, intent(out) :: joined
+    integer :: k
 
-    mean = sum(values, mask=mask)/real(max(count(mask), 1), dp)
-  end function mean_of
+    joined = .false.
+    do k = 1, size(state)
+      if (excluded(k) .or. scaled%tied(k)) cycle
+      if (state(k)*force(k) > 0.0_dp) cycle
+      force(k) = 0.0_dp
+      state(k) = FUGE_OPEN
+      if (gap(k) < 0.0_dp) then
+        state(k) = FUGE_AT_LOWER_STOP
+        force(k) = -step*gap(k)
+      else if (gap(k) > scaled%upper(k)) then
+        state(k) = FUGE_AT_UPPER_STOP
+        force(k) = -step*(gap(k) - scaled%upper(k))
+      end if
+      joined = joined .or. state(k) /= FUGE_OPEN
+    end do
+  end subroutine exchange
+
+  !> Have few enough points changed?
+  pure function is_settled(canonical, before, state)
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: before(:), state(:)
+    logical :: is_settled
+    integer :: changes
+
+    changes = count(state /= before)
+    is_settled = changes*SETTLED < count(state /= FUGE_OPEN)
+    if (canonical%plain) is_settled = is_settled .and. changes*FEW_OPEN <= count(state == FUGE_OPEN)
+  end function is_settled
+
+  !> Subtract from displacements their least-squares rigid motion over the contact, from `other` (n) the same motion.
+  subroutine remove_rigid_part(canonical, contact, length, other)
+    type(canonical_problem), intent(in) :: canonical
+    logical, intent(in) :: contact(:)
+    real(dp), intent(inout) :: length(:)
+    real(dp), intent(inout), optional :: other(:)
+    real(dp) :: motion(size(canonical%load))
+
+    if (size(motion) < 1) return
+    if (canonical%plain) then
+      motion = sum(length, mask=contact)/real(max(count(contact), 1), dp)
+      length = length - motion(1)
+      if (present(other)) other = other - motion(1)
+    else
+      associate (modes => canonical%modes)
+        call solve_on_contact(modes, contact, matmul(merge(length, 0.0_dp, contact), modes), motion)
+        length = length - matmul(modes, motion)
+        if (present(other)) other = other - matmul(modes, motion)
+      end associate
+    end if
+  end subroutine remove_rigid_part
+
+  !> Bring the forces back into equilibrium, and open the points that then pull. One translation scales the
+  !> forces, which keeps all of them pushing; several modes add the least forces that do.
+  subroutine restore_equilibrium(canonical, scaled, state, force)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(in) :: scaled
+    integer, intent(inout) :: state(:)
+    real(dp), intent(inout) :: force(:)
+    real(dp) :: motion(size(scaled%load)), total
+    integer :: round
+
+    if (canonical%plain) then
+      total = sum(force)
+      ! After a step along rounding no force may be left.
+      if (total > 0.0_dp) force = force/total
+      where (.not. force > 0.0_dp) state = FUGE_OPEN
+      return
+    end if
+    do round = 1, ROUNDS
+      if (size(motion) > 0) then
+        call solve_on_contact(canonical%modes, state /= FUGE_OPEN, scaled%load - matmul(force, canonical%modes), motion)
+        force = merge(force + matmul(canonical%modes, motion), 0.0_dp, state /= FUGE_OPEN)
+      end if
+      where (state*force <= 0.0_dp .and. .not. scaled%tied) force = 0.0_dp
+    end do
+    where (.not. (abs(force) > 0.0_dp .or. scaled%tied)) state = FUGE_OPEN
+  end subroutine restore_equilibrium
+
+  !> Solve with R^T R of the contact.
+  subroutine solve_on_contact(modes, contact, right, solution)
+    real(dp), intent(in) :: modes(:, :), right(:)
+    logical, intent(in) :: contact(:)
+    real(dp), intent(out) :: solution(:)
+    real(dp) :: rows(size(modes, 1), size(modes, 2)), square(size(right), size(right))
+    integer :: pivots(size(right)), info, j
+
+    rows = merge(modes, 0.0_dp, spread(contact, 2, size(modes, 2)))
+    square = matmul(transpose(rows), rows)
+    do j = 1, size(right)
+      square(j, j) = square(j, j) + HARDLY_RESISTED*real(size(modes, 1), dp)
+    end do
+    solution = right
+    call dgesv(size(right), 1, square, size(right), pivots, solution, size(right), info)
+    if (info /= 0) solution = 0.0_dp
+  end subroutine solve_on_contact
 
 end module fuge_initial_set

@@ -1,29 +1,31 @@
-!> Forces and motion of a given contact set, to the last digits, and what is wrong with
-!> them.
+!> Forces and motion of a given contact set to the last digits, and the displacements that follow.
 !>
-!> Displacements are those of alpha less `datum`, the coefficient of all of alpha nearest
-!> to zero: a constant that only the motion sees, and that costs no digits.
+!> Displacements are those of alpha less `datum`, the coefficient nearest to zero: a constant in all of alpha
+!> that changes the translation only and, taken out first, costs no digits.
 module fuge_kkt_solution
-  use fuge_kkt_factor, only: contact_factor
+  use fuge_canonical_problem, only: canonical_problem
   use fuge_kinds, only: dp, xp
+  use fuge_kkt_factor, only: kkt_factor
   implicit none
   private
 
-  public :: solve_set, displaced, refine, add_deflection, violations, terms_of, largest_term, motion_at_shallowest
+  public :: add_elastic_displacement, displacement_magnitude, largest_contribution, refine_solution, &
+    rigid_displacement, &
+    solve_set, translation_at_shallowest
 
-  !> A correction above this part of the forces calls for another one.
+  !> A correction above this fraction of the largest force calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
-  !> Spread of the pivots below which double precision is enough for a residual.
+  !> Ratio of the pivots below which double precision is enough for a residual.
   real(dp), parameter :: WELL_CONDITIONED = 1.0e4_dp
   integer, parameter :: REFINEMENTS = 10
 
 contains
 
-  !> Forces (n) and motions (m) with shape + (alpha - datum) F - R q = 0 on the contact
-  !> set of `factor` and R^T F = load, not refined. `reduced_gap` (n), length; `load` (m);
-  !> `datum` is zero unless the first motion is a translation.
+  !> Forces (n) and motions (m) with reduced_gap + (alpha - datum) f - R q = 0 on the contact set of `factor` and
+  !> R^T f = load, not refined. `reduced_gap` (n), length; `load` (m); `datum` is zero unless the first mode is a
+  !> translation.
   subroutine solve_set(factor, datum, reduced_gap, load, force, motion)
-    type(contact_factor), intent(in) :: factor
+    type(kkt_factor), intent(in) :: factor
     real(dp), intent(in) :: datum, reduced_gap(:), load(:)
     real(dp), intent(out) :: force(:), motion(:)
 
@@ -40,22 +42,22 @@ contains
   end subroutine change_datum
 
   !> R q at each point, (n).
-  pure function displaced(modes, motion) result(length)
+  pure function rigid_displacement(modes, motion) result(displacement)
     real(dp), intent(in), contiguous :: modes(:, :)
     real(dp), intent(in) :: motion(:)
-    real(dp) :: length(size(modes, 1))
+    real(dp) :: displacement(size(modes, 1))
     integer :: j
 
-    length = 0.0_dp
+    displacement = 0.0_dp
     do j = 1, size(motion)
-      length = length + modes(:, j)*motion(j)
+      displacement = displacement + modes(:, j)*motion(j)
     end do
-  end function displaced
+  end function rigid_displacement
 
-  !> u := u + (alpha - datum) F, with the columns of the contact only.
+  !> u := u + (alpha - datum) f, with the columns of the contact only.
   !>
-  !> Not by BLAS: taking the datum out of each product is what keeps its digits.
-  pure subroutine add_deflection(alpha, datum, contact, force, u)
+  !> Not by BLAS: taking the datum out of each coefficient keeps the digits of the product.
+  pure subroutine add_elastic_displacement(alpha, datum, contact, force, u)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, force(:)
     logical, intent(in) :: contact(:)
@@ -66,103 +68,73 @@ contains
     do j = 1, n
       if (contact(j)) u = u + (alpha(:n, j) - datum)*force(j)
     end do
-  end subroutine add_deflection
+  end subroutine add_elastic_displacement
 
-  !> Forces of the wrong sign on the contact set as parts of the largest force, gaps
-  !> beyond a stop off it as parts of a length.
-  !>
-  !> `distance` (n) is the gap less the motion: what the displacement has to make up
-  !> for at a point in contact. `terms` (n) is what the displacement is made of. `state`
-  !> (n) is 1 at the lower stop, -1 at the upper one, 0 between; `upper` (n) the play;
-  !> tied points (play 0) and `excluded` ones cannot be wrong. A force up to `zero_force` is
-  !> rounding.
-  pure function violations(distance, terms, state, upper, excluded, zero_force, force, gap_out) result(violation)
-    real(dp), intent(in) :: distance(:), terms(:), upper(:), zero_force, force(:), gap_out(:)
-    integer, intent(in) :: state(:)
-    logical, intent(in) :: excluded(:)
-    real(dp) :: violation(size(state))
-    real(dp) :: largest, beyond
-    integer :: j
-
-    largest = maxval(abs(force))
-    violation = 0.0_dp
-    do j = 1, size(state)
-      if (excluded(j) .or. .not. upper(j) > 0.0_dp) cycle
-      if (state(j) /= 0) then
-        if (force(j)*state(j) < -zero_force) violation(j) = abs(force(j))/largest
-      else
-        beyond = max(-gap_out(j), gap_out(j) - upper(j))
-        if (beyond > 0.0_dp) violation(j) = beyond/max(abs(distance(j)) + terms(j), beyond)
-      end if
-    end do
-  end function violations
-
-  !> sum_j |alpha_kj - datum| |F_j|, (n): lengths that cancel in a displacement.
-  pure function terms_of(alpha, datum, contact, force) result(terms)
+  !> sum_j |alpha_kj - datum| |f_j|, (n): the size of the terms of a displacement, which may cancel.
+  pure function displacement_magnitude(alpha, datum, contact, force) result(magnitude)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, force(:)
     logical, intent(in) :: contact(:)
-    real(dp) :: terms(size(contact))
+    real(dp) :: magnitude(size(contact))
     integer :: j
 
-    terms = 0.0_dp
+    magnitude = 0.0_dp
     do j = 1, size(contact)
-      if (contact(j)) terms = terms + abs((alpha(:size(contact), j) - datum)*force(j))
+      if (contact(j)) magnitude = magnitude + abs((alpha(:size(contact), j) - datum)*force(j))
     end do
-  end function terms_of
+  end function displacement_magnitude
 
-  !> The largest of these terms alone: less, but for the cost of one column.
-  pure function largest_term(alpha, datum, force) result(term)
+  !> The contribution of the largest force to these magnitudes, (n): less than all, at the cost of one column.
+  pure function largest_contribution(alpha, datum, force) result(magnitude)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, force(:)
-    real(dp) :: term(size(force))
+    real(dp) :: magnitude(size(force))
     integer :: k
 
     k = maxloc(abs(force), dim=1)
-    term = abs((alpha(:size(force), k) - datum)*force(k))
-  end function largest_term
+    magnitude = abs((alpha(:size(force), k) - datum)*force(k))
+  end function largest_contribution
 
-  !> The motion anew from the contact point where the least lengths make it, so that one
-  !> that is exactly zero comes out as zero.
-  !> For one translation, one-sided.
-  pure function motion_at_shallowest(alpha, datum, reduced_gap, contact, force, motion) result(anew)
+  !> The translation recomputed from the contact point with the smallest terms, so that a translation of exactly zero is
+  !> returned as zero. For the plain problem.
+  pure function translation_at_shallowest(alpha, datum, reduced_gap, contact, force, motion) result(translation)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, reduced_gap(:), force(:), motion
     logical, intent(in) :: contact(:)
-    real(dp) :: anew
-    real(dp) :: length(size(reduced_gap))
+    real(dp) :: translation
+    real(dp) :: magnitude(size(reduced_gap))
     integer :: j, k, n
 
     n = size(reduced_gap)
-    length = abs(reduced_gap - motion) + terms_of(alpha, datum, contact, force)
-    ! A force that may be rounding is no contact.
-    k = minloc(length, dim=1, mask=contact .and. force > sqrt(epsilon(motion))*maxval(force))
-    anew = reduced_gap(k)
+    magnitude = abs(reduced_gap - motion) + displacement_magnitude(alpha, datum, contact, force)
+    ! A point whose force may be rounding does not count as in contact.
+    k = minloc(magnitude, dim=1, mask=contact .and. force > sqrt(epsilon(motion))*maxval(force))
+    translation = reduced_gap(k)
     do j = 1, n
-      if (contact(j)) anew = anew + (alpha(k, j) - datum)*force(j)
+      if (contact(j)) translation = translation + (alpha(k, j) - datum)*force(j)
     end do
-  end function motion_at_shallowest
+  end function translation_at_shallowest
 
-  !> Iterative refinement on the contact set. For a well-conditioned alpha one residual
-  !> in double precision does; otherwise residuals are in extended precision, which
-  !> sees errors of the forces that double precision cannot. With the ridge of the
-  !> factor the system solved is that of alpha and the ridge, with 0 that of alpha.
-  subroutine refine(alpha, datum, modes, reduced_gap, load, factor, ridge, contact, force, motion)
-    real(dp), intent(in), contiguous :: alpha(:, :), modes(:, :)
-    real(dp), intent(in) :: datum, reduced_gap(:), load(:), ridge
-    type(contact_factor), intent(in) :: factor
+  !> Iterative refinement of forces and motion on the contact set.
+  !>
+  !> For a well-conditioned alpha one residual in double precision is enough; otherwise residuals are in extended
+  !> precision, which sees errors of the forces that double precision cannot. With the `regularisation` of the factor
+  !> the system solved is that of the regularised alpha, with 0 that of alpha. `gap` (n) as in `solve_set`.
+  subroutine refine_solution(canonical, gap, factor, regularisation, contact, force, motion)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: gap(:), regularisation
+    type(kkt_factor), intent(in) :: factor
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: force(:), motion(:)
-    real(dp) :: residual(size(reduced_gap)), correction(size(reduced_gap)), missing(size(load)), shift(size(load)), &
-      change, last
+    real(dp) :: residual(size(gap)), correction(size(gap)), missing(size(motion)), shift(size(motion)), change, last
     integer :: step
 
-    if (factor%spread < WELL_CONDITIONED .and. .not. factor%ridge > 0.0_dp) then
-      residual = reduced_gap - displaced(modes, motion)
-      call add_deflection(alpha, datum, contact, force, residual)
-      missing = load - matmul(force, modes)
+    if (factor%pivot_ratio < WELL_CONDITIONED .and. .not. factor%regularisation > 0.0_dp) then
+      residual = gap - rigid_displacement(canonical%modes, motion)
+      call add_elastic_displacement(canonical%alpha, canonical%datum, contact, force, residual)
+      missing = canonical%load - matmul(force, canonical%modes)
     else
-      call extended_residual(alpha, modes, reduced_gap, load, datum, ridge, contact, force, motion, residual, missing)
+      call extended_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
     end if
     last = huge(last)
     do step = 1, REFINEMENTS
@@ -170,32 +142,31 @@ contains
       change = maxval(abs(correction))
       if (.not. change < 0.5_dp*last) exit
       force = force + correction
-      call change_datum(factor%datum - datum, missing, shift)
+      call change_datum(factor%datum - canonical%datum, missing, shift)
       motion = motion + shift
       if (change <= EXACT_ENOUGH*maxval(abs(force))) exit
       last = change
-      call extended_residual(alpha, modes, reduced_gap, load, datum, ridge, contact, force, motion, residual, missing)
+      call extended_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
     end do
-  end subroutine refine
+  end subroutine refine_solution
 
-  !> The residual of gaps and equilibrium on the contact set.
-  pure subroutine extended_residual(alpha, modes, reduced_gap, load, datum, ridge, contact, force, motion, residual, &
-                                    missing)
-    real(dp), intent(in), contiguous :: alpha(:, :), modes(:, :)
-    real(dp), intent(in) :: reduced_gap(:), load(:), datum, ridge, force(:), motion(:)
+  !> Residuals of the gaps (n), meant on the contact set, and of equilibrium (m).
+  pure subroutine extended_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: gap(:), regularisation, force(:), motion(:)
     logical, intent(in) :: contact(:)
     real(dp), intent(out) :: residual(:), missing(:)
-    real(xp) :: sums(size(reduced_gap))
+    real(xp) :: sums(size(gap))
     integer :: j, n
 
-    n = size(reduced_gap)
-    sums = real(reduced_gap, xp) + real(ridge, xp)*real(force, xp)
+    n = size(gap)
+    sums = real(gap, xp) + real(regularisation, xp)*real(force, xp)
     do j = 1, n
-      if (contact(j)) sums = sums + (real(alpha(:n, j), xp) - real(datum, xp))*real(force(j), xp)
+      if (contact(j)) sums = sums + (real(canonical%alpha(:n, j), xp) - real(canonical%datum, xp))*real(force(j), xp)
     end do
-    do j = 1, size(load)
-      sums = sums - real(modes(:, j), xp)*real(motion(j), xp)
-      missing(j) = real(real(load(j), xp) - sum(real(modes(:, j), xp)*real(force, xp)), dp)
+    do j = 1, size(motion)
+      sums = sums - real(canonical%modes(:, j), xp)*real(motion(j), xp)
+      missing(j) = real(real(canonical%load(j), xp) - sum(real(canonical%modes(:, j), xp)*real(force, xp)), dp)
     end do
     residual = real(sums, dp)
   end subroutine extended_residual

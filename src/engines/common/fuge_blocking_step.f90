@@ -1,66 +1,85 @@
-!> The step of the primal active set method that keeps all forces pushing
+!> The step of an active-set method towards the forces of its working set, as far as none becomes tensile
 !> (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23).
 module fuge_blocking_step
   use fuge_kinds, only: dp
   implicit none
   private
 
-  public :: step_back, pulls
+  public :: find_blocking, is_tensile, step_to_blocking
 
 contains
 
-  !> Go towards the wanted forces until the first becomes zero; that point leaves. A point
-  !> that was to join but would pull at once did so by rounding: it is barred until the
-  !> forces have moved. All (n); `state` 1 at the lower stop, -1 at the upper one, 0 open;
-  !> `tied` points may pull; `noise` >= 0 is a force that is rounding.
-  pure subroutine step_back(wanted, noise, tied, state, force, newest, barred)
-    real(dp), intent(in) :: wanted(:), noise
+  !> The fraction of the step from `force` to `target` at which the first force reaches zero, and its point.
+  !>
+  !> All (n); `blocks` marks the points in contact whose target is tensile. `step_length` is at most 1; `point` is 0,
+  !> and
+  !> the step whole, if there are none.
+  pure subroutine find_blocking(force, target, blocks, step_length, point)
+    real(dp), intent(in) :: force(:), target(:)
+    logical, intent(in) :: blocks(:)
+    real(dp), intent(out) :: step_length
+    integer, intent(out) :: point
+    real(dp) :: ratio
+    integer :: k
+
+    step_length = huge(step_length)
+    point = 0
+    do k = 1, size(force)
+      if (.not. blocks(k)) cycle
+      ratio = abs(force(k))/max(abs(force(k) - target(k)), tiny(ratio))
+      if (ratio >= step_length) cycle
+      step_length = ratio
+      point = k
+    end do
+    step_length = min(step_length, 1.0_dp)
+  end subroutine find_blocking
+
+  !> Go towards the target forces until the first becomes zero; that point opens. A point that has just joined and
+  !> whose target is tensile joined by rounding: it is locked out until the forces have changed.
+  !>
+  !> All (n). `noise` >= 0 is a force that is rounding; `tied` points may pull; `state` and `force` of the working
+  !> set; `newest` the point that has just joined, or 0; `locked` points must not join again.
+  pure subroutine step_to_blocking(target, noise, tied, state, force, newest, locked)
+    real(dp), intent(in) :: target(:), noise
     logical, intent(in) :: tied(:)
     integer, intent(inout) :: state(:)
-    logical, intent(inout) :: barred(:)
+    logical, intent(inout) :: locked(:)
     real(dp), intent(inout) :: force(:)
     integer, intent(in) :: newest
-    real(dp) :: way, least
-    integer :: j, k
+    real(dp) :: step_length
+    integer :: k
 
     k = 0
     if (newest > 0) then
-      if (pulls(wanted(newest), noise, state(newest), tied(newest)) .and. .not. abs(force(newest)) > 0.0_dp) k = newest
+      if (is_tensile(target(newest), noise, state(newest), tied(newest)) .and. .not. abs(force(newest)) > 0.0_dp) &
+        k = newest
     end if
     if (k > 0) then
-      barred(k) = .true.
+      locked(k) = .true.
     else
-      least = huge(least)
-      do j = 1, size(force)
-        if (.not. pulls(wanted(j), noise, state(j), tied(j))) cycle
-        way = abs(force(j))/max(abs(force(j) - wanted(j)), tiny(way))
-        if (way >= least) cycle
-        least = way
-        k = j
-      end do
-      least = min(least, 1.0_dp)
-      where (state /= 0) force = force + least*(wanted - force)
+      call find_blocking(force, target, is_tensile(target, noise, state, tied), step_length, k)
+      where (state /= 0) force = force + step_length*(target - force)
       where (.not. tied) force = real(state, dp)*max(state*force, 0.0_dp)
     end if
     force(k) = 0.0_dp
     state(k) = 0
-  end subroutine step_back
+  end subroutine step_to_blocking
 
-  !> Would the force pull at its stop? None at all counts as that too, unless it may hold a
-  !> motion that no other point does: then only one beyond the rounding.
-  elemental function pulls(wanted, noise, state, tied)
-    real(dp), intent(in) :: wanted, noise
+  !> Is the force tensile at its stop? Zero counts as tensile, except with `noise` > 0, where only tension above `noise`
+  !> does: a point without force may be the one that resists a rigid mode.
+  elemental function is_tensile(force, noise, state, tied)
+    real(dp), intent(in) :: force, noise
     integer, intent(in) :: state
     logical, intent(in) :: tied
-    logical :: pulls
+    logical :: is_tensile
 
-    pulls = state /= 0 .and. .not. tied
-    if (.not. pulls) return
+    is_tensile = state /= 0 .and. .not. tied
+    if (.not. is_tensile) return
     if (noise > 0.0_dp) then
-      pulls = wanted*state < -noise
+      is_tensile = force*state < -noise
     else
-      pulls = wanted*state <= 0.0_dp
+      is_tensile = force*state <= 0.0_dp
     end if
-  end function pulls
+  end function is_tensile
 
 end module fuge_blocking_step

@@ -1,6 +1,8 @@
-!> A contact problem as the engines see it: prescribed motions moved into the gaps, free
-!> ones made orthogonal, so that neither their units nor a far-away point of reference
-!> costs digits; and whether there can be equilibrium.
+!> The contact problem in the form that the dense engines solve.
+!>
+!> Prescribed motions are moved into the gaps, and the free rigid modes are made orthogonal, so that neither
+!> their units nor a far-away point of reference costs digits. A resultant that no contact forces can
+!> carry is refused here.
 module fuge_canonical_problem
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
@@ -14,42 +16,50 @@ module fuge_canonical_problem
 
   public :: make_canonical
 
-  !> A motion is no other than the rest if less than this part of it remains.
+  !> A mode is linearly dependent on the others if its remainder after projection is below this fraction.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
-  !> A constant is made of the motions if less than this part of it remains.
+  !> The constant vector lies in the span of the modes if its remainder is below this fraction.
   real(dp), parameter :: CONSTANT_TOLERANCE = 1.0e-13_dp
 
+  !> c = gap + alpha f - modes q with R^T f = load; see `fuge_problem` for the conditions on f and c.
   type, public :: canonical_problem
-    !> Gaps less the prescribed motions, (n), length.
+    !> Influence matrix, (at least n rows, n columns), length per force; owned by the caller.
+    real(dp), pointer, contiguous :: alpha(:, :) => null()
+    !> Taken out of all of alpha, where it costs digits: the coefficient nearest to zero if there is a
+    !> translation to take it up, else 0.
+    real(dp) :: datum = 0.0_dp
+    !> Initial gaps less the displacements by the prescribed motions, (n), length.
     real(dp), allocatable :: gap(:)
     !> Play, (n), length; huge where one-sided.
     real(dp), allocatable :: upper(:)
-    !> Points that take no part, (n).
+    !> Points that take no part in the contact, (n).
     logical, allocatable :: excluded(:)
-    !> Free motions made orthogonal, (n, m), of size about 1, and the resultants in them.
+    !> Free rigid modes made orthogonal, (n, m), of size about 1, and the resultants in them, (m).
     real(dp), allocatable :: modes(:, :), load(:)
-    !> modes(:, 1) is 1: a constant in gaps or displacements moves only that motion.
+    !> modes(:, 1) is 1 at every point: a constant in gaps or displacements changes that motion only.
     logical :: has_translation = .false.
-    !> Forces at few points in equilibrium with the load, (n); not made if plain.
-    real(dp), allocatable :: start(:)
-    !> The paper's problem.
+    !> Forces at few points that are in equilibrium with the load, (n); not allocated if plain.
+    real(dp), allocatable :: feasible_force(:)
+    !> The paper's problem: one translation, one-sided, all points.
     logical :: plain = .false.
-    !> Places of the free motions among all, and R = modes*mixing for them.
+    !> Positions of the free modes among all, and their columns of R as modes*basis_change.
     integer, allocatable, private :: free(:)
-    real(dp), allocatable, private :: mixing(:, :)
-    !> Prescribed motions R, (n, m), zero where free; not allocated if none is prescribed.
-    real(dp), allocatable, private :: given(:, :)
+    real(dp), allocatable, private :: basis_change(:, :)
+    !> Columns of R whose motion is prescribed, (n, m), zero where free; not allocated if there are none.
+    real(dp), allocatable, private :: prescribed_modes(:, :)
     logical, allocatable, private :: prescribed(:)
-    !> Excluded points, and their rows of R: the orthogonal modes are not theirs.
-    integer, allocatable, private :: outside(:)
-    real(dp), allocatable, private :: rows(:, :)
+    !> Excluded points and their rows of R: the orthogonal modes are zero there.
+    integer, allocatable, private :: excluded_points(:)
+    real(dp), allocatable, private :: excluded_rows(:, :)
   contains
+    procedure :: set_matrix
     procedure :: mode_count
-    procedure :: motions_of
+    procedure :: is_tied
+    procedure :: to_given_modes
     procedure :: largest_load
-    procedure :: change_of
-    procedure :: open_outside
-    procedure :: named_motion
+    procedure :: transform_change
+    procedure :: add_excluded_gaps
+    procedure :: dominant_mode
   end type canonical_problem
 
 contains
@@ -74,18 +84,18 @@ contains
       canonical%free = [(j, j=1, problem%mode_count())]
       if (allocated(problem%prescribed)) canonical%free = pack(canonical%free, .not. problem%prescribed)
       m = size(canonical%free)
-      allocate (canonical%modes(n, m), canonical%load(m), canonical%mixing(m, m), stat=stat)
+      allocate (canonical%modes(n, m), canonical%load(m), canonical%basis_change(m, m), stat=stat)
     end if
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
       return
     end if
-    call take_prescribed(problem, canonical)
-    call take_outside(problem, canonical)
+    call apply_prescribed(problem, canonical)
+    call collect_excluded(problem, canonical)
     if (.not. allocated(problem%modes)) then
       canonical%has_translation = m == 1
       canonical%modes = 1.0_dp
-      canonical%mixing = 1.0_dp
+      canonical%basis_change = 1.0_dp
       if (m == 1) canonical%load = problem%resultant
     else if (m > 0) then
       call orthogonalise(problem%modes(:, canonical%free), problem%resultant(canonical%free), canonical, info)
@@ -94,7 +104,7 @@ contains
   end subroutine make_canonical
 
   !> Prescribed motions change the gaps.
-  pure subroutine take_prescribed(problem, canonical)
+  pure subroutine apply_prescribed(problem, canonical)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
     integer :: j
@@ -103,27 +113,27 @@ contains
     canonical%prescribed = .false.
     if (.not. allocated(problem%prescribed)) return
     canonical%prescribed = problem%prescribed
-    allocate (canonical%given(problem%points(), problem%mode_count()))
-    canonical%given = 0.0_dp
+    allocate (canonical%prescribed_modes(problem%points(), problem%mode_count()))
+    canonical%prescribed_modes = 0.0_dp
     do j = 1, problem%mode_count()
       if (.not. problem%prescribed(j)) cycle
-      canonical%given(:, j) = 1.0_dp
-      if (allocated(problem%modes)) canonical%given(:, j) = problem%modes(:, j)
-      canonical%gap = canonical%gap - problem%motion(j)*canonical%given(:, j)
+      canonical%prescribed_modes(:, j) = 1.0_dp
+      if (allocated(problem%modes)) canonical%prescribed_modes(:, j) = problem%modes(:, j)
+      canonical%gap = canonical%gap - problem%motion(j)*canonical%prescribed_modes(:, j)
     end do
-  end subroutine take_prescribed
+  end subroutine apply_prescribed
 
   !> Rows of R at the excluded points.
-  pure subroutine take_outside(problem, canonical)
+  pure subroutine collect_excluded(problem, canonical)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
     integer :: k
 
-    canonical%outside = pack([(k, k=1, size(canonical%excluded))], canonical%excluded)
-    allocate (canonical%rows(size(canonical%outside), problem%mode_count()))
-    canonical%rows = 1.0_dp
-    if (allocated(problem%modes)) canonical%rows = problem%modes(canonical%outside, :)
-  end subroutine take_outside
+    canonical%excluded_points = pack([(k, k=1, size(canonical%excluded))], canonical%excluded)
+    allocate (canonical%excluded_rows(size(canonical%excluded_points), problem%mode_count()))
+    canonical%excluded_rows = 1.0_dp
+    if (allocated(problem%modes)) canonical%excluded_rows = problem%modes(canonical%excluded_points, :)
+  end subroutine collect_excluded
 
   !> Modes of equal size, orthogonal at the points that take part; the first is 1 if that
   !> is made of the given ones.
@@ -174,8 +184,8 @@ contains
     part = part*sqrt(real(count(.not. canonical%excluded), dp))
     if (canonical%has_translation) part(:, 1) = merge(0.0_dp, 1.0_dp, canonical%excluded)
     canonical%modes = part
-    canonical%mixing = matmul(transpose(part), given)/real(count(.not. canonical%excluded), dp)
-    call solve_small(transpose(canonical%mixing), resultant, canonical%load)
+    canonical%basis_change = matmul(transpose(part), given)/real(count(.not. canonical%excluded), dp)
+    call solve_small(transpose(canonical%basis_change), resultant, canonical%load)
   end subroutine orthogonalise
 
   !> Are the columns orthogonal to each other as they are?
@@ -207,7 +217,7 @@ contains
                                                                       mask=.not. canonical%excluded)) first = j
     end do
     canonical%has_translation = first > 0
-    canonical%mixing = 0.0_dp
+    canonical%basis_change = 0.0_dp
     do j = 1, m
       ! Turning the order brings the constant mode to the front.
       place = modulo(j - max(first, 1), m) + 1
@@ -216,7 +226,7 @@ contains
       if (j == first .and. any(part(:, j) < 0.0_dp)) unit = -unit
       canonical%modes(:, place) = part(:, j)/unit
       if (j == first) canonical%modes(:, place) = merge(0.0_dp, 1.0_dp, canonical%excluded)
-      canonical%mixing(place, j) = scales(j)*unit
+      canonical%basis_change(place, j) = scales(j)*unit
       canonical%load(place) = resultant(j)/(scales(j)*unit)
     end do
   end subroutine keep_modes
@@ -248,7 +258,26 @@ contains
     call dgesv(size(right), 1, copy, size(right), pivots, solution, size(right), info)
   end subroutine solve_small
 
-  !> Number of motions, prescribed ones included.
+  !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero.
+  subroutine set_matrix(self, alpha, datum)
+    class(canonical_problem), intent(inout) :: self
+    real(dp), intent(in), pointer, contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum
+
+    self%alpha => alpha
+    ! Without a translation nothing takes up a constant taken out of alpha.
+    self%datum = merge(datum, 0.0_dp, self%has_translation)
+  end subroutine set_matrix
+
+  !> Points whose gap stays zero whatever their force, (n).
+  pure function is_tied(self) result(tied)
+    class(canonical_problem), intent(in) :: self
+    logical :: tied(size(self%gap))
+
+    tied = self%upper <= 0.0_dp .and. .not. self%excluded
+  end function is_tied
+
+  !> Number of modes, prescribed ones included.
   pure function mode_count(self) result(m)
     class(canonical_problem), intent(in) :: self
     integer :: m
@@ -268,7 +297,7 @@ contains
 
   !> All motions in the caller's order: the free ones from what an engine found in the
   !> orthogonal modes, the prescribed ones from `given` (m).
-  subroutine motions_of(self, given, found, motion)
+  subroutine to_given_modes(self, given, found, motion)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: given(:), found(:)
     real(dp), intent(out) :: motion(:)
@@ -276,50 +305,51 @@ contains
 
     motion = merge(given, 0.0_dp, self%prescribed)
     if (size(found) < 1) return
-    call solve_small(self%mixing, found, free)
+    call solve_small(self%basis_change, found, free)
     motion(self%free) = free
-  end subroutine motions_of
+  end subroutine to_given_modes
 
   !> The place, among all motions, of the one that has the largest part in a motion `way`
   !> (free ones) of the orthogonal modes.
-  function named_motion(self, way) result(place)
+  function dominant_mode(self, way) result(place)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: way(:)
     integer :: place
     real(dp) :: free(size(way))
 
-    call solve_small(self%mixing, way, free)
-    place = self%free(maxloc(abs(free)*sqrt(sum(self%mixing**2, dim=1)), dim=1))
-  end function named_motion
+    call solve_small(self%basis_change, way, free)
+    place = self%free(maxloc(abs(free)*sqrt(sum(self%basis_change**2, dim=1)), dim=1))
+  end function dominant_mode
 
   !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the
   !> scene's gaps and loads.
-  subroutine change_of(self, gap_change, load_change, reduced_gap, load)
+  subroutine transform_change(self, gap_change, load_change, reduced_gap, load)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: gap_change(:), load_change(:)
     real(dp), allocatable, intent(out) :: reduced_gap(:), load(:)
 
     reduced_gap = gap_change
-    if (allocated(self%given)) reduced_gap = reduced_gap - matmul(self%given, merge(load_change, 0.0_dp, &
+    if (allocated(self%prescribed_modes)) reduced_gap = reduced_gap - matmul(self%prescribed_modes, &
+        merge(load_change, 0.0_dp, &
         self%prescribed))
     allocate (load(size(self%free)))
-    if (size(load) > 0) call solve_small(transpose(self%mixing), load_change(self%free), load)
-  end subroutine change_of
+    if (size(load) > 0) call solve_small(transpose(self%basis_change), load_change(self%free), load)
+  end subroutine transform_change
 
   !> c = g + A f - R q at the excluded points, of `gap` g (n), `force` (n) and all
   !> motions `motion` (m), or of changes of these.
-  pure subroutine open_outside(self, alpha, gap, force, motion, gap_out)
+  pure subroutine add_excluded_gaps(self, alpha, gap, force, motion, gap_out)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: alpha(:, :), gap(:), force(:), motion(:)
     real(dp), intent(inout) :: gap_out(:)
     integer :: k
 
-    do k = 1, size(self%outside)
-      associate (point => self%outside(k))
-        gap_out(point) = gap(point) + sum(alpha(point, :)*force) - sum(self%rows(k, :)*motion)
+    do k = 1, size(self%excluded_points)
+      associate (point => self%excluded_points(k))
+        gap_out(point) = gap(point) + sum(alpha(point, :)*force) - sum(self%excluded_rows(k, :)*motion)
       end associate
     end do
-  end subroutine open_outside
+  end subroutine add_excluded_gaps
 
   !> Forces to start with, or the reason why there are none.
   subroutine require_equilibrium(problem, canonical, info)
@@ -329,15 +359,16 @@ contains
     real(dp) :: remainder(size(canonical%load))
     integer :: stat
 
-    allocate (canonical%start(size(canonical%gap)), stat=stat)
+    allocate (canonical%feasible_force(size(canonical%gap)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium')
       return
     end if
-    canonical%start = 0.0_dp
+    canonical%feasible_force = 0.0_dp
     if (size(canonical%load) < 1) return
     call find_equilibrium(canonical%modes, canonical%load, .not. canonical%excluded, &
-                          canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded, canonical%start, remainder)
+                          canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded, canonical%feasible_force, &
+                            remainder)
     if (any(abs(remainder) > 0.0_dp)) call explain_missing(problem, canonical, remainder, info)
   end subroutine require_equilibrium
 
@@ -360,7 +391,7 @@ contains
       if (.not. info%failed()) call explain_line(problem, canonical, 2, 1, info)
       if (info%failed()) return
       associate (w => problem%resultant(canonical%free), r => problem%modes(:, canonical%free))
-        call solve_small(canonical%mixing, remainder, motion)
+        call solve_small(canonical%basis_change, remainder, motion)
         worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
         call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
                     //' in motion '//text(canonical%free(worst))//' together with the others: moving along it by ' &

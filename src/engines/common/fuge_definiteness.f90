@@ -1,5 +1,5 @@
-!> Is alpha positive definite on the forces without resultant? Then the answer is unique
-!> (paper, section 4: one motion, forces with zero sum).
+!> Whether alpha is positive definite on the forces without resultant, so that the solution is unique (paper, section 4,
+!> for one mode: forces with zero sum).
 module fuge_definiteness
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgesv, dpotrf
@@ -9,20 +9,21 @@ module fuge_definiteness
 
   public :: check_definite
 
-  !> A point of reference is far enough from the others if at least this part of its row
-  !> is not made of theirs.
+  !> A reference point is independent enough if at least this fraction of its row of the modes remains after projection
+  !> onto those of the others.
   real(dp), parameter :: INDEPENDENT = 0.3_dp
 
 contains
 
-  !> `deficient` is 0, or a point that breaks it together with others.
+  !> `deficient` is 0, or a point that breaks definiteness together with others.
   !>
-  !> With the forces at m points r given by the others, f_r = -T^T f_o, T = R_o R_r^-1,
-  !> the form is that of A_oo - T A_ro - (A_or - T A_rr) T^T: its Cholesky factor exists
-  !> or not, whatever the datum of alpha. A pivot that may be rounding counts as zero.
-  !> r are the stiffest points that can do it, which keeps the coefficients of the others.
-  !> `alpha` at least n rows, n columns; `datum` a constant to take out of it; `modes` (n, m)
-  !> of full rank on the points not `excluded` (n). Error: FUGE_ERR_MEMORY.
+  !> The forces at m reference points r follow from those at the others o: f_r = -T^T f_o, T = R_o R_r^-1. The quadratic
+  !> form in f_o is A_oo - T A_ro - (A_or - T A_rr) T^T, which has a Cholesky factor or not whatever the datum of alpha.
+  !> A pivot that may be rounding counts as zero. The references are the stiffest points that are independent, which
+  !> keeps
+  !> the coefficients of the others.
+  !> `alpha` at least n rows, n columns; `datum` a constant to take out of it; `modes` (n, m) of full rank on the points
+  !> not `excluded` (n). `status`: FUGE_DONE or FUGE_ERR_MEMORY.
   subroutine check_definite(alpha, datum, modes, excluded, deficient, status)
     real(dp), intent(in) :: alpha(:, :), datum, modes(:, :)
     logical, intent(in) :: excluded(:)
@@ -51,7 +52,7 @@ contains
         form(:, j) = form(:, j) - transfer(k, :)*(alpha(references(k), others(j)) - datum)
       end do
     end do
-    call take_references(alpha, datum, references, others, transfer, form)
+    call eliminate_references(alpha, datum, references, others, transfer, form)
     energy = [(form(j, j), j=1, n)]
     call dpotrf('L', n, form, n, info)
     last = n
@@ -66,8 +67,8 @@ contains
     end do
   end subroutine check_definite
 
-  !> form - (A_or - T A_rr) T^T.
-  pure subroutine take_references(alpha, datum, references, others, transfer, form)
+  !> Subtract (A_or - T A_rr) T^T from the form.
+  pure subroutine eliminate_references(alpha, datum, references, others, transfer, form)
     real(dp), intent(in) :: alpha(:, :), datum, transfer(:, :)
     integer, intent(in) :: references(:), others(:)
     real(dp), intent(inout) :: form(:, :)
@@ -83,14 +84,14 @@ contains
         form(:, j) = form(:, j) - column*transfer(k, j)
       end do
     end do
-  end subroutine take_references
+  end subroutine eliminate_references
 
   !> The stiffest points whose rows of the modes are far from dependent.
   pure subroutine choose_references(alpha, modes, excluded, references)
     real(dp), intent(in) :: alpha(:, :), modes(:, :)
     logical, intent(in) :: excluded(:)
     integer, allocatable, intent(out) :: references(:)
-    real(dp) :: rest(size(modes, 1), size(modes, 2)), length(size(modes, 1)), own(size(modes, 1)), way(size(modes, 2))
+    real(dp) :: rest(size(modes, 1), size(modes, 2)), length(size(modes, 1)), own(size(modes, 1)), unit(size(modes, 2))
     integer :: j, k
 
     own = [(alpha(j, j), j=1, size(own))]
@@ -99,9 +100,9 @@ contains
     do k = 1, size(references)
       length = merge(-1.0_dp, norm2(rest, dim=2), excluded)
       references(k) = minloc(own, dim=1, mask=length >= INDEPENDENT*maxval(length))
-      way = rest(references(k), :)/length(references(k))
+      unit = rest(references(k), :)/length(references(k))
       do j = 1, size(own)
-        rest(j, :) = rest(j, :) - dot_product(rest(j, :), way)*way
+        rest(j, :) = rest(j, :) - dot_product(rest(j, :), unit)*unit
       end do
     end do
   end subroutine choose_references

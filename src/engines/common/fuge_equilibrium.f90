@@ -1,11 +1,11 @@
-!> Can the contact forces carry the resultant at all?
+!> Whether contact forces can carry the resultant at all.
 !>
-!> Forces f with R^T f = w, not negative at one-sided points, are the point of a cone:
-!> found by non-negative least squares (C. L. Lawson, R. J. Hanson, Solving Least Squares
-!> Problems, 1974, chapter 23), with at most as many points as there are motions. Where
-!> there is none, what remains of w proves it (Farkas): a motion along which no point
-!> closes, but the resultant does work.
+!> Looks for f with R^T f = w and f >= 0 at one-sided points, that is, for w in the cone of the rows of R, by
+!> non-negative least squares (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23), at no more
+!> points than there are modes. Where there is no such f, the remainder of w proves it (Farkas' lemma): it is a motion
+!> along which no point closes, while the resultant does work.
 module fuge_equilibrium
+  use fuge_blocking_step, only: find_blocking
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgelsy
   implicit none
@@ -13,64 +13,64 @@ module fuge_equilibrium
 
   public :: find_equilibrium
 
-  !> What remains of the resultant below this part of it is rounding.
+  !> A remainder below this fraction of the resultant is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-11_dp
-  !> A point that closes by less than this part of what the motions move it does not.
+  !> A closing displacement below this fraction of its terms counts as zero.
   real(dp), parameter :: PROOF = 1.0e-10_dp
-  !> Two points whose columns agree to this in all motions are one.
+  !> Points whose rows of the modes agree to this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-13_dp
 
 contains
 
   !> Forces in equilibrium with the resultant, at few points.
   !>
-  !> `modes` (n, m) with columns of about the same size, `resultant` (m), `pushes` (n)
-  !> points whose force may be positive, `pulls` (n) negative. Out: `force` (n);
-  !> `remainder` (m), zero if there are such forces, otherwise the motion above.
+  !> `modes` (n, m) with columns of about the same size, `resultant` (m), `pushes` (n) marks points whose force may be
+  !> positive, `pulls` (n) negative. Out: `force` (n); `remainder` (m), zero if there are such forces, otherwise the
+  !> motion that proves there are none.
   subroutine find_equilibrium(modes, resultant, pushes, pulls, force, remainder)
     real(dp), intent(in) :: modes(:, :), resultant(:)
     logical, intent(in) :: pushes(:), pulls(:)
     real(dp), intent(out) :: force(:), remainder(:)
-    real(dp) :: wanted(size(force)), work(size(force))
+    real(dp) :: work(size(force))
     integer :: state(size(force)), newest, iteration
 
     force = 0.0_dp
     state = 0
     remainder = resultant
     do iteration = 1, 20*(size(modes, 2) + 1) + size(force)
-      if (is_met(modes, resultant, force, remainder)) exit
+      if (is_in_equilibrium(modes, resultant, force, remainder)) exit
       work = matmul(modes, remainder)
       where (.not. pulls) work = max(work, 0.0_dp)
       where (.not. pushes) work = min(work, 0.0_dp)
       where (state /= 0) work = 0.0_dp
       newest = maxloc(abs(work), dim=1)
       if (abs(work(newest)) <= ROUNDING*maxval(abs(remainder))*sum(abs(modes(newest, :)))) then
-        if (proves(modes, resultant, pushes, pulls, remainder)) return
+        if (proves_no_equilibrium(modes, resultant, pushes, pulls, remainder)) return
         exit
       end if
       state(newest) = merge(1, -1, work(newest) > 0.0_dp)
-      call settle(modes, resultant, state, force, wanted)
+      call solve_least_squares(modes, resultant, state, force)
       remainder = resultant - matmul(force, modes)
     end do
-    ! Met, or not decided: then the certificate has the last word.
+    ! Equilibrium holds, or is not decided; the certificate of the solve then decides.
     remainder = 0.0_dp
   end subroutine find_equilibrium
 
-  !> Is nothing left of each resultant but rounding of it and of the terms that make it?
-  pure function is_met(modes, resultant, force, remainder) result(met)
+  !> Is the remainder of each resultant no more than rounding of it and of its terms?
+  pure function is_in_equilibrium(modes, resultant, force, remainder) result(balanced)
     real(dp), intent(in) :: modes(:, :), resultant(:), force(:), remainder(:)
-    logical :: met
+    logical :: balanced
     integer :: j
 
-    met = .true.
+    balanced = .true.
     do j = 1, size(resultant)
-      met = met .and. abs(remainder(j)) <= max(ROUNDING*max(abs(resultant(j)), sum(abs(modes(:, j)*force))), &
+      balanced = balanced .and. abs(remainder(j)) <= max(ROUNDING*max(abs(resultant(j)), sum(abs(modes(:, j)*force))), &
                                                64.0_dp*epsilon(1.0_dp)*maxval(abs(resultant)))
     end do
-  end function is_met
+  end function is_in_equilibrium
 
-  !> Does no point close along the motion, while the resultants do work?
-  pure function proves(modes, resultant, pushes, pulls, motion)
+  !> Does no point close along the motion while the resultants do work?
+  pure function proves_no_equilibrium(modes, resultant, pushes, pulls, motion) result(proves)
     real(dp), intent(in) :: modes(:, :), resultant(:), motion(:)
     logical, intent(in) :: pushes(:), pulls(:)
     logical :: proves
@@ -86,32 +86,31 @@ contains
       if (pushes(k) .and. closing > 0.0_dp) proves = .false.
       if (pulls(k) .and. closing < 0.0_dp) proves = .false.
     end do
-  end function proves
+  end function proves_no_equilibrium
 
-  !> Forces of least squares at the points in use, of which those leave that would change
-  !> their sign, the first one first.
-  subroutine settle(modes, resultant, state, force, wanted)
+  !> Inner loop of Lawson and Hanson: least-squares forces at the active points, of which those whose force would
+  !> change its sign are dropped, the first blocking one first.
+  subroutine solve_least_squares(modes, resultant, state, force)
     real(dp), intent(in) :: modes(:, :), resultant(:)
     integer, intent(inout) :: state(:)
     real(dp), intent(inout) :: force(:)
-    real(dp), intent(out) :: wanted(:)
-    real(dp) :: way
+    real(dp) :: target(size(force)), step_length
     integer :: blocking
 
     do
-      call solve_on(modes, resultant, state, wanted)
-      call find_blocking(force, wanted, state, way, blocking)
+      call solve_on_active(modes, resultant, state, target)
+      call find_blocking(force, target, state /= 0 .and. target*state <= 0.0_dp, step_length, blocking)
       if (blocking == 0) exit
-      force = force + way*(wanted - force)
-      ! One leaves in each turn, so that this ends.
+      force = force + step_length*(target - force)
+      ! One point is dropped in each pass, so the loop ends.
       state(blocking) = 0
       force(blocking) = 0.0_dp
     end do
-    force = wanted
-  end subroutine settle
+    force = target
+  end subroutine solve_least_squares
 
-  !> Least squares forces at the points in use.
-  subroutine solve_on(modes, resultant, state, force)
+  !> Least-squares forces at the active points.
+  subroutine solve_on_active(modes, resultant, state, force)
     real(dp), intent(in) :: modes(:, :), resultant(:)
     integer, intent(in) :: state(:)
     real(dp), intent(out) :: force(:)
@@ -129,28 +128,6 @@ contains
     call dgelsy(m, p, 1, matrix, m, right, size(right), order, DEPENDENT, rank, work, size(work), info)
     force = 0.0_dp
     force(points) = right(:p)
-  end subroutine solve_on
-
-  !> The part of the way to the wanted forces until the first changes its sign, and which;
-  !> 0 if none does.
-  pure subroutine find_blocking(force, wanted, state, way, blocking)
-    real(dp), intent(in) :: force(:), wanted(:)
-    integer, intent(in) :: state(:)
-    real(dp), intent(out) :: way
-    integer, intent(out) :: blocking
-    real(dp) :: part
-    integer :: k
-
-    way = 1.0_dp
-    blocking = 0
-    do k = 1, size(force)
-      if (state(k) == 0 .or. wanted(k)*state(k) > 0.0_dp) cycle
-      part = 0.0_dp
-      if (abs(force(k) - wanted(k)) > 0.0_dp) part = min(max(force(k)/(force(k) - wanted(k)), 0.0_dp), 1.0_dp)
-      if (blocking > 0 .and. part >= way) cycle
-      way = part
-      blocking = k
-    end do
-  end subroutine find_blocking
+  end subroutine solve_on_active
 
 end module fuge_equilibrium

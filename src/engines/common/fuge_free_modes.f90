@@ -1,93 +1,93 @@
-!> Rigid motions that contact does not hold: they are not unique, forces are.
+!> Rigid motions that the contact does not resist: they are not unique, though the forces are.
 module fuge_free_modes
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_contact_solution, only: contact_solution
+  use fuge_contact_states, only: FUGE_OPEN
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_pivoted_qr, only: orthogonal_complement
-  use fuge_canonical_problem, only: canonical_problem
   implicit none
   private
 
-  public :: find_loose, without_loose, find_free_way
+  public :: find_free_motion, find_unresisted, without_unresisted
 
-  !> Rows of the modes that differ by less than this part are one.
+  !> Rows of the modes that differ by less than this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
-
-  !> A force below this part of the loads that it may carry is rounding.
+  !> A force below this fraction of the loads that it may carry is rounding.
   real(dp), parameter :: NO_FORCE = 1.0e-14_dp
 
 contains
 
-  !> A way (m) in which the bodies of an answer can move without a change of force, or zero
-  !> if there is none: the motions are unique then.
-  !>
-  !> `state` (n), `force` (n) and `gap` (n) of the answer in `canonical`.
-  subroutine find_free_way(canonical, state, force, gap, way)
+  !> A motion (m) of the bodies that changes no force of the solution, or zero if there is none: the
+  !> motion of the solution is unique then.
+  subroutine find_free_motion(canonical, solution, motion)
     type(canonical_problem), intent(in) :: canonical
-    integer, intent(in) :: state(:)
-    real(dp), intent(in) :: force(:), gap(:)
-    real(dp), intent(out) :: way(:)
-    real(dp), allocatable :: base(:, :)
-    real(dp) :: work(size(state))
-    logical :: held(size(state)), pushes(size(state)), pulls(size(state))
+    type(contact_solution), intent(in) :: solution
+    real(dp), intent(out) :: motion(:)
+    real(dp), allocatable :: basis(:, :)
+    real(dp) :: work(size(solution%state))
+    logical, dimension(size(solution%state)) :: loaded, resists_closing, resists_opening
     integer :: j
 
-    way = 0.0_dp
-    held = holds(canonical, state, force)
-    call find_loose(canonical%modes, held, base)
-    ! Points that touch without force bar one sense.
-    pushes = held .or. ((state > 0 .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
-    pulls = held .or. ((state < 0 .or. gap >= canonical%upper) .and. .not. canonical%excluded)
-    do j = 1, size(base, 2)
-      call find_equilibrium(canonical%modes, base(:, j), pushes, pulls, work, way)
-      if (any(abs(way) > 0.0_dp)) return
-      call find_equilibrium(canonical%modes, -base(:, j), pushes, pulls, work, way)
-      if (any(abs(way) > 0.0_dp)) return
+    motion = 0.0_dp
+    loaded = carries_force(canonical, solution)
+    call find_unresisted(canonical%modes, loaded, basis)
+    associate (state => solution%state, gap => solution%gap)
+      ! A point that touches without force resists in one sense only.
+      resists_closing = loaded .or. ((state > FUGE_OPEN .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
+      resists_opening = loaded .or. ((state < FUGE_OPEN .or. gap >= canonical%upper) .and. .not. canonical%excluded)
+    end associate
+    do j = 1, size(basis, 2)
+      call find_equilibrium(canonical%modes, basis(:, j), resists_closing, resists_opening, work, motion)
+      if (any(abs(motion) > 0.0_dp)) return
+      call find_equilibrium(canonical%modes, -basis(:, j), resists_closing, resists_opening, work, motion)
+      if (any(abs(motion) > 0.0_dp)) return
     end do
-  end subroutine find_free_way
+  end subroutine find_free_motion
 
   !> Points (n) that are tied, or that carry more force than rounding makes.
-  pure function holds(canonical, state, force) result(held)
+  pure function carries_force(canonical, solution) result(carries)
     type(canonical_problem), intent(in) :: canonical
-    integer, intent(in) :: state(:)
-    real(dp), intent(in) :: force(:)
-    logical :: held(size(state))
-    real(dp) :: measure(size(state))
+    type(contact_solution), intent(in) :: solution
+    logical :: carries(size(solution%state))
+    real(dp) :: scale(size(solution%state))
     integer :: j
 
-    measure = 0.0_dp
+    scale = 0.0_dp
     do j = 1, size(canonical%load)
-      measure = max(measure, abs(canonical%modes(:, j)*canonical%load(j)))
+      scale = max(scale, abs(canonical%modes(:, j)*canonical%load(j)))
     end do
     ! Without a load of its own a body may be squeezed between stops.
-    where (.not. measure > 0.0_dp) measure = maxval(abs(force))
-    held = state /= 0 .and. (abs(force) > NO_FORCE*measure .or. .not. canonical%upper > 0.0_dp)
-  end function holds
+    where (.not. scale > 0.0_dp) scale = maxval(abs(solution%force))
+    carries = solution%state /= FUGE_OPEN .and. (abs(solution%force) > NO_FORCE*scale &
+                                                 .or. .not. canonical%upper > 0.0_dp)
+  end function carries_force
 
-  !> An orthonormal base of the motions q with R q = 0 at the points `held` (n).
+  !> An orthonormal basis of the motions q with R q = 0 at the points marked in `resists` (n).
   !>
-  !> `modes` R (n, m) with columns of about the same size; `base` (m, number of loose motions).
-  subroutine find_loose(modes, held, base)
+  !> `modes` R (n, m) with columns of about the same size; `basis` (m, number of such motions).
+  subroutine find_unresisted(modes, resists, basis)
     real(dp), intent(in) :: modes(:, :)
-    logical, intent(in) :: held(:)
-    real(dp), allocatable, intent(out) :: base(:, :)
-    real(dp) :: rows(size(modes, 2), count(held))
+    logical, intent(in) :: resists(:)
+    real(dp), allocatable, intent(out) :: basis(:, :)
+    real(dp) :: rows(size(modes, 2), count(resists))
     integer :: j, status
 
-    rows = transpose(modes(pack([(j, j=1, size(held))], held), :))
-    ! Without memory no motion counts as loose.
-    call orthogonal_complement(rows, DEPENDENT, base, status)
-  end subroutine find_loose
+    rows = transpose(modes(pack([(j, j=1, size(resists))], resists), :))
+    ! Without memory no motion counts as unresisted.
+    call orthogonal_complement(rows, DEPENDENT, basis, status)
+  end subroutine find_unresisted
 
-  !> The motion (m) less its part in the `base` of the loose ones.
-  pure function without_loose(motion, base) result(rest)
-    real(dp), intent(in) :: motion(:), base(:, :)
+  !> The motion (m) less its part in the `basis` of the unresisted ones.
+  pure function without_unresisted(motion, basis) result(rest)
+    real(dp), intent(in) :: motion(:), basis(:, :)
     real(dp) :: rest(size(motion))
     integer :: j
 
     rest = motion
-    do j = 1, size(base, 2)
-      rest = rest - dot_product(base(:, j), motion)*base(:, j)
+    do j = 1, size(basis, 2)
+      rest = rest - dot_product(basis(:, j), motion)*basis(:, j)
     end do
-  end function without_loose
+  end function without_unresisted
 
 end module fuge_free_modes

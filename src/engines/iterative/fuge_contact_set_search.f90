@@ -5,7 +5,7 @@
 !> stop making progress, a primal active-set method exchanges one point at a time: it lowers the
 !> energy in each step and so terminates.
 module fuge_contact_set_search
-  use fuge_blocking_step, only: step_back
+  use fuge_blocking_step, only: step_to_blocking
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
@@ -262,7 +262,7 @@ contains
       if (info%failed()) exit
       if (any(iterate%contact .and. iterate%force <= 0.0_dp)) then
         state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
-        call step_back(iterate%force, 0.0_dp, tied, state, feasible, newest, locked)
+        call step_to_blocking(iterate%force, 0.0_dp, tied, state, feasible, newest, locked)
         iterate%contact = state /= FUGE_OPEN
         iterate%force = feasible
       else

@@ -1,246 +1,253 @@
-!> Parametric pivoting: a contact along a straight line of problems, without steps.
+!> Parametric pivoting: the course of a contact along a straight line of problems, without load steps.
 !>
-!> Gaps and resultants change linearly with a parameter t. Between two events forces,
-!> gaps and motions are linear in t too. An event is a t at which points come to a stop
-!> or leave it. Which they are when several could at once, and how the next piece runs,
-!> is a small contact problem in the rates for the points that are at a stop without
-!> force. Where no such rates exist the motions that nothing holds jump.
+!> Gaps and resultants change linearly with a parameter. Between two events forces, gaps and motions are linear in it
+!> too.
+!> An event is a parameter at which points come to a stop or leave it. Which points change when several could, and how
+!> the
+!> next piece runs, follows from a small contact problem in the rates of the weakly active points. Where no such rates
+!> exist, the motions that nothing resists jump.
 module fuge_parametric_pivoting
-  use fuge_block_pivoting, only: PATIENCE, keep_first
-  use fuge_kkt_factor, only: contact_factor
-  use fuge_options_type, only: ITERATIONS_PER_ROW
-  use fuge_equilibrium, only: find_equilibrium
-  use fuge_kinds, only: dp
-  use fuge_free_modes, only: find_loose, without_loose
+  use fuge_block_pivoting, only: PATIENCE
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_kkt_solution, only: solve_set, displaced, add_deflection
+  use fuge_contact_solution, only: contact_solution
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_equilibrium, only: find_equilibrium
+  use fuge_free_modes, only: find_unresisted, without_unresisted
+  use fuge_kinds, only: dp
+  use fuge_kkt_factor, only: kkt_factor
+  use fuge_kkt_solution, only: add_elastic_displacement, rigid_displacement, solve_set
+  use fuge_options_type, only: ITERATIONS_PER_ROW
+  use fuge_path_type, only: append_entry, fuge_path, start_path
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
 
-  public :: follow_line, start_at, states_at
+  public :: follow_line, position_at
 
-  !> Rates below this part of the largest are zero, and parameters that agree to it are
-  !> one event.
+  !> Rates below this fraction of the largest are zero, and parameters that agree to it are one event.
   real(dp), parameter :: TIE_TOLERANCE = 1.0e-12_dp
-  !> A resultant below this part of all is none in a loose motion.
+  !> A resultant below this fraction of the largest is none in an unresisted motion.
   real(dp), parameter :: NO_LOAD = 1.0e-10_dp
 
-  !> The line: gaps shape + t*shape_rate, resultants load + t*load_rate, those at t = 0
-  !> from the scene, up to t = most. Parameters are as exact as t + origin.
-  type, public :: path_line
+  !> A line of loads: the reduced gaps grow by reduced_gap_rate (n) and the resultants by load_rate (m) per unit of the
+  !> parameter, from those of the problem up to `last`. Parameters are as exact as parameter + origin.
+  type, public :: load_line
     real(dp), allocatable :: reduced_gap_rate(:), load_rate(:)
-    real(dp) :: most = 0.0_dp, origin = 0.0_dp
-  end type path_line
+    real(dp) :: last = 0.0_dp, origin = 0.0_dp
+  end type load_line
 
-  !> Values at t, and their rates from there on. `state` (n) is 1 at the lower stop, -1 at
-  !> the upper one, 0 between; `undecided` (n) the stop at which a point without force
-  !> may stay or not, 0 for all others.
+  !> Values at a parameter, and their rates from there on.
   type, public :: path_position
-    real(dp) :: t = 0.0_dp
-    integer, allocatable :: state(:), undecided(:)
+    real(dp) :: parameter = 0.0_dp
+    !> State of each point, (n). A weakly active point has no force at a stop, where it may stay or not: weakly_active
+    !> (n)
+    !> is the state of that stop, and FUGE_OPEN for all other points.
+    integer, allocatable :: state(:), weakly_active(:)
+    !> Forces and gaps (n), motions (m) and their rates.
     real(dp), allocatable :: force(:), gap(:), motion(:), force_rate(:), gap_rate(:), motion_rate(:)
-    !> Motions that the points at their stops leave free, (m, those).
-    real(dp), allocatable :: loose(:, :)
+    !> An orthonormal basis of the motions that the points at their stops do not resist, (m, any number).
+    real(dp), allocatable :: unresisted(:, :)
   end type path_position
-
-  !> The events in their order, after an entry for the start.
-  type, public :: path_record
-    integer :: entries = 0
-    !> Sides (n) at the start.
-    integer, allocatable :: start(:)
-    !> For each entry: t, the point and its new side (both 0 for the start), points at a
-    !> stop; motions (m) and their rates from there on.
-    real(dp), allocatable :: parameter(:), motion(:, :), rate(:, :)
-    integer, allocatable :: point(:), state(:), contacts(:)
-  end type path_record
 
 contains
 
-  !> Stand at the start of a line: values of the scene's answer with `state` (n), `force`
-  !> (n), `motion` (m), and `gap` (n) as they follow from it. Error: FUGE_ERR_MEMORY.
-  subroutine start_at(canonical, state, force, gap, motion, here, status)
+  !> The position at the start of a line, from a solution without its datums; `solution%gap` as it follows from the
+  !> forces. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
+  subroutine position_at(canonical, solution, position, status)
     type(canonical_problem), intent(in) :: canonical
-    integer, intent(in) :: state(:)
-    real(dp), intent(in) :: force(:), gap(:), motion(:)
-    type(path_position), intent(out) :: here
+    type(contact_solution), intent(in) :: solution
+    type(path_position), intent(out) :: position
     integer, intent(out) :: status
-    real(dp) :: length(size(state))
+    real(dp) :: magnitude(size(solution%state))
     integer :: j, m, n, stat
 
-    n = size(state)
-    m = size(motion)
-    allocate (here%state(n), here%undecided(n), here%force(n), here%gap(n), here%motion(m), here%force_rate(n), &
-              here%gap_rate(n), here%motion_rate(m), stat=stat)
+    n = size(solution%state)
+    m = size(solution%motion)
+    allocate (position%state(n), position%weakly_active(n), position%force(n), position%gap(n), position%motion(m), &
+              position%force_rate(n), position%gap_rate(n), position%motion_rate(m), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) return
-    here%state = state
-    here%force = force
-    here%gap = gap
-    here%motion = motion
-    length = abs(canonical%gap)
+    position%state = solution%state
+    position%force = solution%force
+    position%gap = solution%gap
+    position%motion = solution%motion
+    magnitude = abs(canonical%gap)
     do j = 1, m
-      length = length + abs(canonical%modes(:, j)*motion(j))
+      magnitude = magnitude + abs(canonical%modes(:, j)*solution%motion(j))
     end do
-    here%undecided = 0
-    where (state /= 0 .and. canonical%upper > 0.0_dp)
-      where (abs(force) <= TIE_TOLERANCE*maxval(abs(force))) here%undecided = state
-    end where
-    where (state == 0 .and. .not. canonical%excluded)
-      where (canonical%upper - gap <= TIE_TOLERANCE*length) here%undecided = -1
-      where (gap <= TIE_TOLERANCE*length) here%undecided = 1
-    end where
-  end subroutine start_at
+    associate (state => solution%state, force => solution%force, gap => solution%gap, upper => canonical%upper)
+      position%weakly_active = FUGE_OPEN
+      where (state /= FUGE_OPEN .and. upper > 0.0_dp)
+        where (abs(force) <= TIE_TOLERANCE*maxval(abs(force))) position%weakly_active = state
+      end where
+      where (state == FUGE_OPEN .and. .not. canonical%excluded)
+        where (upper - gap <= TIE_TOLERANCE*magnitude) position%weakly_active = FUGE_AT_UPPER_STOP
+        where (gap <= TIE_TOLERANCE*magnitude) position%weakly_active = FUGE_AT_LOWER_STOP
+      end where
+    end associate
+  end subroutine position_at
 
-  !> Follow the line from where `here` stands to its end, or as far as it goes.
+  !> Follow the line from the position to its end, or as far as equilibrium reaches.
   !>
-  !> `alpha` (at least n rows, n columns), `datum` its coefficient nearest to zero, or 0
-  !> unless the scene has a translation. `here` and `record` stay where the path ended.
-  !> Errors: those of a factor, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM beyond here%t,
-  !> FUGE_ERR_ITERATION_LIMIT after more events than 50 for each point.
-  subroutine follow_line(alpha, datum, canonical, line, here, record, status)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum
+  !> `canonical` with its matrix. `position` and `path` are left where the path ended. `status`: that of a factor,
+  !> FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM beyond position%parameter, FUGE_ERR_ITERATION_LIMIT after more events than
+  !> 50 for each point.
+  subroutine follow_line(canonical, line, position, path, status)
     type(canonical_problem), intent(in) :: canonical
-    type(path_line), intent(in) :: line
-    type(path_position), intent(inout) :: here
-    type(path_record), intent(inout) :: record
+    type(load_line), intent(in) :: line
+    type(path_position), intent(inout) :: position
+    type(fuge_path), intent(inout) :: path
     integer, intent(out) :: status
-    type(contact_factor) :: factor
-    integer :: before(size(here%state))
+    type(kkt_factor) :: factor
+    integer :: before(size(position%state))
     real(dp) :: step
     integer :: turn
 
-    call grow(record, size(before) + 8, size(here%motion), status)
+    call start_path(position%state, size(position%motion), path, status)
     if (status /= FUGE_DONE) return
-    allocate (record%start(size(before)))
-    record%start = here%state
     do turn = 1, ITERATIONS_PER_ROW*(size(before) + 1)
-      before = here%state
-      call move_freely(canonical, line%load_rate, here, status)
-      if (status == FUGE_DONE) call find_rates(alpha, datum, canonical, line, factor, here, status)
-      if (status == FUGE_DONE .and. turn == 1) call note(record, here, 0, status)
-      if (status == FUGE_DONE) call note_changes(record, here, before, status)
+      before = position%state
+      call move_until_resisted(canonical, line%load_rate, position, status)
+      if (status == FUGE_DONE) call find_rates(canonical, line, factor, position, status)
+      if (status == FUGE_DONE .and. turn == 1) call append_position(path, position, 0, status)
+      if (status == FUGE_DONE) call append_changes(path, position, before, status)
       if (status /= FUGE_DONE) return
-      call next_event(canonical, line, here, step)
-      if (.not. here%t + step < line%most - tie_width(line, line%most)) return
-      call go_on(alpha, datum, canonical, line, factor, step, here)
+      call find_next_event(canonical, line, position, step)
+      if (.not. position%parameter + step < line%last - tie_width(line, line%last)) return
+      call advance(canonical, line, factor, step, position)
     end do
     status = FUGE_ERR_ITERATION_LIMIT
   end subroutine follow_line
 
-  !> Parameters near t that differ by less are one.
-  pure function tie_width(line, t) result(width)
-    type(path_line), intent(in) :: line
-    real(dp), intent(in) :: t
+  !> Parameters near this one that differ by less are one event.
+  pure function tie_width(line, parameter) result(width)
+    type(load_line), intent(in) :: line
+    real(dp), intent(in) :: parameter
     real(dp) :: width
 
-    width = TIE_TOLERANCE*(t + line%origin)
+    width = TIE_TOLERANCE*(parameter + line%origin)
   end function tie_width
 
-  !> Where the points with force do not hold all motions and those without cannot carry
-  !> the change of the load, the bodies move at no change of force until they can.
-  subroutine move_freely(canonical, load_rate, here, status)
+  !> Where the points with force do not resist all motions, and the weakly active ones cannot carry the change of the
+  !> load, move the bodies at constant forces until they can.
+  subroutine move_until_resisted(canonical, load_rate, here, status)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: load_rate(:)
     type(path_position), intent(inout) :: here
     integer, intent(out) :: status
-    real(dp) :: force(size(here%state)), way(size(load_rate))
-    logical :: held(size(here%state))
+    real(dp) :: force(size(here%state)), motion(size(load_rate))
+    logical :: loaded(size(here%state))
     integer :: turn
 
     status = FUGE_DONE
     if (size(load_rate) < 1) return
-    do turn = 1, ITERATIONS_PER_ROW*(size(held) + 1)
-      held = here%state /= 0 .and. here%undecided == 0
-      call find_loose(canonical%modes, held, here%loose)
-      if (size(here%loose, 2) < 1) return
-      call find_equilibrium(canonical%modes, load_rate, held .or. here%undecided > 0, held .or. here%undecided < 0, &
-                            force, &
-                            way)
-      if (.not. any(abs(way) > 0.0_dp)) return
-      call move_along(canonical, way, held, here, status)
+    do turn = 1, ITERATIONS_PER_ROW*(size(loaded) + 1)
+      loaded = here%state /= FUGE_OPEN .and. here%weakly_active == FUGE_OPEN
+      call find_unresisted(canonical%modes, loaded, here%unresisted)
+      if (size(here%unresisted, 2) < 1) return
+      call find_equilibrium(canonical%modes, load_rate, loaded .or. here%weakly_active > FUGE_OPEN, &
+                            loaded .or. here%weakly_active < FUGE_OPEN, force, motion)
+      if (.not. any(abs(motion) > 0.0_dp)) return
+      call move_to_stop(canonical, motion, loaded, here, status)
       if (status /= FUGE_DONE) return
     end do
     status = FUGE_ERR_ITERATION_LIMIT
-  end subroutine move_freely
+  end subroutine move_until_resisted
 
-  !> Move as far along `way` (m) as the stops allow; FUGE_ERR_NO_EQUILIBRIUM if none does.
-  subroutine move_along(canonical, way, held, here, status)
+  !> Move along `direction` (m) as far as the stops allow. `status`: FUGE_DONE, or FUGE_ERR_NO_EQUILIBRIUM if no stop
+  !> is reached.
+  subroutine move_to_stop(canonical, direction, loaded, here, status)
     type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: way(:)
-    logical, intent(in) :: held(:)
+    real(dp), intent(in) :: direction(:)
+    logical, intent(in) :: loaded(:)
     type(path_position), intent(inout) :: here
     integer, intent(out) :: status
-    real(dp) :: closing(size(held)), reach(size(held)), least
+    real(dp) :: closing(size(loaded)), reach(size(loaded)), least
 
-    closing = displaced(canonical%modes, way)
-    where (held .or. canonical%excluded) closing = 0.0_dp
+    closing = rigid_displacement(canonical%modes, direction)
+    where (loaded .or. canonical%excluded) closing = 0.0_dp
     where (abs(closing) <= TIE_TOLERANCE*maxval(abs(closing))) closing = 0.0_dp
-    ! No point is pressed into the stop where it is: that is rounding.
-    where (closing*real(here%undecided, dp) > 0.0_dp) closing = 0.0_dp
+    ! A point that seems to move into the stop where it is does so by rounding.
+    where (closing*real(here%weakly_active, dp) > 0.0_dp) closing = 0.0_dp
     reach = huge(least)
     where (closing > 0.0_dp) reach = max(here%gap, 0.0_dp)/closing
-    where (closing < 0.0_dp .and. canonical%upper < huge(least)) reach = max(canonical%upper - here%gap, &
-        0.0_dp)/abs(closing)
+    where (closing < 0.0_dp .and. canonical%upper < huge(least))
+      reach = max(canonical%upper - here%gap, 0.0_dp)/abs(closing)
+    end where
     least = minval(reach)
     status = merge(FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, least < huge(least))
     if (status /= FUGE_DONE) return
-    here%motion = here%motion + least*way
+    here%motion = here%motion + least*direction
     where (abs(closing) > 0.0_dp)
       here%gap = here%gap - least*closing
-      here%state = 0
+      here%state = FUGE_OPEN
       here%force = 0.0_dp
-      here%undecided = 0
+      here%weakly_active = FUGE_OPEN
     end where
-    where (reach <= least*(1.0_dp + TIE_TOLERANCE)) here%undecided = merge(1, -1, closing > 0.0_dp)
-  end subroutine move_along
+    where (reach <= least*(1.0_dp + TIE_TOLERANCE))
+      here%weakly_active = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, closing > 0.0_dp)
+    end where
+  end subroutine move_to_stop
 
-  !> The rates per unit of t. Points with force stay at their stop, open ones stay open;
-  !> for the undecided the rates satisfy a contact problem, solved by block pivoting with
-  !> single changes as the way out.
-  subroutine find_rates(alpha, datum, canonical, line, factor, here, status)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum
+  !> The rates per unit of the parameter. Points with force stay at their stop, open ones stay open; the rates of the
+  !> weakly active points satisfy a contact problem, solved by block pivoting with single exchanges as the fallback.
+  subroutine find_rates(canonical, line, factor, here, status)
     type(canonical_problem), intent(in) :: canonical
-    type(path_line), intent(in) :: line
-    type(contact_factor), intent(inout) :: factor
+    type(load_line), intent(in) :: line
+    type(kkt_factor), intent(inout) :: factor
     type(path_position), intent(inout) :: here
     integer, intent(out) :: status
     logical :: wrong(size(here%state))
-    integer :: trial, fewest, patience_left
+    integer :: trial, fewest_wrong, stalls_left
 
-    where (here%undecided /= 0) here%state = here%undecided
-    fewest = huge(fewest)
-    patience_left = PATIENCE
-    do trial = 1, ITERATIONS_PER_ROW*(count(here%undecided /= 0) + 1)
-      call factor%set(alpha, canonical%modes, canonical%has_translation, here%state /= 0, status)
+    where (here%weakly_active /= FUGE_OPEN) here%state = here%weakly_active
+    fewest_wrong = huge(fewest_wrong)
+    stalls_left = PATIENCE
+    do trial = 1, ITERATIONS_PER_ROW*(count(here%weakly_active /= FUGE_OPEN) + 1)
+      call solve_for_rates(canonical, line, factor, here, status)
       if (status /= FUGE_DONE) return
-      call solve_set(factor, datum, line%reduced_gap_rate, line%load_rate, here%force_rate, here%motion_rate)
-      call find_loose(canonical%modes, here%state /= 0, here%loose)
-      if (is_balanced(line%load_rate, here%loose)) here%motion_rate = without_loose(here%motion_rate, here%loose)
-      here%gap_rate = line%reduced_gap_rate - displaced(canonical%modes, here%motion_rate)
-      call add_deflection(alpha, datum, here%state /= 0, here%force_rate, here%gap_rate)
-      where (here%state /= 0 .or. canonical%excluded) here%gap_rate = 0.0_dp
-      wrong = here%undecided /= 0 .and. merge(is_falling(here%undecided*here%force_rate), &
-                                              is_falling(here%undecided*here%gap_rate), here%state /= 0)
+      wrong = here%weakly_active /= FUGE_OPEN .and. merge(is_falling(here%weakly_active*here%force_rate), &
+                                                          is_falling(here%weakly_active*here%gap_rate), &
+                                                          here%state /= FUGE_OPEN)
       if (.not. any(wrong)) return
-      patience_left = patience_left - 1
-      if (count(wrong) < fewest) patience_left = PATIENCE
-      fewest = min(fewest, count(wrong))
-      if (patience_left < 0) call keep_first(wrong)
-      where (wrong) here%state = here%undecided - here%state
+      stalls_left = stalls_left - 1
+      if (count(wrong) < fewest_wrong) stalls_left = PATIENCE
+      fewest_wrong = min(fewest_wrong, count(wrong))
+      if (stalls_left < 0) call keep_first(wrong)
+      where (wrong) here%state = here%weakly_active - here%state
     end do
     status = FUGE_ERR_ITERATION_LIMIT
   end subroutine find_rates
 
-  !> Does the load leave the loose motions alone, but for rounding?
-  pure function is_balanced(load_rate, loose) result(balanced)
-    real(dp), intent(in) :: load_rate(:), loose(:, :)
+  !> The rates with the present states.
+  subroutine solve_for_rates(canonical, line, factor, here, status)
+    type(canonical_problem), intent(in) :: canonical
+    type(load_line), intent(in) :: line
+    type(kkt_factor), intent(inout) :: factor
+    type(path_position), intent(inout) :: here
+    integer, intent(out) :: status
+
+    call factor%set(canonical, here%state /= FUGE_OPEN, status)
+    if (status /= FUGE_DONE) return
+    call solve_set(factor, canonical%datum, line%reduced_gap_rate, line%load_rate, here%force_rate, here%motion_rate)
+    call find_unresisted(canonical%modes, here%state /= FUGE_OPEN, here%unresisted)
+    if (is_balanced(line%load_rate, here%unresisted)) then
+      here%motion_rate = without_unresisted(here%motion_rate, here%unresisted)
+    end if
+    here%gap_rate = line%reduced_gap_rate - rigid_displacement(canonical%modes, here%motion_rate)
+    call add_elastic_displacement(canonical%alpha, canonical%datum, here%state /= FUGE_OPEN, here%force_rate, &
+                                  here%gap_rate)
+    where (here%state /= FUGE_OPEN .or. canonical%excluded) here%gap_rate = 0.0_dp
+  end subroutine solve_for_rates
+
+  !> Is the resultant in the unresisted motions no more than rounding?
+  pure function is_balanced(load_rate, unresisted) result(balanced)
+    real(dp), intent(in) :: load_rate(:), unresisted(:, :)
     logical :: balanced
 
     balanced = .true.
-    if (size(loose, 2) > 0) balanced = maxval(abs(matmul(load_rate, loose))) <= NO_LOAD*maxval(abs(load_rate))
+    if (size(unresisted, 2) < 1) return
+    balanced = maxval(abs(matmul(load_rate, unresisted))) <= NO_LOAD*maxval(abs(load_rate))
   end function is_balanced
 
   pure function is_falling(rate) result(falling)
@@ -250,18 +257,30 @@ contains
     falling = rate < -TIE_TOLERANCE*maxval(abs(rate))
   end function is_falling
 
-  !> How far it is to the next event, and the points that could change at it.
-  subroutine next_event(canonical, line, here, step)
+  !> Only the true element of least index stays true.
+  pure subroutine keep_first(mask)
+    logical, intent(inout) :: mask(:)
+    integer :: k
+
+    do k = 1, size(mask)
+      if (.not. mask(k)) cycle
+      mask(k + 1:) = .false.
+      return
+    end do
+  end subroutine keep_first
+
+  !> How far the next event is, and the points that may change at it.
+  subroutine find_next_event(canonical, line, here, step)
     type(canonical_problem), intent(in) :: canonical
-    type(path_line), intent(in) :: line
+    type(load_line), intent(in) :: line
     type(path_position), intent(inout) :: here
     real(dp), intent(out) :: step
     real(dp) :: reach(size(here%state))
     logical :: open(size(here%state)), reached(size(here%state))
 
     reach = huge(step)
-    open = here%state == 0 .and. .not. canonical%excluded
-    where (here%state /= 0 .and. canonical%upper > 0.0_dp)
+    open = here%state == FUGE_OPEN .and. .not. canonical%excluded
+    where (here%state /= FUGE_OPEN .and. canonical%upper > 0.0_dp)
       where (is_falling(here%state*here%force_rate)) reach = max(here%state*here%force, 0.0_dp)/abs(here%force_rate)
     end where
     where (open .and. is_falling(here%gap_rate)) reach = max(here%gap, 0.0_dp)/abs(here%gap_rate)
@@ -270,53 +289,55 @@ contains
     end where
     step = minval(reach)
     reached = reach < huge(step)
-    if (step < huge(step)) reached = reached .and. reach - step <= tie_width(line, here%t + step)
-    ! Points of an event that is no more than rounding away are of this one too.
-    if (step > tie_width(line, here%t + step)) here%undecided = 0
-    where (reached) here%undecided = merge(here%state, merge(1, -1, here%gap_rate < 0.0_dp), here%state /= 0)
-  end subroutine next_event
+    associate (width => tie_width(line, here%parameter + step))
+      if (step < huge(step)) reached = reached .and. reach - step <= width
+      ! Points of an event that is no more than rounding away belong to this one too.
+      if (step > width) here%weakly_active = FUGE_OPEN
+    end associate
+    where (reached)
+      here%weakly_active = merge(here%state, merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, here%gap_rate < 0.0_dp), &
+                                 here%state /= FUGE_OPEN)
+    end where
+  end subroutine find_next_event
 
-  !> Values further on, solved anew but for motions that nothing holds.
-  subroutine go_on(alpha, datum, canonical, line, factor, step, here)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, step
+  !> Advance along the line and solve anew for the values there, except for motions that nothing resists.
+  subroutine advance(canonical, line, factor, step, here)
     type(canonical_problem), intent(in) :: canonical
-    type(path_line), intent(in) :: line
-    type(contact_factor), intent(in) :: factor
+    type(load_line), intent(in) :: line
+    type(kkt_factor), intent(in) :: factor
+    real(dp), intent(in) :: step
     type(path_position), intent(inout) :: here
     real(dp) :: residual(size(here%state)), correction(size(here%state))
     real(dp) :: missing(size(here%motion)), shift(size(here%motion))
 
-    here%t = here%t + step
-    where (here%state == 0) here%force = 0.0_dp
+    here%parameter = here%parameter + step
+    where (here%state == FUGE_OPEN) here%force = 0.0_dp
     here%force = here%force + step*here%force_rate
     here%motion = here%motion + step*here%motion_rate
-    missing = canonical%load + here%t*line%load_rate - matmul(here%force, canonical%modes)
-    residual = gaps_at(alpha, datum, canonical, line, here)
-    where (here%state < 0) residual = residual - canonical%upper
-    call solve_set(factor, datum, residual, missing, correction, shift)
+    missing = canonical%load + here%parameter*line%load_rate - matmul(here%force, canonical%modes)
+    residual = gaps_at(canonical, line, here)
+    where (here%state < FUGE_OPEN) residual = residual - canonical%upper
+    call solve_set(factor, canonical%datum, residual, missing, correction, shift)
     here%force = here%force + correction
-    here%motion = here%motion + without_loose(shift, here%loose)
-    here%gap = gaps_at(alpha, datum, canonical, line, here)
-    where (here%state /= 0) here%gap = merge(0.0_dp, canonical%upper, here%state > 0)
-  end subroutine go_on
+    here%motion = here%motion + without_unresisted(shift, here%unresisted)
+    here%gap = gaps_at(canonical, line, here)
+    where (here%state /= FUGE_OPEN) here%gap = merge(0.0_dp, canonical%upper, here%state > FUGE_OPEN)
+  end subroutine advance
 
   !> c = g + A f - R q, (n).
-  pure function gaps_at(alpha, datum, canonical, line, here) result(gap)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum
+  pure function gaps_at(canonical, line, here) result(gap)
     type(canonical_problem), intent(in) :: canonical
-    type(path_line), intent(in) :: line
+    type(load_line), intent(in) :: line
     type(path_position), intent(in) :: here
     real(dp) :: gap(size(here%state))
 
-    gap = canonical%gap + here%t*line%reduced_gap_rate - displaced(canonical%modes, here%motion)
-    call add_deflection(alpha, datum, here%state /= 0, here%force, gap)
+    gap = canonical%gap + here%parameter*line%reduced_gap_rate - rigid_displacement(canonical%modes, here%motion)
+    call add_elastic_displacement(canonical%alpha, canonical%datum, here%state /= FUGE_OPEN, here%force, gap)
   end function gaps_at
 
-  !> An entry for each point that has changed sides.
-  subroutine note_changes(record, here, before, status)
-    type(path_record), intent(inout) :: record
+  !> Append an entry for each point whose state has changed.
+  subroutine append_changes(path, here, before, status)
+    type(fuge_path), intent(inout) :: path
     type(path_position), intent(in) :: here
     integer, intent(in) :: before(:)
     integer, intent(out) :: status
@@ -324,71 +345,18 @@ contains
 
     status = FUGE_DONE
     do k = 1, size(before)
-      if (here%state(k) /= before(k)) call note(record, here, k, status)
+      if (here%state(k) /= before(k)) call append_position(path, here, k, status)
       if (status /= FUGE_DONE) return
     end do
-  end subroutine note_changes
+  end subroutine append_changes
 
-  subroutine note(record, here, point, status)
-    type(path_record), intent(inout) :: record
+  subroutine append_position(path, here, point, status)
+    type(fuge_path), intent(inout) :: path
     type(path_position), intent(in) :: here
     integer, intent(in) :: point
     integer, intent(out) :: status
 
-    status = FUGE_DONE
-    if (record%entries == size(record%point)) call grow(record, 2*record%entries, size(here%motion), status)
-    if (status /= FUGE_DONE) return
-    record%entries = record%entries + 1
-    associate (last => record%entries)
-      record%parameter(last) = here%t
-      record%motion(:, last) = here%motion
-      record%rate(:, last) = here%motion_rate
-      record%point(last) = point
-      record%state(last) = 0
-      if (point > 0) record%state(last) = here%state(point)
-      record%contacts(last) = count(here%state /= 0)
-    end associate
-  end subroutine note
-
-  subroutine grow(record, capacity, motions, status)
-    type(path_record), intent(inout) :: record
-    integer, intent(in) :: capacity, motions
-    integer, intent(out) :: status
-    type(path_record) :: larger
-    integer :: stat
-
-    allocate (larger%parameter(capacity), larger%motion(motions, capacity), larger%rate(motions, capacity), &
-              larger%point(capacity), larger%state(capacity), larger%contacts(capacity), stat=stat)
-    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
-    if (stat /= 0) return
-    associate (used => record%entries)
-      if (used > 0) then
-        larger%parameter(:used) = record%parameter(:used)
-        larger%motion(:, :used) = record%motion(:, :used)
-        larger%rate(:, :used) = record%rate(:, :used)
-        larger%point(:used) = record%point(:used)
-        larger%state(:used) = record%state(:used)
-        larger%contacts(:used) = record%contacts(:used)
-      end if
-    end associate
-    call move_alloc(larger%parameter, record%parameter)
-    call move_alloc(larger%motion, record%motion)
-    call move_alloc(larger%rate, record%rate)
-    call move_alloc(larger%point, record%point)
-    call move_alloc(larger%state, record%state)
-    call move_alloc(larger%contacts, record%contacts)
-  end subroutine grow
-
-  !> Sides (n) after an entry, from those at the start.
-  pure function states_at(start, point, state, entry) result(now)
-    integer, intent(in) :: start(:), point(:), state(:), entry
-    integer :: now(size(start))
-    integer :: k
-
-    now = start
-    do k = 1, entry
-      if (point(k) > 0) now(point(k)) = state(k)
-    end do
-  end function states_at
+    call append_entry(path, here%parameter, point, here%state, here%motion, here%motion_rate, status)
+  end subroutine append_position
 
 end module fuge_parametric_pivoting

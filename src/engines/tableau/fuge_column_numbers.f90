@@ -2,11 +2,10 @@
 !>
 !>     1 .. n              forces F_k
 !>     n+1 .. 2n           gaps c_k
-!>     2n+1 .. 2n+m        free rigid motions (the paper: m = 1, the approach v_0)
+!>     2n+1 .. 2n+m        motions in the free rigid modes (the paper: m = 1, the approach v_0)
 !>     2n+m+1 .. 3n+2m     artificial variables, one for each row
 !>
-!> A play needs no columns of its own: its upper stop is a limit of c_k, and F_k is
-!> negative there.
+!> A play needs no columns of its own: it is an upper bound of c_k, and F_k is negative there.
 !>
 !> Source: Fischer, Hoyer, Melosh, section 3, Bild 3 and Tabelle 1.
 module fuge_column_numbers
@@ -34,7 +33,7 @@ contains
     column = n + k
   end function gap_column
 
-  !> Column of a rigid motion; motion 1 is v_0.
+  !> Column of the motion in a free mode; the first is v_0 in the paper's problem.
   elemental function rigid_column(n, motion) result(column)
     integer, intent(in) :: n, motion
     integer :: column
@@ -50,7 +49,7 @@ contains
     column = stored_columns(n, m) + row
   end function artificial_column
 
-  !> The complementary column: c_k for F_k and the reverse; 0 where there is none.
+  !> The complementary column: c_k for F_k and F_k for c_k; 0 where there is none.
   elemental function partner_column(n, column) result(partner)
     integer, intent(in) :: n, column
     integer :: partner

@@ -1,11 +1,11 @@
-!> The course of the pivots: the basis per step and z, as the paper prints them.
+!> The pivots of a tableau solve: the basis and z of each step, as the paper prints them.
 module fuge_history_type
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
 
-  !> Of z at the end of a line.
+  !> Length of z at the end of a line.
   integer, parameter :: OBJECTIVE_LENGTH = 18
 
   !> The pivots of a tableau solve: steps 0 (the artificial start) to `recorded()` - 1.

@@ -5,23 +5,25 @@
 !> as in `fuge_column_numbers`; those of the artificials are never stored, only the vector
 !> of basis columns. One more column holds the right-hand side.
 !>
-!> Beyond the paper, motions and the forces of tied points are free of sign, and a play
-!> limits c_k. Every point is seen from the stop that it was last at: mirrored, with d - c
-!> for c and -f for f, where that is the upper one. So nothing that has a sign is ever
-!> negative, and what is not in the basis is zero.
+!> Beyond the paper, motions and the forces of tied points are free of sign, and a play is an upper bound of c_k.
+!> Every point is described from the stop that it was last at; where that is the upper one its variables are
+!> complemented, d - c for c and -f for f. So no bounded variable is ever negative, and every variable outside of the
+!> basis
+!> is zero.
 !>
-!> Lengths and forces are scaled by powers of two, which changes no digit and
-!> lets every comparison be relative to the data.
+!> Lengths and forces are scaled by powers of two, which changes no digit and makes every comparison relative to the
+!> data.
 module fuge_paper_tableau
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
+  use fuge_options_type, only: fuge_options
   use fuge_column_numbers, only: artificial_column, force_column, gap_column, rigid_column, is_artificial, is_force, &
     partner_column, point_of
   use fuge_pivot_rule, only: select_pivot, select_for_equilibrium
   use fuge_canonical_problem, only: canonical_problem
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_variable_bounds, only: variable_limits
+  use fuge_variable_bounds, only: variable_bounds
   implicit none
   private
 
@@ -32,20 +34,20 @@ module fuge_paper_tableau
     real(dp), allocatable :: table(:, :)
     !> Column number in the basis for each row, (n+m).
     integer, allocatable :: basis(:)
-    !> Points seen from their upper stop, (n).
-    logical, allocatable :: mirrored(:)
+    !> Points described from their upper stop, (n).
+    logical, allocatable :: complemented(:)
     !> What was added to every gap: for the paper's problem to keep right-hand sides and
     !> v_0 non-negative, otherwise to count gaps from the lowest; length.
     real(dp) :: shift = 0.0_dp
     !> A scaled length times 2**length_exponent is the caller's; forces likewise.
     integer :: length_exponent = 0
     integer :: force_exponent = 0
-    !> Signs and limits of the variables.
-    type(variable_limits), private :: limits
-    !> The equilibrium rows are done with, and signs are settled.
-    logical, private :: settled = .false.
+    !> Bounds of the variables.
+    type(variable_bounds), private :: bounds
+    !> The equilibrium rows are met, and no sign may change any more.
+    logical, private :: signs_fixed = .false.
   contains
-    generic :: start => start_plain, start_scene
+    generic :: start => start_plain, start_canonical
     procedure :: choose
     procedure :: pivot
     procedure :: finished
@@ -54,12 +56,12 @@ module fuge_paper_tableau
     procedure :: z
     procedure :: remaining
     procedure :: entry_at
-    procedure, private :: start_plain, start_scene
+    procedure, private :: start_plain, start_canonical
   end type paper_tableau
 
 contains
 
-  !> Set up the tableau of Bild 3 with the artificial basis, step 1 done.
+  !> Set up the tableau of Bild 3 with the artificial basis; step 1 is done.
   !>
   !> `alpha` (at least n rows, n columns) length per force, `gap` (n) length,
   !> `load` > 0 force. Error: FUGE_ERR_MEMORY.
@@ -70,7 +72,7 @@ contains
     integer :: n
 
     n = size(gap)
-    call make_room(self, n, 1, n, status)
+    call allocate_table(self, n, 1, n, status)
     if (status /= FUGE_DONE) return
     call set_datum_and_scales(self, alpha, gap, load)
     call fill(self, alpha, 0.0_dp)
@@ -80,31 +82,28 @@ contains
       t(:n, 2*n + 2) = scale(gap, -length) + scale(self%shift, -length)
       t(n + 1, 2*n + 2) = scale(load, -force)
     end associate
-    ! The shift has settled every sign.
-    self%settled = .true.
+    ! With the shift every sign is fixed from the start.
+    self%signs_fixed = .true.
     call subtract_rows_from_last(self)
   end subroutine start_plain
 
-  !> The same for any scene; `datum` is taken out of alpha if the scene has a translation.
-  pure subroutine start_scene(self, alpha, datum, canonical, status)
+  !> The same for the canonical problem, with its matrix.
+  pure subroutine start_canonical(self, canonical, status)
     class(paper_tableau), intent(inout) :: self
-    real(dp), intent(in) :: alpha(:, :), datum
     type(canonical_problem), intent(in) :: canonical
     integer, intent(out) :: status
-    real(dp) :: constant
     integer :: n, m, j
 
     n = size(canonical%gap)
     m = size(canonical%load)
     if (canonical%plain) then
-      call self%start_plain(alpha, canonical%gap, canonical%load(1), status)
+      call self%start_plain(canonical%alpha, canonical%gap, canonical%load(1), status)
       return
     end if
-    call make_room(self, n, m, n + m, status)
+    call allocate_table(self, n, m, n + m, status)
     if (status /= FUGE_DONE) return
-    constant = merge(datum, 0.0_dp, canonical%has_translation)
-    call set_general_scales(self, alpha, constant, canonical)
-    call fill(self, alpha, constant)
+    call set_general_scales(self, canonical)
+    call fill(self, canonical%alpha, canonical%datum)
     associate (t => self%table, force => self%force_exponent, length => self%length_exponent)
       do j = 1, m
         t(:n, rigid_column(n, j)) = canonical%modes(:, j)
@@ -113,14 +112,14 @@ contains
       t(:n, 2*n + m + 1) = scale(canonical%gap + self%shift, -length)
       t(n + 1:n + m, 2*n + m + 1) = scale(canonical%load, -force)
     end associate
-    call set_limits(self, canonical)
-    self%settled = .false.
+    call set_bounds(self, canonical)
+    self%signs_fixed = .false.
     call turn_negative_rows(self)
-    if (m == 0) call settle(self)
+    if (m == 0) call fix_signs(self)
     call subtract_rows_from_last(self)
-  end subroutine start_scene
+  end subroutine start_canonical
 
-  pure subroutine make_room(self, n, m, ties, status)
+  pure subroutine allocate_table(self, n, m, ties, status)
     class(paper_tableau), intent(inout) :: self
     integer, intent(in) :: n, m, ties
     integer, intent(out) :: status
@@ -128,22 +127,22 @@ contains
 
     if (allocated(self%table)) deallocate (self%table)
     if (allocated(self%basis)) deallocate (self%basis)
-    if (allocated(self%mirrored)) deallocate (self%mirrored)
-    allocate (self%table(n + m + 1, 2*n + m + 1), self%basis(n + m), self%mirrored(n), stat=stat)
+    if (allocated(self%complemented)) deallocate (self%complemented)
+    allocate (self%table(n + m + 1, 2*n + m + 1), self%basis(n + m), self%complemented(n), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
-    if (status == FUGE_DONE) call self%limits%set(n, m, ties, status)
+    if (status == FUGE_DONE) call self%bounds%set(n, m, ties, status)
     if (status /= FUGE_DONE) return
     self%basis = artificial_column(n, m, [(k, k=1, n + m)])
-    self%mirrored = .false.
-  end subroutine make_room
+    self%complemented = .false.
+  end subroutine allocate_table
 
-  !> Forces and gaps in the gap rows, zero elsewhere.
+  !> Fill the columns of forces and gaps in the gap rows; all else is zero.
   pure subroutine fill(self, alpha, datum)
     class(paper_tableau), intent(inout) :: self
     real(dp), intent(in) :: alpha(:, :), datum
     integer :: n, k
 
-    n = self%limits%n
+    n = self%bounds%n
     self%table = 0.0_dp
     do k = 1, n
       self%table(:n, force_column(k)) = -scale(alpha(:n, k) - datum, self%force_exponent - self%length_exponent)
@@ -169,11 +168,10 @@ contains
     self%length_exponent = exponent(max(maxval(abs(gap + self%shift)), load*maxval(abs(alpha(:n, :)))))
   end subroutine set_datum_and_scales
 
-  !> The powers of two where motions have no sign: no shift is needed, but a large datum of
-  !> the gaps would cost digits.
-  pure subroutine set_general_scales(self, alpha, datum, canonical)
+  !> The powers of two where motions have no sign. No shift is needed for signs, but gaps are counted from the lowest,
+  !> because a large datum would cost digits.
+  pure subroutine set_general_scales(self, canonical)
     class(paper_tableau), intent(inout) :: self
-    real(dp), intent(in) :: alpha(:, :), datum
     type(canonical_problem), intent(in) :: canonical
     real(dp) :: load, softest, length
     integer :: n
@@ -183,120 +181,119 @@ contains
     if (canonical%has_translation) self%shift = -minval(canonical%gap, mask=.not. canonical%excluded)
     load = 0.0_dp
     if (size(canonical%load) > 0) load = maxval(abs(canonical%load))
-    softest = maxval(abs(alpha(:n, :) - datum))
+    softest = maxval(abs(canonical%alpha(:n, :) - canonical%datum))
     length = max(maxval(abs(canonical%gap + self%shift), mask=.not. canonical%excluded), load*softest)
     self%length_exponent = exponent(length)
     self%force_exponent = exponent(load)
     if (.not. load > 0.0_dp) self%force_exponent = self%length_exponent - exponent(softest)
   end subroutine set_general_scales
 
-  !> Tied points hold whatever their force; excluded ones have none, whatever their gap.
-  !> The force at a play may have either sign until the equilibrium has been met.
-  pure subroutine set_limits(self, canonical)
+  !> The force of a tied point is free and its gap fixed; an excluded point has a free gap and no force. The force of a
+  !> point with play may have either sign until the equilibrium rows are met.
+  pure subroutine set_bounds(self, canonical)
     class(paper_tableau), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     integer :: k
 
-    associate (limits => self%limits, n => self%limits%n)
-      limits%free(rigid_column(n, [(k, k=1, limits%m)])) = .true.
+    associate (bounds => self%bounds, n => self%bounds%n)
+      bounds%free(rigid_column(n, [(k, k=1, bounds%m)])) = .true.
       do k = 1, n
         if (canonical%excluded(k)) then
-          limits%free(gap_column(n, k)) = .true.
-          limits%fixed(force_column(k)) = .true.
+          bounds%free(gap_column(n, k)) = .true.
+          bounds%fixed(force_column(k)) = .true.
         else if (canonical%upper(k) <= 0.0_dp) then
-          limits%free(force_column(k)) = .true.
-          limits%fixed(gap_column(n, k)) = .true.
+          bounds%free(force_column(k)) = .true.
+          bounds%fixed(gap_column(n, k)) = .true.
         else if (exponent(canonical%upper(k)) - self%length_exponent < maxexponent(1.0_dp)) then
-          limits%free(force_column(k)) = canonical%upper(k) < huge(1.0_dp)
-          if (limits%free(force_column(k))) limits%upper(k) = scale(canonical%upper(k), -self%length_exponent)
+          bounds%free(force_column(k)) = canonical%upper(k) < huge(1.0_dp)
+          if (bounds%free(force_column(k))) bounds%upper(k) = scale(canonical%upper(k), -self%length_exponent)
         end if
       end do
     end associate
-  end subroutine set_limits
+  end subroutine set_bounds
 
-  !> Rows whose artificial would be negative take it with the other sign.
+  !> Rows whose artificial variable would be negative are negated.
   pure subroutine turn_negative_rows(self)
     class(paper_tableau), intent(inout) :: self
     integer :: i, last
 
     last = size(self%table, 2)
     do i = 1, size(self%basis)
-      if (.not. (is_artificial(self%limits%n, self%limits%m, self%basis(i)) .and. self%table(i, last) < 0.0_dp)) cycle
+      if (.not. (is_artificial(self%bounds%n, self%bounds%m, self%basis(i)) .and. self%table(i, last) < 0.0_dp)) cycle
       self%table(i, :) = -self%table(i, :)
-      if (i <= self%limits%n) self%limits%sign(i) = -self%limits%sign(i)
+      if (i <= self%bounds%n) self%bounds%sign(i) = -self%bounds%sign(i)
     end do
   end subroutine turn_negative_rows
 
-  !> The equilibrium has been met: points whose force pulls are at their upper stop, and
-  !> from here on no sign may change. This basis is the first for the decision of ties.
-  pure subroutine settle(self)
+  !> Once the equilibrium rows are met: points whose force pulls are at their upper stop, and from here on no sign may
+  !> change. This basis is the first one for the breaking of ties.
+  pure subroutine fix_signs(self)
     class(paper_tableau), intent(inout) :: self
     integer :: i, n
 
-    n = self%limits%n
+    n = self%bounds%n
     do i = n + 1, size(self%basis)
-      if (self%limits%room(partner_column(n, self%basis(i))) >= huge(1.0_dp)) cycle
-      if (self%table(i, size(self%table, 2)) < 0.0_dp) call mirror(self, self%basis(i))
+      if (self%bounds%upper_bound(partner_column(n, self%basis(i))) >= huge(1.0_dp)) cycle
+      if (self%table(i, size(self%table, 2)) < 0.0_dp) call complement(self, self%basis(i))
     end do
-    where (self%limits%upper < huge(1.0_dp)) self%limits%free(:n) = .false.
-    self%limits%first(n + 1:) = self%basis(n + 1:)
-    self%settled = .true.
-  end subroutine settle
+    where (self%bounds%upper < huge(1.0_dp)) self%bounds%free(:n) = .false.
+    self%bounds%first(n + 1:) = self%basis(n + 1:)
+    self%signs_fixed = .true.
+  end subroutine fix_signs
 
-  !> See a point from its other stop: d - c for c and -f for f.
-  pure subroutine mirror(self, point)
+  !> Describe a point from its other stop: d - c for c and -f for f.
+  pure subroutine complement(self, point)
     class(paper_tableau), intent(inout) :: self
     integer, intent(in) :: point
     integer :: i, last, rows
 
     last = size(self%table, 2)
     rows = size(self%basis)
-    associate (t => self%table, limits => self%limits, gap => gap_column(self%limits%n, point), &
+    associate (t => self%table, bounds => self%bounds, gap => gap_column(self%bounds%n, point), &
                force => force_column(point))
-      t(:rows, last) = t(:rows, last) - limits%upper(point)*t(:rows, gap)
+      t(:rows, last) = t(:rows, last) - bounds%upper(point)*t(:rows, gap)
       t(:rows, gap) = -t(:rows, gap)
       t(:rows, force) = -t(:rows, force)
       do i = 1, rows
         if (self%basis(i) == gap .or. self%basis(i) == force) t(i, :) = -t(i, :)
       end do
-      where (limits%first == gap .or. limits%first == force) limits%sign = -limits%sign
-      self%mirrored(point) = .not. self%mirrored(point)
+      where (bounds%first == gap .or. bounds%first == force) bounds%sign = -bounds%sign
+      self%complemented(point) = .not. self%complemented(point)
     end associate
-  end subroutine mirror
+  end subroutine complement
 
   !> Step 1: the last row is minus the sum of the rows whose variable is artificial.
   !>
-  !> Done afresh after every pivot instead of carrying the row along: the same row
-  !> in exact arithmetic, but rounding cannot gather in it.
+  !> Recomputed after every pivot instead of being eliminated with the other rows: the same row in exact arithmetic, but
+  !> rounding does not accumulate in it.
   pure subroutine subtract_rows_from_last(self)
     class(paper_tableau), intent(inout) :: self
     real(dp) :: weight(size(self%basis))
     integer :: rows, j
 
     rows = size(self%basis)
-    weight = merge(1.0_dp, 0.0_dp, is_artificial(self%limits%n, self%limits%m, self%basis))
+    weight = merge(1.0_dp, 0.0_dp, is_artificial(self%bounds%n, self%bounds%m, self%basis))
     do j = 1, size(self%table, 2)
       self%table(rows + 1, j) = -dot_product(weight, self%table(:rows, j))
     end do
   end subroutine subtract_rows_from_last
 
-  !> The next pivot. The equilibrium rows are always first, for the paper's problem against
-  !> F_1: see doc/theory.md for what goes wrong otherwise. `column` = 0: none is admissible.
-  !> `row` as `pivot` takes it.
+  !> Choose the next pivot. The artificials of the equilibrium rows always leave first, in the paper's problem for F_1:
+  !> doc/theory.md says what goes wrong otherwise. `column` = 0: none is admissible. `row` as `pivot` takes it.
   pure subroutine choose(self, rule, column, row)
     class(paper_tableau), intent(in) :: self
     integer, intent(in) :: rule
     integer, intent(out) :: column, row
 
     if (self%balanced()) then
-      call select_pivot(self%table, self%basis, self%limits, rule, column, row)
+      call select_pivot(self%table, self%basis, self%bounds, rule, column, row)
     else
-      call select_for_equilibrium(self%table, self%basis, self%limits, column, row)
+      call select_for_equilibrium(self%table, self%basis, self%bounds, column, row)
     end if
   end subroutine choose
 
-  !> Step 2: bring `column` into the basis in `row`, or in -`row` if the gap there leaves
-  !> for its upper stop; for 0 the gap `column` goes from one stop to the other.
+  !> Step 2: bring `column` into the basis in `row`, or in -`row` if the gap there leaves at its upper stop; with 0 the
+  !> gap `column` goes from one stop to the other.
   pure subroutine pivot(self, column, row)
     class(paper_tableau), intent(inout) :: self
     integer, intent(in) :: column, row
@@ -304,13 +301,13 @@ contains
     if (row > 0) then
       call eliminate(self, column, row)
     else if (row < 0) then
-      call mirror(self, point_of(self%limits%n, self%basis(-row)))
+      call complement(self, point_of(self%bounds%n, self%basis(-row)))
       call eliminate(self, column, -row)
     else
-      call mirror(self, point_of(self%limits%n, column))
+      call complement(self, point_of(self%bounds%n, column))
     end if
-    if (.not. self%settled) then
-      if (self%balanced()) call settle(self)
+    if (.not. self%signs_fixed) then
+      if (self%balanced()) call fix_signs(self)
       call turn_negative_rows(self)
     end if
     call clear_rounding(self)
@@ -331,20 +328,20 @@ contains
       if (abs(factor) > 0.0_dp) self%table(:rows, j) = self%table(:rows, j) - factor*entering
       self%table(row, j) = factor
     end do
-    ! Exact by definition; elimination would leave rounding here.
+    ! These entries are exact by definition; elimination would leave rounding in them.
     self%table(:rows, column) = 0.0_dp
     self%table(row, column) = 1.0_dp
     self%basis(row) = column
   end subroutine eliminate
 
-  !> No right-hand side is negative, or beyond its limit, but by rounding.
+  !> Move right-hand sides that rounding has put below zero or above their upper bound back to it.
   pure subroutine clear_rounding(self)
     class(paper_tableau), intent(inout) :: self
     integer :: i
 
-    associate (right => self%table(:, size(self%table, 2)), limits => self%limits)
+    associate (right => self%table(:, size(self%table, 2)), bounds => self%bounds)
       do i = 1, size(self%basis)
-        if (.not. limits%free(self%basis(i))) right(i) = min(max(right(i), 0.0_dp), limits%room(self%basis(i)))
+        if (.not. bounds%free(self%basis(i))) right(i) = min(max(right(i), 0.0_dp), bounds%upper_bound(self%basis(i)))
       end do
     end associate
   end subroutine clear_rounding
@@ -354,27 +351,26 @@ contains
     class(paper_tableau), intent(in) :: self
     logical :: finished
 
-    finished = .not. any(is_artificial(self%limits%n, self%limits%m, self%basis))
+    finished = .not. any(is_artificial(self%bounds%n, self%bounds%m, self%basis))
   end function finished
 
-  !> True when none is left in the equilibrium rows.
+  !> True when no artificial variable is left in the equilibrium rows.
   pure function balanced(self)
     class(paper_tableau), intent(in) :: self
     logical :: balanced
 
-    balanced = .not. any(is_artificial(self%limits%n, self%limits%m, self%basis(self%limits%n + 1:)))
+    balanced = .not. any(is_artificial(self%bounds%n, self%bounds%m, self%basis(self%bounds%n + 1:)))
   end function balanced
 
-  !> The stop of every point whose force is in the basis, (n): 1 the lower, -1 the upper;
-  !> 0 for the others.
+  !> State of every point, (n): at a stop if its force is in the basis, else open.
   pure function states(self) result(state)
     class(paper_tableau), intent(in) :: self
-    integer :: state(self%limits%n)
+    integer :: state(self%bounds%n)
     integer :: i
 
     state = 0
     do i = 1, size(self%basis)
-      if (is_force(self%limits%n, self%basis(i))) state(self%basis(i)) = merge(-1, 1, self%mirrored(self%basis(i)))
+      if (is_force(self%bounds%n, self%basis(i))) state(self%basis(i)) = merge(-1, 1, self%complemented(self%basis(i)))
     end do
   end function states
 
@@ -387,7 +383,7 @@ contains
     z = 0.0_dp - self%entry_at(size(self%table, 1), size(self%table, 2))
   end function z
 
-  !> The same as z scaled, >= 0: forces and lengths weigh alike in it.
+  !> Sum of the scaled artificial variables, >= 0, in which forces and lengths weigh alike.
   pure function remaining(self)
     class(paper_tableau), intent(in) :: self
     real(dp) :: remaining
@@ -396,7 +392,7 @@ contains
   end function remaining
 
   !> An entry in the caller's units, as the paper prints it; row n+m+1 is the z row,
-  !> column 2n+m+1 the right-hand side. Mirrored points stay so.
+  !> column 2n+m+1 the right-hand side. Complemented points stay complemented.
   pure function entry_at(self, row, column) result(value)
     class(paper_tableau), intent(in) :: self
     integer, intent(in) :: row, column
@@ -404,17 +400,17 @@ contains
     integer :: i
 
     if (row <= size(self%basis)) then
-      value = unscaled(self, row, column)
+      value = in_units(self, row, column)
     else
-      ! The z row adds rows of different units before the equilibrium has been met.
+      ! Before the equilibrium rows are met the z row adds rows of different units.
       value = 0.0_dp
       do i = 1, size(self%basis)
-        if (is_artificial(self%limits%n, self%limits%m, self%basis(i))) value = value - unscaled(self, i, column)
+        if (is_artificial(self%bounds%n, self%bounds%m, self%basis(i))) value = value - in_units(self, i, column)
       end do
     end if
   end function entry_at
 
-  pure function unscaled(self, row, column) result(value)
+  pure function in_units(self, row, column) result(value)
     class(paper_tableau), intent(in) :: self
     integer, intent(in) :: row, column
     real(dp) :: value
@@ -423,7 +419,7 @@ contains
     power = unit_exponent(self, self%basis(row))
     if (column < size(self%table, 2)) power = power - unit_exponent(self, column)
     value = scale(self%table(row, column), power)
-  end function unscaled
+  end function in_units
 
   !> Unit of a variable, as a power of two; `column` is its column number.
   pure function unit_exponent(self, column) result(power)
@@ -431,7 +427,7 @@ contains
     integer, intent(in) :: column
     integer :: power
 
-    associate (n => self%limits%n, m => self%limits%m)
+    associate (n => self%bounds%n, m => self%bounds%m)
       if (is_force(n, column) .or. column >= artificial_column(n, m, n + 1)) then
         power = self%force_exponent
       else
@@ -442,19 +438,15 @@ contains
 
   !> Phase I from the artificial basis to the contact set.
   !>
-  !> `alpha` (at least n rows, n columns) and `datum` as in the engines, `canonical` the rest of
-  !> the problem. `state` (n) is 1 or -1 for points at a stop; `pivots` counts.
-  !> The history is started and filled if `keep_history`. Rounding can leave an
-  !> artificial without an admissible column: the set found so far is then returned,
-  !> as it is with FUGE_ERR_ITERATION_LIMIT. Other errors: FUGE_ERR_NO_EQUILIBRIUM if no
-  !> forces carry the resultants, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED by `monitor`, which
-  !> hears of each pivot.
-  subroutine run_phase_one(alpha, datum, canonical, rule, max_pivots, keep_history, monitor, history, state, pivots, &
-                           status)
-    real(dp), intent(in) :: alpha(:, :), datum
+  !> `canonical` with its matrix; of the `options` the pivot rule and whether to keep the history count.
+  !> `state` (n) on return; `pivots` counts, at most `max_pivots`. Rounding can leave an artificial without an
+  !> admissible column: the set found so far is then returned, as it is with FUGE_ERR_ITERATION_LIMIT. Other
+  !> errors: FUGE_ERR_NO_EQUILIBRIUM if no forces carry the resultants, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED by
+  !> `monitor`, which hears of each pivot.
+  subroutine run_phase_one(canonical, options, max_pivots, monitor, history, state, pivots, status)
     type(canonical_problem), intent(in) :: canonical
-    integer, intent(in) :: rule, max_pivots
-    logical, intent(in) :: keep_history
+    type(fuge_options), intent(in) :: options
+    integer, intent(in) :: max_pivots
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_history), intent(inout) :: history
     integer, intent(out) :: state(:), pivots, status
@@ -465,15 +457,15 @@ contains
     pivots = 0
     start = 1.0_dp
     state = 0
-    call tableau%start(alpha, datum, canonical, status)
-    if (status == FUGE_DONE .and. keep_history) call history%start(size(tableau%basis), status)
+    call tableau%start(canonical, status)
+    if (status == FUGE_DONE .and. options%keep_history) call history%start(size(tableau%basis), status)
     do while (status == FUGE_DONE)
-      if (keep_history) call history%record(tableau%basis, tableau%z(), status)
+      if (options%keep_history) call history%record(tableau%basis, tableau%z(), status)
       if (pivots == 0 .and. tableau%remaining() > 0.0_dp) start = tableau%remaining()
       if (pivots > 0 .and. status == FUGE_DONE) call tell_monitor(monitor, pivots, tableau%remaining()/start, &
                                                                   count(is_force(size(state), tableau%basis)), status)
       if (tableau%finished() .or. status /= FUGE_DONE) exit
-      call tableau%choose(rule, column, row)
+      call tableau%choose(options%pivot_rule, column, row)
       if (column == 0) then
         if (.not. tableau%balanced()) status = FUGE_ERR_NO_EQUILIBRIUM
         exit

@@ -1,36 +1,36 @@
-!> Which column enters the tableau's basis and which row leaves: pure selection.
+!> Pricing and ratio test: which column enters the basis of the tableau and which row leaves.
 !>
-!> The paper (section 3, step 2) asks for (a) no negative right-hand side, (b1) a
-!> negative entry in the last row, (b2) no force beside its own gap, (b3) no
-!> artificial twice. Of the columns so admitted its tables take the lowest that
-!> drives an artificial out, else the lowest. Ties of the ratio test are decided
+!> The paper (section 3, step 2) asks for (a) no negative right-hand side, (b1) a negative entry in the last row, (b2)
+!> no
+!> force in the basis together with its own gap, (b3) no artificial variable twice. Of the columns so admitted the
+!> paper's
+!> tables take the lowest that drives an artificial out, else the lowest. Ties of the ratio test are broken
 !> lexicographically, which keeps degenerate problems from cycling.
 !>
-!> Beyond the paper, a variable may be free of sign, or have an upper limit (the play of
-!> a gap): `fuge_variable_bounds`. A column that reaches its own limit leaves the basis as
-!> it is.
+!> Beyond the paper, a variable may be free of sign or have an upper bound (the play of a gap):
+!> `fuge_variable_bounds`. A
+!> column that reaches its own bound first leaves the basis unchanged.
 !>
-!> The tableau is scaled: its lengths and forces are of order 1, so that small
-!> numbers here are relative to the data.
+!> The tableau is scaled: its lengths and forces are of order 1, so that the tolerances here are relative to the data.
 module fuge_pivot_rule
   use fuge_kinds, only: dp
   use fuge_column_numbers, only: partner_column, is_artificial, stored_columns
   use fuge_options_type, only: FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
-  use fuge_variable_bounds, only: variable_limits
+  use fuge_variable_bounds, only: variable_bounds
   implicit none
   private
 
   public :: select_pivot, select_for_equilibrium, leaving_row
 
-  !> A last-row entry is negative below this part of its column.
+  !> A last-row entry counts as negative below minus this fraction of its column.
   real(dp), parameter :: ENTRY_TOLERANCE = 1.0e-11_dp
-  !> A pivot is positive above this part of its column.
+  !> A pivot counts as positive above this fraction of its column.
   real(dp), parameter :: PIVOT_TOLERANCE = 1.0e-11_dp
-  !> Right-hand sides that differ by less are tied.
+  !> Right-hand sides that differ by less than this are tied.
   real(dp), parameter :: TIE_TOLERANCE = 1.0e-13_dp
-  !> What is left of resultants of order 1 below this is rounding.
+  !> An infeasibility of the equilibrium rows below this is rounding; resultants are of order 1.
   real(dp), parameter :: BALANCE_TOLERANCE = 1.0e-10_dp
-  !> Instead of a row: the column can enter without end.
+  !> Returned instead of a row: the column can enter without bound.
   integer, parameter, public :: NOTHING_LEAVES = -huge(1)
 
 contains
@@ -39,119 +39,122 @@ contains
   !>
   !> `table` (n+m+1, 2n+m+1) is the tableau with the z row last and the right-hand
   !> side in the last column, `basis` (n+m) the column number of each row. `row` is
-  !> negative if its variable leaves at its upper limit, and 0 if none leaves because
-  !> `column` reaches its own.
-  pure subroutine select_pivot(table, basis, limits, rule, column, row)
+  !> negative if its variable leaves at its upper bound, and 0 if none leaves because
+  !> `column` reaches its own bound.
+  pure subroutine select_pivot(table, basis, bounds, rule, column, row)
     real(dp), intent(in) :: table(:, :)
     integer, intent(in) :: basis(:), rule
-    type(variable_limits), intent(in) :: limits
+    type(variable_bounds), intent(in) :: bounds
     integer, intent(out) :: column, row
-    logical :: basic(size(limits%free)), artificial(size(basis)), held(size(basis)), tied(0:size(basis))
-    real(dp) :: entering(size(table, 1)), room(size(basis)), step, merit, best
-    integer :: j, r, last, way
+    logical :: basic(size(bounds%free)), artificial(size(basis)), bounded(size(basis)), tied(0:size(basis))
+    real(dp) :: entering(size(table, 1)), upper_bound(size(basis)), step, price, best
+    integer :: j, r, last, sense
 
     last = size(table, 1)
     basic = .false.
     basic(basis) = .true.
-    artificial = is_artificial(limits%n, limits%m, basis)
-    held = .not. limits%free(basis)
-    room = limits%room(basis)
+    artificial = is_artificial(bounds%n, bounds%m, basis)
+    bounded = .not. bounds%free(basis)
+    upper_bound = bounds%upper_bound(basis)
     column = 0
     row = 0
     best = 0.0_dp
-    do j = 1, stored_columns(limits%n, limits%m)
-      if (basic(j) .or. limits%fixed(j)) cycle
-      way = improving_way(table(:, j), artificial, limits%free(j))
-      if (way == 0) cycle
-      entering = real(way, dp)*table(:, j)
-      call ratio_test(entering(:last - 1), table(:last - 1, size(table, 2)), held, room, limits%room(j), step, tied)
+    do j = 1, stored_columns(bounds%n, bounds%m)
+      if (basic(j) .or. bounds%fixed(j)) cycle
+      sense = improving_sense(table(:, j), artificial, bounds%free(j))
+      if (sense == 0) cycle
+      entering = real(sense, dp)*table(:, j)
+      call ratio_test(entering(:last - 1), table(:last - 1, size(table, 2)), bounded, upper_bound, &
+                      bounds%upper_bound(j), step, tied)
       if (.not. any(tied)) cycle
-      ! Before ties are decided, which is dear: can this column win at all?
-      if (column > 0 .and. merit_of(rule, entering(last), step, any(tied(1:) .and. artificial)) <= best) cycle
-      r = decide(table, entering(:last - 1), limits, tied)
-      if (is_barred(basic, limits%n, j, basis, r)) cycle
-      merit = merit_of(rule, entering(last), step, drives_out(artificial, r))
-      if (column > 0 .and. merit <= best) cycle
+      ! Breaking ties is expensive, so skip a column that cannot win.
+      if (column > 0 .and. price_of(rule, entering(last), step, any(tied(1:) .and. artificial)) <= best) cycle
+      r = break_tie(table, entering(:last - 1), bounds, tied)
+      if (keeps_partner(basic, bounds%n, j, basis, r)) cycle
+      price = price_of(rule, entering(last), step, drives_out(artificial, r))
+      if (column > 0 .and. price <= best) cycle
       column = j
       row = r
-      best = merit
-      if (rule == FUGE_PAPER_RULE .and. merit > 0.0_dp) exit
+      best = price
+      if (rule == FUGE_PAPER_RULE .and. price > 0.0_dp) exit
     end do
   end subroutine select_pivot
 
-  !> The next pivot as long as an artificial is left in the equilibrium rows, on these rows
-  !> alone: the simplex method by least column numbers (R. G. Bland, Mathematics of
-  !> Operations Research 2, 1977), which cannot cycle; for the paper's problem, F_1. An
-  !> artificial that is left at zero goes against the largest entry of its row.
+  !> The next pivot as long as an artificial is left in the equilibrium rows.
+  !>
+  !> Looks at these rows alone, by least column numbers (R. G. Bland, Mathematics of Operations Research 2, 1977), which
+  !> cannot cycle; for the paper's problem that is F_1. An artificial left at zero is exchanged for the largest entry of
+  !> its row.
   !>
   !> Arguments as above; `column` = 0 if no forces can carry the resultant.
-  pure subroutine select_for_equilibrium(table, basis, limits, column, row)
+  pure subroutine select_for_equilibrium(table, basis, bounds, column, row)
     real(dp), intent(in) :: table(:, :)
     integer, intent(in) :: basis(:)
-    type(variable_limits), intent(in) :: limits
+    type(variable_bounds), intent(in) :: bounds
     integer, intent(out) :: column, row
-    real(dp) :: part(limits%m + 1), rest(limits%m), free_room(limits%m), step
-    logical :: basic(size(limits%free)), artificial(limits%m), tied(0:limits%m)
-    integer :: j, n, way
+    real(dp) :: entries(bounds%m + 1), right(bounds%m), no_bound(bounds%m), step
+    logical :: basic(size(bounds%free)), artificial(bounds%m), tied(0:bounds%m)
+    integer :: j, n, sense
 
-    n = limits%n
+    n = bounds%n
     basic = .false.
     basic(basis) = .true.
-    artificial = is_artificial(n, limits%m, basis(n + 1:))
-    rest = table(n + 1:n + limits%m, size(table, 2))
-    free_room = huge(free_room)
+    artificial = is_artificial(n, bounds%m, basis(n + 1:))
+    right = table(n + 1:n + bounds%m, size(table, 2))
+    no_bound = huge(no_bound)
     row = 0
     do column = 1, n
-      if (basic(column) .or. limits%fixed(column)) cycle
-      part(:limits%m) = table(n + 1:n + limits%m, column)
-      part(limits%m + 1) = -sum(part(:limits%m), mask=artificial)
-      way = improving_way(part, artificial, limits%free(column))
-      if (way == 0) cycle
-      call ratio_test(way*part(:limits%m), rest, .not. limits%free(basis(n + 1:)), free_room, huge(step), step, tied)
+      if (basic(column) .or. bounds%fixed(column)) cycle
+      entries(:bounds%m) = table(n + 1:n + bounds%m, column)
+      entries(bounds%m + 1) = -sum(entries(:bounds%m), mask=artificial)
+      sense = improving_sense(entries, artificial, bounds%free(column))
+      if (sense == 0) cycle
+      call ratio_test(sense*entries(:bounds%m), right, .not. bounds%free(basis(n + 1:)), no_bound, huge(step), step, &
+                      tied)
       if (.not. any(tied)) cycle
       row = n + minloc(basis(n + 1:), dim=1, mask=tied(1:))
       return
     end do
     column = 0
-    if (sum(rest, mask=artificial) > BALANCE_TOLERANCE) return
+    if (sum(right, mask=artificial) > BALANCE_TOLERANCE) return
     row = n + first_true(artificial)
-    part(1) = 0.0_dp
+    entries(1) = 0.0_dp
     do j = 1, n
-      if (basic(j) .or. limits%fixed(j) .or. abs(table(row, j)) <= part(1)) cycle
+      if (basic(j) .or. bounds%fixed(j) .or. abs(table(row, j)) <= entries(1)) cycle
       column = j
-      part(1) = abs(table(row, j))
+      entries(1) = abs(table(row, j))
     end do
   end subroutine select_for_equilibrium
 
-  !> Condition (b1): a negative entry in the last row, which is minus the sum over the
-  !> rows of the artificials: compared with what that sum is made of. 1, or -1 for a
-  !> free variable that has to fall; 0 if z would not.
-  pure function improving_way(column, artificial, free) result(way)
+  !> Condition (b1), a negative entry in the last row. That entry is minus the sum over the rows of the artificials, and
+  !> is compared with the terms of the sum. 1, or -1 for a free variable that has to decrease; 0 if z would not
+  !> decrease.
+  pure function improving_sense(column, artificial, free) result(sense)
     real(dp), intent(in) :: column(:)
     logical, intent(in) :: artificial(:), free
-    integer :: way
+    integer :: sense
     real(dp) :: rounding
     integer :: last
 
     last = size(column)
     rounding = ENTRY_TOLERANCE*sum(abs(column(:last - 1)), mask=artificial)
-    way = 0
-    if (column(last) < -rounding) way = 1
-    if (free .and. column(last) > rounding) way = -1
-  end function improving_way
+    sense = 0
+    if (column(last) < -rounding) sense = 1
+    if (free .and. column(last) > rounding) sense = -1
+  end function improving_sense
 
-  !> Condition (b2): the partner would stay in the basis, or leave it for its upper limit.
-  pure function is_barred(basic, n, column, basis, row)
+  !> Condition (b2) is violated: the partner would stay in the basis, or leave it at its upper bound.
+  pure function keeps_partner(basic, n, column, basis, row)
     logical, intent(in) :: basic(:)
     integer, intent(in) :: n, column, basis(:), row
-    logical :: is_barred
+    logical :: keeps_partner
     integer :: partner
 
     partner = partner_column(n, column)
-    is_barred = .false.
-    if (partner > 0) is_barred = basic(partner)
-    if (is_barred .and. row > 0) is_barred = basis(row) /= partner
-  end function is_barred
+    keeps_partner = .false.
+    if (partner > 0) keeps_partner = basic(partner)
+    if (keeps_partner .and. row > 0) keeps_partner = basis(row) /= partner
+  end function keeps_partner
 
   pure function drives_out(artificial, row)
     logical, intent(in) :: artificial(:)
@@ -162,123 +165,125 @@ contains
     if (row > 0) drives_out = artificial(row)
   end function drives_out
 
-  !> What the rule prefers is larger; of equals the lowest column stays. `entry` is that
-  !> of the last row, `step` how far the column can enter, `artificial` whether it
-  !> drives an artificial out.
-  pure function merit_of(rule, entry, step, artificial) result(merit)
+  !> The price of a column: the rule takes the largest, the lowest column of equals. `entry` is that of the last row,
+  !> `step` how far the column can enter, `artificial` whether it drives an artificial out.
+  pure function price_of(rule, entry, step, artificial) result(price)
     integer, intent(in) :: rule
     real(dp), intent(in) :: entry, step
     logical, intent(in) :: artificial
-    real(dp) :: merit
+    real(dp) :: price
 
     select case (rule)
     case (FUGE_MOST_NEGATIVE)
-      merit = -entry
+      price = -entry
     case (FUGE_GREATEST_DECREASE)
-      merit = -entry*step
+      price = -entry*step
     case default
-      merit = merge(1.0_dp, 0.0_dp, artificial)
+      price = merge(1.0_dp, 0.0_dp, artificial)
     end select
-  end function merit_of
+  end function price_of
 
-  !> Condition (a): the row whose variable first reaches a limit as `column` enters, or one
-  !> of the other values of `row` above.
-  pure function leaving_row(table, basis, limits, column) result(row)
+  !> Condition (a): the row whose variable first reaches a bound as `column` enters, in the convention of `row` in
+  !> `select_pivot`, or NOTHING_LEAVES.
+  pure function leaving_row(table, basis, bounds, column) result(row)
     real(dp), intent(in) :: table(:, :)
     integer, intent(in) :: basis(:), column
-    type(variable_limits), intent(in) :: limits
+    type(variable_bounds), intent(in) :: bounds
     integer :: row
     logical :: tied(0:size(basis))
     real(dp) :: step
 
-    call ratio_test(table(:size(basis), column), table(:size(basis), size(table, 2)), .not. limits%free(basis), &
-                    limits%room(basis), limits%room(column), step, tied)
+    call ratio_test(table(:size(basis), column), table(:size(basis), size(table, 2)), .not. bounds%free(basis), &
+                    bounds%upper_bound(basis), bounds%upper_bound(column), step, tied)
     row = NOTHING_LEAVES
-    if (any(tied)) row = decide(table, table(:size(basis), column), limits, tied)
+    if (any(tied)) row = break_tie(table, table(:size(basis), column), bounds, tied)
   end function leaving_row
 
-  !> How far a column can enter, and what stops it there: rows, or in place 0 its own
-  !> limit `own_room`; none if it can enter without end.
+  !> How far a column can enter, and what stops it there: rows, or in place 0 its own bound; nothing if it can enter
+  !> without bound.
   !>
-  !> `entering` its entries, `rest` the right-hand sides, `held` the rows of variables that
-  !> must not turn negative, `room` how far they may rise.
-  pure subroutine ratio_test(entering, rest, held, room, own_room, step, tied)
-    real(dp), intent(in) :: entering(:), rest(:), room(:), own_room
-    logical, intent(in) :: held(:)
+  !> `entering` the entries of the column, `right` the right-hand sides, `bounded` the rows of variables that must not
+  !> become negative, `upper_bound` their largest values, `own_bound` that of the column.
+  pure subroutine ratio_test(entering, right, bounded, upper_bound, own_bound, step, tied)
+    real(dp), intent(in) :: entering(:), right(:), upper_bound(:), own_bound
+    logical, intent(in) :: bounded(:)
     real(dp), intent(out) :: step
     logical, intent(out) :: tied(0:)
     real(dp) :: smallest
     integer :: i
 
     smallest = PIVOT_TOLERANCE*maxval(abs(entering))
-    step = own_room
+    step = own_bound
     do i = 1, size(entering)
-      tied(i) = held(i) .and. (entering(i) > smallest .or. (entering(i) < -smallest .and. room(i) < huge(step)))
-      if (tied(i)) step = min(step, way_left(entering(i), rest(i), room(i))/abs(entering(i)))
+      tied(i) = bounded(i) .and. (entering(i) > smallest .or. (entering(i) < -smallest &
+                                                               .and. upper_bound(i) < huge(step)))
+      if (tied(i)) step = min(step, distance_to_bound(entering(i), right(i), upper_bound(i))/abs(entering(i)))
     end do
-    tied(0) = own_room < huge(step)
-    if (tied(0)) tied(0) = own_room - step <= TIE_TOLERANCE
+    tied(0) = own_bound < huge(step)
+    if (tied(0)) tied(0) = own_bound - step <= TIE_TOLERANCE
     do i = 1, size(entering)
-      if (tied(i)) tied(i) = way_left(entering(i), rest(i), room(i)) - step*abs(entering(i)) <= TIE_TOLERANCE
+      if (tied(i)) tied(i) = distance_to_bound(entering(i), right(i), upper_bound(i)) &
+        - step*abs(entering(i)) <= TIE_TOLERANCE
     end do
   end subroutine ratio_test
 
-  !> From the value `rest` to the limit that it approaches.
-  pure function way_left(entry, rest, room) result(way)
-    real(dp), intent(in) :: entry, rest, room
-    real(dp) :: way
+  !> How far the value `right` is from the bound that it approaches.
+  pure function distance_to_bound(entry, right, upper_bound) result(distance)
+    real(dp), intent(in) :: entry, right, upper_bound
+    real(dp) :: distance
 
-    way = rest
-    if (entry < 0.0_dp) way = room - rest
-  end function way_left
+    distance = right
+    if (entry < 0.0_dp) distance = upper_bound - right
+  end function distance_to_bound
 
-  !> The one of the tied rows that leaves, in the convention of `row` above.
-  pure function decide(table, entering, limits, tied) result(row)
+  !> The tied row that leaves, in the convention of `row` in `select_pivot`.
+  pure function break_tie(table, entering, bounds, tied) result(row)
     real(dp), intent(in) :: table(:, :), entering(:)
-    type(variable_limits), intent(in) :: limits
+    type(variable_bounds), intent(in) :: bounds
     logical, intent(in) :: tied(0:)
     integer :: row
 
     row = first_true(tied) - 1
-    if (count(tied) > 1) row = lexicographic_least(table, entering, limits, tied)
+    if (count(tied) > 1) row = lexicographic_least(table, entering, bounds, tied)
     if (row > 0) then
       if (entering(row) < 0.0_dp) row = -row
     end if
-  end function decide
+  end function break_tie
 
-  !> Of tied rows the one whose row of the inverse basis, divided by its pivot, is
-  !> lexicographically least: as if the value of the first basis in row k had been raised
-  !> by epsilon^k. In place 0, the limit of the column itself, nothing was raised.
+  !> Of the tied rows the one whose row of the inverse basis, divided by its pivot, is lexicographically least: as if
+  !> the
+  !> value of the first basis in row k had been perturbed by epsilon^k. In place 0, the bound of the column itself,
+  !> nothing
+  !> was perturbed.
   !>
-  !> The inverse basis, in terms of the first one, stands in the columns of the latter.
-  !> In the paper's problem that of F_1 is not needed: two rows that agree in all others
-  !> cannot both belong to a regular basis with F_0 > 0.
-  pure function lexicographic_least(table, entering, limits, tied) result(row)
+  !> The inverse basis, relative to the first one, stands in the columns of the first one. In the paper's problem the
+  !> column of F_1 is not needed: two rows that agree in all others cannot both belong to a regular basis with F_0 > 0.
+  pure function lexicographic_least(table, entering, bounds, tied) result(row)
     real(dp), intent(in) :: table(:, :), entering(:)
-    type(variable_limits), intent(in) :: limits
+    type(variable_bounds), intent(in) :: bounds
     logical, intent(in) :: tied(0:)
     integer :: row
-    logical :: left(0:size(entering))
-    real(dp) :: raised(0:size(entering)), pivot(0:size(entering)), least
+    logical :: candidate(0:size(entering))
+    real(dp) :: perturbation(0:size(entering)), pivot(0:size(entering)), least
     integer :: i, k
 
-    left = tied
+    candidate = tied
     pivot(0) = 1.0_dp
     pivot(1:) = entering
-    raised(0) = 0.0_dp
-    do k = 1, size(limits%first)
-      raised(1:) = limits%sign(k)*table(:size(entering), limits%first(k))
+    perturbation(0) = 0.0_dp
+    do k = 1, size(bounds%first)
+      perturbation(1:) = bounds%sign(k)*table(:size(entering), bounds%first(k))
       least = huge(least)
       do i = 0, size(entering)
-        if (left(i)) least = min(least, raised(i)/pivot(i))
+        if (candidate(i)) least = min(least, perturbation(i)/pivot(i))
       end do
       do i = 0, size(entering)
-        if (left(i)) left(i) = sign(1.0_dp, pivot(i))*(raised(i) - least*pivot(i)) &
+        if (candidate(i)) candidate(i) = sign(1.0_dp, pivot(i))*(perturbation(i) - least*pivot(i)) &
           <= TIE_TOLERANCE*max(1.0_dp, abs(least*pivot(i)))
       end do
-      if (count(left) == 1) exit
+      if (count(candidate) == 1) exit
     end do
-    row = first_true(left) - 1
+    row = first_true(candidate) - 1
   end function lexicographic_least
 
   pure function first_true(mask) result(first)

@@ -1,5 +1,5 @@
-!> What the variables of the tableau may do: their signs, their upper limits, and the
-!> order in which ties are decided.
+!> Bounds of the tableau's variables: which are free of sign, which have an upper bound, and the order in which ties
+!> are broken.
 module fuge_variable_bounds
   use fuge_kinds, only: dp
   use fuge_column_numbers, only: gap_column, is_gap, stored_columns
@@ -7,31 +7,30 @@ module fuge_variable_bounds
   implicit none
   private
 
-  type, public :: variable_limits
-    !> Points and free motions.
+  type, public :: variable_bounds
+    !> Number of points and of free modes.
     integer :: n = 0, m = 0
-    !> Largest gap at each point, (n), in the tableau's unit; huge where one-sided.
+    !> Play of each point, (n), in the tableau's unit; huge where one-sided.
     real(dp), allocatable :: upper(:)
-    !> Variables of either sign, which may enter both ways and never leave, (3n+2m).
+    !> Variables of either sign, which may enter in both senses and never leave, (3n+2m).
     logical, allocatable :: free(:)
-    !> Variables that stay at zero, and so never enter, (3n+2m).
+    !> Variables fixed at zero, which never enter, (3n+2m).
     logical, allocatable :: fixed(:)
-    !> Columns of the first basis after the equilibrium, with the sign in which the tableau
-    !> shows them: gaps in the place of their artificials, then forces, (n+m). The paper's
-    !> problem needs only the gaps, (n).
+    !> Columns of the first basis in equilibrium, with the sign in which the tableau has them: gaps in the place of
+    !> their artificials, then forces, (n+m). The paper's problem needs only the gaps, (n).
     integer, allocatable :: first(:)
     real(dp), allocatable :: sign(:)
   contains
     procedure :: set
-    procedure :: room
-  end type variable_limits
+    procedure :: upper_bound
+  end type variable_bounds
 
 contains
 
-  !> Those of the paper: nothing negative, nothing limited. `ties` is how many columns
-  !> decide ties. Error: FUGE_ERR_MEMORY.
+  !> The bounds of the paper's problem: nothing is negative, nothing has an upper bound. `ties` is the number of
+  !> columns that break ties. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
   pure subroutine set(self, n, m, ties, status)
-    class(variable_limits), intent(inout) :: self
+    class(variable_bounds), intent(inout) :: self
     integer, intent(in) :: n, m, ties
     integer, intent(out) :: status
     integer :: k, stat
@@ -51,14 +50,14 @@ contains
     self%sign = 1.0_dp
   end subroutine set
 
-  !> The largest value of the variable in `column`; huge if there is none.
-  elemental function room(self, column) result(largest)
-    class(variable_limits), intent(in) :: self
+  !> The largest value of the variable in `column`; huge if it has no upper bound.
+  elemental function upper_bound(self, column) result(largest)
+    class(variable_bounds), intent(in) :: self
     integer, intent(in) :: column
     real(dp) :: largest
 
     largest = huge(largest)
     if (is_gap(self%n, column)) largest = self%upper(column - self%n)
-  end function room
+  end function upper_bound
 
 end module fuge_variable_bounds

@@ -52,7 +52,7 @@ end module own_types
 
 program types
   use fuge, only: dp => fuge_dp, fuge_band_stiffness, fuge_body, fuge_condense, fuge_condensed, fuge_contact_edges, &
-    fuge_dense_operator, fuge_dense_stiffness, fuge_follow_path, fuge_general_path, &
+    fuge_dense_operator, fuge_dense_stiffness, fuge_follow_path, &
     fuge_halfplane_matrix, fuge_halfplane_operator, fuge_history, fuge_info, fuge_interval, fuge_load_path, &
     fuge_operator, fuge_options, fuge_path, fuge_problem, fuge_residual, fuge_solution, fuge_solver, &
     fuge_status_text, fuge_stiffness, fuge_violation, FUGE_DONE, FUGE_ERR_UNSUPPORTED, FUGE_MEAN, FUGE_TABLEAU
@@ -124,14 +124,14 @@ contains
     type(fuge_options) :: options
     type(fuge_history) :: history
     type(fuge_path) :: path
-    type(fuge_general_path) :: general
+    type(fuge_path) :: general
     type(fuge_problem) :: start
     type(fuge_solver) :: solver
     type(fuge_solution) :: solution
     type(fuge_info) :: info
 
     call fuge_load_path(dense, gap, LOAD, path, info)
-    call expect(path%events > 0, 'load path: '//trim(info%message))
+    call expect(path%entries > 1, 'load path: '//trim(info%message))
     start%gap = gap
     start%resultant = [0.5_dp*LOAD]
     call fuge_follow_path(dense, start, [LOAD], general, info)

@@ -1,0 +1,182 @@
+!> The equations of a working set: solved, refined, and measured against the contact conditions.
+!>
+!> The block pivoting and the primal active-set method try one set after the other; what they do with
+!> each is the same and stands here.
+module fuge_working_set
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_contact_solution, only: contact_solution
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
+  use fuge_kinds, only: dp
+  use fuge_kkt_factor, only: kkt_factor
+  use fuge_kkt_solution, only: add_elastic_displacement, displacement_magnitude, largest_contribution, &
+    refine_solution, &
+    rigid_displacement, solve_set
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  !> Violations below this fraction of the largest force, or of the lengths at the point, are rounding.
+  real(dp), parameter, public :: SIGN_TOLERANCE = 1.0e-14_dp
+
+  type, public :: working_set
+    !> Gaps less `gap_datum`, (n), length.
+    real(dp), allocatable :: reduced_gap(:)
+    !> Taken out of all gaps if there is a translation to take it up, else 0; length.
+    real(dp) :: gap_datum = 0.0_dp
+    !> Forces up to this one are rounding; 0 if there is a load to compare them with.
+    real(dp) :: zero_force = 0.0_dp
+    !> Scaled violation of the sign conditions at each point, (n).
+    real(dp), allocatable :: violation(:)
+  contains
+    procedure :: start
+    procedure :: set_gap_datum
+    procedure :: solve
+    procedure :: refine
+    procedure :: measure
+    procedure, private :: gap_at_stops
+  end type working_set
+
+contains
+
+  !> Prepare for a problem. Excluded points of `state` (n) are opened, tied ones closed. `status`: FUGE_DONE
+  !> or FUGE_ERR_MEMORY.
+  subroutine start(self, canonical, state, status)
+    class(working_set), intent(out) :: self
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(inout) :: state(:)
+    integer, intent(out) :: status
+    integer :: stat
+
+    allocate (self%reduced_gap(size(state)), self%violation(size(state)), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+    if (stat /= 0) return
+    if (canonical%has_translation) self%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
+    self%reduced_gap = canonical%gap - self%gap_datum
+    self%violation = 0.0_dp
+    self%zero_force = rounding_force(canonical, self%reduced_gap)
+    where (canonical%excluded) state = FUGE_OPEN
+    where (canonical%is_tied()) state = FUGE_AT_LOWER_STOP
+  end subroutine start
+
+  !> Without a load all forces may be rounding. Those count that displace by SIGN_TOLERANCE times the gaps, or,
+  !> if no mode is free, times the largest overlap. Zero if there is a load.
+  pure function rounding_force(canonical, reduced_gap) result(zero_force)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: reduced_gap(:)
+    real(dp) :: zero_force
+    real(dp) :: length, largest
+    integer :: k
+
+    zero_force = 0.0_dp
+    if (any(abs(canonical%load) > 0.0_dp)) return
+    length = 0.0_dp
+    largest = 0.0_dp
+    do k = 1, size(reduced_gap)
+      largest = max(largest, maxval(abs(canonical%alpha(:size(reduced_gap), k))))
+      if (canonical%excluded(k)) cycle
+      if (size(canonical%load) > 0) then
+        length = max(length, abs(reduced_gap(k)))
+      else
+        length = max(length, -reduced_gap(k), reduced_gap(k) - canonical%upper(k))
+      end if
+    end do
+    if (largest > 0.0_dp) zero_force = SIGN_TOLERANCE*(length/largest)
+  end function rounding_force
+
+  !> Count gaps from where the bodies meet under `motion` (m): one point far below the others would cost
+  !> them digits.
+  pure subroutine set_gap_datum(self, canonical, motion)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: motion(:)
+
+    self%gap_datum = canonical%gap(minloc(abs(self%reduced_gap - rigid_displacement(canonical%modes, motion)), dim=1, &
+                                          mask=.not. canonical%excluded))
+    self%reduced_gap = canonical%gap - self%gap_datum
+  end subroutine set_gap_datum
+
+  !> The gaps that displacements have to close: at the upper stop the play stays open.
+  pure function gap_at_stops(self, canonical, state) result(gap)
+    class(working_set), intent(in) :: self
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
+    real(dp) :: gap(size(state))
+
+    gap = self%reduced_gap
+    where (state < FUGE_OPEN) gap = self%reduced_gap - canonical%upper
+  end function gap_at_stops
+
+  !> Forces and motion of the set in `solution%state`, whose `factor` is set.
+  subroutine solve(self, canonical, factor, solution)
+    class(working_set), intent(in) :: self
+    type(canonical_problem), intent(in) :: canonical
+    type(kkt_factor), intent(in) :: factor
+    type(contact_solution), intent(inout) :: solution
+
+    call solve_set(factor, canonical%datum, self%gap_at_stops(canonical, solution%state), canonical%load, &
+                   solution%force, solution%motion)
+  end subroutine solve
+
+  !> Iterative refinement of forces and motion; `regularisation` as in `refine_solution`.
+  subroutine refine(self, canonical, factor, regularisation, solution)
+    class(working_set), intent(in) :: self
+    type(canonical_problem), intent(in) :: canonical
+    type(kkt_factor), intent(in) :: factor
+    real(dp), intent(in) :: regularisation
+    type(contact_solution), intent(inout) :: solution
+
+    call refine_solution(canonical, self%gap_at_stops(canonical, solution%state), factor, regularisation, &
+                         solution%state /= FUGE_OPEN, solution%force, solution%motion)
+  end subroutine refine
+
+  !> Gaps that follow from forces and motion, and the violations. Lengths are compared with all
+  !> that displaces the point if `exact`, else with the contribution of the largest force, which costs one column.
+  pure subroutine measure(self, canonical, exact, solution)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    logical, intent(in) :: exact
+    type(contact_solution), intent(inout) :: solution
+    real(dp) :: rigid_gap(size(solution%state)), magnitude(size(solution%state))
+
+    rigid_gap = self%reduced_gap - rigid_displacement(canonical%modes, solution%motion)
+    solution%gap = rigid_gap
+    associate (alpha => canonical%alpha, datum => canonical%datum, contact => solution%state /= FUGE_OPEN)
+      call add_elastic_displacement(alpha, datum, contact, solution%force, solution%gap)
+      if (exact) then
+        magnitude = displacement_magnitude(alpha, datum, contact, solution%force)
+      else
+        magnitude = largest_contribution(alpha, datum, solution%force)
+      end if
+    end associate
+    self%violation = violations(canonical, solution, rigid_gap, magnitude, self%zero_force)
+  end subroutine measure
+
+  !> Forces of the wrong sign as fractions of the largest force, and gaps beyond a stop as fractions of a length.
+  !>
+  !> `rigid_gap` (n) is the gap less the rigid displacement, which the elastic displacement has to make up
+  !> for at a point in contact; `magnitude` (n) the size of the terms of that displacement. Tied and
+  !> excluded points cannot be wrong.
+  pure function violations(canonical, solution, rigid_gap, magnitude, zero_force) result(violation)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_solution), intent(in) :: solution
+    real(dp), intent(in) :: rigid_gap(:), magnitude(:), zero_force
+    real(dp) :: violation(size(rigid_gap))
+    real(dp) :: largest, beyond
+    integer :: j
+
+    largest = maxval(abs(solution%force))
+    violation = 0.0_dp
+    do j = 1, size(violation)
+      if (canonical%excluded(j) .or. .not. canonical%upper(j) > 0.0_dp) cycle
+      associate (state => solution%state(j), force => solution%force(j), gap => solution%gap(j))
+        if (state /= FUGE_OPEN) then
+          if (force*state < -zero_force) violation(j) = abs(force)/largest
+        else
+          beyond = max(-gap, gap - canonical%upper(j))
+          if (beyond > 0.0_dp) violation(j) = beyond/max(abs(rigid_gap(j)) + magnitude(j), beyond)
+        end if
+      end associate
+    end do
+  end function violations
+
+end module fuge_working_set

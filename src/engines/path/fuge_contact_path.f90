@@ -1,0 +1,265 @@
+!> The exact course of a contact as its load changes, without load steps: as the load of the plain problem grows
+!> from zero, or from one general problem to another.
+module fuge_contact_path
+  use fuge_active_set_engine, only: solve_by_active_set
+  use fuge_canonical_problem, only: canonical_problem, make_canonical
+  use fuge_contact_solution, only: allocate_solution, contact_solution
+  use fuge_input_checks, only: check_finite
+  use fuge_kinds, only: dp
+  use fuge_kkt_factor, only: kkt_factor
+  use fuge_matrix_checks, only: check_magnitudes, check_matrix
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_monitor_type, only: monitor_relay
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: fuge_options
+  use fuge_parametric_pivoting, only: follow_line, load_line, path_position, position_at
+  use fuge_path_type, only: fuge_path, move_path, trim_path
+  use fuge_problem_type, only: fuge_problem, check_problem, check_load, set_problem
+  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, &
+    FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
+  implicit none
+  private
+
+  public :: fuge_load_path, fuge_follow_path
+
+  !> Resultants at the start larger than their change by more than this factor cost parameters no more digits: ties
+  !> would be lost, but events that differ are kept apart.
+  real(dp), parameter :: LARGEST_ORIGIN = 1.0e3_dp
+
+contains
+
+  !> Follow the contact of the plain problem from zero load up to `load`; the parameter of the path is the load.
+  !>
+  !> `operator` a fuge_dense_operator with n points, `gap` (n) length, `load` >= 0 force; out: `path`, untouched on an
+  !> error; info%iterations counts its events. Without load all points are open; those that touch first have entries at
+  !> zero load. Errors: as for a solve, and FUGE_ERR_ITERATION_LIMIT after more events than 50 for each point.
+  subroutine fuge_load_path(operator, gap, load, path, info)
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap(:), load
+    type(fuge_path), intent(inout) :: path
+    type(fuge_info), intent(out) :: info
+    type(fuge_problem) :: problem
+    type(load_line) :: line
+
+    call set_problem(gap, load, problem, info)
+    if (info%failed()) return
+    select type (operator)
+    class is (fuge_dense_operator)
+      if (operator%points() < 1) then
+        call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before')
+      else
+        call check_problem(problem, operator%points(), info)
+      end if
+      if (.not. info%failed() .and. load > 0.0_dp) call check_matrix(operator%alpha, load, info)
+      if (.not. info%failed()) call set_problem(gap, 0.0_dp, problem, info)
+      line%last = load
+      if (.not. info%failed()) call follow(operator, problem, [1.0_dp], line, path, info)
+    class default
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the load path needs the coefficients of a fuge_dense_operator')
+    end select
+  end subroutine fuge_load_path
+
+  !> Follow the contact from a general problem to another with other resultants and prescribed motions, w(t) = w +
+  !> t*(finish - w) for t from 0 to 1: every t < 1 at which a point comes to a stop or leaves it.
+  !>
+  !> `operator` a fuge_dense_operator with n points; `problem` the start, in equilibrium; `finish` (m) the resultants at
+  !> the end, where prescribed the motions; out: `path`, untouched on an error; info%iterations counts its events. A
+  !> motion that nothing resists at the start starts at first touch if the load change closes the gap. Errors: as for a
+  !> solve; FUGE_ERR_NO_EQUILIBRIUM also where equilibrium ends on the way: the message gives the parameter, and a path
+  !> to a smaller one is possible; FUGE_ERR_ITERATION_LIMIT after more events than 50 for each point.
+  subroutine fuge_follow_path(operator, problem, finish, path, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: finish(:)
+    type(fuge_path), intent(inout) :: path
+    type(fuge_info), intent(out) :: info
+    type(load_line) :: line
+
+    select type (operator)
+    class is (fuge_dense_operator)
+      if (operator%points() < 1) then
+        call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before')
+      else
+        call check_problem(problem, operator%points(), info)
+      end if
+      if (.not. info%failed()) call check_finish(operator%alpha, problem, finish, info)
+      if (info%failed()) return
+      associate (start => start_values(problem))
+        line%last = 1.0_dp
+        line%origin = 1.0_dp + min(ratio(start, finish - start), LARGEST_ORIGIN)
+        call follow(operator, problem, finish - start, line, path, info)
+      end associate
+    class default
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the path needs the coefficients of a fuge_dense_operator')
+    end select
+  end subroutine fuge_follow_path
+
+  !> Refuse an end that no path leads to.
+  pure subroutine check_finish(alpha, problem, finish, info)
+    real(dp), intent(in) :: alpha(:, :), finish(:)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_info), intent(inout) :: info
+
+    if (size(finish) /= problem%mode_count()) then
+      call report(info, FUGE_ERR_SIZE, 'finish has '//text(size(finish))//' value(s): it needs ' &
+                  //text(problem%mode_count()))
+    else if (size(finish) > 0) then
+      call check_finite(finish, 'finish', info)
+      if (.not. info%failed()) call check_magnitudes(alpha(:size(alpha, 2), :), maxval(abs(finish)), info)
+      if (.not. info%failed() .and. problem%is_plain()) call check_load(finish(1), info)
+    end if
+  end subroutine check_finish
+
+  !> Resultants at the start, where prescribed the motions, (m).
+  pure function start_values(problem) result(values)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: values(problem%mode_count())
+
+    values = 0.0_dp
+    if (allocated(problem%resultant)) values = problem%resultant
+    if (allocated(problem%prescribed)) where (problem%prescribed) values = problem%motion
+  end function start_values
+
+  pure function ratio(values, changes)
+    real(dp), intent(in) :: values(:), changes(:)
+    real(dp) :: ratio, largest, change
+
+    ratio = 0.0_dp
+    if (size(values) < 1) return
+    largest = maxval(abs(values))
+    change = maxval(abs(changes))
+    if (largest > LARGEST_ORIGIN*change) then
+      ratio = LARGEST_ORIGIN
+    else if (change > 0.0_dp) then
+      ratio = largest/change
+    end if
+  end function ratio
+
+  !> Follow a checked problem whose resultants, where prescribed the motions, change by `rate` (m) per unit of the
+  !> parameter. The rates of the canonical problem are added to `line`.
+  subroutine follow(operator, problem, rate, line, path, info)
+    type(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: rate(:)
+    type(load_line), intent(inout) :: line
+    type(fuge_path), intent(inout) :: path
+    type(fuge_info), intent(inout) :: info
+    type(canonical_problem) :: canonical
+    type(fuge_path) :: followed
+    real(dp) :: no_change(problem%points())
+
+    call make_canonical(problem, canonical, info)
+    if (info%failed()) return
+    call canonical%set_matrix(operator%alpha, operator%datum())
+    no_change = 0.0_dp
+    call canonical%transform_change(no_change, rate, line%reduced_gap_rate, line%load_rate)
+    call follow_canonical(canonical, line, followed, info)
+    if (info%failed()) return
+    info%iterations = followed%entries - 1
+    call transform_motions(canonical, start_values(problem), rate, followed)
+    call move_path(followed, path)
+  end subroutine follow
+
+  !> From the solution at the start of the line to its end, in the modes of the canonical problem.
+  subroutine follow_canonical(canonical, line, path, info)
+    type(canonical_problem), intent(inout) :: canonical
+    type(load_line), intent(in) :: line
+    type(fuge_path), intent(inout) :: path
+    type(fuge_info), intent(inout) :: info
+    type(path_position) :: position
+    real(dp) :: gap_datum
+    integer :: k, status
+
+    gap_datum = 0.0_dp
+    if (canonical%has_translation) gap_datum = minval(canonical%gap)
+    call find_start(gap_datum, canonical, position, info)
+    if (info%failed()) return
+    call follow_line(canonical, line, position, path, status)
+    if (status == FUGE_DONE) call trim_path(path, status)
+    call explain_end(status, path%entries, position%parameter, info)
+    if (info%failed() .or. .not. canonical%has_translation) return
+    associate (datum => canonical%datum, motion => path%motion, rate => path%rate)
+      do k = 1, path%entries
+        motion(1, k) = motion(1, k) + gap_datum + datum*(canonical%load(1) + path%parameter(k)*line%load_rate(1))
+        rate(1, k) = rate(1, k) + datum*line%load_rate(1)
+      end do
+    end associate
+  end subroutine follow_canonical
+
+  !> The solution at the start. `gap_datum` is subtracted from the gaps of the problem and, with the datum of alpha,
+  !> from
+  !> its translation.
+  subroutine find_start(gap_datum, canonical, position, info)
+    real(dp), intent(in) :: gap_datum
+    type(canonical_problem), intent(inout) :: canonical
+    type(path_position), intent(out) :: position
+    type(fuge_info), intent(inout) :: info
+    type(contact_solution) :: solution
+    type(kkt_factor) :: factor
+    type(monitor_relay) :: nobody
+    integer :: status
+
+    call allocate_solution(size(canonical%gap), size(canonical%load), solution, info)
+    if (info%failed()) return
+    if (is_unloaded(canonical)) then
+      solution%force = 0.0_dp
+      solution%motion = 0.0_dp
+      canonical%gap = canonical%gap - gap_datum
+      solution%gap = canonical%gap
+    else
+      call solve_by_active_set(canonical, fuge_options(), nobody, factor, solution, info)
+      if (info%failed()) return
+      ! The path itself chooses where unresisted motions begin; only the forces have to be unique.
+      if (.not. factor%regularisation > 0.0_dp) call report(info, FUGE_DONE, '')
+      canonical%gap = canonical%gap - gap_datum
+      if (canonical%has_translation) solution%motion(1) = solution%motion(1) - (gap_datum &
+          + canonical%datum*canonical%load(1))
+    end if
+    call position_at(canonical, solution, position, status)
+    if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
+  end subroutine find_start
+
+  !> The plain problem without a load, where the bodies just touch.
+  pure function is_unloaded(canonical)
+    type(canonical_problem), intent(in) :: canonical
+    logical :: is_unloaded
+
+    is_unloaded = canonical%plain
+    if (is_unloaded) is_unloaded = .not. canonical%load(1) > 0.0_dp
+  end function is_unloaded
+
+  !> Put the status at the end of a path into words.
+  pure subroutine explain_end(status, entries, parameter, info)
+    integer, intent(in) :: status, entries
+    real(dp), intent(in) :: parameter
+    type(fuge_info), intent(inout) :: info
+
+    if (status == FUGE_ERR_NO_EQUILIBRIUM) then
+      call report(info, status, &
+                  'equilibrium ends at parameter '//text(parameter)//' of the path: choose an end before it')
+    else if (status /= FUGE_DONE) then
+      call report(info, status, 'after '//text(max(entries - 1, 0))//' events: '//fuge_status_text(status))
+    end if
+  end subroutine explain_end
+
+  !> Motions and their rates in the caller's modes. `start` (m) and `rate` (m) are the caller's resultants and
+  !> prescribed
+  !> motions at the start, and their rates.
+  subroutine transform_motions(canonical, start, rate, path)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: start(:), rate(:)
+    type(fuge_path), intent(inout) :: path
+    real(dp), allocatable :: motion(:, :), motion_rate(:, :)
+    integer :: k
+
+    allocate (motion(size(start), path%entries), motion_rate(size(start), path%entries))
+    do k = 1, path%entries
+      call canonical%to_given_modes(start + path%parameter(k)*rate, path%motion(:, k), motion(:, k))
+      call canonical%to_given_modes(rate, path%rate(:, k), motion_rate(:, k))
+    end do
+    call move_alloc(motion, path%motion)
+    call move_alloc(motion_rate, path%rate)
+  end subroutine transform_motions
+
+end module fuge_contact_path

@@ -1,0 +1,139 @@
+!> The course of a contact along a line of loads: the type, and how entries are added.
+module fuge_path_type
+  use fuge_kinds, only: dp
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  public :: append_entry, move_path, start_path, trim_path
+
+  !> The events along a line of loads, in their order, after an entry for the start.
+  !>
+  !> Points that change together have an entry each; motion, rate and contacts are then those after all
+  !> of them. The parameter is the load F_0 (force) for `fuge_load_path`, and runs from 0 to 1 for `fuge_follow_path`.
+  type, public :: fuge_path
+    !> Entries in use, the start included.
+    integer :: entries = 0
+    !> States at the start, (n): FUGE_AT_LOWER_STOP (tied points too), FUGE_OPEN or FUGE_AT_UPPER_STOP.
+    integer, allocatable :: start(:)
+    !> Parameter of each entry, ascending, 0 at the start.
+    real(dp), allocatable :: parameter(:)
+    !> The point that changes, 0 for the start, and its new state.
+    integer, allocatable :: point(:), state(:)
+    !> Points at a stop from there on.
+    integer, allocatable :: contacts(:)
+    !> Motions q there, and dq/d(parameter) from there to the next entry, (m, entries), prescribed ones included. A
+    !> motion
+    !> that nothing resists may jump; the value is that after the jump. For `fuge_load_path` q is the approach v_0, and
+    !> 1/rate the contact stiffness dF_0/dv_0.
+    real(dp), allocatable :: motion(:, :), rate(:, :)
+  contains
+    procedure :: states
+  end type fuge_path
+
+contains
+
+  !> States (n) of all points after an entry.
+  pure function states(self, entry)
+    class(fuge_path), intent(in) :: self
+    integer, intent(in) :: entry
+    integer :: states(size(self%start))
+    integer :: k
+
+    states = self%start
+    do k = 1, min(entry, self%entries)
+      if (self%point(k) > 0) states(self%point(k)) = self%state(k)
+    end do
+  end function states
+
+  !> Begin with the states (n) at the start and room for some entries of m motions. `status`: FUGE_DONE or
+  !> FUGE_ERR_MEMORY.
+  pure subroutine start_path(state, m, path, status)
+    integer, intent(in) :: state(:), m
+    type(fuge_path), intent(out) :: path
+    integer, intent(out) :: status
+    integer :: stat
+
+    allocate (path%start(size(state)), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+    if (stat /= 0) return
+    path%start = state
+    call resize(path, size(state) + 8, m, status)
+  end subroutine start_path
+
+  !> Add an entry. `motion` and `rate` (m); `point` is 0 for the start. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
+  pure subroutine append_entry(path, parameter, point, state, motion, rate, status)
+    type(fuge_path), intent(inout) :: path
+    real(dp), intent(in) :: parameter, motion(:), rate(:)
+    integer, intent(in) :: point, state(:)
+    integer, intent(out) :: status
+
+    status = FUGE_DONE
+    if (path%entries == size(path%point)) call resize(path, 2*path%entries, size(motion), status)
+    if (status /= FUGE_DONE) return
+    path%entries = path%entries + 1
+    associate (last => path%entries)
+      path%parameter(last) = parameter
+      path%motion(:, last) = motion
+      path%rate(:, last) = rate
+      path%point(last) = point
+      path%state(last) = 0
+      if (point > 0) path%state(last) = state(point)
+      path%contacts(last) = count(state /= 0)
+    end associate
+  end subroutine append_entry
+
+  !> Give back the room that entries have left. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
+  pure subroutine trim_path(path, status)
+    type(fuge_path), intent(inout) :: path
+    integer, intent(out) :: status
+
+    call resize(path, path%entries, size(path%motion, 1), status)
+  end subroutine trim_path
+
+  !> Replace `path` by another one, which is left empty.
+  pure subroutine move_path(source, path)
+    type(fuge_path), intent(inout) :: source, path
+
+    path%entries = source%entries
+    source%entries = 0
+    call move_alloc(source%start, path%start)
+    call move_arrays(source, path)
+  end subroutine move_path
+
+  pure subroutine move_arrays(source, path)
+    type(fuge_path), intent(inout) :: source, path
+
+    call move_alloc(source%parameter, path%parameter)
+    call move_alloc(source%motion, path%motion)
+    call move_alloc(source%rate, path%rate)
+    call move_alloc(source%point, path%point)
+    call move_alloc(source%state, path%state)
+    call move_alloc(source%contacts, path%contacts)
+  end subroutine move_arrays
+
+  pure subroutine resize(path, capacity, m, status)
+    type(fuge_path), intent(inout) :: path
+    integer, intent(in) :: capacity, m
+    integer, intent(out) :: status
+    type(fuge_path) :: resized
+    integer :: stat
+
+    allocate (resized%parameter(capacity), resized%motion(m, capacity), resized%rate(m, capacity), &
+              resized%point(capacity), resized%state(capacity), resized%contacts(capacity), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+    if (stat /= 0) return
+    associate (used => path%entries)
+      if (used > 0) then
+        resized%parameter(:used) = path%parameter(:used)
+        resized%motion(:, :used) = path%motion(:, :used)
+        resized%rate(:, :used) = path%rate(:, :used)
+        resized%point(:used) = path%point(:used)
+        resized%state(:used) = path%state(:used)
+        resized%contacts(:used) = path%contacts(:used)
+      end if
+    end associate
+    call move_arrays(resized, path)
+  end subroutine resize
+
+end module fuge_path_type

@@ -1,0 +1,79 @@
+!> Derivatives of a solution with respect to gaps, loads and prescribed motions.
+module fuge_sensitivity
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_kinds, only: dp
+  use fuge_kkt_factor, only: kkt_factor
+  use fuge_kkt_solution, only: add_elastic_displacement, rigid_displacement, solve_set
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_number_text, only: text
+  use fuge_problem_type, only: fuge_solution
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM
+  implicit none
+  private
+
+  public :: find_derivative
+
+  !> Relative error of the equilibrium of changes above which the contact cannot carry them.
+  real(dp), parameter :: EQUILIBRIUM_TOLERANCE = 1.0e-6_dp
+
+contains
+
+  !> Changes of forces, gaps and motions at a fixed contact set, by two triangular solves.
+  !>
+  !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of the
+  !> resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. Errors,
+  !> `change`
+  !> untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a mode that the changes load,
+  !> FUGE_ERR_MEMORY.
+  subroutine find_derivative(canonical, operator, factor, state, gap_change, load_change, change, info)
+    type(canonical_problem), intent(in) :: canonical
+    class(fuge_dense_operator), intent(in) :: operator
+    type(kkt_factor), intent(in) :: factor
+    integer, intent(in) :: state(:)
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: force(:), gap(:), motion(:), reduced_gap(:), load(:)
+    real(dp) :: datum, free_motion(size(canonical%load))
+    integer :: stat
+
+    allocate (force(size(state)), gap(size(state)), motion(size(load_change)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(size(state))//' points')
+      return
+    end if
+    datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
+    call canonical%transform_change(gap_change, load_change, reduced_gap, load)
+    call solve_set(factor, datum, reduced_gap, load, force, free_motion)
+    if (.not. is_in_equilibrium(canonical%modes, load, force)) then
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not hold the motions that these resultants act ' &
+                  //'in: they would turn the body over, whatever the size of the change')
+      return
+    end if
+    gap = reduced_gap - rigid_displacement(canonical%modes, free_motion)
+    call add_elastic_displacement(operator%alpha, datum, state /= FUGE_OPEN, force, gap)
+    where (state /= FUGE_OPEN) gap = 0.0_dp
+    if (canonical%has_translation) free_motion(1) = free_motion(1) + datum*load(1)
+    call canonical%to_given_modes(load_change, free_motion, motion)
+    call canonical%add_excluded_gaps(operator%alpha, gap_change, force, motion, gap)
+    call move_alloc(force, change%force)
+    call move_alloc(gap, change%gap)
+    call move_alloc(motion, change%motion)
+  end subroutine find_derivative
+
+  !> Is R^T f = load, but for rounding of the terms?
+  pure function is_in_equilibrium(modes, load, force) result(balanced)
+    real(dp), intent(in) :: modes(:, :), load(:), force(:)
+    logical :: balanced
+    real(dp) :: magnitude
+    integer :: j
+
+    balanced = .true.
+    do j = 1, size(load)
+      magnitude = max(abs(load(j)), dot_product(abs(force), abs(modes(:, j))))
+      balanced = balanced .and. abs(load(j) - dot_product(force, modes(:, j))) <= EQUILIBRIUM_TOLERANCE*magnitude
+    end do
+  end function is_in_equilibrium
+
+end module fuge_sensitivity
