@@ -1,10 +1,10 @@
-"""Text that Python's Markdown, which FORD uses, reads as forges do."""
+"""Text for Python's Markdown, which FORD uses, so that it is read as GitHub and others read it."""
 
 import re
 
 
 class _State:
-    """Where a line is."""
+    """The context of a line."""
 
     def __init__(self):
         self.fenced = False   # in a block between ``` or ~~~
@@ -16,9 +16,9 @@ class _State:
 def for_markdown(text, mark=""):
     """The text with an empty line before lists, four spaces below their items, and a language for formulas.
 
-    Elsewhere a list needs no empty line and an item two spaces; the language of indented blocks
-    would be guessed to colour them, but they are formulas. With a `mark` only lines that begin
-    with it are text, a docstring.
+    On GitHub a list needs no empty line before it, and its items are indented by two spaces. Without a
+    language, indented blocks would be coloured by a guess, but they are formulas. With a `mark`, that of a
+    docstring, only lines that begin with it are text.
     """
     out, state = [], _State()
     for line in text.split("\n"):
@@ -32,7 +32,7 @@ def for_markdown(text, mark=""):
 
 
 def _lines(body, state):
-    """A line of text, and what has to be before it."""
+    """A line of text, after the lines that have to be before it."""
     state.fenced ^= body.startswith(("```", "~~~"))
     if state.fenced:
         state.before = body

@@ -1,8 +1,8 @@
 """Look for broken links: links.py ROOT SITE
 
-In the pages of the repository every link has to lead to a file, and to a heading of it; in the
-site every href and src to a file, and to an anchor of it, and nothing may be loaded from
-elsewhere. A broken link is printed, and the exit status is then 1.
+In the pages of the repository every link has to lead to a file, and to a heading of it if it names one. In
+the site every href and src has to lead to a file, and to an anchor of it, and nothing may be loaded from
+other sites. Broken links are printed, and the exit status is then 1.
 """
 
 import html.parser
@@ -33,14 +33,14 @@ def _outside(code, text, change):
 
 
 def targets(text):
-    """Where the links of a page lead."""
+    """The targets of the links of a page."""
     found = []
     outside_code(text, lambda part: found.extend(match[1] for match in LINK.findall(part)) or part)
     return found
 
 
 def headings(text):
-    """The anchors of a page, as forges make them."""
+    """The anchors of a page, as GitHub makes them."""
     text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
     titles = re.findall(r"^#+ +(.*?) *$", text, re.M)
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}

@@ -1,7 +1,7 @@
-"""Write what FORD makes the site of: prepare.py ROOT WORK
+"""Write the input from which FORD makes the site: prepare.py ROOT WORK
 
 WORK/src gets the public part of the sources, WORK/pages the pages: those of ROOT/doc with the
-front matter that FORD asks for and links that hold in the site, the C headers, the repository's
+front matter that FORD needs and with links that are valid in the site, the C headers, the repository's
 files that pages link to, and a list of all names of module fuge.
 """
 
@@ -15,8 +15,9 @@ from links import LINK, outside_blocks, outside_code, targets
 from reduce import PROCEDURE, TYPE, exports, own_exports, reduced, without_uses
 
 # Modules in the order in which a reader meets them; others follow.
-FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_matrix_operator", "fuge_halfplane_influence",
-         "fuge_halfplane_fft", "fuge_edge_refinement", "fuge_certificate", "fuge_path_types", "fuge_elastic_moduli", "fuge_profile_files")
+FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_matrix_operator",
+         "fuge_halfplane_influence", "fuge_halfplane_fft", "fuge_edge_refinement", "fuge_certificate", "fuge_path_types",
+         "fuge_elastic_moduli", "fuge_profile_files")
 # A name of fuge as code that is no link yet.
 NAME = re.compile(r"(?<!\[)`(fuge_\w+)`(?!\])")
 ROOT_PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
@@ -41,7 +42,7 @@ class Site:
             self.place[path] = path.name.replace(".", "_")
 
     def write(self):
-        """All pages; files that they link to become pages too."""
+        """Write all pages; files that they link to become pages too."""
         self.pages.mkdir(parents=True)
         for path in list(self.place):
             if path.suffix == ".f90":
@@ -67,7 +68,7 @@ class Site:
             path = (start.parent/target.split("#")[0]).resolve()
             if self.place.get(path) not in (None, "index", *named):
                 named.append(self.place[path])
-        # Files come last.
+        # Pages of files come last.
         order = sorted(named, key=lambda name: name.startswith("file_"))
         for path, name in self.place.items():
             if path.parent == start.parent and path != start and name not in order:
@@ -148,13 +149,13 @@ def first_sentence(doc):
 
 
 def described(source):
-    """What is said about each name of a source: kind and first sentence."""
+    """The description of each name of a source: kind and first sentence."""
     found, doc = {}, []
     for line in source.split("\n"):
         if line.lstrip().startswith("!>"):
             doc.append(line)
             continue
-        constant = re.match(r"\s*integer, parameter, public\s*::\s*(\w+)", line)
+        constant = re.match(r"\s*(?:integer|character\(len=\*\)), parameter, public\s*::\s*(\w+)", line)
         if PROCEDURE.match(line):
             found[PROCEDURE.match(line).group(2)] = (PROCEDURE.match(line).group(1), first_sentence(doc))
         elif TYPE.match(line):
@@ -171,8 +172,8 @@ def interface(root):
     """A table for each module that module fuge takes names from, and for fuge_sparse."""
     taken = exports((root/"src/fuge.f90").read_text())
     order = [name for name in FIRST if name in taken] + [name for name in taken if name not in FIRST]
-    body = ("`use fuge` gives all names of this page but those of fuge_sparse. They are grouped by the module in which "
-            "they stand.\n")
+    body = ("`use fuge` gives all names of this page but those of fuge_sparse. They are grouped by the module that "
+            "defines them.\n")
     for module, path, names in public_modules(root, order, taken):
         found = described(path.read_text())
         body += f"\n## {module}\n\n{found[''][1]}\n\n| name | | |\n| --- | --- | --- |\n"

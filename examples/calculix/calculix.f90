@@ -3,13 +3,13 @@
 !>
 !>     calculix [ccx]
 !>
-!> to be run in a folder with model.inp, stiffness.inp and contact.inp; `ccx` is the command
-!> that starts CalculiX. CalculiX assembles the stiffness, fuge makes of it the influence
-!> matrix of the nodes on top and solves the contact: no increments, no penalty. CalculiX's
-!> own contact of the same nodes (node to surface, linear penalty) comes near it as its
-!> penalty stiffness grows. The exact answer is that of Hertz for the half-plane,
+!> has to run in a folder with model.inp, stiffness.inp and contact.inp, to which it and CalculiX write all
+!> their files; `ccx` is the command that starts CalculiX. CalculiX assembles the stiffness, fuge condenses
+!> it to the influence matrix of the nodes on top and solves the contact, without increments or penalty.
+!> CalculiX's own contact of the same nodes (node to surface, linear penalty) approaches that solution as
+!> its penalty stiffness grows. The exact answer is that of Hertz for the half-plane,
 !> a = sqrt(4 P R/(pi E*)) for the load P per thickness. See doc/calculix.md.
-!> Writes calculix.csv for the picture.
+!> The table calculix.csv is for the picture.
 program calculix
   use calculix_elastic, only: condense_block, elastic_block, give_up, influence_by_unit_loads
   use calculix_files, only: wall_clock
@@ -25,7 +25,7 @@ program calculix
   real(dp), parameter :: SPACING = 0.025_dp, GROWTH = 1.2_dp, SIDE = 7.5_dp
   !> Penalty stiffnesses over Young's modulus, 1/mm. CalculiX advises 5 to 50.
   real(dp), parameter :: PENALTY(4) = [5.0_dp, 50.0_dp, 500.0_dp, 5.0e3_dp]
-  !> What a number printed with seven digits may be off, relative, and a little of its own.
+  !> Relative tolerance for numbers printed with seven digits.
   real(dp), parameter :: SEVEN_DIGITS = 6.0e-7_dp
   real(dp), parameter :: PI = acos(-1.0_dp)
   real(dp), parameter :: E_STAR = YOUNG/(1.0_dp - POISSON**2)
@@ -58,7 +58,7 @@ contains
     call write_mesh(mesh, 'mesh.inp')
   end subroutine run
 
-  !> The command given, or ccx.
+  !> The command given as argument, or ccx.
   function argument() result(command)
     character(len=:), allocatable :: command
     character(len=1024) :: given
@@ -227,7 +227,7 @@ contains
     close (file)
   end subroutine write_contact
 
-  !> What block and elements do to the half-width and the largest pressure.
+  !> Errors of the half-width and the largest pressure by the block and by the elements.
   subroutine compare_blocks(command)
     character(len=*), intent(in) :: command
     real(dp), parameter :: SIZES(5) = [3.75_dp, 7.5_dp, 15.0_dp, 30.0_dp, 30.0_dp]

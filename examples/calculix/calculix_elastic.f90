@@ -1,5 +1,5 @@
-!> The elastic side of the contact: the influence matrix of the nodes that may touch, from
-!> the stiffness that CalculiX assembles; and the same matrix by unit loads, as a check.
+!> The elastic body of the contact: the influence matrix of the nodes that may touch, from
+!> the stiffness that CalculiX assembles, and the same matrix by unit loads, as a check.
 module calculix_elastic
   use calculix_files, only: read_degrees, read_stiffness, read_table, run_job, wall_clock
   use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_info
@@ -9,7 +9,7 @@ module calculix_elastic
 
   public :: condense_block, influence_by_unit_loads, vertical, give_up
 
-  !> What the jobs `stiffness` and fuge make of a model.
+  !> The results of the job `stiffness` and of the condensation.
   type, public :: elastic_block
     type(fuge_condensed) :: condensed
     !> Node and direction of each degree of freedom.

@@ -18,8 +18,8 @@ contains
     seconds = real(ticks, dp)/real(rate, dp)
   end function wall_clock
 
-  !> Run `command -i job` and say how long it took, s. What it prints goes to job.log. That
-  !> it has done its work shows in the file `result`, because it may fail and return 0.
+  !> Run `command -i job` and return the time it took, s. Its output goes to job.log. It has succeeded
+  !> if the file `result` exists, because it may fail and return 0.
   subroutine run_job(command, job, result, seconds)
     character(len=*), intent(in) :: command, job, result
     real(dp), intent(out) :: seconds
@@ -132,7 +132,7 @@ contains
     value = reshape(values, [3, size(node)])
   end subroutine read_table
 
-  !> How many there are; the file is then at its beginning.
+  !> Number of tables with this heading; the file is then positioned at its beginning.
   function headings(file, heading)
     integer, intent(in) :: file
     character(len=*), intent(in) :: heading

@@ -23,7 +23,7 @@ module calculix_penalty
   end type penalty_answer
 
   !> Tension across wide gaps, stress: the spring of CalculiX is smooth and pulls a little.
-  !> And the reach of its search, in roots of the area of a node.
+  !> Radius of its search, in units of the square root of the area of a node.
   character(len=*), parameter :: TENSION_AND_REACH = ', 1.e-6, 1.'
 
 contains
@@ -62,7 +62,7 @@ contains
     answer%force = answer%force*answer%area
   end subroutine solve_by_penalty
 
-  !> The values of some nodes out of those of others.
+  !> The values of some nodes, selected from those of all.
   function of_nodes(wanted, node, value) result(values)
     integer, intent(in) :: wanted(:), node(:)
     real(dp), intent(in) :: value(:)

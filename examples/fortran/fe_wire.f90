@@ -2,8 +2,8 @@
 !> by a parabola. doc/tutorial_fe.md explains its middle part.
 !>
 !> Linear elements of the length h under the tension T, y upwards. Beneath the parabola
-!> x**2/(2 R) the wire takes its curvature 1/R, outside it is straight: pressed by F, the
-!> half-width is a = F R/(2 T), nodes inside carry T h/R, the parabola comes down by
+!> x**2/(2 R) the wire takes its curvature 1/R, outside it is straight: under the load F
+!> the half-width is a = F R/(2 T), the nodes inside carry T h/R, and the parabola comes down by
 !> a L/R - a**2/(2 R). Linear elements are exact at the nodes.
 program fe_wire
   use fuge, only: dp => fuge_dp, fuge_band_stiffness, fuge_body, fuge_condense, fuge_condensed, fuge_dense_operator, &
@@ -32,7 +32,7 @@ contains
     call report(x, u)
   end subroutine run
 
-  !> Press on the nodes `touching`, whose initial gaps are `gap`; u are all displacements.
+  !> Press the parabola on the nodes `touching`, whose initial gaps are `gap`; u are all displacements.
   subroutine press(stiffness, touching, gap, u)
     real(dp), intent(in), target :: stiffness(:, :)
     integer, intent(in) :: touching(:)
@@ -64,7 +64,7 @@ contains
     call check(solution, gap, u(touching))
   end subroutine press
 
-  !> Gaps by the whole field; forces and approach by the exact solution.
+  !> Check the gaps against all displacements, and forces and approach against the exact solution.
   subroutine check(solution, gap, u)
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: gap(:), u(:)

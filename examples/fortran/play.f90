@@ -49,7 +49,7 @@ contains
     close (file)
   end subroutine run
 
-  !> At x, by a unit force at s, of a beam clamped at 0.
+  !> Deflection at x by a unit force at s of a beam clamped at 0.
   elemental function deflection(x, s)
     real(dp), intent(in) :: x, s
     real(dp) :: deflection
@@ -57,7 +57,7 @@ contains
     deflection = min(x, s)**2*(3.0_dp*max(x, s) - min(x, s))/(6.0_dp*STIFFNESS)
   end function deflection
 
-  !> No rigid motion: the clamp takes what the bush does not.
+  !> No rigid motion: the clamp carries what the bush does not.
   pure function clamped_shaft() result(problem)
     type(fuge_problem) :: problem
 
@@ -65,8 +65,8 @@ contains
     problem%gap_upper = CLEARANCE
   end function clamped_shaft
 
-  !> It may sink and tilt, R = [1, x]. The clamp is in the influence coefficients still, but
-  !> forces in equilibrium do not load it, and to release it is a rigid motion.
+  !> It may sink and tilt, R = [1, x]. The influence coefficients still contain the clamp, but forces
+  !> in equilibrium do not load it, and its release is a rigid motion.
   pure function free_shaft(x) result(problem)
     real(dp), intent(in) :: x(:)
     type(fuge_problem) :: problem
@@ -77,8 +77,8 @@ contains
     problem%modes(:, 2) = x
   end function free_shaft
 
-  !> The weight bends the shaft: gaps of the unloaded bush less that. A line for every load
-  !> at which other supports carry than before.
+  !> The weight bends the shaft, which changes the gaps. Prints a line for every load at which the set of
+  !> supports that carry changes.
   subroutine raise_load(operator, x, scene, name, file)
     type(fuge_dense_operator), intent(in) :: operator
     real(dp), intent(in) :: x(:)

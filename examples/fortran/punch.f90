@@ -3,8 +3,8 @@
 !>     punch [folder for its tables]
 !>
 !> Half model of 33 cells, 0.025 mm wide, side by side from x = 0; F in N per mm of
-!> thickness. The contact ends at the outer edge of the last cell with a force; the
-!> fall of the pressure tells its edge to third order in the width.
+!> thickness. The contact ends at the outer edge of the last cell with a force; the decrease of
+!> the pressure gives its edge to third order in the width.
 !> For the pictures it writes punch_pressure.dat, punch_edge.dat and, from the exact load path,
 !> punch_halfwidth.dat.
 program punch
@@ -50,7 +50,7 @@ contains
     call all_spacings()
   end subroutine run
 
-  !> How the half contact length converges.
+  !> Convergence of the half contact length.
   subroutine all_spacings()
     real(dp) :: error(2), coarser(2)
     integer :: cells, k
@@ -73,7 +73,7 @@ contains
     if (coarser(2) > 1.0e-6_dp) error stop 'the edge of the contact has not converged'
   end subroutine all_spacings
 
-  !> Of the outer edge of the last cell and of the refined one, for cells up to 0.9 mm.
+  !> Largest error of the outer edge of the last cell and of the refined edge, for cells up to 0.9 mm.
   function largest_error(cells) result(error)
     integer, intent(in) :: cells
     real(dp) :: error(2)
@@ -97,7 +97,7 @@ contains
     end do
   end function largest_error
 
-  !> The half contact length, better than the grid.
+  !> The half contact length, more accurate than the grid.
   function edge(x, width, force)
     real(dp), intent(in) :: x(:), width(:), force(:)
     real(dp) :: edge
@@ -157,7 +157,7 @@ contains
       percent(refined, exact), ' %', maxval(pressure), peak, percent(maxval(pressure), peak), ' %', info%residual
     if (nint(kilonewtons) == 30) then
       call write_pressure(x, pressure, exact)
-      ! The number that the paper reports, and what its grid can tell.
+      ! The number that the paper reports, and the resolution of its grid.
       if (abs(reached - 0.700_dp) > 1.0e-9_dp) error stop 'half contact length at 30 kN is not 0.700 mm'
       if (abs(refined - exact) > 1.0e-3_dp*SPACING) error stop 'the edge at 30 kN is not the exact one'
     end if

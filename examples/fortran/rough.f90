@@ -20,7 +20,7 @@ program rough
   integer, parameter :: LOADS_A_DECADE = 10, DECADES = 3
   !> Mean pressure over E*, the largest one, and that of the picture.
   real(dp), parameter :: LARGEST = 0.1_dp, SHOWN = 0.01_dp
-  !> The picture's part of the period.
+  !> The picture shows this fraction of the period.
   integer, parameter :: WINDOW = 64
 
   call run()
@@ -77,7 +77,7 @@ contains
     end if
   end subroutine make_profile
 
-  !> From large to small loads; each solve starts from the forces of the one before.
+  !> Solve from large to small loads; each solve starts from the forces of the one before.
   subroutine all_loads(operator, problem, height, spacing)
     type(fuge_halfplane_operator), intent(in) :: operator
     type(fuge_problem), intent(inout) :: problem

@@ -7,10 +7,10 @@ module rough_profile
 
   public :: self_affine_profile, measured_profile, rms_slope
 
-  !> The spectrum of a generated profile: what it is over the wavelength does not matter
-  !> for the real contact, its mean square slope does.
+  !> The spectrum of a generated profile. Of all its properties the real contact depends mainly on
+  !> the mean square slope.
   real(dp), parameter :: HURST = 0.8_dp, SLOPE = 0.1_dp
-  !> Longest wave: this part of the period. Shortest wave: this many cells.
+  !> The longest wave is this fraction of the period, the shortest one this many cells long.
   integer, parameter :: LONGEST = 4, SHORTEST = 16
   integer(int64), parameter :: SEED = 2026_int64
   real(dp), parameter :: PI = acos(-1.0_dp)
@@ -77,9 +77,9 @@ contains
     wave(half:) = even - odd
   end subroutine add_up
 
-  !> Heights of `n` cells from a file of x and z, less their line; `period` in its unit.
+  !> Heights of `n` cells from a file of x and z, less the least-squares line; `period` in the unit of x.
   !>
-  !> The profile and its mirror image make the period, so that no step is where it repeats.
+  !> The profile and its mirror image form the period, so that there is no step where it repeats.
   subroutine measured_profile(path, n, height, period, info)
     character(len=*), intent(in) :: path
     integer, intent(in) :: n

@@ -1,4 +1,4 @@
-!> Shows how a long solve gets on: the library itself never prints.
+!> Shows the progress of a long solve: the library itself never prints.
 module rough_progress
   use, intrinsic :: iso_fortran_env, only: error_unit, int64
   use fuge, only: dp => fuge_dp, fuge_monitor
@@ -15,7 +15,7 @@ module rough_progress
 
 contains
 
-  !> One line now and then. `cancel` .true. would end the solve.
+  !> Print a line from time to time. `cancel` = .true. would end the solve.
   subroutine progress(self, iteration, residual, contacts, cancel)
     class(ticker), intent(inout) :: self
     integer, intent(in) :: iteration, contacts

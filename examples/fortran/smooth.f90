@@ -1,4 +1,4 @@
-!> One crest of a wave pressed on an elastic half-plane: digits over unknowns.
+!> One crest of a wave pressed on an elastic half-plane: accuracy over the number of unknowns.
 !>
 !>     smooth [folder for its table]
 !>
@@ -10,8 +10,8 @@
 !>     v = (2 F/(pi E*)) ln(2 D/a) + d (1 - J_0(k a))
 !>
 !> First the grid: the iteration on more and more cells, the edges of contact refined from
-!> its forces. Then the engine for smooth punches, whose few coefficients are listed with what
-!> the pressure lacks without those after each. Everything is per unit depth.
+!> its forces. Then the engine for smooth punches, whose few coefficients are listed with the error of the
+!> pressure if the series ends after each. Everything is per unit depth.
 !> The table smooth.csv has the unknowns, the errors of half width, approach and pressure, and the time
 !> of a solve.
 program smooth
@@ -52,7 +52,7 @@ contains
     close (file)
   end subroutine run
 
-  !> By products on a uniform grid.
+  !> Solve by products on a uniform grid.
   subroutine press_cells(crest, cells, file)
     type(wave_crest), intent(in) :: crest
     integer, intent(in) :: cells, file
@@ -87,7 +87,7 @@ contains
     if (error(1) > 60.0_dp/real(cells, dp)**2) error stop 'the grid misses the half width'
   end subroutine press_cells
 
-  !> By coefficients; a second solve is timed, which finds everything loaded.
+  !> Solve by coefficients; the second solve is timed, when code and data are in the cache.
   subroutine press_smoothly(crest, file)
     type(wave_crest), intent(in) :: crest
     integer, intent(in) :: file

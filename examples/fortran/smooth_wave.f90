@@ -1,4 +1,4 @@
-!> A profile of one's own: one wave crest.
+!> A user-defined profile: one wave crest.
 module smooth_wave
   use fuge, only: dp => fuge_dp, fuge_smooth_profile
   implicit none

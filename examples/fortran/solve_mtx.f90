@@ -4,18 +4,18 @@
 !>
 !>     solve_mtx --alpha FILE --gap FILE MOTION [--play FILE] [--output FILE]
 !>
-!> With the stiffness matrix of a body, from which the influence matrix is made:
+!> With the stiffness matrix of a body, which is condensed to the influence matrix:
 !>
 !>     solve_mtx --stiffness FILE --contact FILE --gap FILE [--fixed FILE] [--floats]
 !>               [--external FILE] [MOTION] [--play FILE] [--output FILE] [--field FILE]
 !>
 !> MOTION is that of the rigid counter-body: one of
 !>
-!>     --load F0                           pressed on with this force
-!>     --approach V0                       moved by this length
-!>     --modes FILE --resultant FILE       (only with --alpha) in general
+!>     --load F0                           it is pressed on with this force
+!>     --approach V0                       it is moved by this length
+!>     --modes FILE --resultant FILE       rigid motions in general (only with --alpha)
 !>
-!> and without it, with a stiffness matrix, it stands still. All files are in Matrix Market
+!> With a stiffness matrix it may be omitted: the counter-body then stands still. All files are in Matrix Market
 !> format, array or coordinate, real or integer; n points, nd degrees of freedom from 1:
 !>
 !>     --alpha      n x n, displacement per force
@@ -28,11 +28,11 @@
 !>                  the body, into the body, in the columns of its degrees of freedom
 !>     --fixed      k x 1, degrees of freedom that are held; or k x 2, with displacements
 !>     --external   nd, external forces
-!>     --floats     the supports leave rigid motions, which the contact has to hold
+!>     --floats     the supports leave rigid motions, which the contact has to resist
 !>     --output     table of point, force and gap; without it on standard output
 !>     --field      table of all displacements of the body
 !>
-!> Units are yours. Tables are CSV with comments after #: status, residual, rigid motions and
+!> Units are the user's. Tables are CSV with comments after #: status, residual, rigid motions and
 !> their resultants. Exit status 0: done (a warning goes to standard error and to the
 !> table); 1: an error, the message is on standard error and the table of forces is not written.
 program solve_mtx
@@ -47,7 +47,7 @@ program solve_mtx
   implicit none
 
   interface
-    !> Of C: `stop` would add lines of its own to the message.
+    !> exit of C: `stop` would add lines of its own to the message.
     subroutine c_exit(status) bind(c, name='exit')
       import :: c_int
       integer(c_int), intent(in), value :: status
@@ -117,7 +117,7 @@ contains
     if (info%failed()) call give_up(info)
   end subroutine solve_body
 
-  !> A warning on the way is one of the whole.
+  !> A warning of one step is a warning of the solve.
   subroutine take_warning(part, info)
     type(fuge_info), intent(in) :: part
     type(fuge_info), intent(inout) :: info

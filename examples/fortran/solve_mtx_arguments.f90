@@ -6,7 +6,7 @@ module solve_mtx_arguments
 
   public :: print_help
 
-  !> With a value; the others stand alone.
+  !> Options with a value; the others have none.
   integer, parameter :: WITH_VALUE = 13
   character(len=9), parameter :: NAMES(WITH_VALUE + 2) = [character(len=9) :: 'alpha', 'gap', 'load', 'approach', &
     'modes', 'resultant', 'play', 'output', 'stiffness', 'contact', 'fixed', 'external', 'field', 'floats', 'help']
@@ -16,7 +16,7 @@ module solve_mtx_arguments
     character(len=:), allocatable :: value
   end type setting
 
-  !> What the command line says.
+  !> The options of the command line.
   type, public :: arguments
     private
     type(setting) :: settings(size(NAMES))
@@ -78,7 +78,7 @@ contains
     which = 0
   end function place
 
-  !> Which options go together.
+  !> Check which options go together.
   subroutine check(self, info)
     class(arguments), intent(in) :: self
     type(fuge_info), intent(inout) :: info
@@ -189,7 +189,7 @@ contains
       '                        into the body, in the columns of its degrees of freedom', &
       '  --fixed      k x 1    degrees of freedom that are held; k x 2: and their displacements', &
       '  --external   nd       external forces on the body', &
-      '  --floats              the supports leave rigid motions, which the contact has to hold', &
+      '  --floats              the supports leave rigid motions, which the contact has to resist', &
       '', &
       'Tables, CSV with comments after #', &
       '  --output     point, force and gap; without it on standard output', &

@@ -23,7 +23,7 @@ module solve_mtx_body
 
 contains
 
-  !> All files of the body; then it is condensed.
+  !> Read all files of the body and condense it.
   subroutine read_body(self, given, info)
     class(elastic_body), intent(inout), target :: self
     type(arguments), intent(in) :: given
@@ -48,7 +48,7 @@ contains
     n = size(self%body%dof, 2)
   end function points
 
-  !> From a matrix of one row a point to the degrees of freedom of each.
+  !> From a matrix with one row for each point to the degrees of freedom of each point.
   subroutine read_contact(path, degrees, body, info)
     character(len=*), intent(in) :: path
     integer, intent(in) :: degrees

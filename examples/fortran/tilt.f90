@@ -19,7 +19,7 @@ program tilt
   real(dp), parameter :: HALF_FACE = 10.0_dp, E_STAR = 1.0e5_dp, LOAD = 5.0e3_dp
   real(dp), parameter :: WIDTH = 2.0_dp*HALF_FACE/real(CELLS, dp)
   real(dp), parameter :: PI = acos(-1.0_dp)
-  !> Clear of the corners the contact of the rounded punch covers 0.4 of the face.
+  !> As long as it does not reach a corner, the contact of the rounded punch covers 0.4 of the face.
   real(dp), parameter :: RADIUS = PI*E_STAR*(0.4_dp*HALF_FACE)**2/(4.0_dp*LOAD)
 
   !> Contact from middle - half to middle + half, and the motions of the punch.

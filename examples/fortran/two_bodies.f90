@@ -28,7 +28,7 @@ program two_bodies
   !> Largest relative error of an approach.
   real(dp), parameter :: TOLERANCE = 1.0e-4_dp
 
-  !> What a pair of forces does.
+  !> The answer for a pair of forces.
   type :: answer
     !> Approaches, length, and how much of each face touches.
     real(dp) :: approach(2) = 0.0_dp, touching(2) = 0.0_dp
@@ -48,7 +48,7 @@ contains
     close (file)
   end subroutine run
 
-  !> A line force in place of the other punch is right far away; for equal forces it is exact
+  !> A line force in place of the other punch is accurate far away; for equal forces it is exact
   !> at any distance, because c**2 - b**2 is 2 a times the distance.
   subroutine move_apart(file)
     integer, intent(in) :: file
@@ -72,7 +72,7 @@ contains
 
   !> Under a small force the second punch rests on its outer corner, because the hollow of the
   !> first one slopes away from it; full contact begins where p is 0 at its inner corner.
-  !> With no force at all its approach would be anything up to the first touch.
+  !> Without any force its approach would be indeterminate up to the first touch.
   subroutine raise_second(distance, file)
     real(dp), intent(in) :: distance
     integer, intent(in) :: file
@@ -116,7 +116,7 @@ contains
       found%approach(2), far_apart(distance, second, FORCE), known(2)
   end subroutine show
 
-  !> Cells narrow towards the corners, where the pressure is singular.
+  !> Cells that become narrower towards the corners, where the pressure is singular.
   function press(distance, load) result(found)
     real(dp), intent(in) :: distance, load(2)
     type(answer) :: found
@@ -144,8 +144,8 @@ contains
     found%touching(1) = sum(width(:CELLS), mask=solution%force(:CELLS) > 0.0_dp)/(2.0_dp*HALF_FACE)
     found%touching(2) = sum(width(CELLS + 1:), mask=solution%force(CELLS + 1:) > 0.0_dp)/(2.0_dp*HALF_FACE)
     if (all(solution%force > 0.0_dp)) found%touching = 1.0_dp
-    ! The matrix has the datum at twice the length from the first cell to the last one, which
-    ! is another one at each distance.
+    ! The datum of the matrix is at twice the length from the first cell to the last one, which
+    ! changes with the distance of the punches.
     found%approach = solution%motion + sinking(sum(load), 2.0_dp*(distance + 2.0_dp*HALF_FACE))
   end function press
 
@@ -161,7 +161,7 @@ contains
     problem%resultant = load
   end subroutine set_punches
 
-  !> Of the surface at a distance from a line load.
+  !> Displacement of the surface at a distance from a line load.
   elemental function sinking(load, distance)
     real(dp), intent(in) :: load, distance
     real(dp) :: sinking
@@ -176,7 +176,7 @@ contains
     approach = sinking(load, 0.5_dp*HALF_FACE)
   end function alone
 
-  !> The punch under its own load and a line load at a distance.
+  !> Approach of the punch under its own load and a line load at a distance.
   elemental function far_apart(distance, own, other) result(approach)
     real(dp), intent(in) :: distance, own, other
     real(dp) :: approach

@@ -1,5 +1,5 @@
 # A finite element block on a rigid plate: contact by fuge, by CalculiX with penalties, by Hertz.
-# Run where calculix.csv is.
+# Run in the folder of calculix.csv.
 set terminal pngcairo size 1200,480 font "sans,13" enhanced
 set output "calculix.png"
 set datafile separator comma

@@ -1,4 +1,4 @@
-# Bild 5 and 6: the lifted section of the disc. Run where disc_1.dat and disc_2.dat are.
+# Bild 5 and 6: the lifted section of the disc. Run in the folder of disc_1.dat and disc_2.dat.
 set terminal pngcairo size 1200,720 font "sans,13" enhanced
 set output "disc.png"
 set multiplot layout 2,1 title "Rubber disc on a rigid plane: bending enlarged, rings in contact in red" font "sans,15"

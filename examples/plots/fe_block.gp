@@ -1,5 +1,5 @@
 # An elastic block of finite elements under the punch, and two errors of the half-width.
-# Run where fe_block_mesh.dat, fe_block_contact.dat, fe_block_size.csv and fe_block_elements.csv are.
+# Run in the folder of fe_block_mesh.dat, fe_block_contact.dat, fe_block_size.csv and fe_block_elements.csv.
 set terminal pngcairo size 1200,480 font "sans,13" enhanced
 set output "fe_block.png"
 set multiplot

@@ -1,5 +1,5 @@
 # Bild 7 and 8: pressure at 30 kN/mm, and half contact length over the load.
-# Run where punch_pressure.dat, punch_halfwidth.dat and punch_edge.dat are.
+# Run in the folder of punch_pressure.dat, punch_halfwidth.dat and punch_edge.dat.
 set terminal pngcairo size 1200,480 font "sans,13" enhanced
 set output "punch.png"
 set multiplot layout 1,2

@@ -1,5 +1,5 @@
 # A rough profile on a half-plane: where it touches, and real contact length over load.
-# Run where rough_window.csv and rough_load.csv are.
+# Run in the folder of rough_window.csv and rough_load.csv.
 set terminal pngcairo size 1200,520 font "sans,13" enhanced
 set output "rough.png"
 set datafile separator comma

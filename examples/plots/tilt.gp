@@ -1,5 +1,5 @@
 # Punches under an eccentric force: contact length over the eccentricity, and pressure.
-# Run where tilt_length.csv and tilt_pressure.csv are.
+# Run in the folder of tilt_length.csv and tilt_pressure.csv.
 set terminal pngcairo size 1200,480 font "sans,13" enhanced
 set output "tilt.png"
 set datafile separator ","

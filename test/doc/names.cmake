@@ -1,0 +1,51 @@
+# The page on the architecture knows the source: cmake -D ROOT=.. -P names.cmake
+#
+# Each name in backticks of doc/architecture.md is a module, procedure, type or type-bound procedure of src/, and each
+# folder of src/folders.txt has its line in the tree, which has no other.
+cmake_minimum_required(VERSION 3.20)
+
+file(READ "${ROOT}/doc/architecture.md" page)
+string(REPLACE ";" "," page "${page}")
+set(text "")
+file(GLOB_RECURSE sources "${ROOT}/src/*.f90")
+foreach(source IN LISTS sources)
+  file(READ "${source}" source)
+  string(APPEND text "\n${source}")
+endforeach()
+
+set(offences)
+string(REGEX MATCHALL "`[^`\n]+`" names "${page}")
+list(REMOVE_DUPLICATES names)
+list(REMOVE_ITEM names "`use`")
+foreach(name IN LISTS names)
+  string(REPLACE "`" "" name "${name}")
+  if(NOT name MATCHES "^[a-z][a-z_0-9]*$")
+    list(APPEND offences "${name} is not a name")
+  elseif(NOT text MATCHES "\n *((pure|elemental|impure|recursive) )*(subroutine|function|module) ${name}[^a-z_0-9]"
+      AND NOT text MATCHES "\n *(type|procedure|generic)[^\n!]*:: ${name}[^a-z_0-9]")
+    list(APPEND offences "${name} is not in src/")
+  endif()
+endforeach()
+
+file(STRINGS "${ROOT}/src/folders.txt" folders REGEX "^[a-z]")
+list(TRANSFORM folders REPLACE " *:.*" "")
+string(REGEX MATCHALL "\n    [a-z_/0-9]+/  " lines "${page}")
+list(TRANSFORM lines STRIP)
+list(TRANSFORM lines REPLACE "/$" "")
+foreach(folder IN LISTS folders)
+  if(NOT folder IN_LIST lines)
+    list(APPEND offences "the tree lacks ${folder}/")
+  endif()
+endforeach()
+foreach(folder IN LISTS lines)
+  if(NOT folder IN_LIST folders)
+    list(APPEND offences "the tree has ${folder}/, which src/folders.txt lacks")
+  endif()
+endforeach()
+
+if(offences)
+  list(JOIN offences "\n  " offences)
+  message(FATAL_ERROR "doc/architecture.md:\n  ${offences}")
+endif()
+list(LENGTH names count)
+message(STATUS "${count} names are in src/")
