@@ -261,8 +261,8 @@ contains
     self%constant = fresh%constant
     call move_alloc(fresh%spectrum, self%spectrum)
     call move_alloc(fresh%inverse, self%inverse)
-    call self%plan%take(fresh%plan)
-    call self%preconditioner_plan%take(fresh%preconditioner_plan)
+    call self%plan%move_from(fresh%plan)
+    call self%preconditioner_plan%move_from(fresh%preconditioner_plan)
   end subroutine take
 
   !> Without memory for it the copy is not set.
