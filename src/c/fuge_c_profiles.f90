@@ -2,7 +2,8 @@
 module fuge_c_profiles
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_types, only: copy_string, copy_reals, from_c_string
-  use fuge_profile_files, only: fuge_read_profile, fuge_sample_profile, fuge_level_profile
+  use fuge_profile_files, only: fuge_read_profile
+  use fuge_profile_sampling, only: fuge_level_profile, fuge_sample_profile
   use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE
   implicit none
   private

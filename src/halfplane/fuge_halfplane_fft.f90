@@ -257,8 +257,8 @@ contains
     self%datum_value = new%datum_value
     call move_alloc(new%spectrum, self%spectrum)
     call move_alloc(new%inverse_spectrum, self%inverse_spectrum)
-    call self%plan%take(new%plan)
-    call self%preconditioner_plan%take(new%preconditioner_plan)
+    call self%plan%move_from(new%plan)
+    call self%preconditioner_plan%move_from(new%preconditioner_plan)
   end subroutine move_contents
 
   !> Assignment. If memory for the copy cannot be allocated, the copy is not set.

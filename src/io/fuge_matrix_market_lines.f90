@@ -1,7 +1,8 @@
 !> The lines of a Matrix Market file: banner, sizes, entries.
 !>
 !> The format: R. F. Boisvert, R. Pozo, K. A. Remington, The Matrix Market exchange formats:
-!> initial design, NISTIR 5935, 1996. Of it real and integer matrices, general and symmetric.
+!> initial design, NISTIR 5935, 1996. Supported are real and integer matrices, general and
+!> symmetric.
 module fuge_matrix_market_lines
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_text_fields, only: after_blanks, describe_field, find_field, quoted, read_number, read_whole, FIELD_NUMBER
@@ -12,10 +13,10 @@ module fuge_matrix_market_lines
 
   public :: banner_line, is_skipped, read_banner, read_entry, read_sizes, read_value
 
-  !> What the banner and the size line say.
+  !> The content of the banner and the line with the sizes.
   type, public :: matrix_layout
-    !> Coordinate format, row, column and value on each line; else array format, all values
-    !> by columns.
+    !> Coordinate format, with row, column and value on each line; otherwise array format, with
+    !> all values column by column.
     logical :: coordinate = .false.
     !> Values are whole numbers.
     logical :: whole = .false.
@@ -23,7 +24,7 @@ module fuge_matrix_market_lines
     logical :: symmetric = .false.
     integer :: rows = 0
     integer :: columns = 0
-    !> Lines with an entry.
+    !> Number of lines with an entry.
     integer(int64) :: entries = 0_int64
   end type matrix_layout
 
@@ -31,7 +32,7 @@ module fuge_matrix_market_lines
 
 contains
 
-  !> The banner of a real matrix, with blanks behind it.
+  !> The banner of a real matrix, padded with blanks.
   pure function padded_banner(coordinate, symmetric) result(line)
     logical, intent(in) :: coordinate, symmetric
     character(len=52) :: line
@@ -45,6 +46,7 @@ contains
     end if
   end function padded_banner
 
+  !> The banner of a real matrix.
   pure function banner_line(coordinate, symmetric) result(line)
     logical, intent(in) :: coordinate, symmetric
     character(len=len_trim(padded_banner(coordinate, symmetric))) :: line
@@ -52,7 +54,7 @@ contains
     line = padded_banner(coordinate, symmetric)
   end function banner_line
 
-  !> Blank, or a comment.
+  !> Is the line blank or a comment?
   pure function is_skipped(line) result(skipped)
     character(len=*), intent(in) :: line
     logical :: skipped
@@ -63,7 +65,7 @@ contains
     if (.not. skipped) skipped = line(first:first) == '%'
   end function is_skipped
 
-  !> The first line; `reason` is allocated if it is not one that can be read.
+  !> Read the banner, the first line; `reason` is allocated if it is not supported.
   pure subroutine read_banner(line, layout, reason)
     character(len=*), intent(in) :: line
     type(matrix_layout), intent(out) :: layout
@@ -78,23 +80,24 @@ contains
       words(k) = lower_case(line(first:min(last, first + len(words) - 1)))
     end do
     if (words(1) /= BANNER) then
-      reason = 'a Matrix Market file begins with "'//banner_line(.false., .false.)//'" or the like'
+      reason = 'a Matrix Market file begins with a line like "'//banner_line(.false., .false.)//'"'
     else if (words(2) /= 'matrix') then
-      reason = quoted(trim(words(2)))//' cannot be read, only a matrix'
+      reason = quoted(trim(words(2)))//' cannot be read, only "matrix"'
     else if (words(3) /= 'coordinate' .and. words(3) /= 'array') then
-      reason = quoted(trim(words(3)))//' is no format: coordinate or array'
+      reason = quoted(trim(words(3)))//' is not a supported format: use coordinate or array'
     else if (words(4) /= 'real' .and. words(4) /= 'integer') then
-      reason = quoted(trim(words(4)))//' values cannot be used: write a real or an integer matrix'
+      reason = quoted(trim(words(4)))//' values are not supported: write a real or an integer matrix'
     else if (words(5) /= 'general' .and. words(5) /= 'symmetric') then
-      reason = quoted(trim(words(5)))//' matrices cannot be used: write a general or a symmetric one'
+      reason = quoted(trim(words(5)))//' matrices are not supported: write a general or a symmetric one'
     else if (after_blanks(line, last + 1) <= len(line)) then
-      reason = 'more than five words in the first line'
+      reason = 'the first line has more than five words'
     end if
     layout%coordinate = words(3) == 'coordinate'
     layout%whole = words(4) == 'integer'
     layout%symmetric = words(5) == 'symmetric'
   end subroutine read_banner
 
+  !> The string with its letters in lower case.
   pure function lower_case(string) result(lower)
     character(len=*), intent(in) :: string
     character(len=len(string)) :: lower
@@ -106,31 +109,31 @@ contains
     end do
   end function lower_case
 
-  !> Rows, columns and, in coordinate format, entries; `reason` is allocated if they are
-  !> not possible.
+  !> Read the numbers of rows, columns and, in coordinate format, entries; `reason` is allocated
+  !> if they are missing or impossible.
   pure subroutine read_sizes(line, layout, reason)
     character(len=*), intent(in) :: line
     type(matrix_layout), intent(inout) :: layout
     character(len=:), allocatable, intent(out) :: reason
     integer(int64) :: sizes(3)
-    integer :: first, last, k, kind, wanted
+    integer :: first, last, k, kind, numbers
 
-    wanted = merge(3, 2, layout%coordinate)
+    numbers = merge(3, 2, layout%coordinate)
     sizes = 0_int64
     last = 0
-    do k = 1, wanted
+    do k = 1, numbers
       call find_field(line, last + 1, first, last)
       call read_whole(line(first:last), kind, sizes(k))
       if (kind /= FIELD_NUMBER) exit
     end do
-    if (k <= wanted .or. after_blanks(line, last + 1) <= len(line)) then
+    if (k <= numbers .or. after_blanks(line, last + 1) <= len(line)) then
       if (layout%coordinate) then
-        reason = 'three whole numbers have to be here: rows, columns, entries'
+        reason = 'three whole numbers are needed here: rows, columns, entries'
       else
-        reason = 'two whole numbers have to be here: rows, columns'
+        reason = 'two whole numbers are needed here: rows, columns'
       end if
     else if (minval(sizes) < 0_int64 .or. maxval(sizes) >= int(huge(1), int64)) then
-      reason = 'sizes from 0 to '//text(huge(1) - 1)//' are possible'
+      reason = 'sizes must be from 0 to '//text(huge(1) - 1)
     else if (layout%symmetric .and. sizes(1) /= sizes(2)) then
       reason = 'a symmetric matrix needs as many rows as columns'
     end if
@@ -143,7 +146,7 @@ contains
     if (layout%symmetric) layout%entries = (sizes(1)*(sizes(1) + 1_int64))/2_int64
   end subroutine read_sizes
 
-  !> A line of a coordinate file; `reason` is allocated if something is wrong with it.
+  !> Read a line of a coordinate file; `reason` is allocated if it cannot be used.
   pure subroutine read_entry(line, layout, row, column, value, reason)
     character(len=*), intent(in) :: line
     type(matrix_layout), intent(in) :: layout
@@ -163,7 +166,7 @@ contains
       //') is above the diagonal: a symmetric file holds the lower triangle only'
   end subroutine read_entry
 
-  !> A line of an array file.
+  !> Read a line of an array file; `reason` is allocated if it cannot be used.
   pure subroutine read_value(line, layout, value, reason)
     character(len=*), intent(in) :: line
     type(matrix_layout), intent(in) :: layout
@@ -175,6 +178,7 @@ contains
     call read_last(line, next, layout%whole, value, reason)
   end subroutine read_value
 
+  !> Read a row or column, called `name`, from position `next` on; `next` moves behind it.
   pure subroutine read_index(line, next, name, most, value, reason)
     character(len=*), intent(in) :: line, name
     integer, intent(inout) :: next
@@ -199,7 +203,7 @@ contains
     end if
   end subroutine read_index
 
-  !> The value that ends a line.
+  !> Read the value from position `next` to the end of the line.
   pure subroutine read_last(line, next, whole, value, reason)
     character(len=*), intent(in) :: line
     integer, intent(inout) :: next
@@ -222,7 +226,8 @@ contains
       reason = 'more than one entry on the line'
     else if (whole) then
       call read_whole(line(first:last), kind, number)
-      if (kind /= FIELD_NUMBER) reason = quoted(line(first:last))//' is not a whole number, as the first line says'
+      if (kind /= FIELD_NUMBER) reason = quoted(line(first:last))//' is not a whole number, although the banner says ' &
+        //'integer'
     end if
   end subroutine read_last
 

@@ -1,4 +1,4 @@
-!> Matrix Market files written, with 17 digits: what is read back is the same to the last bit.
+!> Matrix Market files: write a matrix with 17 digits, so that it is read back to the last bit.
 module fuge_matrix_market_writer
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
@@ -11,18 +11,17 @@ module fuge_matrix_market_writer
 
   public :: fuge_write_matrix, fuge_write_sparse
 
-  !> Entries made text in one go, since every write statement takes its time.
+  !> Number of entries that one write statement converts, because each statement costs time.
   integer, parameter :: BLOCK = 64
 
 contains
 
-  !> Write a dense matrix to a Matrix Market file in array format; a file that is there is
-  !> replaced.
+  !> Write a dense matrix to a Matrix Market file in array format; an existing file is replaced.
   !>
-  !> `matrix` (any shape); `symmetric` (.false. unless given): a square matrix of which only the
-  !> lower triangle is looked at and written.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE with the file left as it was; FUGE_ERR_FILE
-  !> where writing fails, the file is then not complete.
+  !> `matrix` (any shape); `symmetric` (default .false.): the matrix is square, and only its lower
+  !> triangle is read and written.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, an existing file unchanged; FUGE_ERR_FILE if
+  !> writing fails, the file is then not complete.
   subroutine fuge_write_matrix(path, matrix, info, symmetric)
     character(len=*), intent(in) :: path
     real(dp), intent(in) :: matrix(:, :)
@@ -55,15 +54,15 @@ contains
     call file%finish(info)
   end subroutine fuge_write_matrix
 
-  !> Write compressed columns to a Matrix Market file in coordinate format; a file that is
-  !> there is replaced.
+  !> Write compressed columns to a Matrix Market file in coordinate format; an existing file is
+  !> replaced.
   !>
-  !> `rows`, `column`, `row`, `value` as fuge_read_sparse gives them, but rows may be in any
-  !> order and repeated; `symmetric` (.false. unless given): a square matrix of which what is
-  !> above the diagonal is left out.
+  !> `rows`, `column`, `row`, `value` as fuge_read_sparse returns them, but rows may be in any
+  !> order and repeated; `symmetric` (default .false.): the matrix is square, and entries above
+  !> the diagonal are not written.
   !> Errors: FUGE_ERR_SIZE for columns that are not in order or a row outside 1 .. `rows`,
-  !> FUGE_ERR_NOT_FINITE, with the file left as it was; FUGE_ERR_FILE where writing fails, the
-  !> file is then not complete.
+  !> FUGE_ERR_NOT_FINITE, an existing file unchanged; FUGE_ERR_FILE if writing fails, the file is
+  !> then not complete.
   subroutine fuge_write_sparse(path, rows, column, row, value, info, symmetric)
     character(len=*), intent(in) :: path
     integer, intent(in) :: rows, column(:), row(:)
@@ -95,6 +94,7 @@ contains
     call file%finish(info)
   end subroutine fuge_write_sparse
 
+  !> Number of entries that are written, only the `lower` triangle or all.
   pure function entries_to_write(column, row, lower) result(entries)
     integer, intent(in) :: column(:), row(:)
     logical, intent(in) :: lower
@@ -108,6 +108,7 @@ contains
     end do
   end function entries_to_write
 
+  !> Refuse negative sizes, and a symmetric matrix that is not square (FUGE_ERR_SIZE).
   pure subroutine check_square(rows, columns, symmetric, info)
     integer, intent(in) :: rows, columns
     logical, intent(in) :: symmetric
@@ -115,13 +116,13 @@ contains
 
     if (rows < 0 .or. columns < 0) then
       call report(info, FUGE_ERR_SIZE, 'rows = '//text(rows)//', columns = '//text(columns) &
-                  //': sizes are not negative, and column has one element more than there are columns')
+                  //': both must be 0 or more; column needs one element more than the matrix has columns')
     else if (symmetric .and. rows /= columns) then
       call report(info, FUGE_ERR_SIZE, 'a symmetric matrix cannot be '//text(rows)//' x '//text(columns))
     end if
   end subroutine check_square
 
-  !> Refuse NaN and infinity from row `first` of column j on.
+  !> Refuse NaN and infinity in column j from row `first` on (FUGE_ERR_NOT_FINITE).
   pure subroutine check_column(values, first, j, info)
     real(dp), intent(in) :: values(:)
     integer, intent(in) :: first, j
@@ -135,6 +136,7 @@ contains
     end do
   end subroutine check_column
 
+  !> Report an entry that is NaN or infinity (FUGE_ERR_NOT_FINITE).
   pure subroutine refuse_entry(i, j, value, info)
     integer, intent(in) :: i, j
     real(dp), intent(in) :: value
@@ -144,6 +146,8 @@ contains
                 //' is not a finite number')
   end subroutine refuse_entry
 
+  !> Refuse columns that are not in order and rows out of range (FUGE_ERR_SIZE), NaN and infinity
+  !> (FUGE_ERR_NOT_FINITE).
   pure subroutine check_columns(rows, column, row, value, info)
     integer, intent(in) :: rows, column(:), row(:)
     real(dp), intent(in) :: value(:)
@@ -152,12 +156,12 @@ contains
 
     last = min(size(row), size(value))
     if (column(1) /= 1) call report(info, FUGE_ERR_SIZE, 'column(1) = '//text(column(1)) &
-                                    //': the first column begins at 1')
+                                    //': it must be 1, where the first column begins')
     do j = 1, size(column) - 1
       if (info%failed()) return
       if (column(j + 1) < column(j) .or. column(j + 1) - 1 > last) then
         call report(info, FUGE_ERR_SIZE, 'column('//text(j + 1)//') = '//text(column(j + 1))//' is outside ' &
-                    //text(column(j))//' .. '//text(last + 1)//', from the column before to the end of row and value')
+                    //text(column(j))//' .. '//text(last + 1)//', from the previous column to the end of row and value')
         return
       end if
       do k = column(j), column(j + 1) - 1

@@ -1,4 +1,4 @@
-!> The lines of a profile file.
+!> One line of a profile file: two numbers, a comment or a header.
 module fuge_profile_lines
   use fuge_text_fields, only: after_blanks, describe_field, is_blank, read_number, FIELD_NUMBER, FIELD_WORD
   use fuge_kinds, only: dp
@@ -7,7 +7,7 @@ module fuge_profile_lines
 
   public :: read_point
 
-  !> What a line is.
+  !> Kinds of lines.
   integer, parameter, public :: LINE_EMPTY = 0
   integer, parameter, public :: LINE_POINT = 1
   integer, parameter, public :: LINE_WORDS = 2
@@ -15,11 +15,11 @@ module fuge_profile_lines
 
 contains
 
-  !> Two numbers of one line, separated by blanks, tabs, a comma or a semicolon.
+  !> Read two numbers from a line, separated by blanks, tabs, a comma or a semicolon.
   !>
   !> `kind` is LINE_POINT with `x` and `z`, LINE_EMPTY (blank, or a comment that begins
-  !> with # or !), LINE_WORDS (both fields are words, a header perhaps) or LINE_WRONG;
-  !> `reason` is allocated for the last two. A comment may follow the numbers.
+  !> with # or !), LINE_WORDS (both fields are words, as in a header) or LINE_WRONG; `reason`
+  !> is allocated for the last two. A comment may follow the numbers.
   pure subroutine read_point(line, kind, x, z, reason)
     character(len=*), intent(in) :: line
     integer, intent(out) :: kind
@@ -30,7 +30,7 @@ contains
     x = 0.0_dp
     z = 0.0_dp
     kind = LINE_EMPTY
-    call split(line, first, last, fields)
+    call find_columns(line, first, last, fields)
     if (fields == 0) return
     call read_number(line(first(1):last(1)), of_x, x)
     of_z = of_x
@@ -39,23 +39,23 @@ contains
       kind = LINE_POINT
     else if (of_x == FIELD_WORD .and. of_z == FIELD_WORD) then
       kind = LINE_WORDS
-      call wrong_column(line(first(1):last(1)), of_x, reason)
+      call explain_column(line(first(1):last(1)), of_x, reason)
     else
       kind = LINE_WRONG
       if (of_x /= FIELD_NUMBER) then
-        call wrong_column(line(first(1):last(1)), of_x, reason)
+        call explain_column(line(first(1):last(1)), of_x, reason)
       else if (fields == 1) then
-        reason = 'only one column, x and z are needed'
+        reason = 'only one column: x and z are needed'
       else if (of_z /= FIELD_NUMBER) then
-        call wrong_column(line(first(2):last(2)), of_z, reason)
+        call explain_column(line(first(2):last(2)), of_z, reason)
       else
-        reason = 'more than two columns, x and z are needed (the decimal sign is the point)'
+        reason = 'more than two columns: x and z are needed, with a decimal point and not a comma'
       end if
     end if
   end subroutine read_point
 
-  !> Where the first two fields stand; `fields` is 3 if there are more.
-  pure subroutine split(line, first, last, fields)
+  !> The first two fields, line(first(k):last(k)); `fields` is 3 if there are more.
+  pure subroutine find_columns(line, first, last, fields)
     character(len=*), intent(in) :: line
     integer, intent(out) :: first(2), last(2), fields
     integer :: k, start
@@ -79,8 +79,9 @@ contains
       if (k > len(line)) exit
       if (is_separator(line(k:k))) k = after_blanks(line, k + 1)
     end do
-  end subroutine split
+  end subroutine find_columns
 
+  !> Does the character separate columns, apart from blanks?
   elemental function is_separator(letter)
     character, intent(in) :: letter
     logical :: is_separator
@@ -88,16 +89,17 @@ contains
     is_separator = letter == ',' .or. letter == ';'
   end function is_separator
 
-  pure subroutine wrong_column(field, kind, reason)
+  !> Why a column is not a number; `kind` as `read_number` returns it.
+  pure subroutine explain_column(field, kind, reason)
     character(len=*), intent(in) :: field
     integer, intent(in) :: kind
     character(len=:), allocatable, intent(out) :: reason
 
     if (len(field) == 0) then
-      reason = 'an empty column, x and z are needed'
+      reason = 'an empty column: x and z are needed'
     else
       reason = describe_field(field, kind)
     end if
-  end subroutine wrong_column
+  end subroutine explain_column
 
 end module fuge_profile_lines

@@ -1,7 +1,7 @@
 !> Fields of a line of text, and the numbers in them.
 !>
-!> Numbers are converted here, since a formatted read of each takes most of the time of a
-!> long file. The few that cannot be rounded with certainty are left to the compiler's library.
+!> Numbers are converted here, because formatted reads would take most of the time for a long
+!> file. The few numbers that cannot be rounded with certainty are left to the compiler's library.
 module fuge_text_fields
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_decimal_rounding, only: round_decimal, MOST_DIGITS
@@ -11,28 +11,29 @@ module fuge_text_fields
 
   public :: after_blanks, describe_field, find_field, is_blank, quoted, read_number, read_whole
 
-  !> What a field is.
+  !> Kinds of fields.
   integer, parameter, public :: FIELD_NUMBER = 0
   integer, parameter, public :: FIELD_NOT_FINITE = 1
   integer, parameter, public :: FIELD_WORD = 2
   integer, parameter, public :: FIELD_WRONG = 3
 
-  !> The largest double, 1.79..e308, has 309 places and these first digits; numbers with
-  !> fewer places than the least, 4.9e-324, are 0.
+  !> The largest double, 1.79..e308, has 309 digits before the point, of which these are the
+  !> first. Numbers with a smaller decimal exponent than the least double, 4.9e-324, are 0.
   integer, parameter :: LARGEST_PLACES = 309, LEAST_PLACES = -323
   integer(int64), parameter :: LARGEST_DIGITS = 179769313486231570_int64
-  !> Larger exponents are all the same to a double.
+  !> Larger exponents are cut to this one, which overflows or vanishes in any case.
   integer, parameter :: EXPONENT_LIMIT = 100000
-  !> As much of a field as a message quotes.
+  !> Number of characters of a field that messages quote.
   integer, parameter :: QUOTE_LENGTH = 24
 
-  !> A decimal number as it is written: digits * 10**exponent.
+  !> A decimal number: digits * 10**exponent.
   type :: decimal
     integer(int64) :: digits = 0_int64
+    !> Number of significant digits in `digits`.
     integer :: count = 0
     integer :: exponent = 0
     logical :: negative = .false.
-    !> All of its digits are in `digits`.
+    !> `digits` has all digits of the number.
     logical :: complete = .true.
   end type decimal
 
@@ -53,7 +54,7 @@ contains
     if (kind == FIELD_NOT_FINITE) words = ' is not a finite number'
   end function description
 
-  !> A field for a message: its begin, strange letters shown as ?.
+  !> A field for a message: its beginning in quotes, unprintable characters as ?.
   pure function quoted(field) result(quote)
     character(len=*), intent(in) :: field
     character(len=quoted_length(field)) :: quote
@@ -67,7 +68,7 @@ contains
     quote(len(quote):) = '"'
   end function quoted
 
-  !> What is wrong with a field that is no number.
+  !> Why a field is not a number; `kind` as `read_number` returns it.
   pure function describe_field(field, kind) result(reason)
     character(len=*), intent(in) :: field
     integer, intent(in) :: kind
@@ -76,7 +77,7 @@ contains
     reason = quoted(field)//description(kind)
   end function describe_field
 
-  !> The field at or after letter `from`, between blanks: line(first:last); last < first if
+  !> The first field between blanks from position `from` on: line(first:last), or last < first if
   !> there is none.
   pure subroutine find_field(line, from, first, last)
     character(len=*), intent(in) :: line
@@ -91,6 +92,7 @@ contains
     end do
   end subroutine find_field
 
+  !> Position of the first character from `from` on that is not blank; len(line) + 1 if all are.
   pure function after_blanks(line, from) result(k)
     character(len=*), intent(in) :: line
     integer, intent(in) :: from
@@ -103,7 +105,7 @@ contains
     end do
   end function after_blanks
 
-  !> Blank, tab, or the carriage return of a Windows line end.
+  !> Is the character a blank, a tab, or the carriage return of a Windows line end?
   elemental function is_blank(letter)
     character, intent(in) :: letter
     logical :: is_blank
@@ -111,10 +113,10 @@ contains
     is_blank = letter == ' ' .or. letter == achar(9) .or. letter == achar(13)
   end function is_blank
 
-  !> A number with a decimal point and an exponent after d, D, e or E.
+  !> Convert a number, which may have a decimal point and an exponent after d, D, e or E.
   !>
-  !> `kind` is one of the FIELD_ numbers; `value` is 0 unless it is FIELD_NUMBER. Numbers
-  !> too small for a double are 0, those too large count as infinite.
+  !> `kind` is one of the FIELD_ constants; `value` is 0 unless it is FIELD_NUMBER. Numbers too
+  !> small for a double are 0, numbers too large are FIELD_NOT_FINITE.
   pure subroutine read_number(field, kind, value)
     character(len=*), intent(in) :: field
     integer, intent(out) :: kind
@@ -126,7 +128,7 @@ contains
     value = 0.0_dp
     call read_decimal(field, number, kind)
     if (kind /= FIELD_NUMBER) return
-    if (is_beyond(number)) then
+    if (overflows(number)) then
       kind = FIELD_NOT_FINITE
       return
     end if
@@ -141,8 +143,8 @@ contains
     end if
   end subroutine read_number
 
-  !> Larger than the largest double.
-  pure function is_beyond(number) result(beyond)
+  !> Is the number larger than the largest double?
+  pure function overflows(number) result(beyond)
     type(decimal), intent(in) :: number
     logical :: beyond
     integer :: places
@@ -151,8 +153,9 @@ contains
     if (number%digits == 0_int64) places = 0
     beyond = places > LARGEST_PLACES
     if (places == LARGEST_PLACES) beyond = number%digits*10_int64**(MOST_DIGITS - number%count) > LARGEST_DIGITS
-  end function is_beyond
+  end function overflows
 
+  !> Parse a field without rounding; `kind` as in `read_number`.
   pure subroutine read_decimal(field, number, kind)
     character(len=*), intent(in) :: field
     type(decimal), intent(out) :: number
@@ -165,23 +168,24 @@ contains
       if (number%negative .or. field(1:1) == '+') k = 2
     end if
     seen = 0
-    call take_digits(field, k, number, seen)
-    if (letter_at(field, k) == '.') then
+    call read_digits(field, k, number, seen)
+    if (character_at(field, k) == '.') then
       k = k + 1
       number%exponent = number%exponent - count_digits(field, k)
-      call take_digits(field, k, number, seen)
+      call read_digits(field, k, number, seen)
     end if
     if (seen == 0) then
       kind = kind_of_word(field)
       return
     end if
     kind = FIELD_NUMBER
-    if (scan(letter_at(field, k), 'eEdD') > 0) call take_exponent(field, k, number)
+    if (scan(character_at(field, k), 'eEdD') > 0) call read_exponent(field, k, number)
     if (k <= len(field)) kind = FIELD_WRONG
   end subroutine read_decimal
 
-  !> The digits at `k`; `seen` counts them, leading zeros included.
-  pure subroutine take_digits(field, k, number, seen)
+  !> Append the digits from position `k` on to the number; `seen` counts them, leading zeros
+  !> included. On return `k` is the position after them.
+  pure subroutine read_digits(field, k, number, seen)
     character(len=*), intent(in) :: field
     integer, intent(inout) :: k, seen
     type(decimal), intent(inout) :: number
@@ -193,7 +197,7 @@ contains
       seen = seen + 1
       k = k + 1
       if (number%count == MOST_DIGITS) then
-        ! Dropped here, but it holds a place.
+        ! The digit is dropped, but not its place.
         number%complete = .false.
         number%exponent = number%exponent + 1
       else if (digit > 0 .or. number%count > 0) then
@@ -201,8 +205,9 @@ contains
         number%count = number%count + 1
       end if
     end do
-  end subroutine take_digits
+  end subroutine read_digits
 
+  !> Number of digits from position `from` on.
   pure function count_digits(field, from) result(digits)
     character(len=*), intent(in) :: field
     integer, intent(in) :: from
@@ -212,8 +217,8 @@ contains
     if (digits < 0) digits = len(field) - from + 1
   end function count_digits
 
-  !> An exponent at `k`, which stays where no digits follow.
-  pure subroutine take_exponent(field, k, number)
+  !> Add the exponent whose letter is at position `k`; if no digits follow, `k` is unchanged.
+  pure subroutine read_exponent(field, k, number)
     character(len=*), intent(in) :: field
     integer, intent(inout) :: k
     type(decimal), intent(inout) :: number
@@ -221,29 +226,30 @@ contains
     logical :: negative
 
     j = k + 1
-    negative = letter_at(field, j) == '-'
-    if (negative .or. letter_at(field, j) == '+') j = j + 1
+    negative = character_at(field, j) == '-'
+    if (negative .or. character_at(field, j) == '+') j = j + 1
     if (count_digits(field, j) == 0) return
     power = 0
-    do while (scan(letter_at(field, j), '0123456789') > 0)
+    do while (scan(character_at(field, j), '0123456789') > 0)
       power = min(10*power + iachar(field(j:j)) - iachar('0'), EXPONENT_LIMIT)
       j = j + 1
     end do
     k = j
     number%exponent = number%exponent + merge(-power, power, negative)
-  end subroutine take_exponent
+  end subroutine read_exponent
 
-  !> A blank beyond the end.
-  pure function letter_at(field, k) result(letter)
+  !> The character at position `k`, a blank beyond the end.
+  pure function character_at(field, k) result(letter)
     character(len=*), intent(in) :: field
     integer, intent(in) :: k
     character :: letter
 
     letter = ' '
     if (k <= len(field)) letter = field(k:k)
-  end function letter_at
+  end function character_at
 
-  !> NaN and infinity as languages write them; a word begins with a letter or a quote.
+  !> Kind of a field without digits: NaN or infinity as usually written, a word, which begins with
+  !> a letter or a quote, or something else.
   pure function kind_of_word(field) result(kind)
     character(len=*), intent(in) :: field
     integer :: kind
@@ -251,23 +257,23 @@ contains
     integer :: k
 
     word = field
-    if (scan(letter_at(field, 1), '+-') > 0) word = field(2:)
+    if (scan(character_at(field, 1), '+-') > 0) word = field(2:)
     do k = 1, len(word)
       if (word(k:k) >= 'A' .and. word(k:k) <= 'Z') word(k:k) = achar(iachar(word(k:k)) + 32)
     end do
     if (word == 'inf' .or. word == 'infinity' .or. word == 'nan' .or. word(1:4) == 'nan(') then
       kind = FIELD_NOT_FINITE
-    else if (scan(letter_at(field, 1), '0123456789+-.* ') > 0) then
+    else if (scan(character_at(field, 1), '0123456789+-.* ') > 0) then
       kind = FIELD_WRONG
     else
       kind = FIELD_WORD
     end if
   end function kind_of_word
 
-  !> A whole number, digits only with a sign perhaps.
+  !> Convert a whole number: digits, optionally with a sign.
   !>
-  !> `kind` is FIELD_NUMBER, or something else with `value` 0. Numbers beyond 10**18 are cut
-  !> down to it.
+  !> `kind` is FIELD_NUMBER, or another one with `value` 0. Numbers beyond 10**18 are reduced to
+  !> it.
   pure subroutine read_whole(field, kind, value)
     character(len=*), intent(in) :: field
     integer, intent(out) :: kind
@@ -277,9 +283,9 @@ contains
 
     value = 0_int64
     k = 1
-    if (scan(letter_at(field, 1), '+-') > 0) k = 2
+    if (scan(character_at(field, 1), '+-') > 0) k = 2
     seen = 0
-    call take_digits(field, k, number, seen)
+    call read_digits(field, k, number, seen)
     kind = FIELD_NUMBER
     if (seen == 0) then
       kind = kind_of_word(field)

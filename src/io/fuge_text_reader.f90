@@ -1,26 +1,28 @@
-!> A text file read at once, handed out line by line.
+!> A text file that is loaded as a whole and read line by line.
 module fuge_text_reader
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_FILES
-  use fuge_status, only: fuge_info, report, FUGE_MESSAGE_LENGTH, FUGE_ERR_FILE, FUGE_ERR_MEMORY
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
   implicit none
   private
 
-  public :: named
+  public :: io_reason, quoted_path
 
-  !> Of a path a message shows no more than its end.
+  !> Number of characters of a path that messages show, from its end.
   integer, parameter :: PATH_LENGTH = 100
+  !> Length of a message of the run-time library, without the path in it.
+  integer, parameter, public :: REASON_LENGTH = 200
   character, parameter :: LINE_FEED = achar(10)
   character(len=*), parameter :: BYTE_ORDER_MARK = char(239)//char(187)//char(191)
 
-  !> The bytes of a file and a place in them.
+  !> The bytes of a file, and the line that is being read.
   type, public :: text_file
-    !> The path for messages.
+    !> The path as messages quote it.
     character(len=:), allocatable :: name
     character(len=:), allocatable :: content
-    !> Number of the present line, content(first:last), its line feed left out.
+    !> Number of the present line, content(first:last) without its line feed.
     integer :: line = 0
     integer(int64) :: first = 1_int64
     integer(int64) :: last = -1_int64
@@ -33,8 +35,8 @@ module fuge_text_reader
 
 contains
 
-  !> The path for a message: its end, in quotes.
-  pure function named(path) result(name)
+  !> The path for a message: in quotes, only the end of a long one.
+  pure function quoted_path(path) result(name)
     character(len=*), intent(in) :: path
     character(len=merge(PATH_LENGTH + 4, len_trim(path) + 2, len_trim(path) > PATH_LENGTH)) :: name
     integer :: length
@@ -45,22 +47,33 @@ contains
     else
       name = '"'//path(:length)//'"'
     end if
-  end function named
+  end function quoted_path
 
-  !> The whole file at once; it is closed again in any case. Errors: FUGE_ERR_FILE,
-  !> FUGE_ERR_MEMORY.
+  !> The reason in an I/O message of the run-time library, without the path: the messages of
+  !> gfortran begin with Cannot open file 'path', which the library's own messages say already.
+  pure function io_reason(message) result(reason)
+    character(len=*), intent(in) :: message
+    character(len=len(message)) :: reason
+    integer :: quote
+
+    reason = message
+    quote = index(message, ''': ', back=.true.)
+    if (index(message, 'Cannot open file ') == 1 .and. quote > 0) reason = message(quote + 3:)
+  end function io_reason
+
+  !> Load a whole file. It is closed again in any case. Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
   subroutine load(self, path, info)
     class(text_file), intent(out) :: self
     character(len=*), intent(in) :: path
     type(fuge_info), intent(inout) :: info
-    character(len=FUGE_MESSAGE_LENGTH) :: reason
+    character(len=len(path) + REASON_LENGTH) :: reason
     integer(int64) :: bytes
     integer :: file, status
 
-    self%name = named(path)
+    self%name = quoted_path(path)
     self%content = ''
     if (len_trim(path) == 0) then
-      call report(info, FUGE_ERR_FILE, 'the path is blank: give the name of a file')
+      call report(info, FUGE_ERR_FILE, 'the path is blank: pass the path of a file')
       return
     end if
     reason = ''
@@ -69,7 +82,7 @@ contains
           iostat=status, iomsg=reason)
     if (status /= 0) then
       call unlock(LOCK_FILES)
-      call report(info, FUGE_ERR_FILE, self%name//' cannot be opened: '//trim(reason))
+      call report(info, FUGE_ERR_FILE, self%name//' cannot be opened: '//trim(io_reason(reason)))
       return
     end if
     inquire (unit=file, size=bytes)
@@ -92,15 +105,15 @@ contains
     if (index(self%content, BYTE_ORDER_MARK) == 1) self%last = 2_int64
   end subroutine load
 
-  !> Go to the next line; `found` is false at the end of the file.
-  pure subroutine advance(self, found)
+  !> Advance to the next line; `exists` is false at the end of the file.
+  pure subroutine advance(self, exists)
     class(text_file), intent(inout) :: self
-    logical, intent(out) :: found
+    logical, intent(out) :: exists
     integer(int64) :: next
 
     next = self%last + 2_int64
-    found = next <= len(self%content, kind=int64)
-    if (.not. found) return
+    exists = next <= len(self%content, kind=int64)
+    if (.not. exists) return
     self%line = self%line + 1
     self%first = next
     do while (next <= len(self%content, kind=int64))
@@ -110,7 +123,7 @@ contains
     self%last = next - 1_int64
   end subroutine advance
 
-  !> Lines in the whole file, an empty last one included.
+  !> Number of lines in the whole file, an empty last one included.
   pure function count_lines(self) result(lines)
     class(text_file), intent(in) :: self
     integer :: lines
@@ -122,7 +135,7 @@ contains
     end do
   end function count_lines
 
-  !> Report what is wrong with the present line (FUGE_ERR_FILE).
+  !> Report that the present line cannot be used (FUGE_ERR_FILE), and the `reason`.
   pure subroutine refuse(self, reason, info)
     class(text_file), intent(in) :: self
     character(len=*), intent(in) :: reason

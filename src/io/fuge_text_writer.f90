@@ -1,17 +1,18 @@
-!> A text file written in pieces. Its size is compared at the end: on a full disk a run-time
-!> library may report nothing, and give the size that the file would have.
+!> A text file that is written through a buffer. Its size is checked at the end, because on a full
+!> disk a run-time library may report no error, and as its size the one it should have had.
 module fuge_text_writer
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_locks, only: lock, unlock, LOCK_FILES
   use fuge_status, only: fuge_info, report, FUGE_MESSAGE_LENGTH, FUGE_ERR_FILE
-  use fuge_text_reader, only: named
+  use fuge_text_reader, only: io_reason, quoted_path, REASON_LENGTH
   implicit none
   private
 
-  integer, parameter :: PIECE = 16384
+  !> Bytes that are written at a time.
+  integer, parameter :: BUFFER_LENGTH = 16384
   character, parameter :: LINE_FEED = achar(10)
 
-  !> A new file; after the first error nothing more is written, `finish` reports it.
+  !> A new file. After the first error nothing more is written, and `finish` reports the error.
   type, public :: text_output
     private
     integer :: unit = 0
@@ -20,7 +21,7 @@ module fuge_text_writer
     integer(int64) :: bytes = 0_int64
     character(len=:), allocatable :: path
     character(len=FUGE_MESSAGE_LENGTH) :: reason = ''
-    character(len=PIECE) :: buffer
+    character(len=BUFFER_LENGTH) :: buffer
   contains
     procedure :: create
     procedure :: put
@@ -30,26 +31,29 @@ module fuge_text_writer
 
 contains
 
-  !> Replace the file at `path`. Error: FUGE_ERR_FILE.
+  !> Create a file at `path`, or replace it. Error: FUGE_ERR_FILE.
   subroutine create(self, path, info)
     class(text_output), intent(out) :: self
     character(len=*), intent(in) :: path
     type(fuge_info), intent(inout) :: info
+    character(len=len(path) + REASON_LENGTH) :: reason
     integer :: status
 
     self%path = path
+    reason = ''
     if (len_trim(path) == 0) then
-      call report(info, FUGE_ERR_FILE, 'the path is blank: give the name of a file')
+      call report(info, FUGE_ERR_FILE, 'the path is blank: pass the path of a file')
       return
     end if
     call lock(LOCK_FILES)
     open (newunit=self%unit, file=path, status='replace', action='write', access='stream', form='unformatted', &
-          iostat=status, iomsg=self%reason)
+          iostat=status, iomsg=reason)
     call unlock(LOCK_FILES)
-    if (status /= 0) call report(info, FUGE_ERR_FILE, named(self%path)//' cannot be opened: '//trim(self%reason))
+    if (status /= 0) call report(info, FUGE_ERR_FILE, quoted_path(path)//' cannot be opened: ' &
+                                 //trim(io_reason(reason)))
   end subroutine create
 
-  !> A line, shorter than a piece, without the blanks before and after it.
+  !> Add a line, shorter than the buffer, without leading and trailing blanks.
   subroutine put(self, line)
     class(text_output), intent(inout) :: self
     character(len=*), intent(in) :: line
@@ -57,12 +61,13 @@ contains
 
     first = max(1, verify(line, ' '))
     length = len_trim(line) - first + 2
-    if (self%used + length > PIECE) call self%write_buffer()
+    if (self%used + length > BUFFER_LENGTH) call self%write_buffer()
     self%buffer(self%used + 1:self%used + length - 1) = line(first:)
     self%buffer(self%used + length:self%used + length) = LINE_FEED
     self%used = self%used + length
   end subroutine put
 
+  !> Write and empty the buffer, unless an error has occurred.
   subroutine write_buffer(self)
     class(text_output), intent(inout) :: self
     integer :: status
@@ -75,12 +80,12 @@ contains
     self%used = 0
   end subroutine write_buffer
 
-  !> Close the file. Error: FUGE_ERR_FILE if it is not complete.
+  !> Write what is left and close the file. Error: FUGE_ERR_FILE if the file is not complete.
   subroutine finish(self, info)
     class(text_output), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
     character(len=FUGE_MESSAGE_LENGTH) :: reason
-    integer(int64) :: there
+    integer(int64) :: actual
     integer :: status
 
     call self%write_buffer()
@@ -91,17 +96,19 @@ contains
       self%failure = status
       self%reason = reason
     end if
-    there = self%bytes
-    if (self%failure == 0) there = bytes_in(self%path)
-    if (there /= self%bytes) then
+    actual = self%bytes
+    if (self%failure == 0) actual = file_size(self%path)
+    if (actual /= self%bytes) then
       self%failure = 1
-      self%reason = 'it has not the size that it should have, the disk may be full'
+      self%reason = 'its size is not what was written; the disk may be full'
     end if
-    if (self%failure /= 0) call report(info, FUGE_ERR_FILE, named(self%path)//' cannot be written: '//trim(self%reason))
+    if (self%failure /= 0) call report(info, FUGE_ERR_FILE, quoted_path(self%path)//' cannot be written: ' &
+                                       //trim(self%reason))
   end subroutine finish
 
-  !> Size of a file, 0 if it cannot be read. By its unit: flang 22 leaks when it inquires by name.
-  function bytes_in(path) result(bytes)
+  !> Size of a file in bytes, 0 if it cannot be read. Inquires by unit, because flang 22 leaks
+  !> memory when it inquires by name.
+  function file_size(path) result(bytes)
     character(len=*), intent(in) :: path
     integer(int64) :: bytes
     integer :: status, unit
@@ -115,6 +122,6 @@ contains
       if (status /= 0) bytes = 0_int64
     end if
     call unlock(LOCK_FILES)
-  end function bytes_in
+  end function file_size
 
 end module fuge_text_writer

@@ -1,8 +1,8 @@
-!> Chebyshev series on -1 <= t <= 1: coefficients from values and back, derivative, sums.
+!> Chebyshev series on -1 <= t <= 1: coefficients from values and back, derivative, evaluation.
 !>
-!> A series of degree n is sum_k a_k T_k(t), k = 0 .. n; its values are given at the points
-!> t_j = cos(pi j/n), j = 0 .. n, from 1 down to -1, those of twice the degree containing
-!> them. All is pure, and a power of two in the values is one in the results.
+!> A series of degree n is sum_k a_k T_k(t), k = 0 .. n. Its values are at the points
+!> t_j = cos(pi j/n), j = 0 .. n, from 1 down to -1, which are among the points of degree 2 n. All
+!> procedures are pure; scaling the values by a power of two scales the results exactly.
 !> Source: L. N. Trefethen, Approximation Theory and Approximation Practice, 2013,
 !> chapters 2 to 4; C. W. Clenshaw, Math. Comp. 9, 1955.
 module fuge_chebyshev
@@ -14,10 +14,9 @@ module fuge_chebyshev
   public :: chebyshev_points, chebyshev_coefficients, chebyshev_values, chebyshev_derivative, chebyshev_sum, &
     second_kind_sum, second_to_first
 
-
 contains
 
-  !> cos(pi j/n), j = 0 .. n, exactly symmetric about 0.
+  !> The points cos(pi j/n), j = 0 .. n, exactly symmetric about 0.
   pure function chebyshev_points(n) result(t)
     integer, intent(in) :: n
     real(dp) :: t(0:n)
@@ -33,7 +32,7 @@ contains
     end do
   end function chebyshev_points
 
-  !> Coefficients a_0 .. a_n from the values at the points, n a power of two.
+  !> Coefficients a_0 .. a_n from the values at the n + 1 points, n a power of two.
   pure function chebyshev_coefficients(values) result(a)
     real(dp), intent(in) :: values(0:)
     real(dp) :: a(0:size(values) - 1)
@@ -45,7 +44,7 @@ contains
     a(n) = 0.5_dp*a(n)
   end function chebyshev_coefficients
 
-  !> Values at the points of degree n, a power of two, of a series of degree n or less.
+  !> Values of a series of degree n or less at the n + 1 points, n a power of two.
   pure function chebyshev_values(a, n) result(values)
     real(dp), intent(in) :: a(0:)
     integer, intent(in) :: n
@@ -59,7 +58,7 @@ contains
     values = even_transform(halved)
   end function chebyshev_values
 
-  !> sum_j v_j cos(pi j k/n) over j = 0 .. 2 n - 1, v continued evenly beyond n.
+  !> sum_j v_j cos(pi j k/n) over j = 0 .. 2 n - 1, with v_(2 n - j) = v_j.
   pure function even_transform(v) result(s)
     real(dp), intent(in) :: v(0:)
     real(dp) :: s(0:size(v) - 1)
@@ -73,16 +72,16 @@ contains
     s = real(z(:n), dp)
   end function even_transform
 
-  !> Discrete Fourier transform in place, the length a power of two. Few values at a time:
-  !> for long ones there is `fuge_fft`.
+  !> Discrete Fourier transform in place by the algorithm of Cooley and Tukey, the length a power
+  !> of two. For few values; `fuge_fft` is for many.
   pure subroutine transform(z)
     complex(dp), intent(inout) :: z(0:)
-    complex(dp) :: turn(0:size(z)/2 - 1), odd
+    complex(dp) :: twiddle(0:size(z)/2 - 1), odd
     integer :: n, span, stride, first, k
 
     n = size(z)
     do k = 0, n/2 - 1
-      turn(k) = cmplx(cos(2.0_dp*PI*real(k, dp)/real(n, dp)), -sin(2.0_dp*PI*real(k, dp)/real(n, dp)), dp)
+      twiddle(k) = cmplx(cos(2.0_dp*PI*real(k, dp)/real(n, dp)), -sin(2.0_dp*PI*real(k, dp)/real(n, dp)), dp)
     end do
     call reverse_bits(z)
     span = 1
@@ -90,7 +89,7 @@ contains
       stride = n/(2*span)
       do first = 0, n - 1, 2*span
         do k = 0, span - 1
-          odd = turn(k*stride)*z(first + span + k)
+          odd = twiddle(k*stride)*z(first + span + k)
           z(first + span + k) = z(first + k) - odd
           z(first + k) = z(first + k) + odd
         end do
@@ -99,7 +98,7 @@ contains
     end do
   end subroutine transform
 
-  !> Each value to the place whose number has the same bits in reverse order.
+  !> Move each value to the place whose number has the same bits in reverse order.
   pure subroutine reverse_bits(z)
     complex(dp), intent(inout) :: z(0:)
     complex(dp) :: moved
@@ -112,7 +111,7 @@ contains
         z(k) = z(reversed)
         z(reversed) = moved
       end if
-      ! Add one to the number whose lowest bit stands first.
+      ! Add one to the number with reversed bits.
       bit = size(z)/2
       do while (bit > 0 .and. iand(reversed, bit) /= 0)
         reversed = reversed - bit
@@ -122,7 +121,7 @@ contains
     end do
   end subroutine reverse_bits
 
-  !> Coefficients of the derivative, one degree less.
+  !> Coefficients of the derivative, a series of one degree less.
   pure function chebyshev_derivative(a) result(d)
     real(dp), intent(in) :: a(0:)
     real(dp) :: d(0:max(0, size(a) - 2))
@@ -141,28 +140,29 @@ contains
     d(0) = 0.5_dp*d(0)
   end function chebyshev_derivative
 
-  !> sum_k a_k T_k(t) by Clenshaw's recurrence.
+  !> sum_k a_k T_k(t) at each of the points t, by Clenshaw's recurrence.
   pure function chebyshev_sum(a, t) result(values)
     real(dp), intent(in) :: a(0:), t(:)
     real(dp) :: values(size(t))
     real(dp) :: next(size(t)), after(size(t))
 
-    call recur(a, t, next, after)
+    call clenshaw(a, t, next, after)
     values = a(0) + t*next - after
   end function chebyshev_sum
 
-  !> sum_k c_k U_k(t), the polynomials of the second kind.
+  !> sum_k c_k U_k(t) at each of the points t, with Chebyshev polynomials of the second kind.
   pure function second_kind_sum(c, t) result(values)
     real(dp), intent(in) :: c(0:), t(:)
     real(dp) :: values(size(t))
     real(dp) :: next(size(t)), after(size(t))
 
-    call recur(c, t, next, after)
+    call clenshaw(c, t, next, after)
     values = c(0) + 2.0_dp*t*next - after
   end function second_kind_sum
 
-  !> The recurrence down to its values for k = 1 and k = 2.
-  pure subroutine recur(a, t, next, after)
+  !> Clenshaw's recurrence from the last coefficient down: its values for k = 1, `next`, and k = 2,
+  !> `after`.
+  pure subroutine clenshaw(a, t, next, after)
     real(dp), intent(in) :: a(0:), t(:)
     real(dp), intent(out) :: next(:), after(:)
     real(dp) :: now
@@ -177,10 +177,10 @@ contains
         next(j) = now
       end do
     end do
-  end subroutine recur
+  end subroutine clenshaw
 
-  !> The same polynomial in T_k instead of U_k: U_k = 2 (T_k + T_(k-2) + ..), the last
-  !> T_0 once.
+  !> Coefficients in T_k of the polynomial with the coefficients c in U_k, because
+  !> U_k = 2 (T_k + T_(k-2) + ..), where T_0 counts once.
   pure function second_to_first(c) result(a)
     real(dp), intent(in) :: c(0:)
     real(dp) :: a(0:size(c) - 1)

@@ -1,8 +1,8 @@
-!> Products with a real, even spectrum by FFTW: the only place that names it.
+!> Convolution with a real, even kernel by FFTW; the only module that calls FFTW.
 !>
-!> FFTW's planner is one for the whole process. Its own lock, which the first plan
-!> switches on, covers neither its start nor its number of threads: a lock of ours does.
-!> A host program that plans transforms itself, in another thread at the same time, calls
+!> The whole process shares one planner of FFTW. FFTW's own lock, which the first plan switches
+!> on, covers neither its initialisation nor its number of threads, so this module has a lock for
+!> them. A host program that plans transforms in another thread at the same time must call
 !> fftw_make_planner_thread_safe before it starts threads.
 module fuge_fft
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t, c_associated
@@ -20,29 +20,29 @@ module fuge_fft
   integer(c_int), parameter :: FFTW_ESTIMATE = 64
   integer, parameter :: int64 = selected_int_kind(18)
 
-  !> Transforms of one length, forward and back.
+  !> Forward and backward transforms of one length.
   !>
-  !> The assignment makes plans of its own. A copy bit by bit, as allocate(source=)
-  !> makes, must not be used: it does not own the plans and cannot know how long they live.
+  !> Assignment creates new plans. A bitwise copy, as by allocate(source=), must not be used: it
+  !> does not own the plans and cannot know when they are destroyed.
   type, public :: fft_plan
-    !> Number of values; 0 while not set.
+    !> Number of values; 0 before `set`.
     integer :: length = 0
-    !> Threads of one transform.
+    !> Number of threads of one transform.
     integer :: threads = 1
-    !> The plan was chosen by trying.
+    !> FFTW has chosen the plans by measurement.
     logical :: measured = .false.
     type(c_ptr), private :: forward = c_null_ptr
     type(c_ptr), private :: backward = c_null_ptr
-    !> Address of the owner.
-    type(c_ptr), private :: home = c_null_ptr
+    !> Address of the variable that owns the plans.
+    type(c_ptr), private :: owner = c_null_ptr
   contains
     procedure :: set
     procedure :: free
-    procedure :: take
+    procedure :: move_from
     procedure :: transform_even
     procedure :: convolve
-    procedure, private :: owner
-    procedure, private :: settle
+    procedure, private :: owns_plans
+    procedure, private :: own_plans
     procedure, private :: copy
     generic :: assignment(=) => copy
     final :: finish
@@ -63,7 +63,7 @@ module fuge_fft
     subroutine fftw_make_planner_thread_safe() bind(c, name='fftw_make_planner_thread_safe')
     end subroutine fftw_make_planner_thread_safe
 
-    !> 0 if there are no threads.
+    !> Result 0: threads are not available.
     function fftw_init_threads() bind(c, name='fftw_init_threads') result(done)
       import :: c_int
       integer(c_int) :: done
@@ -111,8 +111,8 @@ module fuge_fft
 
 contains
 
-  !> Least even 2^a 3^b 5^c 7^d >= n: a length that FFTW transforms fast; 0 if it
-  !> would not be a default integer.
+  !> Least even 2^a 3^b 5^c 7^d >= n, a length that FFTW transforms fast; 0 if it exceeds the
+  !> largest default integer.
   pure function good_length(n) result(length)
     integer, intent(in) :: n
     integer :: length
@@ -142,62 +142,63 @@ contains
 
   !> Plan transforms of `length` >= 1 values.
   !>
-  !> `threads` (default 1) share each transform; `measured` (default .false.) tries
-  !> which way is fastest, which takes seconds for long ones.
-  !> Errors, the plan as it was: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
+  !> `threads` (default 1) share each transform; with `measured` (default .false.) FFTW measures
+  !> which algorithm is fastest, which takes seconds for long transforms.
+  !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
   subroutine set(self, length, info, threads, measured)
     class(fft_plan), intent(inout) :: self
     integer, intent(in) :: length
     type(fuge_info), intent(inout) :: info
     integer, intent(in), optional :: threads
     logical, intent(in), optional :: measured
-    type(fft_plan) :: fresh
+    type(fft_plan) :: new_plan
 
-    fresh%length = length
-    if (present(threads)) fresh%threads = threads
-    if (present(measured)) fresh%measured = measured
+    new_plan%length = length
+    if (present(threads)) new_plan%threads = threads
+    if (present(measured)) new_plan%measured = measured
     if (length < 1) then
       call report(info, FUGE_ERR_SIZE, 'length = '//text(length)//': a transform needs at least one value')
-    else if (fresh%threads < 1) then
-      call report(info, FUGE_ERR_OPTION, 'threads = '//text(fresh%threads)//': use 1 or more')
+    else if (new_plan%threads < 1) then
+      call report(info, FUGE_ERR_OPTION, 'threads = '//text(new_plan%threads)//': use 1 or more')
     else
-      call make_plans(fresh, info)
+      call make_plans(new_plan, info)
     end if
-    if (.not. info%failed()) call self%take(fresh)
+    if (.not. info%failed()) call self%move_from(new_plan)
   end subroutine set
 
+  !> Create the plans of checked options. Errors as in `set`.
   subroutine make_plans(plan, info)
     type(fft_plan), intent(inout) :: plan
     type(fuge_info), intent(inout) :: info
-    logical :: ready
+    logical :: initialised
 
     call lock(LOCK_PLANNER)
-    ready = fftw_init_threads() /= 0
-    if (ready) call make_both(plan)
+    initialised = fftw_init_threads() /= 0
+    if (initialised) call plan_both_directions(plan)
     call unlock(LOCK_PLANNER)
-    if (.not. ready) then
-      call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads at all')
+    if (.not. initialised) then
+      call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads here')
     else if (c_associated(plan%forward) .and. c_associated(plan%backward)) then
-      call plan%settle()
+      call plan%own_plans()
     else
       call destroy(plan%forward, plan%backward)
-      call report(info, FUGE_ERR_MEMORY, 'out of memory: a transform of '//text(plan%length)//' values needs ' &
+      call report(info, FUGE_ERR_MEMORY, 'no memory: a transform of '//text(plan%length)//' values needs ' &
                   //text(3.0_dp*real(buffer_bytes(plan%length), dp))//' bytes')
     end if
   end subroutine make_plans
 
-  !> Within the lock.
-  subroutine make_both(plan)
+  !> Create both plans while the planner is locked; a plan is null without memory.
+  subroutine plan_both_directions(plan)
     type(fft_plan), intent(inout) :: plan
     type(c_ptr) :: buffer
     integer(c_int) :: before, flags
 
     call fftw_make_planner_thread_safe()
-    ! The host program may have a number of its own.
+    ! The host program may have set another number of threads.
     before = fftw_planner_nthreads()
     if (before /= plan%threads) call fftw_plan_with_nthreads(int(plan%threads, c_int))
-    ! FFTW aborts where its own tables find no memory: first see whether there is
-    ! twice as much again. Nothing is written, so that it costs no time.
+    ! FFTW aborts when there is no memory for its own tables, so test first that twice as much again
+    ! can be allocated. It is never touched and costs no time.
     buffer = fftw_malloc(3*buffer_bytes(plan%length))
     if (c_associated(buffer)) then
       flags = merge(FFTW_MEASURE, FFTW_ESTIMATE, plan%measured)
@@ -206,9 +207,9 @@ contains
       call fftw_free(buffer)
     end if
     if (before /= plan%threads) call fftw_plan_with_nthreads(before)
-  end subroutine make_both
+  end subroutine plan_both_directions
 
-  !> Of the values, or in their place the complex numbers 0 .. length/2.
+  !> Bytes of a buffer for the values, which the complex numbers 0 .. length/2 overwrite.
   pure function buffer_bytes(length) result(bytes)
     integer, intent(in) :: length
     integer(c_size_t) :: bytes
@@ -216,17 +217,18 @@ contains
     bytes = 16_c_size_t*(length/2 + 1)
   end function buffer_bytes
 
-  !> As if never set. Idle on a plan that is not set.
+  !> Destroy the plans; without effect before `set`.
   subroutine free(self)
     class(fft_plan), intent(inout) :: self
 
-    if (self%owner()) call destroy(self%forward, self%backward)
+    if (self%owns_plans()) call destroy(self%forward, self%backward)
     self%forward = c_null_ptr
     self%backward = c_null_ptr
-    self%home = c_null_ptr
+    self%owner = c_null_ptr
     self%length = 0
   end subroutine free
 
+  !> Destroy plans that exist.
   subroutine destroy(forward, backward)
     type(c_ptr), intent(in) :: forward, backward
 
@@ -234,60 +236,61 @@ contains
     if (c_associated(backward)) call fftw_destroy_plan(backward)
   end subroutine destroy
 
-  !> Are the plans its own?
-  function owner(self) result(own)
+  !> Does this variable own the plans? A bitwise copy does not.
+  function owns_plans(self) result(own)
     class(fft_plan), intent(in), target :: self
     logical :: own
 
-    own = c_associated(self%home)
-    if (own) own = c_associated(self%home, c_loc(self%length))
-  end function owner
+    own = c_associated(self%owner)
+    if (own) own = c_associated(self%owner, c_loc(self%length))
+  end function owns_plans
 
+  !> Destroy the plans at the end of their life.
   impure elemental subroutine finish(self)
     type(fft_plan), intent(inout) :: self
 
     call self%free()
   end subroutine finish
 
-  !> Own the plans. Only the address counts, nothing is read through it.
-  subroutine settle(self)
+  !> Become the owner of the plans. The address is only compared, never dereferenced.
+  subroutine own_plans(self)
     class(fft_plan), intent(inout), target :: self
 
-    self%home = c_loc(self%length)
-  end subroutine settle
+    self%owner = c_loc(self%length)
+  end subroutine own_plans
 
-  !> Take the plans of `source`, which is then not set.
-  subroutine take(self, source)
+  !> Move the plans from `source`, which has none afterwards.
+  subroutine move_from(self, source)
     class(fft_plan), intent(inout) :: self
     class(fft_plan), intent(inout) :: source
 
     call self%free()
     self%threads = source%threads
     self%measured = source%measured
-    if (.not. source%owner()) return
+    if (.not. source%owns_plans()) return
     self%length = source%length
     self%forward = source%forward
     self%backward = source%backward
-    call self%settle()
-    source%home = c_null_ptr
+    call self%own_plans()
+    source%owner = c_null_ptr
     call source%free()
-  end subroutine take
+  end subroutine move_from
 
-  !> Plans of its own, because each side destroys what it has. Without memory for
-  !> them the copy is not set. Not elemental: gfortran would copy bit by bit.
+  !> Assignment: create new plans, because each variable destroys its own. Without memory the
+  !> copy has no plans. Not elemental, because gfortran would then copy bitwise.
   subroutine copy(self, source)
     class(fft_plan), intent(inout) :: self
     class(fft_plan), intent(in) :: source
-    type(fft_plan) :: fresh
+    type(fft_plan) :: new_plan
     type(fuge_info) :: info
 
-    if (source%length > 0) call fresh%set(source%length, info, source%threads, source%measured)
-    call self%take(fresh)
+    if (source%length > 0) call new_plan%set(source%length, info, source%threads, source%measured)
+    call self%move_from(new_plan)
   end subroutine copy
 
-  !> The spectrum of an even kernel, over the length, so that `convolve` needs no scaling.
+  !> The spectrum of an even kernel, divided by the length so that `convolve` needs no scaling.
   !>
-  !> `kernel` (length/2 + 1): in, values at the distances 0 .. length/2; out, their
+  !> `kernel` (length/2 + 1): on entry the values at the distances 0 .. length/2, on return their
   !> spectrum. `status`: 0, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
   subroutine transform_even(self, kernel, status)
     class(fft_plan), intent(in) :: self
@@ -298,7 +301,7 @@ contains
     integer :: k, half
 
     half = self%length/2
-    call take_buffer(self, size(kernel) == half + 1, buffer, work, status)
+    call allocate_buffer(self, size(kernel) == half + 1, buffer, work, status)
     if (status /= FUGE_DONE) return
     work(:half + 1) = kernel
     do k = half + 1, self%length - 1
@@ -311,12 +314,12 @@ contains
     call fftw_free(buffer)
   end subroutine transform_even
 
-  !> y = inverse transform of spectrum times the transform of x.
+  !> y = inverse transform of `spectrum` times the transform of x: cyclic convolution.
   !>
-  !> `spectrum` (length/2 + 1), as `transform_even` makes it; `x` of at most the
-  !> length, as if zeros followed; `y` the first values of the product, at most the
-  !> length. A plan may be used by several threads at once.
-  !> `status`: 0, or with y as it was FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
+  !> `spectrum` (length/2 + 1) as `transform_even` returns it; `x` (at most length), continued by
+  !> zeros; `y` (at most length): the first values of the convolution. Several threads may use a
+  !> plan at once.
+  !> `status`: 0, or with y unchanged FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
   subroutine convolve(self, spectrum, x, y, status)
     class(fft_plan), intent(in) :: self
     real(dp), intent(in) :: spectrum(:), x(:)
@@ -326,7 +329,7 @@ contains
     type(c_ptr) :: buffer
     integer :: k
 
-    call take_buffer(self, size(spectrum) == self%length/2 + 1 .and. max(size(x), size(y)) <= self%length, &
+    call allocate_buffer(self, size(spectrum) == self%length/2 + 1 .and. max(size(x), size(y)) <= self%length, &
                      buffer, work, status)
     if (status /= FUGE_DONE) return
     work(:size(x)) = x
@@ -341,8 +344,9 @@ contains
     call fftw_free(buffer)
   end subroutine convolve
 
-  !> Memory for one transform, to be given back with fftw_free if the status is 0.
-  subroutine take_buffer(self, sizes_match, buffer, work, status)
+  !> Allocate a buffer for one transform and check the call; to be freed with fftw_free if `status`
+  !> is 0.
+  subroutine allocate_buffer(self, sizes_match, buffer, work, status)
     class(fft_plan), intent(in) :: self
     logical, intent(in) :: sizes_match
     type(c_ptr), intent(out) :: buffer
@@ -351,7 +355,7 @@ contains
 
     nullify (work)
     buffer = c_null_ptr
-    if (.not. self%owner()) then
+    if (.not. self%owns_plans()) then
       status = FUGE_ERR_CALL_ORDER
     else if (.not. sizes_match) then
       status = FUGE_ERR_SIZE
@@ -360,6 +364,6 @@ contains
       status = merge(FUGE_DONE, FUGE_ERR_MEMORY, c_associated(buffer))
       if (status == FUGE_DONE) call c_f_pointer(buffer, work, [2*(int(self%length/2, c_size_t) + 1)])
     end if
-  end subroutine take_buffer
+  end subroutine allocate_buffer
 
 end module fuge_fft

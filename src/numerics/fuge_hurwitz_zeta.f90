@@ -16,9 +16,9 @@ contains
 
   !> zeta(s, a), the sum of (a + k)^-s over k = 0, 1, 2, ..., to rounding.
   !>
-  !> `s` >= 2, `a` > 0. By the Euler-Maclaurin formula (NIST Digital Library of
-  !> Mathematical Functions, 25.11.5 and 2.10.1): terms one by one up to the
-  !> place 10 + s, from where the omitted correction is below 1e-17 of the rest.
+  !> `s` >= 2, `a` > 0. By the Euler-Maclaurin formula (NIST Digital Library of Mathematical
+  !> Functions, 25.11.5 and 2.10.1): terms one by one while a + k < 10 + s, then the formula,
+  !> whose omitted corrections are below 1e-17 of the rest.
   elemental function hurwitz_zeta(s, a) result(zeta)
     integer, intent(in) :: s
     real(dp), intent(in) :: a

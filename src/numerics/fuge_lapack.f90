@@ -1,4 +1,4 @@
-!> LAPACK and BLAS as fuge uses them: the only place that names them.
+!> Interfaces of LAPACK and BLAS; the only module that names their procedures.
 module fuge_lapack
   use fuge_kinds, only: dp
   implicit none
@@ -8,7 +8,7 @@ module fuge_lapack
     dsytrs, dtrsm, dtrsv
 
   interface
-    !> Least squares, or the shortest of several solutions, by pivoted orthogonal factors.
+    !> Least-squares solution of least norm, by a complete orthogonal factorisation.
     subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
       import :: dp
       integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
@@ -18,7 +18,7 @@ module fuge_lapack
       integer, intent(out) :: rank, info
     end subroutine dgelsy
 
-    !> A P = Q R, the columns of largest remainder first.
+    !> QR factorisation with column pivoting, A P = Q R.
     subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
       import :: dp
       integer, intent(in) :: m, n, lda, lwork
@@ -28,7 +28,7 @@ module fuge_lapack
       integer, intent(out) :: info
     end subroutine dgeqp3
 
-    !> Solve A X = B by elimination.
+    !> Solve A X = B by Gaussian elimination with partial pivoting.
     subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
       import :: dp
       integer, intent(in) :: n, nrhs, lda, ldb
@@ -36,7 +36,7 @@ module fuge_lapack
       integer, intent(out) :: ipiv(*), info
     end subroutine dgesv
 
-    !> The first columns of Q from its reflections.
+    !> The first columns of Q from its reflectors.
     subroutine dorgqr(m, n, k, a, lda, tau, work, lwork, info)
       import :: dp
       integer, intent(in) :: m, n, k, lda, lwork
@@ -73,7 +73,7 @@ module fuge_lapack
       integer, intent(out) :: info
     end subroutine dpbtrs
 
-    !> Cholesky factor of a symmetric positive definite matrix, blocked.
+    !> Cholesky factor of a symmetric positive definite matrix.
     subroutine dpotrf(uplo, n, a, lda, info)
       import :: dp
       character(len=1), intent(in) :: uplo
@@ -102,7 +102,7 @@ module fuge_lapack
       integer, intent(out) :: info
     end subroutine dsyev
 
-    !> C := alpha A^T A + beta C (trans = 'T'), one triangle.
+    !> C := alpha A^T A + beta C (trans = 'T'), one triangle of C.
     subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
       import :: dp
       character(len=1), intent(in) :: uplo, trans
@@ -111,7 +111,7 @@ module fuge_lapack
       real(dp), intent(inout) :: c(ldc, *)
     end subroutine dsyrk
 
-    !> Factor of a symmetric indefinite matrix.
+    !> Bunch-Kaufman factor of a symmetric indefinite matrix.
     subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
       import :: dp
       character(len=1), intent(in) :: uplo

@@ -39,7 +39,7 @@ static void test_read_refusals(void) {
   fill(z, 2);
   write_file("0 1\n1\n");
   CHECK_STATUS(fuge_read_profile(NAME, 2, x, z, &count, message, sizeof message), FUGE_ERR_FILE);
-  CHECK_STRING(message, "\"api_profiles_scratch.txt\", line 2: only one column, x and z are needed");
+  CHECK_STRING(message, "\"api_profiles_scratch.txt\", line 2: only one column: x and z are needed");
   remove(NAME);
   CHECK_STATUS(fuge_read_profile(NAME, 2, x, z, &count, message, sizeof message), FUGE_ERR_FILE);
   CHECK_CONTAINS(message, "cannot be opened");
