@@ -6,9 +6,9 @@ program hard
   use bench_problems, only: bench_problem, whole
   use bench_records, only: bench_row, write_problem
   use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET
-  use hard_reference, only: datum_of, deflection, violation
   use hard_run, only: force_error, solve_scene
   use hard_scenes, only: hard_scene, numbered_scene, SCENES
+  use one_sided_reference, only: datum_of, deflection, violation
   implicit none
 
   character(len=10), parameter :: PEERS(5) = [character(len=10) :: 'daqp', 'piqp', 'proxqp', 'quadprog', 'scipy_nnls']

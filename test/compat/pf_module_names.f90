@@ -1,5 +1,5 @@
-! Finds the names that a module gives to its own entities and that another module, which it uses whole, exports:
-! a compiler refuses such a module. Statements come in one by one, without strings, comments and continuations.
+! Finds names that a test module gives to its own entities and that pFUnit uses itself: with pFUnit such a module
+! does not compile. Statements come in one by one, without strings, comments and continuations.
 module pf_module_names
   use, intrinsic :: iso_fortran_env, only: iostat_end
   implicit none
@@ -14,6 +14,9 @@ module pf_module_names
                                                 'module']
   character(len=9), parameter :: types(*) = [character(len=9) :: 'integer', 'real', 'double', 'precision', 'complex', &
                                              'logical', 'character', 'type', 'class']
+
+  ! Local names of the procedure that pFUnit generates for each test module: public entities must not have them.
+  character(len=name_len), parameter :: generated(*) = [character(len=name_len) :: 't', 'suite']
 
   type, public :: module_names
     character(len=name_len), allocatable :: exported(:)
@@ -47,7 +50,7 @@ contains
     if (status /= iostat_end .or. size(names) == 0) error = path//': no names can be read'
   end subroutine read_names
 
-  ! An exported name that this statement gives to an entity of the module, or an empty string.
+  ! A name of pFUnit that this statement gives to an entity of the module, or an empty string.
   subroutine next_statement(this, statement, clash)
     class(module_names), intent(inout) :: this
     character(len=*), intent(in) :: statement
@@ -64,7 +67,9 @@ contains
       if (this%procedures == 0) then
         if (len(name) == 0) name = defined_name(statement)
         this%in_type = is_type_definition(statement)
-        clash = first_exported(this%exported, name//','//declared_names(statement)//','//imported_names(statement))
+        name = name//','//declared_names(statement)//','//imported_names(statement)
+        clash = first_found(this%exported, name)
+        if (clash == '' .and. index(statement, 'private') == 0) clash = first_found(generated, name)
       end if
       if (len(procedure_name(statement)) > 0) this%procedures = this%procedures + 1
     end if
@@ -174,9 +179,9 @@ contains
     end do
   end function heads
 
-  ! The first of the names in a list with commas that is among the exported ones, or an empty string.
-  pure function first_exported(exported, list) result(name)
-    character(len=*), intent(in) :: exported(:), list
+  ! The first name of a list with commas that is one of the given names, or an empty string.
+  pure function first_found(names, list) result(name)
+    character(len=*), intent(in) :: names(:), list
     character(len=:), allocatable :: name
     integer :: first, last
 
@@ -184,11 +189,11 @@ contains
     do while (first <= len(list))
       last = first - 1 + index(list(first:)//',', ',')
       name = list(first:last - 1)
-      if (any(exported == name)) return
+      if (any(names == name)) return
       first = last + 1
     end do
     name = ''
-  end function first_exported
+  end function first_found
 
   pure function first_word(text) result(word)
     character(len=*), intent(in) :: text

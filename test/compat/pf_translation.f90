@@ -278,7 +278,7 @@ contains
     end if
   end subroutine note_statement
 
-  ! Refuses the name of an entity of the module that pFUnit exports too.
+  ! Refuses an entity of the module with a name that pFUnit uses itself.
   subroutine check_names(this, line)
     type(translation), intent(inout) :: this
     character(len=*), intent(in) :: line
@@ -297,7 +297,7 @@ contains
     do while (this%statement /= '' .and. .not. allocated(this%error))
       last = index(this%statement//';', ';') - 1
       call this%names%next(trim(adjustl(this%statement(:last))), name)
-      if (name /= '') call refuse(this, name//' is a name that pFUnit exports: choose another', this%statement_line)
+      if (name /= '') call refuse(this, name//' is a name that pFUnit uses itself: choose another', this%statement_line)
       this%statement = this%statement(min(last + 2, len(this%statement) + 1):)
     end do
   end subroutine check_names

@@ -2,8 +2,8 @@
 module hard_run
   use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver
   use general_reference, only: solve_with
-  use hard_reference, only: length_of, violation
   use hard_scenes, only: hard_scene
+  use one_sided_reference, only: length_of, violation
   implicit none
   private
 

@@ -125,7 +125,7 @@ contains
     end if
   end function cells
 
-  !> Count an answer without a warning whose residual, by the library or by hard_reference, is large.
+  !> Count an answer without a warning whose residual, by the library or by one_sided_reference, is large.
   subroutine check(scene, info, solution, misses)
     type(hard_scene), intent(in) :: scene
     type(fuge_info), intent(in) :: info

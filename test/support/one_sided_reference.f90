@@ -1,7 +1,7 @@
-!> What the hard cases of one translation and one-sided points are tested against. Of the library only the kind of
-!> its numbers is used. Other than general_reference, lengths and residuals do not depend on the datum
+!> What problems of one translation and one-sided points are tested against. Of the library only the kind of its
+!> numbers is used. Other than in general_reference, lengths and residuals do not depend on the datum
 !> of gaps and matrix, and forces are exact for loads far below the natural one.
-module hard_reference
+module one_sided_reference
   use fuge, only: dp => fuge_dp
   use general_reference, only: eliminate
   implicit none
@@ -124,4 +124,4 @@ contains
     datum = max(minval(alpha), 0.0_dp) + min(maxval(alpha), 0.0_dp)
   end function datum_of
 
-end module hard_reference
+end module one_sided_reference
