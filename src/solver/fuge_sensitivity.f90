@@ -21,10 +21,9 @@ contains
 
   !> Changes of forces, gaps and motions at a fixed contact set, by two triangular solves.
   !>
-  !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of the
-  !> resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. Errors,
-  !> `change`
-  !> untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a mode that the changes load,
+  !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of
+  !> the resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. Errors,
+  !> `change` untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a mode that the changes load,
   !> FUGE_ERR_MEMORY.
   subroutine find_derivative(canonical, operator, factor, state, gap_change, load_change, change, info)
     type(canonical_problem), intent(in) :: canonical
@@ -56,7 +55,7 @@ contains
     where (state /= FUGE_OPEN) gap = 0.0_dp
     if (canonical%has_translation) free_motion(1) = free_motion(1) + datum*load(1)
     call canonical%to_given_modes(load_change, free_motion, motion)
-    call canonical%add_excluded_gaps(operator%alpha, gap_change, force, motion, gap)
+    call canonical%set_excluded_gaps(operator%alpha, gap_change, force, motion, gap)
     call move_alloc(force, change%force)
     call move_alloc(gap, change%gap)
     call move_alloc(motion, change%motion)

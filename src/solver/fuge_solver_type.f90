@@ -56,17 +56,14 @@ contains
 
   !> Solve the contact problem (paper, equations 9 to 11) and certify the solution.
   !>
-  !> `operator` displacements per force, `problem` gaps and load, `options` as in `fuge_options` (defaults when absent).
-  !> `monitor` hears of each iteration and may cancel; without a load there are none. On return info%status is
-  !> FUGE_DONE,
-  !> FUGE_WARN_RESIDUAL with the residual in the message, FUGE_WARN_NOT_UNIQUE where alpha is singular on the contact
-  !> (the
-  !> forces are then one of many possible) or the contact does not resist a mode (its motion is then one of many
-  !> possible,
-  !> and the forces are unique), or an error that leaves `solution` untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
-  !> FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED,
-  !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED. The next solve is possible after any of
-  !> them.
+  !> `operator` displacements per force, `problem` gaps and load, `options` as in `fuge_options` (defaults when
+  !> absent). `monitor` hears of each iteration and may cancel; without a load there are none. On return info%status
+  !> is FUGE_DONE, FUGE_WARN_RESIDUAL with the residual in the message, FUGE_WARN_NOT_UNIQUE where alpha is singular
+  !> on the contact (the forces are then one of many possible) or the contact does not resist a mode (its motion is
+  !> then one of many possible, and the forces are unique), or an error that leaves `solution` untouched:
+  !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,
+  !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
+  !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.
   subroutine solve(self, operator, problem, solution, info, options, monitor)
     class(fuge_solver), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
@@ -109,8 +106,7 @@ contains
   end subroutine solve
 
   !> Forget the last contact set and the history: the next solve starts from scratch. After a change of the operator
-  !> that
-  !> may be faster; the solution is the same.
+  !> that may be faster; the solution is the same.
   subroutine reset(self)
     class(fuge_solver), intent(inout) :: self
 
@@ -121,17 +117,14 @@ contains
   end subroutine reset
 
   !> How the last solution changes with gaps and load, to first order, and exactly as long as the contact set stays:
-  !> df, dc
-  !> and dq, by two triangular solves.
+  !> df, dc and dq, by two triangular solves.
   !>
   !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force; `change` the changes in the
-  !> order
-  !> of `fuge_solution`. The contact stiffness dF_0/dv_0 is 1/change%motion(1) for gap_change 0 and load_change 1;
-  !> column k
-  !> of the sensitivity to the gaps is the change for a unit gap_change at k. A point that just touches without force
-  !> stays in the state in which the solve left it.
-  !> Errors, `change` untouched: FUGE_ERR_CALL_ORDER without a solution with a load, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
-  !> FUGE_ERR_UNSUPPORTED, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY.
+  !> order of `fuge_solution`. The contact stiffness dF_0/dv_0 is 1/change%motion(1) for gap_change 0 and load_change
+  !> 1; column k of the sensitivity to the gaps is the change for a unit gap_change at k. A point that just touches
+  !> without force stays in the state in which the solve left it. Errors, `change` untouched: FUGE_ERR_CALL_ORDER
+  !> without a solution with a load, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_UNSUPPORTED,
+  !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY.
   subroutine derivative_by_load(self, operator, gap_change, load_change, change, info)
     class(fuge_solver), intent(in) :: self
     class(fuge_operator), intent(in) :: operator
@@ -274,7 +267,7 @@ contains
       return
     end if
     call self%canonical%to_given_modes(prescribed_values(problem), found%motion, solution%motion)
-    call self%canonical%add_excluded_gaps(operator%alpha, problem%gap, found%force, solution%motion, found%gap)
+    call self%canonical%set_excluded_gaps(operator%alpha, problem%gap, found%force, solution%motion, found%gap)
     call move_alloc(found%force, solution%force)
     call move_alloc(found%gap, solution%gap)
     call move_alloc(found%state, self%state)

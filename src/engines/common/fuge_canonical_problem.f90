@@ -58,14 +58,14 @@ module fuge_canonical_problem
     procedure :: to_given_modes
     procedure :: largest_load
     procedure :: transform_change
-    procedure :: add_excluded_gaps
+    procedure :: set_excluded_gaps
     procedure :: dominant_mode
   end type canonical_problem
 
 contains
 
-  !> The scene of a checked problem. Errors: FUGE_ERR_MEMORY, FUGE_ERR_MODES for motions
-  !> that depend on each other, FUGE_ERR_NO_EQUILIBRIUM.
+  !> The canonical form of a checked problem, without its matrix. Errors: FUGE_ERR_MEMORY, FUGE_ERR_MODES for
+  !> linearly dependent modes, FUGE_ERR_NO_EQUILIBRIUM.
   subroutine make_canonical(problem, canonical, info)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(out) :: canonical
@@ -87,7 +87,7 @@ contains
       allocate (canonical%modes(n, m), canonical%load(m), canonical%basis_change(m, m), stat=stat)
     end if
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
       return
     end if
     call apply_prescribed(problem, canonical)
@@ -103,7 +103,7 @@ contains
     if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info)
   end subroutine make_canonical
 
-  !> Prescribed motions change the gaps.
+  !> Subtract the displacements by the prescribed motions from the gaps.
   pure subroutine apply_prescribed(problem, canonical)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
@@ -123,7 +123,7 @@ contains
     end do
   end subroutine apply_prescribed
 
-  !> Rows of R at the excluded points.
+  !> Keep the rows of R at the excluded points.
   pure subroutine collect_excluded(problem, canonical)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
@@ -135,60 +135,58 @@ contains
     if (allocated(problem%modes)) canonical%excluded_rows = problem%modes(canonical%excluded_points, :)
   end subroutine collect_excluded
 
-  !> Modes of equal size, orthogonal at the points that take part; the first is 1 if that
-  !> is made of the given ones.
-  subroutine orthogonalise(given, resultant, canonical, info)
-    real(dp), intent(in) :: given(:, :), resultant(:)
+  !> Replace the free modes `columns` (n, m) by modes of equal size that are orthogonal at the points that take part;
+  !> the first is the constant 1 if that lies in their span.
+  subroutine orthogonalise(columns, resultant, canonical, info)
+    real(dp), intent(in) :: columns(:, :), resultant(:)
     type(canonical_problem), intent(inout) :: canonical
     type(fuge_info), intent(inout) :: info
-    real(dp) :: scales(size(given, 2)), part(size(given, 1), size(given, 2))
-    integer :: order(size(given, 2)), m, rank, replaced, stat
+    real(dp) :: scales(size(columns, 2)), basis(size(columns, 1), size(columns, 2))
+    integer :: order(size(columns, 2)), m, rank, replaced, stat
 
-    m = size(given, 2)
-    part = given
-    where (spread(canonical%excluded, 2, m)) part = 0.0_dp
-    scales = maxval(abs(part), dim=1)
+    m = size(columns, 2)
+    basis = columns
+    where (spread(canonical%excluded, 2, m)) basis = 0.0_dp
+    scales = maxval(abs(basis), dim=1)
     if (any(.not. scales > 0.0_dp)) then
       call report(info, FUGE_ERR_MODES, 'mode '//text(canonical%free(minloc(scales, dim=1)))//' moves no point')
       return
     end if
-    part = part/spread(scales, 1, size(part, 1))
-    if (is_orthogonal(part)) then
-      ! Several bodies: mixing them would cost the smallest resultant its digits.
-      call keep_modes(part, scales, resultant, canonical)
+    basis = basis/spread(scales, 1, size(basis, 1))
+    if (is_orthogonal(basis)) then
+      ! With several bodies, combining the modes would cost the smallest resultant its digits.
+      call keep_modes(basis, scales, resultant, canonical)
       return
     end if
-    call orthonormalise(part, DEPENDENT, order, rank, stat)
+    call orthonormalise(basis, DEPENDENT, order, rank, stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
       return
     else if (rank < m) then
-      call report(info, FUGE_ERR_MODES, 'mode '//text(canonical%free(order(rank &
-          + 1)))//' is made of the other modes: ' &
-                  //'leave it out')
+      call report(info, FUGE_ERR_MODES, 'mode '//text(canonical%free(order(rank + 1))) &
+                  //' is a combination of the other modes: leave it out')
       return
     end if
-    ! `part` is now an orthonormal base.
-    call replace_by_constant(part, canonical%excluded, replaced)
+    call replace_by_constant(basis, canonical%excluded, replaced)
     canonical%has_translation = replaced > 0
     if (canonical%has_translation) then
-      part = cshift(part, replaced - 1, dim=2)
-      call orthonormalise_in_order(part, stat)
+      basis = cshift(basis, replaced - 1, dim=2)
+      call orthonormalise_in_order(basis, stat)
       if (stat /= 0) then
         call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
         return
       end if
     end if
-    ! Rounding would let a point carry what does not move it.
-    where (spread(all(abs(given) <= 0.0_dp, dim=2), 2, m)) part = 0.0_dp
-    part = part*sqrt(real(count(.not. canonical%excluded), dp))
-    if (canonical%has_translation) part(:, 1) = merge(0.0_dp, 1.0_dp, canonical%excluded)
-    canonical%modes = part
-    canonical%basis_change = matmul(transpose(part), given)/real(count(.not. canonical%excluded), dp)
+    ! A point that no mode moves must stay so in spite of rounding: its force contributes to no resultant.
+    where (spread(all(abs(columns) <= 0.0_dp, dim=2), 2, m)) basis = 0.0_dp
+    basis = basis*sqrt(real(count(.not. canonical%excluded), dp))
+    if (canonical%has_translation) basis(:, 1) = merge(0.0_dp, 1.0_dp, canonical%excluded)
+    canonical%modes = basis
+    canonical%basis_change = matmul(transpose(basis), columns)/real(count(.not. canonical%excluded), dp)
     call solve_small(transpose(canonical%basis_change), resultant, canonical%load)
   end subroutine orthogonalise
 
-  !> Are the columns orthogonal to each other as they are?
+  !> Are the columns orthogonal to each other?
   pure function is_orthogonal(matrix) result(orthogonal)
     real(dp), intent(in) :: matrix(:, :)
     logical :: orthogonal
@@ -203,48 +201,56 @@ contains
     end do
   end function is_orthogonal
 
-  !> The modes as given but for their size, one that is constant first.
-  pure subroutine keep_modes(part, scales, resultant, canonical)
-    real(dp), intent(in) :: part(:, :), scales(:), resultant(:)
+  !> Keep orthogonal modes, `columns` (n, m) divided by `scales` (m), but for their size; a constant one becomes the
+  !> first.
+  pure subroutine keep_modes(columns, scales, resultant, canonical)
+    real(dp), intent(in) :: columns(:, :), scales(:), resultant(:)
     type(canonical_problem), intent(inout) :: canonical
     real(dp) :: unit
-    integer :: first, j, m, place
+    integer :: first, j, m, position
 
     m = size(scales)
     first = 0
     do j = m, 1, -1
-      if (minval(part(:, j), mask=.not. canonical%excluded) >= maxval(part(:, j), &
-                                                                      mask=.not. canonical%excluded)) first = j
+      if (is_constant(columns(:, j), canonical%excluded)) first = j
     end do
     canonical%has_translation = first > 0
     canonical%basis_change = 0.0_dp
     do j = 1, m
-      ! Turning the order brings the constant mode to the front.
-      place = modulo(j - max(first, 1), m) + 1
-      unit = norm2(part(:, j))/sqrt(real(count(.not. canonical%excluded), dp))
+      ! A cyclic shift brings the constant mode to the front.
+      position = modulo(j - max(first, 1), m) + 1
+      unit = norm2(columns(:, j))/sqrt(real(count(.not. canonical%excluded), dp))
       ! The constant is 1, not -1.
-      if (j == first .and. any(part(:, j) < 0.0_dp)) unit = -unit
-      canonical%modes(:, place) = part(:, j)/unit
-      if (j == first) canonical%modes(:, place) = merge(0.0_dp, 1.0_dp, canonical%excluded)
-      canonical%basis_change(place, j) = scales(j)*unit
-      canonical%load(place) = resultant(j)/(scales(j)*unit)
+      if (j == first .and. any(columns(:, j) < 0.0_dp)) unit = -unit
+      canonical%modes(:, position) = columns(:, j)/unit
+      if (j == first) canonical%modes(:, position) = merge(0.0_dp, 1.0_dp, canonical%excluded)
+      canonical%basis_change(position, j) = scales(j)*unit
+      canonical%load(position) = resultant(j)/(scales(j)*unit)
     end do
   end subroutine keep_modes
 
-  !> Put the constant in the place of a column of an orthonormal base if it lies in its
-  !> span; `column` is 0 if it does not.
-  pure subroutine replace_by_constant(base, excluded, column)
-    real(dp), intent(inout) :: base(:, :)
+  pure function is_constant(values, excluded)
+    real(dp), intent(in) :: values(:)
+    logical, intent(in) :: excluded(:)
+    logical :: is_constant
+
+    is_constant = minval(values, mask=.not. excluded) >= maxval(values, mask=.not. excluded)
+  end function is_constant
+
+  !> Replace a column of an orthonormal basis by the constant vector if that lies in its span; `column` is 0 if it does
+  !> not.
+  pure subroutine replace_by_constant(basis, excluded, column)
+    real(dp), intent(inout) :: basis(:, :)
     logical, intent(in) :: excluded(:)
     integer, intent(out) :: column
-    real(dp) :: ones(size(base, 1)), parts(size(base, 2))
+    real(dp) :: ones(size(basis, 1)), components(size(basis, 2))
 
     ones = merge(0.0_dp, 1.0_dp, excluded)
-    parts = matmul(ones, base)
+    components = matmul(ones, basis)
     column = 0
-    if (maxval(abs(ones - matmul(base, parts))) > CONSTANT_TOLERANCE*real(size(base, 1), dp)) return
-    column = maxloc(abs(parts), dim=1)
-    base(:, column) = ones/sqrt(sum(ones))
+    if (maxval(abs(ones - matmul(basis, components))) > CONSTANT_TOLERANCE*real(size(basis, 1), dp)) return
+    column = maxloc(abs(components), dim=1)
+    basis(:, column) = ones/sqrt(sum(ones))
   end subroutine replace_by_constant
 
   subroutine solve_small(matrix, right, solution)
@@ -286,7 +292,7 @@ contains
     if (allocated(self%prescribed)) m = size(self%prescribed)
   end function mode_count
 
-  !> The size of the resultants, which decides what products with alpha can reach.
+  !> The largest resultant, which bounds the products with alpha.
   pure function largest_load(self) result(load)
     class(canonical_problem), intent(in) :: self
     real(dp) :: load
@@ -295,50 +301,49 @@ contains
     if (size(self%load) > 0) load = maxval(abs(self%load))
   end function largest_load
 
-  !> All motions in the caller's order: the free ones from what an engine found in the
-  !> orthogonal modes, the prescribed ones from `given` (m).
-  subroutine to_given_modes(self, given, found, motion)
+  !> All motions in the caller's modes and order, `motion` (m): the free ones from `free_motion` in the orthogonal
+  !> modes, the prescribed ones from `prescribed_motion` (m).
+  subroutine to_given_modes(self, prescribed_motion, free_motion, motion)
     class(canonical_problem), intent(in) :: self
-    real(dp), intent(in) :: given(:), found(:)
+    real(dp), intent(in) :: prescribed_motion(:), free_motion(:)
     real(dp), intent(out) :: motion(:)
-    real(dp) :: free(size(found))
+    real(dp) :: free(size(free_motion))
 
-    motion = merge(given, 0.0_dp, self%prescribed)
-    if (size(found) < 1) return
-    call solve_small(self%basis_change, found, free)
+    motion = merge(prescribed_motion, 0.0_dp, self%prescribed)
+    if (size(free_motion) < 1) return
+    call solve_small(self%basis_change, free_motion, free)
     motion(self%free) = free
   end subroutine to_given_modes
 
-  !> The place, among all motions, of the one that has the largest part in a motion `way`
-  !> (free ones) of the orthogonal modes.
-  function dominant_mode(self, way) result(place)
+  !> The number, among the caller's modes, of the one that contributes most to a motion in the orthogonal modes.
+  function dominant_mode(self, free_motion) result(mode)
     class(canonical_problem), intent(in) :: self
-    real(dp), intent(in) :: way(:)
-    integer :: place
-    real(dp) :: free(size(way))
+    real(dp), intent(in) :: free_motion(:)
+    integer :: mode
+    real(dp) :: free(size(free_motion))
 
-    call solve_small(self%basis_change, way, free)
-    place = self%free(maxloc(abs(free)*sqrt(sum(self%basis_change**2, dim=1)), dim=1))
+    call solve_small(self%basis_change, free_motion, free)
+    mode = self%free(maxloc(abs(free)*sqrt(sum(self%basis_change**2, dim=1)), dim=1))
   end function dominant_mode
 
-  !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the
-  !> scene's gaps and loads.
+  !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the gaps and loads of the canonical
+  !> problem.
   subroutine transform_change(self, gap_change, load_change, reduced_gap, load)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: gap_change(:), load_change(:)
     real(dp), allocatable, intent(out) :: reduced_gap(:), load(:)
 
     reduced_gap = gap_change
-    if (allocated(self%prescribed_modes)) reduced_gap = reduced_gap - matmul(self%prescribed_modes, &
-        merge(load_change, 0.0_dp, &
-        self%prescribed))
+    if (allocated(self%prescribed_modes)) then
+      reduced_gap = reduced_gap - matmul(self%prescribed_modes, merge(load_change, 0.0_dp, self%prescribed))
+    end if
     allocate (load(size(self%free)))
     if (size(load) > 0) call solve_small(transpose(self%basis_change), load_change(self%free), load)
   end subroutine transform_change
 
-  !> c = g + A f - R q at the excluded points, of `gap` g (n), `force` (n) and all
-  !> motions `motion` (m), or of changes of these.
-  pure subroutine add_excluded_gaps(self, alpha, gap, force, motion, gap_out)
+  !> Set the gaps c = g + A f - R q at the excluded points, of `gap` g (n), `force` (n) and all motions (m), or of
+  !> changes of these.
+  pure subroutine set_excluded_gaps(self, alpha, gap, force, motion, gap_out)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: alpha(:, :), gap(:), force(:), motion(:)
     real(dp), intent(inout) :: gap_out(:)
@@ -349,9 +354,9 @@ contains
         gap_out(point) = gap(point) + sum(alpha(point, :)*force) - sum(self%excluded_rows(k, :)*motion)
       end associate
     end do
-  end subroutine add_excluded_gaps
+  end subroutine set_excluded_gaps
 
-  !> Forces to start with, or the reason why there are none.
+  !> Find forces in equilibrium, or report that there are none.
   subroutine require_equilibrium(problem, canonical, info)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
@@ -367,13 +372,13 @@ contains
     canonical%feasible_force = 0.0_dp
     if (size(canonical%load) < 1) return
     call find_equilibrium(canonical%modes, canonical%load, .not. canonical%excluded, &
-                          canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded, canonical%feasible_force, &
-                            remainder)
-    if (any(abs(remainder) > 0.0_dp)) call explain_missing(problem, canonical, remainder, info)
+                          canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded, &
+                          canonical%feasible_force, remainder)
+    if (any(abs(remainder) > 0.0_dp)) call report_no_equilibrium(problem, canonical, remainder, info)
   end subroutine require_equilibrium
 
-  !> Name the resultant that nothing can carry.
-  subroutine explain_missing(problem, canonical, remainder, info)
+  !> Name the resultant that no contact forces can carry.
+  subroutine report_no_equilibrium(problem, canonical, remainder, info)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: remainder(:)
@@ -387,8 +392,8 @@ contains
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'resultant '//text(problem%resultant(1))//' is negative: contact ' &
                   //'forces can only push, so it must be >= 0')
     else
-      call explain_line(problem, canonical, 1, 2, info)
-      if (.not. info%failed()) call explain_line(problem, canonical, 2, 1, info)
+      call report_line_of_action(problem, canonical, 1, 2, info)
+      if (.not. info%failed()) call report_line_of_action(problem, canonical, 2, 1, info)
       if (info%failed()) return
       associate (w => problem%resultant(canonical%free), r => problem%modes(:, canonical%free))
         call solve_small(canonical%basis_change, remainder, motion)
@@ -398,11 +403,11 @@ contains
                     //text(motion(worst))//' closes no contact, but the resultants do work')
       end associate
     end if
-  end subroutine explain_missing
+  end subroutine report_no_equilibrium
 
-  !> A load that presses beside all points, of a translation and a tilt: there its line of
-  !> action says more. Points that pull have no range.
-  subroutine explain_line(problem, canonical, translation, tilt, info)
+  !> With one translation and one tilt, report the line of action if it lies outside of the contact points. Not for
+  !> points with play or tied ones, which carry any line of action.
+  subroutine report_line_of_action(problem, canonical, translation, tilt, info)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: translation, tilt
@@ -417,6 +422,6 @@ contains
                   //', but the points reach from '//text(minval(x, mask=.not. canonical%excluded))//' to ' &
                   //text(maxval(x, mask=.not. canonical%excluded))//' only: move the load between them')
     end associate
-  end subroutine explain_line
+  end subroutine report_line_of_action
 
 end module fuge_canonical_problem

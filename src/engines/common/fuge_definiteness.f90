@@ -17,13 +17,12 @@ contains
 
   !> `deficient` is 0, or a point that breaks definiteness together with others.
   !>
-  !> The forces at m reference points r follow from those at the others o: f_r = -T^T f_o, T = R_o R_r^-1. The quadratic
-  !> form in f_o is A_oo - T A_ro - (A_or - T A_rr) T^T, which has a Cholesky factor or not whatever the datum of alpha.
-  !> A pivot that may be rounding counts as zero. The references are the stiffest points that are independent, which
-  !> keeps
-  !> the coefficients of the others.
-  !> `alpha` at least n rows, n columns; `datum` a constant to take out of it; `modes` (n, m) of full rank on the points
-  !> not `excluded` (n). `status`: FUGE_DONE or FUGE_ERR_MEMORY.
+  !> The forces at m reference points r follow from those at the others o: f_r = -T^T f_o, T = R_o R_r^-1. The
+  !> quadratic form in f_o is A_oo - T A_ro - (A_or - T A_rr) T^T, which has a Cholesky factor or not whatever the
+  !> datum of alpha. A pivot that may be rounding counts as zero. The references are the stiffest points that are
+  !> independent, which keeps the coefficients of the others. `alpha` at least n rows, n columns; `datum` a constant
+  !> to take out of it; `modes` (n, m) of full rank on the points not `excluded` (n). `status`: FUGE_DONE or
+  !> FUGE_ERR_MEMORY.
   subroutine check_definite(alpha, datum, modes, excluded, deficient, status)
     real(dp), intent(in) :: alpha(:, :), datum, modes(:, :)
     logical, intent(in) :: excluded(:)

@@ -188,8 +188,7 @@ contains
   end subroutine follow_canonical
 
   !> The solution at the start. `gap_datum` is subtracted from the gaps of the problem and, with the datum of alpha,
-  !> from
-  !> its translation.
+  !> from its translation.
   subroutine find_start(gap_datum, canonical, position, info)
     real(dp), intent(in) :: gap_datum
     type(canonical_problem), intent(inout) :: canonical
@@ -244,8 +243,7 @@ contains
   end subroutine explain_end
 
   !> Motions and their rates in the caller's modes. `start` (m) and `rate` (m) are the caller's resultants and
-  !> prescribed
-  !> motions at the start, and their rates.
+  !> prescribed motions at the start, and their rates.
   subroutine transform_motions(canonical, start, rate, path)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: start(:), rate(:)

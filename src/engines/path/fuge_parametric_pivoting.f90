@@ -1,11 +1,9 @@
 !> Parametric pivoting: the course of a contact along a straight line of problems, without load steps.
 !>
 !> Gaps and resultants change linearly with a parameter. Between two events forces, gaps and motions are linear in it
-!> too.
-!> An event is a parameter at which points come to a stop or leave it. Which points change when several could, and how
-!> the
-!> next piece runs, follows from a small contact problem in the rates of the weakly active points. Where no such rates
-!> exist, the motions that nothing resists jump.
+!> too. An event is a parameter at which points come to a stop or leave it. Which points change when several could,
+!> and how the next piece runs, follows from a small contact problem in the rates of the weakly active points. Where
+!> no such rates exist, the motions that nothing resists jump.
 module fuge_parametric_pivoting
   use fuge_block_pivoting, only: PATIENCE
   use fuge_canonical_problem, only: canonical_problem
@@ -40,8 +38,7 @@ module fuge_parametric_pivoting
   type, public :: path_position
     real(dp) :: parameter = 0.0_dp
     !> State of each point, (n). A weakly active point has no force at a stop, where it may stay or not: weakly_active
-    !> (n)
-    !> is the state of that stop, and FUGE_OPEN for all other points.
+    !> (n) is the state of that stop, and FUGE_OPEN for all other points.
     integer, allocatable :: state(:), weakly_active(:)
     !> Forces and gaps (n), motions (m) and their rates.
     real(dp), allocatable :: force(:), gap(:), motion(:), force_rate(:), gap_rate(:), motion_rate(:)

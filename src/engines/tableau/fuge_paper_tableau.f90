@@ -8,8 +8,7 @@
 !> Beyond the paper, motions and the forces of tied points are free of sign, and a play is an upper bound of c_k.
 !> Every point is described from the stop that it was last at; where that is the upper one its variables are
 !> complemented, d - c for c and -f for f. So no bounded variable is ever negative, and every variable outside of the
-!> basis
-!> is zero.
+!> basis is zero.
 !>
 !> Lengths and forces are scaled by powers of two, which changes no digit and makes every comparison relative to the
 !> data.

@@ -1,15 +1,12 @@
 !> Pricing and ratio test: which column enters the basis of the tableau and which row leaves.
 !>
 !> The paper (section 3, step 2) asks for (a) no negative right-hand side, (b1) a negative entry in the last row, (b2)
-!> no
-!> force in the basis together with its own gap, (b3) no artificial variable twice. Of the columns so admitted the
-!> paper's
-!> tables take the lowest that drives an artificial out, else the lowest. Ties of the ratio test are broken
+!> no force in the basis together with its own gap, (b3) no artificial variable twice. Of the columns so admitted the
+!> paper's tables take the lowest that drives an artificial out, else the lowest. Ties of the ratio test are broken
 !> lexicographically, which keeps degenerate problems from cycling.
 !>
 !> Beyond the paper, a variable may be free of sign or have an upper bound (the play of a gap):
-!> `fuge_variable_bounds`. A
-!> column that reaches its own bound first leaves the basis unchanged.
+!> `fuge_variable_bounds`. A column that reaches its own bound first leaves the basis unchanged.
 !>
 !> The tableau is scaled: its lengths and forces are of order 1, so that the tolerances here are relative to the data.
 module fuge_pivot_rule
@@ -251,10 +248,8 @@ contains
   end function break_tie
 
   !> Of the tied rows the one whose row of the inverse basis, divided by its pivot, is lexicographically least: as if
-  !> the
-  !> value of the first basis in row k had been perturbed by epsilon^k. In place 0, the bound of the column itself,
-  !> nothing
-  !> was perturbed.
+  !> the value of the first basis in row k had been perturbed by epsilon^k. In place 0, the bound of the column
+  !> itself, nothing was perturbed.
   !>
   !> The inverse basis, relative to the first one, stands in the columns of the first one. In the paper's problem the
   !> column of F_1 is not needed: two rows that agree in all others cannot both belong to a regular basis with F_0 > 0.

@@ -30,8 +30,7 @@ contains
   !> rounding of the pivots misjudged.
   !>
   !> `canonical` with its matrix; `solution` allocated; solution and `factor` belong together on return. The pivots go
-  !> to
-  !> `history` if `options` ask for it. Errors in `info`.
+  !> to `history` if `options` ask for it. Errors in `info`.
   subroutine solve_by_tableau(canonical, options, monitor, history, factor, solution, info)
     type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
