@@ -73,7 +73,8 @@ contains
   !> `fuge_halfplane_matrix`; FUGE_PERIODIC: the period is n*spacing, and displacements
   !> count from the mean of the surface, so that A is singular: equal forces on all
   !> cells displace nothing. `threads` (default 1) is the number for each transform;
-  !> `measured` (default .false.) lets FFTW time its algorithms and take the fastest.
+  !> `measured` (default .false.) lets FFTW time its algorithms and take the fastest. The
+  !> arguments are nine, because the last four are optional and named by the caller.
   !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
   !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   subroutine set(self, n, spacing, e_star, info, element, boundary, threads, measured)
@@ -135,7 +136,7 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//' needs a transform of ' &
                   //text(2.0_dp*real(operator%cells, dp))//' values in ' &
                   //text(32.0_dp*real(operator%cells, dp))//' bytes, but FFTW takes at most '//text(huge(length)) &
-                  //' values: take half as many cells')
+                  //' values: use half as many cells')
       return
     end if
     call operator%plan%set(length, info, threads, measured)

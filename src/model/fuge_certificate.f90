@@ -84,7 +84,7 @@ contains
     logical, allocatable :: included(:)
     integer :: n, stat
 
-    if (.not. fits(operator, problem, solution)) then
+    if (.not. sizes_agree(operator, problem, solution)) then
       call report(info, FUGE_ERR_SIZE, 'certificate: an array is missing or not as long as the operator has points')
       return
     end if
@@ -259,27 +259,27 @@ contains
   end function is_prescribed
 
   !> Is every array allocated, and as long as the operator has points?
-  pure function fits(operator, problem, solution)
+  pure function sizes_agree(operator, problem, solution)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
-    logical :: fits
+    logical :: sizes_agree
     integer :: m
 
     m = problem%mode_count()
-    fits = operator%points() > 0 .and. size_of(problem%gap) == operator%points() &
+    sizes_agree = operator%points() > 0 .and. size_of(problem%gap) == operator%points() &
       .and. size_of(solution%force) == operator%points() &
       .and. size_of(solution%gap) == operator%points() .and. size_of(solution%motion) == m
-    if (allocated(problem%modes)) fits = fits .and. size(problem%modes, 1) == operator%points()
-    if (allocated(problem%gap_upper)) fits = fits .and. size(problem%gap_upper) == operator%points()
-    if (allocated(problem%excluded)) fits = fits .and. size(problem%excluded) == operator%points()
+    if (allocated(problem%modes)) sizes_agree = sizes_agree .and. size(problem%modes, 1) == operator%points()
+    if (allocated(problem%gap_upper)) sizes_agree = sizes_agree .and. size(problem%gap_upper) == operator%points()
+    if (allocated(problem%excluded)) sizes_agree = sizes_agree .and. size(problem%excluded) == operator%points()
     if (allocated(problem%prescribed)) then
-      fits = fits .and. size(problem%prescribed) == m .and. size_of(problem%motion) == m
-      if (.not. all(problem%prescribed)) fits = fits .and. size_of(problem%resultant) == m
+      sizes_agree = sizes_agree .and. size(problem%prescribed) == m .and. size_of(problem%motion) == m
+      if (.not. all(problem%prescribed)) sizes_agree = sizes_agree .and. size_of(problem%resultant) == m
     else if (m > 0) then
-      fits = fits .and. size_of(problem%resultant) == m
+      sizes_agree = sizes_agree .and. size_of(problem%resultant) == m
     end if
-  end function fits
+  end function sizes_agree
 
   !> -1 if not allocated.
   pure function size_of(values) result(n)
@@ -296,7 +296,7 @@ contains
     real(dp) :: relative
 
     if (.not. abs(value) <= huge(value)) then
-      ! NaN or infinite: made a number, because maxval may ignore a NaN.
+      ! NaN or infinite: return a number, because maxval may ignore a NaN.
       relative = huge(value)
     else if (abs(value) <= 0.0_dp) then
       relative = 0.0_dp

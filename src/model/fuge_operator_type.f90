@@ -14,7 +14,7 @@ module fuge_operator_type
     !> Number of candidate points n; 0 while the operator is not set.
     procedure(count_points), deferred :: points
     !> u = (A - datum) f.
-    procedure(multiply), deferred :: apply
+    procedure(apply_to_forces), deferred :: apply
     !> The constant that `apply` subtracts from all coefficients of A; 0 by default. It changes
     !> v_0 only; left in A, a large constant costs the products their digits.
     procedure :: datum => no_datum
@@ -42,13 +42,13 @@ module fuge_operator_type
     !> ends the solve: an error of `fuge_status` keeps its meaning, any other value becomes
     !> FUGE_ERR_CALLBACK with the value in the message. NaN and infinity are detected and
     !> need no status.
-    subroutine multiply(self, force, displacement, status)
+    subroutine apply_to_forces(self, force, displacement, status)
       import :: fuge_operator, dp
       class(fuge_operator), intent(in) :: self
       real(dp), intent(in) :: force(:)
       real(dp), intent(out) :: displacement(:)
       integer, intent(out) :: status
-    end subroutine multiply
+    end subroutine apply_to_forces
   end interface
 
 contains
@@ -101,7 +101,7 @@ contains
   end function no_datum
 
   !> `magnitude` (n), length: sum_j |A_ij - datum| |f_j| at each point, the size of the terms of
-  !> its displacement before they cancel. `displacement` (n) is what `apply` made of `force` (n);
+  !> its displacement before they cancel. `displacement` (n) is what `apply` returns for `force` (n);
   !> this default takes the largest displacement for all points.
   subroutine largest_displacement(self, force, displacement, magnitude)
     class(fuge_operator), intent(in) :: self

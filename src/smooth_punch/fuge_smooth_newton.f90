@@ -60,7 +60,7 @@ contains
     logical, intent(out) :: converged
     integer, intent(inout) :: steps
     type(fuge_info), intent(inout) :: info
-    real(dp) :: change(2), residual(2), residual_size, previous_size, step, previous_step, tolerance, remaining
+    real(dp) :: change(2), residual(2), residual_size, previous_size, step, previous_step, tolerance
     type(anchored_interval) :: interval, start
     logical :: shortened
     integer :: k, shortenings, degree_limit
@@ -109,13 +109,22 @@ contains
       if (shortenings > MAX_SHORTENINGS) return
     end do
     converged = k <= MAX_STEPS
-    if (.not. converged) return
-    ! The error that remains after the last step, at the rate of convergence of the steps.
+    if (converged) call add_step_error(load, step, previous_step, series)
+  end subroutine find_ends
+
+  !> Make the errors of `series` relative to a_1, and add the error that remains after the last step, at
+  !> the rate of convergence of the last two.
+  pure subroutine add_step_error(load, step, previous_step, series)
+    type(load_case), intent(in) :: load
+    real(dp), intent(in) :: step, previous_step
+    type(slope_series), intent(inout) :: series
+    real(dp) :: remaining
+
     remaining = step*min(1.0_dp, step/previous_step) &
                 + series%leading_error/series%coefficients(2)*max(1.0_dp, sensitivity(series, load))
     series%leading_error = remaining
     series%series_error = remaining + series%series_error/series%coefficients(2)
-  end subroutine find_ends
+  end subroutine add_step_error
 
   !> Has a step increased the residual by more than rounding? The residual is huge where a_1 is not
   !> positive, because such an interval carries no force.

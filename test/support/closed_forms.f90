@@ -1,12 +1,12 @@
 !> Frictionless contacts of an elastic half-plane in closed form.
 !>
-!> The one place for tests and benchmarks; nothing here comes from the library but the kind
-!> of its numbers. Everything is per unit depth, with the modulus E* of
-!> 1/E* = 1/E1* + 1/E2*; the contact is |x| <= a. Sources:
+!> Tests and benchmarks share them; only the kind of real numbers comes from the library.
+!> Everything is per unit depth, with the modulus E* of 1/E* = 1/E1* + 1/E2*; the contact is
+!> |x| <= a. Sources:
 !> K. L. Johnson, Contact Mechanics, 1985, sections 2.8 (flat punches), 4.2 (cylinder), 13.2
 !> (waves, after H. M. Westergaard, Bearing pressures and cracks, J. Appl. Mech. 6, 1939);
-!> the punch A x**4 is the paper's. A flat punch that lifts off is one in full contact, at the
-!> limit of its moment, on what still touches.
+!> the punch A x**4 is the paper's. A flat punch that has lifted off is a punch in full contact, at
+!> its limiting moment, on the part that still touches.
 !>
 !> Pressure and slope of the gap are the two parts of one analytic function, so that gaps
 !> are integrals of the pressure's formula continued beyond the edge, times 2/E*.
@@ -19,7 +19,7 @@ module closed_forms
 
   real(dp), parameter :: PI = acos(-1.0_dp)
 
-  !> A contact of which everything is known.
+  !> A contact known in closed form.
   type, abstract, public :: closed_form
     !> Modulus, force per length squared; load, force per depth; half width, length.
     real(dp) :: e_star = 0.0_dp, load = 0.0_dp, a = 0.0_dp
@@ -36,8 +36,8 @@ module closed_forms
     procedure(of_contact), deferred :: mean_log
     !> Force on a cell, exactly: its mean pressure times its width.
     procedure, non_overridable :: cell_force
-    !> Approach, if a line load at distance r moves the surface by -2 F/(pi E*) ln(r/datum);
-    !> for a wave with datum 1 it counts from the mean of the surface.
+    !> Approach, if a line load displaces the surface at distance r by -2 F/(pi E*) ln(r/datum); for a
+    !> wave with datum 1 it counts from the mean of the surface.
     procedure, non_overridable :: approach
   end type closed_form
 
@@ -80,12 +80,12 @@ module closed_forms
 
   !> A flat rigid face under load and moment, in contact for |x| <= a.
   !>
-  !> `gap` is measured from the plane of the face: beside a corner it is negative, the
-  !> surface stands higher.
+  !> `gap` is measured from the plane of the face: beside a corner it is negative, because the surface
+  !> is higher.
   type, extends(closed_form), public :: flat_punch
     !> Sum of force times x; the face sinks by `tilt` x.
     real(dp) :: moment = 0.0_dp, tilt = 0.0_dp
-    !> Middle of the contact, seen from that of the face.
+    !> Position of the middle of the contact relative to that of the face.
     real(dp) :: middle = 0.0_dp
   contains
     procedure :: pressure => flat_pressure
@@ -128,7 +128,7 @@ contains
     approach = self%initial_gap(0.0_dp) + 2.0_dp*self%load/(PI*self%e_star)*(log(datum) - self%mean_log())
   end function approach
 
-  !> x within the contact.
+  !> x, limited to the contact.
   elemental function clamped(x, a) result(inside)
     real(dp), intent(in) :: x, a
     real(dp) :: inside
@@ -253,7 +253,7 @@ contains
     value = self%factor*(s*root(s, self%a)**3 + 3.0_dp*self%a**2*root_integral(s, self%a))
   end function quartic_gap
 
-  !> The same: two thirds of the load are like a cylinder's, one third has +1/4.
+  !> As for the cylinder: two thirds of the load have its pressure, and one third adds 1/4.
   elemental function quartic_mean_log(self) result(value)
     class(quartic_punch), intent(in) :: self
     real(dp) :: value
@@ -261,7 +261,7 @@ contains
     value = log(0.5_dp*self%a) - 0.25_dp
   end function quartic_mean_log
 
-  !> Face of half width a; |moment| <= load a/2, or it would lift off at one edge.
+  !> A face of half width a; |moment| <= load a/2, or it lifts off at one edge.
   pure function press_flat(e_star, load, a, moment) result(form)
     real(dp), intent(in) :: e_star, load, a
     real(dp), intent(in), optional :: moment
@@ -285,7 +285,7 @@ contains
     form%middle = 2.0_dp*arm - a
   end function press_beside
 
-  !> p = (F + 2 M x/a**2)/(pi sqrt(a**2 - x**2)), infinite at the edges; 0 is given there.
+  !> p = (F + 2 M x/a**2)/(pi sqrt(a**2 - x**2)), infinite at the edges, where this returns 0.
   elemental function flat_pressure(self, x) result(value)
     class(flat_punch), intent(in) :: self
     real(dp), intent(in) :: x
@@ -301,7 +301,7 @@ contains
     real(dp) :: value, s
 
     s = clamped(x, self%a)
-    ! The moment's part vanishes at both edges, not in the middle.
+    ! The part of the moment vanishes at both edges, not in the middle.
     value = (self%load*asin(s/self%a) &
              + 2.0_dp*self%moment/self%a*(1.0_dp - root(self%a, abs(s))/self%a))/PI
   end function flat_force_to
@@ -314,7 +314,7 @@ contains
     value = -self%tilt*x
   end function flat_initial_gap
 
-  !> -(2 F/(pi E*)) arccosh(|x|/a), and the tilt's part.
+  !> -(2 F/(pi E*)) arccosh(|x|/a), and the part of the tilt.
   elemental function flat_gap(self, x) result(value)
     class(flat_punch), intent(in) :: self
     real(dp), intent(in) :: x
@@ -325,7 +325,7 @@ contains
                                  - self%tilt*sign(root(abs(x), self%a), x)
   end function flat_gap
 
-  !> The load's part has nothing but the constant of the series, the moment's is odd.
+  !> The load contributes the constant of the series only, and the moment is odd.
   elemental function flat_mean_log(self) result(value)
     class(flat_punch), intent(in) :: self
     real(dp) :: value
@@ -403,7 +403,7 @@ contains
     value = 4.0_dp*self%amplitude*root_integral(abs(sin(PI*x/self%length)), sin(PI*self%a/self%length))
   end function wave_gap
 
-  !> The cylinder's, in sin(pi x/length).
+  !> As for the cylinder, in sin(pi x/length).
   elemental function wave_mean_log(self) result(value)
     class(sinusoidal_wave), intent(in) :: self
     real(dp) :: value

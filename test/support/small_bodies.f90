@@ -116,8 +116,8 @@ contains
     end do
   end function to_band
 
-  !> Compressed columns of a triangle ('U', 'L') or of all ('A'); rows descend, and each
-  !> entry is split in two, because both are allowed.
+  !> Compressed columns of a triangle ('U', 'L') or of all ('A'); rows descend and each entry is split
+  !> in two, because the format allows any order and repeated entries.
   pure subroutine to_columns(stiffness, part, column, row, value)
     real(dp), intent(in) :: stiffness(:, :)
     character(len=1), intent(in) :: part
@@ -141,7 +141,7 @@ contains
 
   !> Largest violation of the contact of the whole body with rigid ground at distance `gap`
   !> in the direction of the normals: K u = loads at what is not fixed, gaps and forces not
-  !> negative, no force where there is a gap; each relative to what it is made of.
+  !> negative, no force where there is a gap; each relative to its magnitude.
   pure function contact_violation(stiffness, body, gap, solution, u) result(violation)
     real(dp), intent(in) :: stiffness(:, :), gap(:), u(:)
     type(fuge_body), intent(in) :: body

@@ -7,9 +7,9 @@ module smooth_profiles
 
   public :: power_punch
 
-  !> What `form` is, p the `parameter`: 1 - cos(p x), |x|**3, exp(x) - x, x**4 - p x**2,
-  !> x**2 + p cos(20 x), sqrt(1 + (p x)**2), |x|; x**2 whose slope is wrong by the part p,
-  !> NaN for x > p, or fails there, or beyond the ends of the profile.
+  !> Values of `form`, with p the `parameter`: 1 - cos(p x), |x|**3, exp(x) - x, x**4 - p x**2,
+  !> x**2 + p cos(20 x), sqrt(1 + (p x)**2), |x|; x**2 whose slope has the relative error p,
+  !> x**2 that is NaN for x > p, that fails there, and that fails outside of the profile.
   integer, parameter, public :: COSINE = 1, ABSOLUTE_CUBE = 2, EXPONENTIAL = 3, TWO_WELLS = 4, WAVY = 5, &
     HYPERBOLA = 6, WEDGE = 7, SLOPE_TOO_LARGE = 8, NAN_BEYOND = 9, FAILS_BEYOND = 10, FAILS_OUTSIDE = 11
 
