@@ -1,7 +1,7 @@
 /* fuge - frictionless elastic contact.  SPDX-License-Identifier: BSD-3-Clause
  *
- * THE PROBLEM.  n candidate points of two elastic bodies, pressed together by a
- * load F_0 >= 0.  Given the influence matrix alpha (displacement into the body
+ * THE PROBLEM.  Two elastic bodies with n candidate contact points are pressed together
+ * by a load F_0 >= 0.  Given the influence matrix alpha (displacement into the body
  * per contact force), the initial gaps g and F_0, find forces f, gaps c and the
  * rigid approach v_0 with
  *
@@ -10,10 +10,10 @@
  *     f_1 + .. + f_n = F_0                       equilibrium
  *
  * (Fischer, Hoyer, Melosh, equations 9 to 11).  alpha is symmetric and positive
- * definite on the forces with zero sum; for F_0 > 0 the answer is then unique, for
- * F_0 = 0 v_0 is the largest possible, min g.  g may have any datum: it moves v_0
- * only.  Units are yours, as long as they agree:
- * length for gaps and v_0, force for f and F_0, length per force for alpha.
+ * definite on the forces with zero sum; for F_0 > 0 the solution is then unique, for
+ * F_0 = 0 v_0 is the largest possible, min g.  A constant added to g changes v_0 only.
+ * Units are yours, as long as they are consistent: length for gaps and v_0, force for f
+ * and F_0, length per force for alpha.
  *
  * In general there are m rigid motions q, such as a translation and a tilt, or those of
  * several bodies; column j of R (n x m) says how far each point closes per unit of q_j:
@@ -22,26 +22,34 @@
  *     0 <= c <= d                                play d >= 0 between two stops,
  *     f >= 0 where c = 0,  f <= 0 where c = d,   d infinite: one-sided, as above
  *     f = 0 between                              d = 0: tied, c = 0 and f of either sign
- *     (R^T f)_j = w_j  or  q_j given             each motion free under its resultant
+ *     (R^T f)_j = w_j  or  q_j prescribed        each motion is free under its resultant
  *                                                w_j, or prescribed
  *
  * and points may be excluded: no force, any gap.  The paper's problem is R = 1, q = v_0,
  * w = F_0.  alpha has to be positive definite on the forces with R^T f = 0 in the free
- * motions.  The forces are then unique; a free motion that no contact holds (w = 0, or a
- * body about to tip) is not: any of those possible is given, with FUGE_WARN_NOT_UNIQUE.
- * General problems need a dense operator, for the active set or the tableau; the
- * iteration takes the plain problem and a prescribed translation.
+ * motions.  The forces are then unique.  A free motion that no contact holds (w = 0, or a
+ * body about to tip) is not: the solution has one of the possible values, with
+ * FUGE_WARN_NOT_UNIQUE.  General problems need a dense operator, for the active set or the
+ * tableau; the iteration takes the paper's problem and a prescribed translation.
  *
- * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda], i, k
- * from 0.  Points in messages count from 1.  Every int function returns a status:
- * 0 done, > 0 done with a warning, < 0 an error that left all outputs untouched
- * (fuge_status_text says what each means).  Nothing is printed, nothing aborts,
- * there is no global state.  NULL where it is not allowed gives FUGE_ERR_POINTER.
+ * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda].  Points, rows,
+ * degrees of freedom and modes count from 0, in messages too, unless an argument says
+ * otherwise; lines of files, and what is quoted from them, count from 1.  Every function
+ * that returns int returns a status: 0 done, > 0 done with a warning, < 0 an error that
+ * left all outputs untouched (fuge_status_text gives the general meaning).  NULL where it
+ * is not allowed is FUGE_ERR_POINTER.  Nothing is printed, nothing aborts, there is no
+ * global state.
  *
- * THREADS.  Calls in different threads at once are safe if no two of them have the same
- * solver or body, be it only to read results.  An operator may be shared by the solvers
- * of several threads, unless one makes, changes or frees it meanwhile; it and its matrix
- * are only read.
+ * MESSAGES.  A message says what is wrong, where, and how to mend it; it is empty when all
+ * is well.  A call on a solver or a body leaves its message there, for fuge_solver_message
+ * and fuge_body_message.  Every other call that can refuse its data has `message` and `len`
+ * as its last arguments: at most len bytes are written, always ended by NUL.  No message is
+ * longer than 256 characters.  NULL, or len = 0, if no message is wanted.
+ *
+ * THREADS.  Calls in different threads at once are safe unless two of them have the same
+ * solver or body, even if both only read results.  Solvers of several threads may share
+ * an operator and its matrix, which they only read, as long as no thread changes or frees
+ * it meanwhile.
  *
  * CALL ORDER.  Either fuge_solve_dense alone, or
  *     fuge_operator_dense, _halfplane or _callback -> fuge_solver_new
@@ -101,7 +109,7 @@ enum {
 /* Meaning of a status, as in the comments above; a constant string, never NULL. */
 const char *fuge_status_text(int status);
 
-/* Version of the library that is linked; compare with FUGE_VERSION. */
+/* Version of the linked library; compare it with FUGE_VERSION. */
 const char *fuge_version(void);
 
 /* ---- options and report ------------------------------------------------- */
@@ -110,12 +118,12 @@ enum {                          /* fuge_options.method */
   FUGE_AUTO = 0,                /* for a matrix the active set, or the tableau if the history
                                    is kept; for any other operator the iteration */
   FUGE_TABLEAU = 1,             /* the paper's tableau, Phase I of the simplex method */
-  FUGE_ACTIVE_SET = 2,          /* block principal pivoting: the fast one for a matrix */
-  FUGE_ITERATIVE = 3            /* products only: the fast one for many points */
+  FUGE_ACTIVE_SET = 2,          /* block principal pivoting: fastest for a matrix */
+  FUGE_ITERATIVE = 3            /* products only: fastest for many points */
 };
 
 enum {                          /* fuge_options.pivot_rule, of the tableau */
-  FUGE_PAPER_RULE = 0,          /* drive an artificial out, then lowest column number */
+  FUGE_PAPER_RULE = 0,          /* first an artificial variable leaves, then lowest column number */
   FUGE_MOST_NEGATIVE = 1,       /* most negative entry of the last row */
   FUGE_GREATEST_DECREASE = 2    /* greatest decrease of the sum of artificials */
 };
@@ -123,10 +131,10 @@ enum {                          /* fuge_options.pivot_rule, of the tableau */
 typedef struct fuge_options {
   int method;
   int pivot_rule;
-  int max_iterations;           /* most pivots or contact sets, on all grids; 0: 50 for each row */
-  int keep_history;             /* nonzero: fuge_get_history will have all steps */
+  int max_iterations;           /* limit of pivots or contact sets, on all grids; 0: 50 for each row */
+  int keep_history;             /* nonzero: keep all steps for fuge_get_history */
   int reserved_int[4];
-  double tolerance;             /* largest relative residual that counts as done */
+  double tolerance;             /* largest relative residual without a warning */
   double reserved[7];
 } fuge_options;
 
@@ -134,46 +142,40 @@ typedef struct fuge_info {
   int status;                   /* what fuge_solve returned */
   int iterations;               /* pivots of the tableau, else contact sets, on all grids */
   int contacts;                 /* points with a contact force */
-  int products;                 /* products alpha f by the operator, those on coarser grids
-                                   by their share, rounded up */
-  int preconditionings;                  /* preconditioner applications, likewise */
+  int products;                 /* products alpha f by the operator; those on coarser grids
+                                   count by their cost, rounded up */
+  int preconditionings;         /* applications of a preconditioner, likewise */
   int reserved_int[3];
   double residual;              /* certificate: largest scaled violation of the problem */
   double reserved[7];
 } fuge_info;
 
-/* Fill *opt with the defaults. */
+/* Set *opt to the defaults; zeros are not the defaults. */
 void fuge_default_options(fuge_options *opt);
 
 /* ---- one call ----------------------------------------------------------- */
 
-/* Solve with the default options.
+/* Solve the paper's problem with the default options.
  *   alpha     in   lda x n, the first n rows count; length per force
- *   gap       in   n, initial gaps (external load included); length
+ *   gap       in   n, initial gaps, including those that external loads cause; length
  *   load      in   F_0 >= 0; force.  0: no forces, the bodies just touch
  *   force     out  n; force        gap_out  out  n; length
  *   approach  out  v_0; length
- * Outputs may be the same array as gap. */
+ * force or gap_out may be the same array as gap.  Errors as for fuge_operator_dense and
+ * fuge_solve. */
 int fuge_solve_dense(int n, const double *alpha, int lda, const double *gap, double load,
-                     double *force, double *gap_out, double *approach);
-
-/* The status that fuge_solve_dense returns for these data, with its message: what is
- * wrong, where, and how to mend it.  Solves to find out.  At most len bytes go to
- * message, always ended by NUL. */
-int fuge_check_dense(int n, const double *alpha, int lda, const double *gap, double load,
+                     double *force, double *gap_out, double *approach,
                      char *message, size_t len);
 
 /* ---- two bodies --------------------------------------------------------- */
 
-enum {                          /* state */
+enum {                          /* state of a plane problem */
   FUGE_PLANE_STRAIN = 0,        /* long bodies, no strain out of the plane */
   FUGE_PLANE_STRESS = 1         /* thin bodies, no stress out of the plane */
 };
 
-/* A rigid body has the modulus INFINITY.  Messages as for fuge_check_dense; message may
- * be NULL. */
-
-/* Modulus of one body's surface: E/(1-nu^2) in plane strain, E in plane stress.
+/* Modulus of one body's surface; INFINITY for a rigid body: E/(1-nu^2) in plane
+ * strain, E in plane stress.
  *   young    in   E > 0; force per length^2
  *   poisson  in   nu, above -1 and at most 0.5
  *   modulus  out  force per length^2
@@ -186,8 +188,8 @@ int fuge_plane_modulus(double young, double poisson, int state, double *modulus,
  * One of e1 and e2 may be INFINITY; FUGE_ERR_MODULUS if both are. */
 int fuge_combined_modulus(double e1, double e2, double *e_star, char *message, size_t len);
 
-/* Parts of the displacement alpha f that bodies 1 and 2 take: e_star/e1 and e_star/e2,
- * of sum 1. */
+/* Shares of bodies 1 and 2 in the displacement alpha f: e_star/e1 and e_star/e2, whose
+ * sum is 1. */
 int fuge_displacement_shares(double e1, double e2, double *share1, double *share2,
                              char *message, size_t len);
 
@@ -198,17 +200,16 @@ int fuge_displacement_shares(double e1, double e2, double *share1, double *share
  * after # or ! and one line of words before the numbers are skipped.  Heights z are
  * positive upwards: the initial gap of two profiles is upper - lower.
  *   path      in   name of the file
- *   capacity  in   length of x and z; each may be NULL if not wanted
- *   x, z      out  in the unit of the file
- *   count     out  points in the file; only the first capacity are written
- *   message   out  at most len bytes, ended by NUL; may be NULL
+ *   capacity  in   length of x and z
+ *   x, z      out  in the unit of the file; each may be NULL
+ *   count     out  points in the file, of which the first capacity are written
  * FUGE_ERR_FILE: the message has the file, the line and the reason. */
 int fuge_read_profile(const char *path, int capacity, double *x, double *z, int *count,
                       char *message, size_t len);
 
 /* Heights of the profile x, z (n >= 2, x strictly increasing) by linear interpolation.
- *   centre  in   points, any order, within x[0] .. x[n-1]; length
- *   height  out  points; no array may overlap another
+ *   centre  in   length `points`, in any order, within x[0] .. x[n-1]; length
+ *   height  out  length `points`; it may not overlap another array
  * FUGE_ERR_WIDTH: a centre is outside, or x does not increase. */
 int fuge_sample_profile(int n, const double *x, const double *z, int points, const double *centre,
                         double *height, char *message, size_t len);
@@ -218,63 +219,61 @@ enum {                          /* form */
   FUGE_LEVEL_LINE = 1           /* the least-squares line */
 };
 
-/* Take the mean or the line off z (n >= 2), in place.  Points count by the length they
- * stand for. */
+/* Subtract the mean or the line from z (n >= 2), in place.  Each point is weighted by the
+ * length it stands for. */
 int fuge_level_profile(int n, const double *x, double *z, int form, char *message, size_t len);
 
 /* ---- half-plane --------------------------------------------------------- */
 
-enum {                          /* element: what a force and a displacement mean */
+enum {                          /* element: what a force and a displacement stand for */
   FUGE_CENTRE = 0,              /* uniform pressure f/width on a cell, displacement at its centre */
   FUGE_MEAN = 1,                /* the same pressure, mean displacement of a cell: any widths */
-  FUGE_HAT = 2                  /* pressure a hat with peak f/width at x and base 2 width,
-                                   displacement at x */
+  FUGE_HAT = 2                  /* pressure with peak f/width at x, falling linearly to zero at
+                                   x - width and x + width, displacement at x */
 };
 
 /* Influence matrix of cells on an elastic half-plane.
  *   x, width  in   n; centres and widths of the cells; length
  *   e_star    in   E/(1-nu^2) in plane strain, E in plane stress; force per length^2
- *   alpha     out  lda x n; displacement per force per unit depth
- * The displacement by a line load is taken as zero at the distance D, twice the length
- * that the cells cover: all coefficients are positive.  FUGE_CENTRE and FUGE_HAT need
- * equal widths (FUGE_ERR_GRID otherwise). */
+ *   alpha     out  lda x n, lda >= n; displacement per force per unit depth
+ * The displacement by a line load is zero at the distance D, twice the length that the
+ * cells cover, so all coefficients are positive.  FUGE_CENTRE and FUGE_HAT need equal
+ * widths (FUGE_ERR_GRID otherwise).  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
+ * FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OVERFLOW. */
 int fuge_halfplane_matrix(int n, const double *x, const double *width, double e_star,
-                          int element, double *alpha, int lda);
+                          int element, double *alpha, int lda, char *message, size_t len);
 
-/* The same, folded for a scene symmetric about x = 0: give the cells with x >= 0;
- * a force is the sum over a cell and its mirror image, the load is the whole one. */
+/* The same for a scene symmetric about x = 0, of which only the cells with x >= 0 are
+ * given: a force is the sum over a cell and its mirror image, the load is the whole load. */
 int fuge_halfplane_symmetric_matrix(int n, const double *x, const double *width, double e_star,
-                                    int element, double *alpha, int lda);
-
-/* The checks of the two above (symmetric: 0 or 1) with a message, as fuge_check_dense. */
-int fuge_check_halfplane(int n, const double *x, const double *width, double e_star,
-                         int element, int symmetric, char *message, size_t len);
+                                    int element, double *alpha, int lda,
+                                    char *message, size_t len);
 
 /* ---- edges of contact --------------------------------------------------- */
 
-enum {                          /* what an edge is */
-  FUGE_EDGE_REFINED = 0,        /* better than the grid; the others are the cell's edge because */
+enum {                          /* kind of an edge; all but the first are edges of cells, because */
+  FUGE_EDGE_REFINED = 0,        /* extrapolated from the forces, more accurate than the grid */
   FUGE_EDGE_FEW_CELLS = 1,      /* fewer than five cells are in contact */
   FUGE_EDGE_SINGULAR = 2,       /* the pressure does not fall like a square root, as under a corner */
-  FUGE_EDGE_GRID_END = 3        /* contact reaches the last cell of the grid */
+  FUGE_EDGE_GRID_END = 3        /* the contact reaches the last cell of the grid */
 };
 
-/* The intervals of contact on a half-plane and their edges, from the forces; for a
- * smooth gap to third order in the width; to second order with a small factor if there
- * are other contacts or the far edge is a corner.
+/* The intervals of contact on a half-plane and their edges, from the forces.  For a smooth
+ * gap the error of an edge is of third order in the width; of second order, with a small
+ * factor, if there are other contacts or the far edge is a corner.
  *   x, width    in   n; a uniform grid, ascending, all widths equal; length
  *   force       in   n; in contact where positive
  *   element     in   as for the matrix.  With FUGE_MEAN the gap has to be the mean over
- *                    a cell too: if it is the gap at the centre, say FUGE_HAT, whose
+ *                    a cell too; if it is the gap at the centre, use FUGE_HAT, whose
  *                    forces are the same
- *   symmetric   in   1: the folded scene, x[0] = 0 or width/2 if it starts on the axis;
- *                    an interval that touches the axis is given whole, left = -right,
- *                    of others the image at x > 0.  0: not folded
- *   capacity    in   length of the four arrays; each may be NULL if not wanted
+ *   symmetric   in   1: the scene of fuge_halfplane_symmetric_matrix, with x[0] = 0 or
+ *                    width/2 if it starts on the axis.  An interval that touches the axis
+ *                    comes out whole, left = -right, any other one at x > 0 only.
+ *                    0: the scene of fuge_halfplane_matrix
+ *   capacity    in   length of the four arrays, each of which may be NULL
  *   left, right out  the edges, from left to right; length
  *   left_kind, right_kind  out  FUGE_EDGE_...
- *   count       out  intervals that there are; only the first capacity are written
- *   message     out  at most len bytes, ended by NUL; may be NULL
+ *   count       out  number of intervals, of which the first capacity are written
  * FUGE_ERR_GRID if the grid is not uniform. */
 int fuge_contact_edges(int n, const double *x, const double *width, const double *force,
                        int element, int symmetric, int capacity, double *left, double *right,
@@ -284,36 +283,44 @@ int fuge_contact_edges(int n, const double *x, const double *width, const double
 
 typedef struct fuge_operator fuge_operator;
 
-/* A dense matrix as operator.  alpha (lda x n) is not copied: keep it unchanged
- * until the operator is freed.  *op is set on success only. */
-int fuge_operator_dense(int n, const double *alpha, int lda, fuge_operator **op);
+/* A dense matrix as operator.  alpha (lda x n, lda >= n) is not copied: keep it unchanged
+ * until the operator is freed.  *op is set on success only.  FUGE_ERR_SIZE,
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW. */
+int fuge_operator_dense(int n, const double *alpha, int lda, fuge_operator **op,
+                        char *message, size_t len);
 
-/* A product u = A f by a function of yours.
- *   f     in   n forces       u  out  n displacements: every one, u is not zero before
- *   user  in   what fuge_operator_callback was given
- * Return 0; anything else, NaN or infinity in u ends the solve with FUGE_ERR_CALLBACK,
- * whose message has the number of the product and a positive value returned.  A must
- * be linear, symmetric and the same in all calls, else the answer is not certified.
- * The function may not free what calls it, nor leave by longjmp or an exception.
- * Solvers that run in several threads with one operator call it from all of them. */
+/* The product u = A f, computed by the caller.
+ *   f     in   n forces
+ *   u     out  n displacements; set all of them, u is not zero on entry
+ *   user  in   the pointer passed to fuge_operator_callback
+ * Return 0.  Any other value, and NaN or infinity in u, end the solve with
+ * FUGE_ERR_CALLBACK; the message has the number of the product, from 1, and the returned
+ * value if it is positive.  A must be linear, symmetric and the same in all calls, or the
+ * solution is not certified.  The function may neither free the operator and its solvers
+ * nor leave by longjmp or an exception.  Solvers in several threads that share the
+ * operator call it from all of them. */
 typedef int (*fuge_apply)(int n, const double *f, double *u, void *user);
 
-/* An operator that knows its products only.  user is passed on, never looked at: it
- * may be NULL.  *op is set on success only. */
-int fuge_operator_callback(int n, fuge_apply apply, void *user, fuge_operator **op);
+/* An operator by its products alone.  user is passed on to apply and may be NULL.  *op is
+ * set on success only. */
+int fuge_operator_callback(int n, fuge_apply apply, void *user, fuge_operator **op,
+                           char *message, size_t len);
 
 /* Optional, to need fewer products: an approximate inverse of A, from n lengths (f) to
  * n forces (u), linear, symmetric and positive definite; same rules and same user.
- * Only for callback operators (FUGE_ERR_UNSUPPORTED), and not during a solve.  The
- * last one set, preconditioner or diagonal, counts. */
-int fuge_operator_set_preconditioner(fuge_operator *op, fuge_apply preconditioner);
+ * For callback operators only (FUGE_ERR_UNSUPPORTED), and not during a solve.  It
+ * replaces an earlier preconditioner or diagonal. */
+int fuge_operator_set_preconditioner(fuge_operator *op, fuge_apply preconditioner,
+                                     char *message, size_t len);
 
-/* The preconditioner 1/alpha_kk.  diagonal: n coefficients alpha_kk > 0, copied; length per force.
- * FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_DEFINITE for one <= 0. */
-int fuge_operator_set_diagonal(fuge_operator *op, const double *diagonal);
+/* The preconditioner 1/alpha_kk, likewise.  diagonal: n coefficients alpha_kk > 0, which
+ * are copied; length per force.  FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_DEFINITE for one <= 0. */
+int fuge_operator_set_diagonal(fuge_operator *op, const double *diagonal,
+                               char *message, size_t len);
+
 enum {                          /* boundary: what lies beyond the cells */
-  FUGE_FREE = 0,                /* nothing: a free surface */
-  FUGE_PERIODIC = 1             /* the same again and again, with the period n*spacing */
+  FUGE_FREE = 0,                /* a surface without pressure */
+  FUGE_PERIODIC = 1             /* the cells repeat periodically, with the period n*spacing */
 };
 
 /* An elastic half-plane of n equal cells side by side, by FFT: products in O(n log n)
@@ -323,15 +330,12 @@ enum {                          /* boundary: what lies beyond the cells */
  *   element   in   FUGE_CENTRE, FUGE_MEAN or FUGE_HAT (the last two are the same here)
  *   boundary  in   FUGE_FREE: the matrix of fuge_halfplane_matrix;
  *                  FUGE_PERIODIC: displacements count from the mean of the surface
- * *op is set on success only.  n is limited by memory (FUGE_FREE: 64 n bytes while it is made,
- * 32 n in a product; FUGE_PERIODIC half of it), and for FUGE_FREE to nearly 2^30 by FFTW. */
+ * *op is set on success only.  n is limited by memory (FUGE_FREE: 64 n bytes to create it,
+ * 32 n for a product; FUGE_PERIODIC: half of that), and for FUGE_FREE to nearly 2^30 by
+ * FFTW.  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS,
+ * FUGE_ERR_ELEMENT, FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. */
 int fuge_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
-                            fuge_operator **op);
-
-/* The status that fuge_operator_halfplane returns for these data, with its message, as
- * fuge_check_dense.  Makes the operator to find out. */
-int fuge_check_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
-                                  char *message, size_t len);
+                            fuge_operator **op, char *message, size_t len);
 
 /* Free and set *op to NULL; NULL and *op == NULL are fine.  Free its solvers first. */
 void fuge_operator_free(fuge_operator **op);
@@ -340,29 +344,33 @@ void fuge_operator_free(fuge_operator **op);
 
 typedef struct fuge_solver fuge_solver;
 
-/* opt may be NULL for the defaults.  *s is set on success only; op must outlive it. */
-int fuge_solver_new(const fuge_operator *op, const fuge_options *opt, fuge_solver **s);
+/* opt may be NULL for the defaults.  *s is set on success only; op must outlive it.
+ * FUGE_ERR_OPTION for values that fuge_default_options and the enums above do not allow. */
+int fuge_solver_new(const fuge_operator *op, const fuge_options *opt, fuge_solver **s,
+                    char *message, size_t len);
 
 /* Free and set *s to NULL; NULL and *s == NULL are fine. */
 void fuge_solver_free(fuge_solver **s);
 
 /* Progress of a solve, called once in each iteration.
- *   iteration  grows from call to call, from 1 in each solve
- *   residual   >= 0, no unit: how far it still is.  Tableau: z relative to its start;
- *              other engines: the largest scaled violation.  It need not fall steadily
- *   contacts   points taken for touching
- * Nonzero cancels: fuge_solve returns FUGE_ERR_CANCELLED without an answer, and can be
- * called again.  Do not call functions with this solver from inside. */
+ *   iteration  increases from call to call, from 1 in each solve
+ *   residual   >= 0, no unit.  Tableau: z relative to its start; other engines: the
+ *              largest scaled violation.  It need not decrease monotonically
+ *   contacts   points in contact at present
+ * A nonzero result cancels: fuge_solve returns FUGE_ERR_CANCELLED without a solution, and
+ * can be called again.  Do not call functions with this solver from inside. */
 typedef int (*fuge_progress)(int iteration, double residual, int contacts, void *user);
 
-/* Call progress from now on, with user; NULL for none.  fuge_reset leaves it. A solve
- * with zero load has no iterations.  After the pivots of the tableau come the
+/* Call progress from now on, with user; NULL for none.  fuge_reset keeps it.  A solve
+ * with zero load has no iterations.  The pivots of the tableau are followed by the
  * contact sets of its final solve. */
 int fuge_set_progress(fuge_solver *s, fuge_progress progress, void *user);
 
-/* Solve; FUGE_ERR_CALL_ORDER before gaps and motions are set.  The active set starts
- * from the contact set of the last solve, the iteration from its forces if the load is
- * within a quarter of the last one. */
+/* Solve.  The active set starts from the contact set of the last solve, the iteration from
+ * its forces if the load has changed by less than a quarter.
+ * FUGE_ERR_CALL_ORDER before gaps and motions are set; FUGE_ERR_NO_EQUILIBRIUM,
+ * FUGE_ERR_MODES, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED,
+ * FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED. */
 int fuge_solve(fuge_solver *s);
 
 /* Forget results, contact set and history: the next fuge_solve starts from scratch.
@@ -376,11 +384,11 @@ int fuge_reset(fuge_solver *s);
  *     exclusions  fuge_set_excluded; none at first
  *     motions     fuge_set_load, fuge_set_approach or fuge_set_modes, each of which
  *                 replaces all motions; then fuge_set_motion and fuge_set_resultant
- *                 change one.  At first there is one translation, neither free nor given
+ *                 change one.  At first there is one translation, with neither load nor
+ *                 approach set
  * All arrays are copied.  Success makes earlier results unavailable; an error changes
- * nothing.  What the parts say together is checked by fuge_solve:
- * FUGE_ERR_NO_EQUILIBRIUM, whose message says why, and FUGE_ERR_MODES.  Modes in
- * messages count from 1. */
+ * nothing.  Each part is checked when it is set; whether the parts fit together, and modes
+ * are independent, is checked by fuge_solve. */
 
 /* Initial gaps.
  *   gap        in  n; length
@@ -388,16 +396,16 @@ int fuge_reset(fuge_solver *s);
  *                  0: tied.  NULL: one-sided everywhere.  FUGE_ERR_GAP if negative */
 int fuge_set_gap(fuge_solver *s, const double *gap, const double *gap_upper);
 
-/* Points that take no part, where excluded (n) is not zero; NULL for none.  Their gaps
- * are computed all the same. */
+/* Points that carry no force, where excluded (n) is not zero; NULL for none.  Their gaps
+ * are computed nevertheless, and may be negative. */
 int fuge_set_excluded(fuge_solver *s, const int *excluded);
 
 /* One translation, free under the load F_0 >= 0; force.  With fuge_set_gap(s, gap, NULL)
- * and fuge_set_excluded(s, NULL) this is the plain problem again.  A load that pulls on
- * two-sided points: fuge_set_resultant(s, 0, load). */
+ * and fuge_set_excluded(s, NULL) this is the paper's problem again.  For a load that pulls
+ * on two-sided points use fuge_set_resultant(s, 0, load). */
 int fuge_set_load(fuge_solver *s, double load);
 
-/* One translation, prescribed; length.  The load is a result: fuge_get_resultant. */
+/* One translation, prescribed; length.  The load is then a result: fuge_get_resultant. */
 int fuge_set_approach(fuge_solver *s, double approach);
 
 /* m rigid motions, all free.
@@ -408,30 +416,31 @@ int fuge_set_approach(fuge_solver *s, double approach);
  * FUGE_ERR_SIZE for m < 0, FUGE_ERR_MODES for m > n. */
 int fuge_set_modes(fuge_solver *s, int m, const double *modes, const double *resultant);
 
-/* Prescribe motion mode, 0 .. m-1 (else FUGE_ERR_SIZE), or change its value. */
-int fuge_set_motion(fuge_solver *s, int mode, double value);
+/* Prescribe the motion of mode 0 .. m-1 (FUGE_ERR_SIZE for another), or change its value. */
+int fuge_set_motion(fuge_solver *s, int mode, double motion);
 
-/* Free motion mode under a resultant of either sign, or change that. */
+/* Let the motion of a mode be free under a resultant of either sign, or change the
+ * resultant. */
 int fuge_set_resultant(fuge_solver *s, int mode, double resultant);
 
-/* Number m of motions of the problem, free and prescribed; at any time. */
+/* Number m of modes of the problem, free and prescribed; at any time. */
 int fuge_get_mode_count(const fuge_solver *s, int *m);
 
 /* ---- load path ---------------------------------------------------------- */
 
 /* The exact course of the contact as the load grows from 0 to load, without load
- * steps: every load at which a point joins or leaves.  Points that change at the same
- * load have an entry each.
+ * steps: every load at which a point comes into contact or leaves it.  Points that change
+ * at the same load have an entry each.
  *   op         in   a dense operator, n points
  *   gap        in   n; length             load  in  >= 0; force
- *   capacity   in   length of the five arrays; each may be NULL if not wanted
+ *   capacity   in   length of the five arrays, each of which may be NULL
  *   loads      out  load at the event, ascending; the first ones are 0
  *   approach   out  v_0 there; length
  *   stiffness  out  dF_0/dv_0 from there to the next event; force per length
- *   point      out  the point, from 1; negative: it leaves
+ *   point      out  the point, counted from 1; negative: it leaves the contact
  *   contacts   out  points in contact from there on
- *   events     out  how many there are; only the first capacity are written
- *   message    out  at most len bytes, ended by NUL; may be NULL */
+ *   events     out  number of events, of which the first capacity are written
+ * FUGE_ERR_UNSUPPORTED for another operator, FUGE_ERR_NO_EQUILIBRIUM for a load < 0. */
 int fuge_load_path(const fuge_operator *op, const double *gap, double load, int capacity,
                    double *loads, double *approach, double *stiffness, int *point, int *contacts,
                    int *events, char *message, size_t len);
@@ -443,71 +452,71 @@ enum {                          /* state of a contact point */
 };
 
 /* The same between two general problems: from that of the solver, in equilibrium, to one
- * with other resultants and prescribed motions, all changing linearly with a parameter
- * from 0 to 1.  No fuge_solve is needed, and what one found stays.
- *   finish     in   m; resultants at the end, where prescribed the motions
- *   capacity   in   entries that the six arrays have room for; each may be NULL if not wanted
+ * with other resultants and prescribed motions, all of which change linearly with a
+ * parameter from 0 to 1.  No fuge_solve is needed, and the results of one stay.
+ *   finish     in   m; at the end, resultants of free motions and prescribed motions
+ *   capacity   in   entries that fit into the six arrays, each of which may be NULL
  *   parameter  out  ascending; the first entry is the start, 0, the others are the events
  *                   before 1
  *   motion     out  m for each entry: q there, entry k at motion + k*m; after the jump if
- *                   q jumps, which it may where nothing holds it
+ *                   q jumps, as it may if no contact holds it
  *   rate       out  m for each entry: dq/d(parameter) from there to the next one
- *   point      out  the point that changes, from 1; 0 for the start
- *   side       out  its new state: FUGE_AT_LOWER_STOP, FUGE_OPEN or FUGE_AT_UPPER_STOP
+ *   point      out  the point that changes, counted from 1; 0 for the start
+ *   state      out  its new state: FUGE_AT_LOWER_STOP, FUGE_OPEN or FUGE_AT_UPPER_STOP
  *   contacts   out  points at a stop from there on
- *   entries    out  how many there are; only the first capacity are written
+ *   entries    out  number of entries, of which the first capacity are written
  * Points that change together have an entry each; motion, rate and contacts are then
- * those after all of them.  FUGE_ERR_NO_EQUILIBRIUM if equilibrium ends on the way: the
- * message has the parameter; choose an end before it. */
+ * those after all of them.  FUGE_ERR_NO_EQUILIBRIUM if equilibrium ends on the path: the
+ * message has the parameter; choose an end before it.  FUGE_ERR_CALL_ORDER and
+ * FUGE_ERR_UNSUPPORTED as for fuge_solve with a matrix. */
 int fuge_follow_path(const fuge_solver *s, const double *finish, int capacity, double *parameter,
-                     double *motion, double *rate, int *point, int *side, int *contacts, int *entries,
-                     char *message, size_t len);
+                     double *motion, double *rate, int *point, int *state, int *contacts,
+                     int *entries);
 
 /* ---- results ------------------------------------------------------------ */
 
-/* Each gives FUGE_ERR_CALL_ORDER unless the last fuge_solve gave an answer for
- * the present problem.  m is that of fuge_get_mode_count: 1 without fuge_set_modes. */
-int fuge_get_force(const fuge_solver *s, double *force);        /* n; force */
-int fuge_get_gap(const fuge_solver *s, double *gap);            /* n; length */
-int fuge_get_motion(const fuge_solver *s, double *q);            /* m: v_0; length, if m = 1 */
-int fuge_get_resultant(const fuge_solver *s, double *w);        /* m: R^T f, the sum of the forces
-                                                                   for a translation */
+/* FUGE_ERR_CALL_ORDER unless the last fuge_solve has found a solution of the present
+ * problem.  m is that of fuge_get_mode_count: 1 without fuge_set_modes. */
+int fuge_get_force(const fuge_solver *s, double *force);          /* n; force */
+int fuge_get_gap(const fuge_solver *s, double *gap);              /* n; length */
+int fuge_get_motion(const fuge_solver *s, double *motion);        /* m: q; one translation: v_0 */
+int fuge_get_resultant(const fuge_solver *s, double *resultant);  /* m: R^T f; one translation:
+                                                                     the sum of the forces */
 
-/* Derivative of the last solution in a direction, exact as long as the contact set
- * stays: changes of force and gap (n) and v_0 (1) for a change of the gaps (n; NULL
- * for none) and of the load.  gap and rigid may be NULL.  The contact stiffness is
- * 1/rigid for gap_change NULL and load_change 1; a unit gap_change at k gives column k
- * of the sensitivity to the gaps.  Two triangular solves each.  FUGE_ERR_CALL_ORDER
- * also after a solve with zero load; FUGE_ERR_SIZE unless there is one motion. */
+/* Derivative of the last solution in a direction, exact as long as the contact set does
+ * not change: the changes of force and gap (n each) and of v_0 (motion, 1) for a change of
+ * the gaps (n; NULL for none) and of the load.  gap and motion may be NULL.  With gap_change
+ * NULL and load_change 1 the contact stiffness is 1/motion; a unit gap_change at k gives
+ * column k of the sensitivity to the gaps.  Each call costs two triangular solves.
+ * FUGE_ERR_CALL_ORDER also after a solve with zero load; FUGE_ERR_SIZE unless m = 1;
+ * FUGE_ERR_UNSUPPORTED unless the operator is dense. */
 int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double load_change,
-                        double *force, double *gap, double *rigid);
+                        double *force, double *gap, double *motion);
 
-/* The same for m motions: load_change (m; NULL for none) are the changes of the
- * resultants of free motions and of the values of prescribed ones, rigid the changes of
- * all motions (m). */
+/* The same for m modes: load_change (m; NULL for none) has the changes of the resultants of
+ * free motions and of prescribed motions, motion (m) the changes of all motions. */
 int fuge_get_derivatives(const fuge_solver *s, const double *gap_change, const double *load_change,
-                         double *force, double *gap, double *rigid);
+                         double *force, double *gap, double *motion);
 
-/* Report of the last fuge_solve, failed or not. */
+/* Report of the last fuge_solve, failed or not; FUGE_ERR_CALL_ORDER before the first. */
 int fuge_get_info(const fuge_solver *s, fuge_info *info);
 
-/* Course of the pivots (options.keep_history).  Steps first .. first+count-1;
- * step 0 is the artificial start.
- *   basis      out  count rows of n+m column numbers, row k at basis + k*(n+m):
- *                   1..n forces, n+1..2n gaps, then m free motions (v_0: 2n+1, m = 1),
- *                   then artificials.  The same basis twice: a gap went from one stop
- *                   to the other
+/* Steps first .. first+count-1 of the tableau (options.keep_history); step 0 is the
+ * artificial start, each other one a pivot.
+ *   basis      out  count rows of n+m column numbers, row k at basis + k*(n+m), counted from
+ *                   1: 1 .. n forces, n+1 .. 2n gaps, then m free motions (v_0: 2n+1,
+ *                   m = 1), then artificial variables.  Two equal rows: a gap went from
+ *                   one stop to the other
  *   z          out  count; sum of the artificial variables in your units
- *   available  out  steps that there are
- * count = 0 only asks for available; basis and z may then be NULL. A solve with
- * zero load needs no pivots and keeps no steps. */
+ *   available  out  number of steps kept
+ * With count = 0 only available is set; basis and z may then be NULL.  A solve with zero
+ * load needs no pivots and keeps no steps.  FUGE_ERR_SIZE for a range beyond those kept. */
 int fuge_get_history(const fuge_solver *s, int first, int count, int *basis, double *z,
                      int *available);
 
-/* Message of the last call on s that set or solved, or of a getter that failed:
- * what, where, how to mend it; empty when all was well.  At most len bytes, always
- * ended by NUL. */
-int fuge_solver_message(const fuge_solver *s, char *buf, size_t len);
+/* Message of the last call on s; a getter that succeeds leaves that of the call before.  At
+ * most len bytes are written, always ended by NUL. */
+int fuge_solver_message(const fuge_solver *s, char *message, size_t len);
 
 #ifdef __cplusplus
 }

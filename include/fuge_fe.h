@@ -12,117 +12,130 @@ extern "C" {
 
 /* ---- condensation -------------------------------------------------------
  *
- * From the stiffness matrix K of a body to the influence matrix of its contact points,
- * and back from contact forces to the displacements of the whole body.
+ * From the stiffness matrix K of a body to the influence matrix of its contact points (a
+ * Schur complement), and back from contact forces to the displacements of the whole body.
  *
  *     fuge_body_dense, _band or _sparse -> fuge_body_fix, _set_load, _set_contact, ..
  *     -> fuge_body_condense -> fuge_body_get_...
  *     -> fuge_operator_dense(alpha), gaps + displacement, solve -> fuge_body_recover
  *     -> fuge_body_free
  *
- * Degrees of freedom count from 0 here, -1 is none; messages count from 1.  K is
- * symmetric, force per displacement, and positive definite once the fixed degrees of
- * freedom are out, or, of a body that floats, semidefinite.
+ * Degrees of freedom count from 0; -1 stands for none.  K is symmetric, force per
+ * displacement, and positive definite without the rows and columns of the fixed degrees of
+ * freedom, or semidefinite if the body floats, that is, has rigid modes that its supports
+ * do not prevent.
  *
  * Contact point i moves by u_i = sum over k < width of normal[k + i*width] *
  * u[dof[k + i*width]]: `normal` is the direction in which the contact force acts on the
- * body, into the body; the gap opens by u_i.  Two bodies in one K: the degrees of freedom
- * of both sides, with opposite normals. */
+ * body, into the body; the gap opens by u_i.  For two bodies in one K name the degrees of
+ * freedom of both surfaces, with opposite normals. */
 
 typedef struct fuge_body fuge_body;
 
 /* A body by its stiffness.  k: degrees x degrees, both triangles, ldk >= degrees.
  * ab: LAPACK's symmetric band storage with kd diagonals beside the main one, ldab > kd;
  * upper nonzero: K(i,j) = ab[kd + i - j + j*ldab], i <= j, else K(i,j) = ab[i - j + j*ldab],
- * i >= j.  The arrays are not copied: keep them as long as the body.  K is looked at by
- * fuge_body_condense. */
-int fuge_body_dense(int degrees, const double *k, int ldk, fuge_body **body);
-int fuge_body_band(int degrees, int kd, const double *ab, int ldab, int upper, fuge_body **body);
+ * i >= j.  The arrays are not copied: keep them as long as the body.  Their values are read
+ * and checked by fuge_body_condense.  *body is set on success only.  FUGE_ERR_SIZE. */
+int fuge_body_dense(int degrees, const double *k, int ldk, fuge_body **body,
+                    char *message, size_t len);
+int fuge_body_band(int degrees, int kd, const double *ab, int ldab, int upper, fuge_body **body,
+                   char *message, size_t len);
 
 /* The same for compressed columns: column j holds row[p] and value[p] for
- * column[j] <= p < column[j+1], rows in any order, those named twice are added; both
+ * column[j] <= p < column[j+1], rows in any order, repeated entries are added; both
  * triangles or one of them.  In the library fuge_sparse, which needs CHOLMOD. */
-int fuge_body_sparse(int degrees, const int *column, const int *row, const double *value, fuge_body **body);
+int fuge_body_sparse(int degrees, const int *column, const int *row, const double *value,
+                     fuge_body **body, char *message, size_t len);
 
-/* NULL-safe; sets NULL. */
+/* Free and set *body to NULL; NULL and *body == NULL are fine. */
 void fuge_body_free(fuge_body **body);
 
-/* Hold `count` degrees of freedom, at the given displacements or (NULL) at zero.  Each
- * call replaces the one before. */
+/* Fix `count` degrees of freedom at these displacements, or at zero (NULL).  Each call
+ * replaces the one before.  The numbers are checked by fuge_body_condense. */
 int fuge_body_fix(fuge_body *body, int count, const int *dof, const double *displacement);
 
-/* External load, one force for each degree of freedom.  After fuge_body_condense this costs one
- * solve, and only fuge_body_get_displacement and _get_modes change. */
+/* External load, one force for each degree of freedom.  After fuge_body_condense this costs
+ * one solve, and only fuge_body_get_displacement and fuge_body_get_modes change. */
 int fuge_body_set_load(fuge_body *body, const double *load);
 
-/* The body floats: its rigid motions on the supports are given (degrees x m), or looked
- * for.  m = 0: it does not float. */
-int fuge_body_set_rigid_modes(fuge_body *body, int m, const double *modes);
+/* The body floats: these are the rigid modes that its supports allow (Z, degrees x m), or
+ * fuge_body_condense finds them.  m = 0: the body does not float, as at first. */
+int fuge_body_set_rigid_modes(fuge_body *body, int m, const double *rigid_modes);
 int fuge_body_find_rigid_modes(fuge_body *body);
 
-/* Rigid motions of nodes in the plane or in space, from their places: position is
- * dimensions x nodes, modes (dimensions*nodes) x 3 or x 6: translations, then rotations
- * about the centre of the nodes.  FUGE_ERR_SIZE unless dimensions is 2 or 3, nodes > 0. */
-int fuge_rigid_modes(int dimensions, int nodes, const double *position, double *modes);
+/* Rigid modes of nodes in the plane or in space: position is dimensions x nodes,
+ * rigid_modes (dimensions*nodes) x 3 or x 6, translations before rotations about the
+ * centre of the nodes.  FUGE_ERR_SIZE unless dimensions is 2 or 3 and nodes > 0. */
+int fuge_rigid_modes(int dimensions, int nodes, const double *position, double *rigid_modes,
+                     char *message, size_t len);
 
-/* n contact points of `width` degrees of freedom each; see above. */
+/* n contact points of `width` degrees of freedom each; see above.  The numbers are checked
+ * by fuge_body_condense. */
 int fuge_body_set_contact(fuge_body *body, int n, int width, const int *dof, const double *normal);
 
-/* Condense: one Cholesky factorisation and n + 4 solves.  FUGE_ERR_DOF, FUGE_ERR_NOT_SYMMETRIC,
- * FUGE_ERR_NOT_DEFINITE (the message names the degree of freedom), FUGE_ERR_MODES,
- * FUGE_ERR_NO_EQUILIBRIUM (a load that no contact can hold); FUGE_WARN_RESIDUAL if K is so
- * near to singular that few digits of alpha may be left. */
+/* Condense: one Cholesky factorisation and n + 4 solves.  FUGE_ERR_SIZE, FUGE_ERR_DOF,
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_NOT_DEFINITE (the message names the
+ * degree of freedom), FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM (a load that no contact can
+ * hold), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_WARN_RESIDUAL if K is so close to singular
+ * that few digits of alpha may be correct.  The getters below give FUGE_ERR_CALL_ORDER
+ * before it, and after a call that changes the body. */
 int fuge_body_condense(fuge_body *body);
 
-/* Influence matrix, n x n, lda >= n: for fuge_operator_dense. */
+/* Influence matrix alpha, n x n, lda >= n, for fuge_operator_dense; length per force. */
 int fuge_body_get_influence(const fuge_body *body, double *alpha, int lda);
 
-/* b, n: displacements of the contact points by load and supports; add it to the gaps. */
+/* Displacements of the contact points by load and supports, n; length.  Add them to the
+ * gaps. */
 int fuge_body_get_displacement(const fuge_body *body, double *displacement);
 
-/* Number of rigid motions that the contact has to hold, 0 if the body does not float.
+/* Number m of rigid modes that the contact has to hold, 0 if the body does not float.
  * Those that move no contact point are left out. */
 int fuge_body_get_mode_count(const fuge_body *body, int *m);
 
-/* R, n x m, and w, m, for fuge_set_modes.  Either may be NULL. */
+/* R (n x m) and w (m) for fuge_set_modes.  Either may be NULL. */
 int fuge_body_get_modes(const fuge_body *body, double *modes, double *resultant);
 
-/* Displacements of all degrees of freedom under contact forces (n) and rigid motions (m;
- * NULL if m = 0).  FUGE_WARN_RESIDUAL if K u leaves more than 1e-10 of the forces. */
+/* Displacements of all degrees of freedom under contact forces (n) and motions (m; NULL if
+ * m = 0) of a solution.  FUGE_WARN_RESIDUAL if K u is out of balance by more than 1e-10 of
+ * the forces. */
 int fuge_body_recover(const fuge_body *body, const double *force, const double *motion, double *displacement);
 
-/* Message of the last call, cut to len - 1 characters and ended by NUL. */
-int fuge_body_message(const fuge_body *body, char *buf, size_t len);
+/* Message of the last call on body; a getter that succeeds leaves that of the call before.
+ * At most len bytes are written, always ended by NUL. */
+int fuge_body_message(const fuge_body *body, char *message, size_t len);
 
 /* ---- matrix files -------------------------------------------------------
  *
  * Matrices, and vectors as matrices of one column, in files of the Matrix Market format:
  * real or integer, array or coordinate, general or symmetric.  FUGE_ERR_FILE: the message
- * (at most len bytes, ended by NUL; may be NULL) has the file, the line and the reason.
- * Unlike in the files, rows and columns count from 0 here. */
+ * has the file, the line and the reason.  Rows and columns count from 0 in the arguments,
+ * from 1 in the files and in messages about their contents. */
 
 /* Read a dense matrix.
  *   path           in   name of the file
- *   lda, capacity  in   matrix has room for lda rows and capacity columns
- *   matrix         out  element (i,j) at i + j*lda; a symmetric one whole; may be NULL
- *   rows, columns  out  of the file; only what fits is written to matrix
- * To ask for the sizes first, give no matrix, lda = capacity = 0. */
+ *   lda, capacity  in   rows and columns that fit into matrix
+ *   matrix         out  element (i,j) at i + j*lda, both triangles of a symmetric matrix;
+ *                       may be NULL
+ *   rows, columns  out  sizes in the file; only what fits is written to matrix
+ * To get the sizes first, pass matrix = NULL and lda = capacity = 0. */
 int fuge_read_matrix(const char *path, int lda, int capacity, double *matrix, int *rows, int *columns,
                      char *message, size_t len);
 
 /* Read a matrix into compressed columns: column j holds row[p] and value[p] for
- * column[j] <= p < column[j+1], rows ascending; a symmetric one whole, entries of the same
- * place added.
- *   columns_room   in   column has room for columns_room + 1 elements
- *   entries_room   in   row and value have room for so many
+ * column[j] <= p < column[j+1], rows ascending; both triangles of a symmetric matrix;
+ * repeated entries are added.
+ *   column_capacity  in   columns that fit into column, which has one element more
+ *   entry_capacity   in   length of row and value
  *   column, row, value      out  each may be NULL
- *   rows, columns, entries  out  of the matrix; only what fits is written to the arrays */
-int fuge_read_sparse(const char *path, int columns_room, int entries_room, int *column, int *row, double *value,
-                     int *rows, int *columns, int *entries, char *message, size_t len);
+ *   rows, columns, entries  out  sizes of the matrix; only what fits is written */
+int fuge_read_sparse(const char *path, int column_capacity, int entry_capacity, int *column,
+                     int *row, double *value, int *rows, int *columns, int *entries,
+                     char *message, size_t len);
 
-/* Write a dense matrix (lda >= rows) to a file in array format, with 17 digits; a file that
- * is there is replaced.  symmetric: 1 for a square matrix of which only the lower triangle
- * counts.  FUGE_ERR_NOT_FINITE for NaN and infinity. */
+/* Write a dense matrix (lda >= rows) to a file in array format, with 17 digits; an existing
+ * file is replaced.  symmetric: 1 for a square matrix of which only the lower triangle is
+ * read, else 0.  FUGE_ERR_NOT_FINITE for NaN and infinity. */
 int fuge_write_matrix(const char *path, int rows, int columns, const double *matrix, int lda, int symmetric,
                       char *message, size_t len);
 

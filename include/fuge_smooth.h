@@ -12,39 +12,39 @@ extern "C" {
 
 /* ---- smooth punches -----------------------------------------------------
  *
- * One interval of contact between a half-plane and a punch whose profile is smooth: no
- * grid, the ends of the contact are unknowns, and the pressure is
+ * One interval of contact between a half-plane and a punch with a smooth profile.  There is
+ * no grid: the ends of the contact are unknowns, and the pressure is
  *
  *     p = sqrt(1 - t^2) sum over k of coefficients[k] U_k(t),   x = middle + half_width t,
  *
- * U_k the Chebyshev polynomials of the second kind.  To rounding with a few dozen
- * coefficients.
+ * with the Chebyshev polynomials U_k of the second kind.  A few dozen coefficients reach
+ * rounding.
  *
  *     fuge_solve_smooth_punch -> fuge_smooth_get_... -> fuge_smooth_free */
 
-/* The profile: at n places x the initial gap, length, and its derivative, no unit, which are
- * both out and to be set everywhere.  Return 0; anything else, NaN or infinity ends the
- * solve with FUGE_ERR_CALLBACK.  Places are between lower and upper below.  The
- * function may not leave by longjmp or an exception. */
+/* The profile at n places x between lower and upper: set gap, the initial gap, length, and
+ * slope, its derivative, no unit, at all of them.  Return 0; any other value, NaN and
+ * infinity end the solve with FUGE_ERR_CALLBACK.  The function may not leave by longjmp or
+ * an exception. */
 typedef int (*fuge_smooth_profile)(int n, const double *x, double *gap, double *slope, void *user);
 
 typedef struct fuge_smooth fuge_smooth;
 
 /* Solve.
- *   profile, user  in   the function, and what it gets as user (may be NULL)
+ *   profile, user  in   the function, and the pointer it gets as user (may be NULL)
  *   lower, upper   in   ends of the profile, lower < upper; length
  *   e_star         in   as in fuge_halfplane_matrix; force per length^2
  *   force          in   >= 0, per depth.  0: the punch touches at its lowest place
  *   moment         in   1: force times its distance from x = 0, under which the punch tilts.
  *                       NULL: it only sinks
- *   contact        out  set unless there is an error
- *   message        out  at most len bytes, ended by NUL; may be NULL
+ *   contact        out  *contact is set unless there is an error
  * FUGE_WARN_RESIDUAL: certificate or estimated error above 1e-10, the message says why;
  * FUGE_WARN_NOT_UNIQUE: no force and a free tilt.
  * FUGE_ERR_UNSUPPORTED: the contact is not one interval, or reaches an end of the
  * profile; the message says where, and which engine to use.  That is found by sampling:
  * features narrower than (upper - lower)/512 may be overlooked.  FUGE_ERR_WIDTH,
- * FUGE_ERR_MODULUS, FUGE_ERR_NO_EQUILIBRIUM (force < 0, or acting beside the profile). */
+ * FUGE_ERR_MODULUS, FUGE_ERR_NO_EQUILIBRIUM (force < 0, or its line of action outside the
+ * profile), FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
 int fuge_solve_smooth_punch(fuge_smooth_profile profile, void *user, double lower, double upper,
                             double e_star, double force, const double *moment,
                             fuge_smooth **contact, char *message, size_t len);
@@ -57,29 +57,34 @@ typedef struct fuge_smooth_report {
   int coefficients;             /* number of coefficients of the pressure */
   int reserved_int[6];
   double left, right;           /* ends of the contact; length */
-  double half_width;            /* with more digits than right - left far from x = 0 */
+  double half_width;            /* more accurate than (right - left)/2 far from x = 0 */
   double force, moment;         /* moment about x = 0 */
   double approach, tilt;        /* the punch moves by approach + tilt x; the displacement by a
                                    line load is zero at the distance 2 (upper - lower) */
   double residual;              /* certificate: largest scaled violation of the problem */
-  double end_error;             /* estimated error of the ends, over the half width */
-  double pressure_error;        /* estimated error of the pressure, over the highest */
+  double end_error;             /* estimated error of the ends, relative to the half width */
+  double pressure_error;        /* estimated error of the pressure, relative to its maximum */
   double reserved[8];
 } fuge_smooth_report;
 
-int fuge_smooth_get_report(const fuge_smooth *contact, fuge_smooth_report *report);
+/* A contact does not change once it is solved, and holds no message: several threads may
+ * read it at once.  FUGE_ERR_POINTER, FUGE_ERR_SIZE. */
+int fuge_smooth_get_report(const fuge_smooth *contact, fuge_smooth_report *report,
+                           char *message, size_t len);
 
-/* Pressure at count >= 0 places x; force per length^2, 0 outside of the contact. */
-int fuge_smooth_get_pressure(const fuge_smooth *contact, int count, const double *x, double *pressure);
+/* Pressure at count >= 0 places x; force per length^2, 0 outside the contact. */
+int fuge_smooth_get_pressure(const fuge_smooth *contact, int count, const double *x,
+                             double *pressure, char *message, size_t len);
 
-/* Gap under load at count >= 0 places x from the initial gaps there; length.  Arrays may
- * be the same. */
+/* Gap under load at count >= 0 places x from the initial gaps there; length.  gap may be
+ * the same array as x or initial_gap. */
 int fuge_smooth_get_gap(const fuge_smooth *contact, int count, const double *x,
-                        const double *initial_gap, double *gap);
+                        const double *initial_gap, double *gap, char *message, size_t len);
 
-/* Coefficients of the pressure; force per length^2.  Only the first capacity are written,
+/* Coefficients of the pressure; force per length^2.  Only the first capacity are written;
  * fuge_smooth_get_report has their number. */
-int fuge_smooth_get_coefficients(const fuge_smooth *contact, int capacity, double *coefficients);
+int fuge_smooth_get_coefficients(const fuge_smooth *contact, int capacity, double *coefficients,
+                                 char *message, size_t len);
 
 #ifdef __cplusplus
 }

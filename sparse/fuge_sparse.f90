@@ -8,7 +8,7 @@ module fuge_sparse
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY
   use fuge_stiffness_check, only: check_entry, check_pair
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   implicit none
   private
 
@@ -119,26 +119,28 @@ contains
                   //'has columns, and the matrix at least one')
       return
     else if (column(1) /= 1) then
-      call report(info, FUGE_ERR_SIZE, 'column(1) = '//text(column(1))//': columns and rows count from 1')
+      call report(info, FUGE_ERR_SIZE, 'column('//index_text(1)//') = '//index_text(column(1)) &
+                  //': the first column starts at '//index_text(1))
       return
     end if
     do j = 1, n
       if (column(j + 1) >= column(j)) cycle
-      call report(info, FUGE_ERR_SIZE, 'column('//text(j + 1)//') = '//text(column(j + 1))//' is less than ' &
-                  //'column('//text(j)//') = '//text(column(j))//': each column begins where the one before it ends')
+      call report(info, FUGE_ERR_SIZE, 'column('//index_text(j + 1)//') = '//index_text(column(j + 1)) &
+                  //' is less than column('//index_text(j)//') = '//index_text(column(j)) &
+                  //': each column begins where the one before it ends')
       return
     end do
     if (min(size(row), size(value)) < column(n + 1) - 1) then
       call report(info, FUGE_ERR_SIZE, 'row has '//text(size(row))//' and value '//text(size(value)) &
-                  //' value(s): column(' &
-                  //text(n + 1)//') = '//text(column(n + 1))//' needs '//text(column(n + 1) - 1)//' of each')
+                  //' value(s): column('//index_text(n + 1)//') = '//index_text(column(n + 1))//' needs ' &
+                  //text(column(n + 1) - 1)//' of each')
       return
     end if
     do j = 1, n
       do p = column(j), column(j + 1) - 1
         if (row(p) >= 1 .and. row(p) <= n) cycle
-        call report(info, FUGE_ERR_DOF, 'row('//text(p)//') = '//text(row(p))//' in column '//text(j) &
-                    //' is not one of '//text(n)//' degrees of freedom')
+        call report(info, FUGE_ERR_DOF, 'row('//index_text(p)//') = '//index_text(row(p))//' in column ' &
+                    //index_text(j)//' is not one of '//text(n)//' degrees of freedom')
         return
       end do
       do p = column(j), column(j + 1) - 1

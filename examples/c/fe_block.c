@@ -74,7 +74,8 @@ static void free_block(block *b) {
   free(b->displacement);
 }
 
-static int tell(int status, const char *message) {
+/* Prints what went wrong, if anything did. */
+static int explain(int status, const char *message) {
   if (status != FUGE_DONE) fprintf(stderr, "%s: %s\n", fuge_status_text(status), message);
   return status;
 }
@@ -103,14 +104,15 @@ static int let_touch(block *b) {
 static int condense(block *b) {
   const fe_mesh *m = &b->mesh;
   char message[256] = "";
-  int status = fuge_body_band(fe_degrees(m), fe_band(m), b->stiffness, fe_band(m) + 1, 0, &b->body);
+  int status = fuge_body_band(fe_degrees(m), fe_band(m), b->stiffness, fe_band(m) + 1, 0, &b->body,
+                              message, sizeof message);
   if (status == FUGE_DONE) status = hold(b);
   if (status == FUGE_DONE) status = let_touch(b);
   if (status == FUGE_DONE) status = fuge_body_condense(b->body);
   if (status == FUGE_DONE) status = fuge_body_get_influence(b->body, b->alpha, m->candidates);
   if (status == FUGE_DONE) status = fuge_body_get_displacement(b->body, b->displacement);
   if (status != FUGE_DONE && b->body) fuge_body_message(b->body, message, sizeof message);
-  return tell(status, message);
+  return explain(status, message);
 }
 
 static int make_block(int elements, int doublings, int sides_held, block *b) {
@@ -133,9 +135,8 @@ static int press(int n, const double *x, const double *alpha, const double *disp
                  double *force, double *gap, double *approach) {
   char message[256] = "";
   for (int k = 0; k < n; k++) gap[k] = PROFILE * pow(x[k], 4) + (displacement ? displacement[k] : 0.0);
-  int status = fuge_solve_dense(n, alpha, n, gap, load, force, gap, approach);
-  if (status != FUGE_DONE) fuge_check_dense(n, alpha, n, gap, load, message, sizeof message);
-  return tell(status, message);
+  int status = fuge_solve_dense(n, alpha, n, gap, load, force, gap, approach, message, sizeof message);
+  return explain(status, message);
 }
 
 /* Half a block carries half of the load. */
@@ -150,7 +151,7 @@ static int recover(const block *b, const double *force, const double *gap, doubl
   char message[256] = "";
   int status = fuge_body_recover(b->body, force, NULL, u);
   if (status != FUGE_DONE) fuge_body_message(b->body, message, sizeof message);
-  if (tell(status, message) != FUGE_DONE) return status;
+  if (explain(status, message) != FUGE_DONE) return status;
   double apart = 0.0, unbalanced = fe_reaction(m, u) - 0.5 * LOAD;
   for (int k = 0; k < m->candidates; k++) {
     double sunk = -u[fe_degree(m, k, 0, 1)];
@@ -286,10 +287,9 @@ static int halfplane_alpha(int n, const double *x, double *alpha) {
   double *width = fe_reserve((size_t)n, sizeof *width);
   char message[256] = "";
   for (int k = 0; k < n; k++) width[k] = x[1];
-  int status = fuge_check_halfplane(n, x, width, e_star(), FUGE_HAT, 1, message, sizeof message);
-  if (status == FUGE_DONE) status = fuge_halfplane_symmetric_matrix(n, x, width, e_star(), FUGE_HAT, alpha, n);
+  int status = fuge_halfplane_symmetric_matrix(n, x, width, e_star(), FUGE_HAT, alpha, n, message, sizeof message);
   free(width);
-  return tell(status, message);
+  return explain(status, message);
 }
 
 typedef struct element_errors {

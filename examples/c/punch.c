@@ -3,7 +3,7 @@
  * The half model has 33 cells between x = 0 and 0.825 mm: cell k covers k h .. (k+1) h,
  * so the contact ends at the outer edge of the last cell with a force.  (With a cell
  * centre on the axis that edge would be an odd multiple of h/2: 0.7125 mm, not 0.700.)
- * The fall of the pressure towards the edge tells it better than the grid. */
+ * The decrease of the pressure towards the edge gives it more accurately than the grid. */
 #include <math.h>
 #include <stdio.h>
 #include "fuge.h"
@@ -13,22 +13,27 @@ static const double H = 0.025, PROFILE = 0.05;               /* mm, 1/mm^3 */
 static const double E_STAR = 1.0e6 / (1.0 - 0.25 * 0.25);    /* N/mm^2, plane strain */
 static const double LOAD = 30.0e3;                           /* N per mm of depth */
 
+/* Prints what went wrong, if anything did. */
+static int explain(int status, const char *message) {
+  if (status != FUGE_DONE) fprintf(stderr, "%s: %s\n", fuge_status_text(status), message);
+  return status;
+}
+
 static int solve(const double *alpha, const double *gap, double *force, fuge_info *info) {
   fuge_operator *op = NULL;
   fuge_solver *solver = NULL;
   char message[256] = "";
-  int status = fuge_operator_dense(N, alpha, N, &op);
-  if (status == FUGE_DONE) status = fuge_solver_new(op, NULL, &solver);
+  int status = fuge_operator_dense(N, alpha, N, &op, message, sizeof message);
+  if (status == FUGE_DONE) status = fuge_solver_new(op, NULL, &solver, message, sizeof message);
   if (status == FUGE_DONE) status = fuge_set_gap(solver, gap, NULL);
   if (status == FUGE_DONE) status = fuge_set_load(solver, LOAD);
   if (status == FUGE_DONE) status = fuge_solve(solver);
   if (status == FUGE_DONE) status = fuge_get_force(solver, force);
   if (status == FUGE_DONE) status = fuge_get_info(solver, info);
   if (status != FUGE_DONE && solver) fuge_solver_message(solver, message, sizeof message);
-  if (status != FUGE_DONE) fprintf(stderr, "%s: %s\n", fuge_status_text(status), message);
   fuge_solver_free(&solver);
   fuge_operator_free(&op);
-  return status;
+  return explain(status, message);
 }
 
 int main(void) {
@@ -41,9 +46,8 @@ int main(void) {
     width[k] = H;
     gap[k] = PROFILE * pow(x[k], 4);
   }
-  int status = fuge_halfplane_symmetric_matrix(N, x, width, E_STAR, FUGE_CENTRE, alpha, N);
-  if (status != FUGE_DONE) fprintf(stderr, "%s\n", fuge_status_text(status));
-  if (status != FUGE_DONE || solve(alpha, gap, force, &info) != FUGE_DONE) return 1;
+  int status = fuge_halfplane_symmetric_matrix(N, x, width, E_STAR, FUGE_CENTRE, alpha, N, message, sizeof message);
+  if (explain(status, message) != FUGE_DONE || solve(alpha, gap, force, &info) != FUGE_DONE) return 1;
 
   /* A force is that of a cell and its mirror image. */
   for (int k = 0; k < N; k++) {
@@ -52,8 +56,7 @@ int main(void) {
   }
   status = fuge_contact_edges(N, x, width, force, FUGE_CENTRE, 1, 1, NULL, &refined, NULL, &kind, &intervals,
                               message, sizeof message);
-  if (status != FUGE_DONE) fprintf(stderr, "%s: %s\n", fuge_status_text(status), message);
-  if (status != FUGE_DONE || intervals != 1 || kind != FUGE_EDGE_REFINED) return 1;
+  if (explain(status, message) != FUGE_DONE || intervals != 1 || kind != FUGE_EDGE_REFINED) return 1;
   /* F = (3 pi/4) E* A a^4 and p(x) = E* A (2 x^2 + a^2) sqrt(a^2 - x^2). */
   double a = pow(LOAD / (0.75 * acos(-1.0) * E_STAR * PROFILE), 0.25), p0 = E_STAR * PROFILE * pow(a, 3);
   printf("half contact length   %9.3f mm      exact %11.6f\n", contact_edge, a);

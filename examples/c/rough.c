@@ -142,25 +142,30 @@ static int watch(int iteration, double residual, int contacts, void *user) {
   return limit > 0 && iteration >= limit;
 }
 
-static int prepare(const fuge_operator *op, const double *gap, int *limit, fuge_solver **solver) {
-  int status = fuge_solver_new(op, NULL, solver);
-  if (status == FUGE_DONE) status = fuge_set_gap(*solver, gap, NULL);
-  if (status == FUGE_DONE) status = fuge_set_progress(*solver, watch, limit);
+static char message[256];
+
+/* Prints what went wrong, if anything did.  solver: NULL if the call has written to message. */
+static int explain(int status, const fuge_solver *solver) {
+  if (status == FUGE_DONE) return status;
+  if (solver) fuge_solver_message(solver, message, sizeof message);
+  fprintf(stderr, "%s: %s\n", fuge_status_text(status), message);
   return status;
 }
 
+static int prepare(const fuge_operator *op, const double *gap, int *limit, fuge_solver **solver) {
+  int status = fuge_solver_new(op, NULL, solver, message, sizeof message);
+  if (status == FUGE_DONE) status = fuge_set_gap(*solver, gap, NULL);
+  if (status == FUGE_DONE) status = fuge_set_progress(*solver, watch, limit);
+  return explain(status, *solver);
+}
+
 static int press(fuge_solver *solver, double load, double *force, double *approach, fuge_info *info) {
-  char message[256] = "";
   int status = fuge_set_load(solver, load);
   if (status == FUGE_DONE) status = fuge_solve(solver);
   if (status == FUGE_DONE) status = fuge_get_force(solver, force);
   if (status == FUGE_DONE) status = fuge_get_motion(solver, approach);
   if (status == FUGE_DONE) status = fuge_get_info(solver, info);
-  if (status != FUGE_DONE) {
-    fuge_solver_message(solver, message, sizeof message);
-    fprintf(stderr, "%s: %s\n", fuge_status_text(status), message);
-  }
-  return status;
+  return explain(status, solver);
 }
 
 static double largest_of(int n, const double *force) {
@@ -219,12 +224,13 @@ int main(int argc, char **argv) {
 
   fuge_operator *own = NULL, *builtin = NULL;
   fuge_solver *own_solver = NULL, *builtin_solver = NULL;
-  int status = fuge_operator_callback(n, product, &body, &own);
-  if (status == FUGE_DONE) status = fuge_operator_set_preconditioner(own, preconditioner);
-  if (status == FUGE_DONE) status = fuge_operator_halfplane(n, 1.0 / n, 1.0, FUGE_MEAN, FUGE_PERIODIC, &builtin);
+  int status = fuge_operator_callback(n, product, &body, &own, message, sizeof message);
+  if (status == FUGE_DONE) status = fuge_operator_set_preconditioner(own, preconditioner, message, sizeof message);
+  if (status == FUGE_DONE) status = fuge_operator_halfplane(n, 1.0 / n, 1.0, FUGE_MEAN, FUGE_PERIODIC, &builtin,
+                                                            message, sizeof message);
+  explain(status, NULL);
   if (status == FUGE_DONE) status = prepare(own, gap, &limit, &own_solver);
   if (status == FUGE_DONE) status = prepare(builtin, gap, &limit, &builtin_solver);
-  if (status != FUGE_DONE) fprintf(stderr, "%s\n", fuge_status_text(status));
   if (status == FUGE_DONE) status = all_loads(n, own_solver, builtin_solver);
 
   fuge_solver_free(&own_solver);

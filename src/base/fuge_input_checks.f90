@@ -2,12 +2,18 @@
 module fuge_input_checks
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE
   implicit none
   private
 
   public :: check_finite, find_asymmetry, is_finite_everywhere
+
+  !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE): one value, or the first of an array with its index.
+  interface check_finite
+    module procedure check_value
+    module procedure check_array
+  end interface check_finite
 
   integer, parameter :: int64 = selected_int_kind(18)
   !> Edge of the square tiles in which a matrix is compared with its transpose.
@@ -31,8 +37,16 @@ contains
     finite = worst < exponent_bits
   end function is_finite_everywhere
 
-  !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE); the message names the first such value `name`(k).
-  pure subroutine check_finite(values, name, info)
+  pure subroutine check_value(value, name, info)
+    real(dp), intent(in) :: value
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (ieee_is_finite(value)) return
+    call report(info, FUGE_ERR_NOT_FINITE, name//' = '//text(value)//' is not a finite number')
+  end subroutine check_value
+
+  pure subroutine check_array(values, name, info)
     real(dp), intent(in) :: values(:)
     character(len=*), intent(in) :: name
     type(fuge_info), intent(inout) :: info
@@ -40,11 +54,10 @@ contains
 
     do k = 1, size(values)
       if (ieee_is_finite(values(k))) cycle
-      call report(info, FUGE_ERR_NOT_FINITE, name//'('//text(k)//') = '//text(values(k)) &
-        //' is not a finite number')
+      call check_value(values(k), name//'('//index_text(k)//')', info)
       return
     end do
-  end subroutine check_finite
+  end subroutine check_array
 
   !> The coefficients (row, column) and (column, row) of a square matrix that differ most beyond
   !> what is allowed, `tolerance` weight(row) weight(column).

@@ -1,5 +1,8 @@
 !> Numbers as text, for messages.
 !>
+!> An index goes into a message as `index_text(k)`, any other number (a size, a count, a value, a
+!> line of a file) as `text(k)`.
+!>
 !> The length of each result is known before the call, because gfortran keeps the length of
 !> a deferred-length result (`len=:`) in a variable that all threads share.
 module fuge_number_text
@@ -8,7 +11,11 @@ module fuge_number_text
   implicit none
   private
 
-  public :: text
+  public :: index_text, text
+
+  !> Stands before an index in the text that `report` is given. No file name or other text of a
+  !> caller can hold it: in C it ends a string.
+  character, parameter, public :: INDEX_MARK = achar(0)
 
   !> An integer, or a real number to about six digits, without blanks.
   interface text
@@ -31,6 +38,15 @@ contains
 
     string = integer_field(value)
   end function text_integer
+
+  !> An index for a message: the number of a point, row, degree of freedom or mode, which counts
+  !> from 1 here and from 0 in C. `fuge_status` turns the marked number into the caller's.
+  pure function index_text(value) result(string)
+    integer, intent(in) :: value
+    character(len=len_trim(integer_field(value)) + 1) :: string
+
+    string = INDEX_MARK//integer_field(value)
+  end function index_text
 
   pure function real_field(value) result(field)
     real(dp), intent(in) :: value

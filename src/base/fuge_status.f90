@@ -3,12 +3,20 @@
 !> 0 is done, positive is done with a warning, negative is an error that
 !> leaves all outputs untouched. This is the one table of codes and texts: include/fuge.h,
 !> doc/errors.md and the man page repeat them, and a test compares them.
+!>
+!> Messages name points, rows, degrees of freedom and modes by their index, which counts from 1
+!> in Fortran and from 0 in C. Both languages share the procedures that compose messages, most of
+!> them with an `info` that is intent(out), and a message may be part of another one. So the
+!> message itself knows which of its numbers are indices: `index_text` marks them, `report` keeps
+!> the marked text beside the one that Fortran reads, and `message_counting_from` makes that of
+!> another language from it.
 module fuge_status
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text, INDEX_MARK
   implicit none
   private
 
-  public :: fuge_status_text, report
+  public :: composed_message, fuge_status_text, message_counting_from, report
 
   !> Done, the residual is at most the tolerance.
   integer, parameter, public :: FUGE_DONE = 0
@@ -98,6 +106,9 @@ module fuge_status
   !> Length of a message; longer ones are cut.
   integer, parameter, public :: FUGE_MESSAGE_LENGTH = 256
 
+  !> The same with the marks of 32 indices.
+  integer, parameter :: COMPOSED_LENGTH = FUGE_MESSAGE_LENGTH + 32
+
   !> The report of a call.
   type, public :: fuge_info
     !> One of the codes above.
@@ -114,6 +125,8 @@ module fuge_status
     integer :: preconditionings = 0
     !> The certificate: the largest relative violation, see `fuge_residual`; no unit.
     real(dp) :: residual = 0.0_dp
+    !> The message with its indices marked; only `report` sets it, together with `message`.
+    character(len=COMPOSED_LENGTH), private :: composed = ''
   contains
     procedure :: failed
   end type fuge_info
@@ -128,15 +141,82 @@ contains
     failed = self%status < 0
   end function failed
 
-  !> Set status and message, and nothing else.
+  !> Set status and message, and nothing else. `message` has its indices from `index_text`.
   pure subroutine report(info, status, message)
     type(fuge_info), intent(inout) :: info
     integer, intent(in) :: status
     character(len=*), intent(in) :: message
 
     info%status = status
-    info%message = message
+    info%composed = message
+    info%message = message_counting_from(1, info)
   end subroutine report
+
+  !> The message with its indices marked, to be part of another one that `report` is given.
+  pure function composed_message(info) result(message)
+    type(fuge_info), intent(in) :: info
+    character(len=len_trim(info%composed)) :: message
+
+    message = info%composed
+  end function composed_message
+
+  !> The message for a language whose indices start at `first`.
+  pure function message_counting_from(first, info) result(message)
+    integer, intent(in) :: first
+    type(fuge_info), intent(in) :: info
+    character(len=FUGE_MESSAGE_LENGTH) :: message
+    integer :: begin, last, written
+
+    message = ''
+    written = 0
+    begin = 1
+    do while (begin <= len_trim(info%composed))
+      last = end_of_part(info%composed, begin)
+      if (info%composed(begin:begin) == INDEX_MARK) then
+        call append(trim(renumbered(info%composed(begin + 1:last), first)), message, written)
+      else
+        call append(info%composed(begin:last), message, written)
+      end if
+      begin = last + 1
+    end do
+  end function message_counting_from
+
+  !> The last character of the part that begins at `begin`: a mark with its number, or the text
+  !> before the next mark.
+  pure function end_of_part(composed, begin) result(last)
+    character(len=*), intent(in) :: composed
+    integer, intent(in) :: begin
+    integer :: last
+
+    if (composed(begin:begin) == INDEX_MARK) then
+      last = begin + verify(composed(begin + 1:)//' ', '-0123456789') - 1
+    else
+      last = begin + index(composed(begin + 1:)//INDEX_MARK, INDEX_MARK) - 1
+    end if
+  end function end_of_part
+
+  !> An index that counts from 1, as text, counted from `first`.
+  pure function renumbered(number, first) result(field)
+    character(len=*), intent(in) :: number
+    integer, intent(in) :: first
+    character(len=12) :: field
+    integer :: value, status
+
+    field = number
+    read (field, '(i12)', iostat=status) value
+    if (status == 0 .and. len(number) > 0) field = text(value + (first - 1))
+  end function renumbered
+
+  !> Append a part to the first `written` characters; what does not fit is cut.
+  pure subroutine append(part, message, written)
+    character(len=*), intent(in) :: part
+    character(len=*), intent(inout) :: message
+    integer, intent(inout) :: written
+
+    if (written >= len(message)) return
+    message(written + 1:) = part
+    written = written + len(part)
+  end subroutine append
 
   pure function meaning_length(status) result(length)
     integer, intent(in) :: status

@@ -1,9 +1,9 @@
 !> C bindings, section "two bodies": their elasticity.
 module fuge_c_bodies
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
   use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
-  use fuge_c_types, only: copy_string
-  use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER
+  use fuge_c_types, only: report_to_c, require_pointer
+  use fuge_status, only: fuge_info
   implicit none
   private
 
@@ -19,14 +19,12 @@ contains
     real(c_double), pointer :: value
     type(fuge_info) :: info
 
-    if (c_associated(modulus)) then
+    call require_pointer(modulus, 'modulus', info)
+    if (.not. info%failed()) then
       call c_f_pointer(modulus, value)
       call fuge_plane_modulus(young, poisson, int(state), value, info)
-    else
-      call report(info, FUGE_ERR_POINTER, 'modulus is NULL')
     end if
-    call copy_string(info%message, message, length)
-    status = int(info%status, c_int)
+    status = report_to_c(info, message, length)
   end function c_plane_modulus
 
   function c_combined_modulus(e1, e2, e_star, message, length) &
@@ -38,14 +36,12 @@ contains
     real(c_double), pointer :: value
     type(fuge_info) :: info
 
-    if (c_associated(e_star)) then
+    call require_pointer(e_star, 'e_star', info)
+    if (.not. info%failed()) then
       call c_f_pointer(e_star, value)
       call fuge_combined_modulus(e1, e2, value, info)
-    else
-      call report(info, FUGE_ERR_POINTER, 'e_star is NULL')
     end if
-    call copy_string(info%message, message, length)
-    status = int(info%status, c_int)
+    status = report_to_c(info, message, length)
   end function c_combined_modulus
 
   function c_displacement_shares(e1, e2, share1, share2, message, length) &
@@ -57,15 +53,14 @@ contains
     real(c_double), pointer :: first, second
     type(fuge_info) :: info
 
-    if (c_associated(share1) .and. c_associated(share2)) then
+    call require_pointer(share1, 'share1', info)
+    call require_pointer(share2, 'share2', info)
+    if (.not. info%failed()) then
       call c_f_pointer(share1, first)
       call c_f_pointer(share2, second)
       call fuge_displacement_shares(e1, e2, first, second, info)
-    else
-      call report(info, FUGE_ERR_POINTER, 'share1 or share2 is NULL')
     end if
-    call copy_string(info%message, message, length)
-    status = int(info%status, c_int)
+    status = report_to_c(info, message, length)
   end function c_displacement_shares
 
 end module fuge_c_bodies

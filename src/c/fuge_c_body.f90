@@ -1,42 +1,44 @@
 !> C bindings, section "condensation": from a stiffness matrix to an influence matrix.
 module fuge_c_body
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_null_ptr, c_loc, c_associated, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_loc, c_associated, c_f_pointer
   use fuge_body_type, only: fuge_body
-  use fuge_c_types, only: copy_string, copy_reals, copy_integers, from_zero
+  use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_zero, message_for_c, report_to_c, &
+    require_count, &
+    require_pointer, set_handle, take_handle
   use fuge_condensation, only: fuge_condense, fuge_condensed
   use fuge_nodal_modes, only: fuge_rigid_modes
+  use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
-    FUGE_ERR_CALL_ORDER, FUGE_MESSAGE_LENGTH
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, &
+    FUGE_MESSAGE_LENGTH
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
-  use fuge_number_text, only: text
   implicit none
   private
 
-  public :: hand_over_body
+  public :: new_body
 
-  !> Where a stiffness matrix of C lies; looked at by fuge_condense, which has a place for
-  !> messages.
+  !> Where a stiffness matrix of C lies. It is read by fuge_body_condense, when all is known that
+  !> the matrix is checked against.
   type, abstract, public :: stiffness_source
   contains
-    procedure(take_matrix), deferred :: take
+    procedure(read_stiffness), deferred :: read
   end type stiffness_source
 
   abstract interface
-    subroutine take_matrix(self, stiffness, info)
+    subroutine read_stiffness(self, stiffness, info)
       import :: stiffness_source, fuge_stiffness, fuge_info
       class(stiffness_source), intent(in) :: self
       class(fuge_stiffness), allocatable, intent(out) :: stiffness
       type(fuge_info), intent(out) :: info
-    end subroutine take_matrix
+    end subroutine read_stiffness
   end interface
 
   type, extends(stiffness_source) :: dense_source
     real(c_double), pointer :: matrix(:, :) => null()
   contains
-    procedure :: take => take_dense
+    procedure :: read => read_dense
   end type dense_source
 
   type, extends(stiffness_source) :: band_source
@@ -44,7 +46,7 @@ module fuge_c_body
     integer :: width = 0
     logical :: upper = .true.
   contains
-    procedure :: take => take_band
+    procedure :: read => read_band
   end type band_source
 
   !> Behind struct fuge_body.
@@ -53,50 +55,63 @@ module fuge_c_body
     integer :: degrees = 0
     type(fuge_body) :: body
     type(fuge_condensed) :: condensed
-    !> What has been condensed belongs to the present data.
+    !> `condensed` belongs to the present data.
     logical :: done = .false.
+    !> Message of the last call that set, condensed or failed.
     character(len=FUGE_MESSAGE_LENGTH) :: message = ''
   end type body_handle
 
 contains
 
-  function c_body_dense(degrees, k, ldk, destination) bind(c, name='fuge_body_dense') result(status)
+  function c_body_dense(degrees, k, ldk, destination, message, length) bind(c, name='fuge_body_dense') result(status)
     integer(c_int), intent(in), value :: degrees, ldk
-    type(c_ptr), intent(in), value :: k, destination
+    type(c_ptr), intent(in), value :: k, destination, message
+    integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(dense_source), allocatable :: dense
     class(stiffness_source), allocatable :: source
+    type(fuge_info) :: info
 
-    status = FUGE_ERR_SIZE
-    if (degrees < 1 .or. ldk < degrees) return
-    status = FUGE_ERR_POINTER
-    if (.not. c_associated(k)) return
-    allocate (dense)
-    call c_f_pointer(k, dense%matrix, [ldk, degrees])
-    call move_alloc(dense, source)
-    status = hand_over_body(int(degrees), source, destination)
+    call require_count(degrees, 1, 'degrees', 'degrees of freedom', info)
+    if (.not. info%failed() .and. ldk < degrees) call report(info, FUGE_ERR_SIZE, 'ldk = '//text(int(ldk)) &
+      //' is less than degrees = '//text(int(degrees))//': it is the distance between columns, in doubles')
+    call require_pointer(k, 'k', info)
+    if (.not. info%failed()) then
+      allocate (dense)
+      call c_f_pointer(k, dense%matrix, [ldk, degrees])
+      call move_alloc(dense, source)
+      call new_body(int(degrees), source, destination, info)
+    end if
+    status = report_to_c(info, message, length)
   end function c_body_dense
 
-  function c_body_band(degrees, kd, ab, ldab, upper, destination) bind(c, name='fuge_body_band') result(status)
+  function c_body_band(degrees, kd, ab, ldab, upper, destination, message, length) &
+    bind(c, name='fuge_body_band') result(status)
     integer(c_int), intent(in), value :: degrees, kd, ldab, upper
-    type(c_ptr), intent(in), value :: ab, destination
+    type(c_ptr), intent(in), value :: ab, destination, message
+    integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(band_source), allocatable :: band
     class(stiffness_source), allocatable :: source
+    type(fuge_info) :: info
 
-    status = FUGE_ERR_SIZE
-    if (degrees < 1 .or. kd < 0 .or. ldab <= kd) return
-    status = FUGE_ERR_POINTER
-    if (.not. c_associated(ab)) return
-    allocate (band)
-    call c_f_pointer(ab, band%band, [ldab, degrees])
-    band%width = int(kd)
-    band%upper = upper /= 0
-    call move_alloc(band, source)
-    status = hand_over_body(int(degrees), source, destination)
+    call require_count(degrees, 1, 'degrees', 'degrees of freedom', info)
+    call require_count(kd, 0, 'kd', 'diagonals beside the main one', info)
+    if (.not. info%failed() .and. ldab <= kd) call report(info, FUGE_ERR_SIZE, 'ldab = '//text(int(ldab)) &
+      //' is not above kd = '//text(int(kd))//': it is the distance between columns, in doubles')
+    call require_pointer(ab, 'ab', info)
+    if (.not. info%failed()) then
+      allocate (band)
+      call c_f_pointer(ab, band%band, [ldab, degrees])
+      band%width = int(kd)
+      band%upper = upper /= 0
+      call move_alloc(band, source)
+      call new_body(int(degrees), source, destination, info)
+    end if
+    status = report_to_c(info, message, length)
   end function c_body_band
 
-  subroutine take_dense(self, stiffness, info)
+  subroutine read_dense(self, stiffness, info)
     class(dense_source), intent(in) :: self
     class(fuge_stiffness), allocatable, intent(out) :: stiffness
     type(fuge_info), intent(out) :: info
@@ -105,9 +120,9 @@ contains
     allocate (dense)
     call dense%set(self%matrix, info)
     call move_alloc(dense, stiffness)
-  end subroutine take_dense
+  end subroutine read_dense
 
-  subroutine take_band(self, stiffness, info)
+  subroutine read_band(self, stiffness, info)
     class(band_source), intent(in) :: self
     class(fuge_stiffness), allocatable, intent(out) :: stiffness
     type(fuge_info), intent(out) :: info
@@ -116,44 +131,41 @@ contains
     allocate (band)
     call band%set(self%band, self%upper, info, self%width)
     call move_alloc(band, stiffness)
-  end subroutine take_band
+  end subroutine read_band
 
   !> Put a body behind a handle at `destination`; FUGE_ERR_POINTER, FUGE_ERR_MEMORY.
-  function hand_over_body(degrees, source, destination) result(status)
+  subroutine new_body(degrees, source, destination, info)
     integer, intent(in) :: degrees
     class(stiffness_source), allocatable, intent(inout) :: source
     type(c_ptr), intent(in) :: destination
-    integer(c_int) :: status
+    type(fuge_info), intent(inout) :: info
     type(body_handle), pointer :: handle
-    type(c_ptr), pointer :: slot
     integer :: stat
 
-    status = FUGE_ERR_POINTER
-    if (.not. c_associated(destination)) return
-    status = FUGE_ERR_MEMORY
+    call require_pointer(destination, 'body', info)
+    if (info%failed()) return
     allocate (handle, stat=stat)
-    if (stat /= 0) return
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the body')
+      return
+    end if
     call move_alloc(source, handle%source)
     handle%degrees = degrees
-    call c_f_pointer(destination, slot)
-    slot = c_loc(handle)
-    status = FUGE_DONE
-  end function hand_over_body
+    call set_handle(c_loc(handle), destination)
+  end subroutine new_body
 
   subroutine c_body_free(source) bind(c, name='fuge_body_free')
     type(c_ptr), intent(in), value :: source
     type(body_handle), pointer :: handle
-    type(c_ptr), pointer :: slot
+    type(c_ptr) :: address
 
-    if (.not. c_associated(source)) return
-    call c_f_pointer(source, slot)
-    if (.not. c_associated(slot)) return
-    call c_f_pointer(slot, handle)
+    address = take_handle(source)
+    if (.not. c_associated(address)) return
+    call c_f_pointer(address, handle)
     ! Apart, because flang 22 would leak what an extension has allocated.
     if (allocated(handle%source)) deallocate (handle%source)
     call handle%condensed%clear()
     deallocate (handle)
-    slot = c_null_ptr
   end subroutine c_body_free
 
   function c_body_fix(body, count, dof, displacement) bind(c, name='fuge_body_fix') result(status)
@@ -161,35 +173,34 @@ contains
     integer(c_int), intent(in), value :: count
     integer(c_int) :: status
     type(body_handle), pointer :: handle
-    integer(c_int), pointer :: numbers(:)
-    real(c_double), pointer :: lengths(:)
     type(fuge_info) :: info
 
-    if (.not. c_associated(body)) then
-      status = FUGE_ERR_POINTER
-      return
-    end if
-    call c_f_pointer(body, handle)
-    if (count < 0) then
-      call report(info, FUGE_ERR_SIZE, 'count = '//text(int(count))//' fixed degrees of freedom: it cannot be negative')
-    else if (count > 0 .and. .not. c_associated(dof)) then
-      call report(info, FUGE_ERR_POINTER, 'dof is NULL')
-    else if (count == 0) then
-      if (allocated(handle%body%fixed)) deallocate (handle%body%fixed)
-      if (allocated(handle%body%displacement)) deallocate (handle%body%displacement)
-    else
-      call c_f_pointer(dof, numbers, [count])
-      handle%body%fixed = from_zero(numbers)
-      if (allocated(handle%body%displacement)) deallocate (handle%body%displacement)
-      if (c_associated(displacement)) then
-        call c_f_pointer(displacement, lengths, [count])
-        handle%body%displacement = lengths
-      end if
-    end if
-    status = settle(handle, info)
+    call find_body(body, handle, info)
+    call require_count(count, 0, 'count', 'fixed degrees of freedom', info)
+    if (count > 0) call require_pointer(dof, 'dof', info)
+    if (.not. info%failed()) call set_supports(handle%body, int(count), dof, displacement)
+    status = report_data(info, handle)
   end function c_body_fix
 
-  !> Once condensed, only the displacements by the load are found anew.
+  !> Replace the fixed degrees of freedom and their displacements.
+  subroutine set_supports(body, count, dof, displacement)
+    type(fuge_body), intent(inout) :: body
+    integer, intent(in) :: count
+    type(c_ptr), intent(in) :: dof, displacement
+    integer(c_int), pointer :: numbers(:)
+    real(c_double), pointer :: lengths(:)
+
+    if (allocated(body%fixed)) deallocate (body%fixed)
+    if (allocated(body%displacement)) deallocate (body%displacement)
+    if (count == 0) return
+    call c_f_pointer(dof, numbers, [count])
+    body%fixed = from_zero(numbers)
+    if (.not. c_associated(displacement)) return
+    call c_f_pointer(displacement, lengths, [count])
+    body%displacement = lengths
+  end subroutine set_supports
+
+  !> After fuge_body_condense only the displacements by the load are found anew.
   function c_body_set_load(body, load) bind(c, name='fuge_body_set_load') result(status)
     type(c_ptr), intent(in), value :: body, load
     integer(c_int) :: status
@@ -197,81 +208,75 @@ contains
     real(c_double), pointer :: forces(:)
     type(fuge_info) :: info
 
-    status = FUGE_ERR_POINTER
-    if (.not. c_associated(body)) return
-    call c_f_pointer(body, handle)
-    if (.not. c_associated(load)) then
-      call report(info, FUGE_ERR_POINTER, 'load is NULL')
-    else
+    call find_body(body, handle, info)
+    call require_pointer(load, 'load', info)
+    if (.not. info%failed()) then
       call c_f_pointer(load, forces, [handle%degrees])
-      if (handle%done) then
-        call handle%condensed%set_load(forces, info)
-      else
-        handle%body%load = forces
-      end if
+      if (handle%done) call handle%condensed%set_load(forces, info)
+      if (.not. info%failed()) handle%body%load = forces
     end if
-    handle%message = info%message
-    status = int(info%status, c_int)
-    if (handle%done .and. .not. info%failed()) handle%body%load = forces
+    status = report_to_body(info, handle)
   end function c_body_set_load
 
-  function c_body_set_modes(body, m, modes) bind(c, name='fuge_body_set_rigid_modes') result(status)
-    type(c_ptr), intent(in), value :: body, modes
+  function c_body_set_rigid_modes(body, m, rigid_modes) bind(c, name='fuge_body_set_rigid_modes') result(status)
+    type(c_ptr), intent(in), value :: body, rigid_modes
     integer(c_int), intent(in), value :: m
     integer(c_int) :: status
     type(body_handle), pointer :: handle
-    real(c_double), pointer :: motions(:, :)
+    real(c_double), pointer :: values(:, :)
+    real(c_double), allocatable :: copy(:, :)
     type(fuge_info) :: info
     integer :: stat
 
-    status = FUGE_ERR_POINTER
-    if (.not. c_associated(body)) return
-    call c_f_pointer(body, handle)
-    if (m < 0) then
-      call report(info, FUGE_ERR_SIZE, 'm = '//text(int(m))//' motions: it cannot be negative')
-    else if (m > 0 .and. .not. c_associated(modes)) then
-      call report(info, FUGE_ERR_POINTER, 'modes is NULL')
-    else
-      handle%body%floats = .false.
-      if (allocated(handle%body%rigid_modes)) deallocate (handle%body%rigid_modes)
-      if (m > 0) then
-        call c_f_pointer(modes, motions, [handle%degrees, int(m)])
-        allocate (handle%body%rigid_modes(handle%degrees, m), stat=stat)
-        if (stat == 0) handle%body%rigid_modes = motions
-        if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(m))//' motions')
-      end if
+    call find_body(body, handle, info)
+    call require_count(m, 0, 'm', 'rigid modes', info)
+    if (m > 0) call require_pointer(rigid_modes, 'rigid_modes', info)
+    if (.not. info%failed() .and. m > 0) then
+      call c_f_pointer(rigid_modes, values, [handle%degrees, int(m)])
+      allocate (copy, source=values, stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(m))//' rigid modes')
     end if
-    status = settle(handle, info)
-  end function c_body_set_modes
+    if (.not. info%failed()) then
+      handle%body%floats = .false.
+      call move_alloc(copy, handle%body%rigid_modes)
+    end if
+    status = report_data(info, handle)
+  end function c_body_set_rigid_modes
 
-  function c_body_find_modes(body) bind(c, name='fuge_body_find_rigid_modes') result(status)
+  function c_body_find_rigid_modes(body) bind(c, name='fuge_body_find_rigid_modes') result(status)
     type(c_ptr), intent(in), value :: body
     integer(c_int) :: status
     type(body_handle), pointer :: handle
     type(fuge_info) :: info
 
-    status = FUGE_ERR_POINTER
-    if (.not. c_associated(body)) return
-    call c_f_pointer(body, handle)
-    if (allocated(handle%body%rigid_modes)) deallocate (handle%body%rigid_modes)
-    handle%body%floats = .true.
-    status = settle(handle, info)
-  end function c_body_find_modes
+    call find_body(body, handle, info)
+    if (.not. info%failed()) then
+      if (allocated(handle%body%rigid_modes)) deallocate (handle%body%rigid_modes)
+      handle%body%floats = .true.
+    end if
+    status = report_data(info, handle)
+  end function c_body_find_rigid_modes
 
-  function c_rigid_modes(dimensions, nodes, position, modes) bind(c, name='fuge_rigid_modes') result(status)
+  function c_rigid_modes(dimensions, nodes, position, rigid_modes, message, length) &
+    bind(c, name='fuge_rigid_modes') result(status)
     integer(c_int), intent(in), value :: dimensions, nodes
-    type(c_ptr), intent(in), value :: position, modes
+    type(c_ptr), intent(in), value :: position, rigid_modes, message
+    integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    real(c_double), pointer :: places(:, :), motions(:, :)
+    real(c_double), pointer :: places(:, :), values(:, :)
+    type(fuge_info) :: info
 
-    status = FUGE_ERR_SIZE
-    if (dimensions < 2 .or. dimensions > 3 .or. nodes < 1) return
-    status = FUGE_ERR_POINTER
-    if (.not. (c_associated(position) .and. c_associated(modes))) return
-    call c_f_pointer(position, places, [dimensions, nodes])
-    call c_f_pointer(modes, motions, [int(dimensions)*int(nodes), 3*int(dimensions) - 3])
-    motions = fuge_rigid_modes(places)
-    status = FUGE_DONE
+    if (dimensions < 2 .or. dimensions > 3) call report(info, FUGE_ERR_SIZE, 'dimensions = '//text(int(dimensions)) &
+                                                        //': nodes are in the plane, 2, or in space, 3')
+    call require_count(nodes, 1, 'nodes', 'nodes', info)
+    call require_pointer(position, 'position', info)
+    call require_pointer(rigid_modes, 'rigid_modes', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(position, places, [dimensions, nodes])
+      call c_f_pointer(rigid_modes, values, [int(dimensions)*int(nodes), 3*int(dimensions) - 3])
+      values = fuge_rigid_modes(places)
+    end if
+    status = report_to_c(info, message, length)
   end function c_rigid_modes
 
   function c_body_set_contact(body, n, width, dof, normal) bind(c, name='fuge_body_set_contact') result(status)
@@ -279,50 +284,55 @@ contains
     integer(c_int), intent(in), value :: n, width
     integer(c_int) :: status
     type(body_handle), pointer :: handle
-    integer(c_int), pointer :: numbers(:, :)
-    real(c_double), pointer :: directions(:, :)
     type(fuge_info) :: info
-    integer :: stat
 
-    status = FUGE_ERR_POINTER
-    if (.not. c_associated(body)) return
-    call c_f_pointer(body, handle)
-    if (n < 1 .or. width < 1) then
-      call report(info, FUGE_ERR_SIZE, 'n = '//text(int(n))//' contact points with '//text(int(width)) &
-                  //' degrees of freedom each: at least one of one is needed')
-    else if (.not. (c_associated(dof) .and. c_associated(normal))) then
-      call report(info, FUGE_ERR_POINTER, 'dof or normal is NULL')
-    else
-      call c_f_pointer(dof, numbers, [width, n])
-      call c_f_pointer(normal, directions, [width, n])
-      if (allocated(handle%body%dof)) deallocate (handle%body%dof, handle%body%normal)
-      allocate (handle%body%dof(width, n), handle%body%normal(width, n), stat=stat)
-      if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(n))//' contact points')
-      else
-        handle%body%dof = from_zero(numbers)
-        handle%body%normal = directions
-      end if
-    end if
-    status = settle(handle, info)
+    call find_body(body, handle, info)
+    call require_count(n, 1, 'n', 'contact points', info)
+    call require_count(width, 1, 'width', 'degrees of freedom of each contact point', info)
+    call require_pointer(dof, 'dof', info)
+    call require_pointer(normal, 'normal', info)
+    if (.not. info%failed()) call set_points(handle%body, int(n), int(width), dof, normal, info)
+    status = report_data(info, handle)
   end function c_body_set_contact
 
-  function c_condense(body) bind(c, name='fuge_body_condense') result(status)
+  !> Replace the contact points.
+  subroutine set_points(body, n, width, dof, normal, info)
+    type(fuge_body), intent(inout) :: body
+    integer, intent(in) :: n, width
+    type(c_ptr), intent(in) :: dof, normal
+    type(fuge_info), intent(inout) :: info
+    integer(c_int), pointer :: numbers(:, :)
+    real(c_double), pointer :: directions(:, :)
+    integer, allocatable :: copy_of_dof(:, :)
+    real(c_double), allocatable :: copy_of_normal(:, :)
+    integer :: stat
+
+    allocate (copy_of_dof(width, n), copy_of_normal(width, n), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(n)//' contact points')
+      return
+    end if
+    call c_f_pointer(dof, numbers, [width, n])
+    call c_f_pointer(normal, directions, [width, n])
+    copy_of_dof = from_zero(numbers)
+    copy_of_normal = directions
+    call move_alloc(copy_of_dof, body%dof)
+    call move_alloc(copy_of_normal, body%normal)
+  end subroutine set_points
+
+  function c_body_condense(body) bind(c, name='fuge_body_condense') result(status)
     type(c_ptr), intent(in), value :: body
     integer(c_int) :: status
     type(body_handle), pointer :: handle
     class(fuge_stiffness), allocatable :: stiffness
     type(fuge_info) :: info
 
-    status = FUGE_ERR_POINTER
-    if (.not. c_associated(body)) return
-    call c_f_pointer(body, handle)
-    call handle%source%take(stiffness, info)
+    call find_body(body, handle, info)
+    if (.not. info%failed()) call handle%source%read(stiffness, info)
     if (.not. info%failed()) call fuge_condense(stiffness, handle%body, handle%condensed, info)
     if (.not. info%failed()) handle%done = .true.
-    handle%message = info%message
-    status = int(info%status, c_int)
-  end function c_condense
+    status = report_to_body(info, handle)
+  end function c_body_condense
 
   function c_body_get_influence(body, alpha, lda) bind(c, name='fuge_body_get_influence') result(status)
     type(c_ptr), intent(in), value :: body, alpha
@@ -330,58 +340,58 @@ contains
     integer(c_int) :: status
     type(body_handle), pointer :: handle
     real(c_double), pointer :: matrix(:, :)
+    type(fuge_info) :: info
     integer :: n
 
-    call find_condensed(body, handle, status)
-    if (status /= FUGE_DONE) return
-    n = size(handle%condensed%alpha, 2)
-    status = FUGE_ERR_SIZE
-    handle%message = 'lda = '//text(int(lda))//' is less than n = '//text(n)//' contact points'
-    if (lda < n) return
-    status = FUGE_ERR_POINTER
-    handle%message = 'alpha is NULL'
-    if (.not. c_associated(alpha)) return
-    handle%message = ''
+    call find_condensed(body, handle, info)
+    call require_pointer(alpha, 'alpha', info)
+    n = 0
+    if (.not. info%failed()) n = size(handle%condensed%alpha, 2)
+    if (.not. info%failed() .and. lda < n) call report(info, FUGE_ERR_SIZE, 'lda = '//text(int(lda)) &
+      //' is less than n = '//text(n)//' contact points: it is the distance between columns, in doubles')
+    status = report_getter(info, handle)
+    if (info%failed()) return
     call c_f_pointer(alpha, matrix, [int(lda), n])
     matrix(:n, :) = handle%condensed%alpha
-    status = FUGE_DONE
   end function c_body_get_influence
 
   function c_body_get_displacement(body, displacement) bind(c, name='fuge_body_get_displacement') result(status)
     type(c_ptr), intent(in), value :: body, displacement
     integer(c_int) :: status
     type(body_handle), pointer :: handle
+    type(fuge_info) :: info
 
-    call find_condensed(body, handle, status)
-    if (status /= FUGE_DONE) return
-    call copy_reals(handle%condensed%displacement, displacement)
-    if (.not. c_associated(displacement)) status = missing(handle, 'displacement')
+    call find_condensed(body, handle, info)
+    call require_pointer(displacement, 'displacement', info)
+    if (.not. info%failed()) call copy_reals(handle%condensed%displacement, displacement)
+    status = report_getter(info, handle)
   end function c_body_get_displacement
 
-  function c_body_get_motions(body, m) bind(c, name='fuge_body_get_mode_count') result(status)
+  function c_body_get_mode_count(body, m) bind(c, name='fuge_body_get_mode_count') result(status)
     type(c_ptr), intent(in), value :: body, m
     integer(c_int) :: status
     type(body_handle), pointer :: handle
+    type(fuge_info) :: info
 
-    call find_condensed(body, handle, status)
-    if (status /= FUGE_DONE) return
-    call copy_integers([size(handle%condensed%resultant)], m)
-    if (.not. c_associated(m)) status = missing(handle, 'm')
-  end function c_body_get_motions
+    call find_condensed(body, handle, info)
+    call require_pointer(m, 'm', info)
+    if (.not. info%failed()) call copy_integers([size(handle%condensed%resultant)], m)
+    status = report_getter(info, handle)
+  end function c_body_get_mode_count
 
-  !> Either may be NULL.
+  !> Either array may be NULL.
   function c_body_get_modes(body, modes, resultant) bind(c, name='fuge_body_get_modes') result(status)
     type(c_ptr), intent(in), value :: body, modes, resultant
     integer(c_int) :: status
     type(body_handle), pointer :: handle
-    integer :: j
+    type(fuge_info) :: info
 
-    call find_condensed(body, handle, status)
-    if (status /= FUGE_DONE) return
-    associate (r => handle%condensed%modes)
-      call copy_reals([(r(:, j), j=1, size(r, 2))], modes)
-    end associate
-    call copy_reals(handle%condensed%resultant, resultant)
+    call find_condensed(body, handle, info)
+    if (.not. info%failed()) then
+      call copy_reals([handle%condensed%modes], modes)
+      call copy_reals(handle%condensed%resultant, resultant)
+    end if
+    status = report_getter(info, handle)
   end function c_body_get_modes
 
   function c_body_recover(body, force, motion, displacement) bind(c, name='fuge_body_recover') result(status)
@@ -393,23 +403,24 @@ contains
     type(fuge_info) :: info
     integer :: m
 
-    call find_condensed(body, handle, status)
-    if (status /= FUGE_DONE) return
-    m = size(handle%condensed%resultant)
-    status = missing(handle, 'force, displacement or motion')
-    if (.not. (c_associated(force) .and. c_associated(displacement))) return
-    if (m > 0 .and. .not. c_associated(motion)) return
-    call c_f_pointer(force, values, [size(handle%condensed%displacement)])
-    solution%force = values
-    allocate (solution%motion(m))
-    if (m > 0) then
-      call c_f_pointer(motion, values, [m])
-      solution%motion = values
+    m = 0
+    call find_condensed(body, handle, info)
+    if (.not. info%failed()) m = size(handle%condensed%resultant)
+    call require_pointer(force, 'force', info)
+    if (m > 0) call require_pointer(motion, 'motion', info)
+    call require_pointer(displacement, 'displacement', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(force, values, [size(handle%condensed%displacement)])
+      solution%force = values
+      allocate (solution%motion(m))
+      if (m > 0) then
+        call c_f_pointer(motion, values, [m])
+        solution%motion = values
+      end if
+      call c_f_pointer(displacement, field, [handle%degrees])
+      call handle%condensed%recover(solution, field, info)
     end if
-    call c_f_pointer(displacement, field, [handle%degrees])
-    call handle%condensed%recover(solution, field, info)
-    handle%message = info%message
-    status = int(info%status, c_int)
+    status = report_to_body(info, handle)
   end function c_body_recover
 
   function c_body_message(body, buffer, length) bind(c, name='fuge_body_message') result(status)
@@ -417,50 +428,65 @@ contains
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(body_handle), pointer :: handle
+    type(fuge_info) :: info
 
-    status = FUGE_ERR_POINTER
-    if (.not. (c_associated(body) .and. c_associated(buffer))) return
-    call c_f_pointer(body, handle)
-    call copy_string(handle%message, buffer, length)
-    status = FUGE_DONE
+    call find_body(body, handle, info)
+    call require_pointer(buffer, 'message', info)
+    if (.not. info%failed()) call copy_string(handle%message, buffer, length)
+    status = int(info%status, c_int)
   end function c_body_message
 
-  !> The handle of a body that has been condensed, or why not.
-  subroutine find_condensed(body, handle, status)
+  !> The body behind a handle; FUGE_ERR_POINTER for NULL.
+  subroutine find_body(body, handle, info)
     type(c_ptr), intent(in) :: body
     type(body_handle), pointer, intent(out) :: handle
-    integer(c_int), intent(out) :: status
+    type(fuge_info), intent(inout) :: info
 
-    handle => null()
-    status = FUGE_ERR_POINTER
-    if (.not. c_associated(body)) return
-    call c_f_pointer(body, handle)
-    status = FUGE_ERR_CALL_ORDER
-    handle%message = ''
-    if (handle%done) status = FUGE_DONE
-    if (.not. handle%done) handle%message = 'nothing has been condensed since the data were set: call ' &
-      //'fuge_condense first'
+    nullify (handle)
+    call require_pointer(body, 'body', info)
+    if (.not. info%failed()) call c_f_pointer(body, handle)
+  end subroutine find_body
+
+  !> The same for a body that has been condensed; FUGE_ERR_CALL_ORDER for another.
+  subroutine find_condensed(body, handle, info)
+    type(c_ptr), intent(in) :: body
+    type(body_handle), pointer, intent(out) :: handle
+    type(fuge_info), intent(inout) :: info
+
+    call find_body(body, handle, info)
+    if (info%failed()) return
+    if (.not. handle%done) call report(info, FUGE_ERR_CALL_ORDER, 'the body has not been condensed since its data ' &
+                                       //'were set: call fuge_body_condense first')
   end subroutine find_condensed
 
-  !> Note which pointer is NULL.
-  function missing(handle, name) result(status)
-    type(body_handle), intent(inout) :: handle
-    character(len=*), intent(in) :: name
-    integer(c_int) :: status
-
-    handle%message = name//' is NULL'
-    status = FUGE_ERR_POINTER
-  end function missing
-
-  !> Keep the message; what has been condensed no longer fits once data were taken.
-  function settle(handle, info) result(status)
-    type(body_handle), intent(inout) :: handle
+  !> Leave the message in the body; the status to return.
+  function report_to_body(info, handle) result(status)
     type(fuge_info), intent(in) :: info
+    type(body_handle), pointer, intent(in) :: handle
     integer(c_int) :: status
 
-    handle%message = info%message
-    if (.not. info%failed()) handle%done = .false.
+    if (associated(handle)) handle%message = message_for_c(info)
     status = int(info%status, c_int)
-  end function settle
+  end function report_to_body
+
+  !> The same after data were set, which what has been condensed no longer belongs to.
+  function report_data(info, handle) result(status)
+    type(fuge_info), intent(in) :: info
+    type(body_handle), pointer, intent(in) :: handle
+    integer(c_int) :: status
+
+    status = report_to_body(info, handle)
+    if (.not. info%failed()) handle%done = .false.
+  end function report_data
+
+  !> The same for a getter: one that succeeds leaves the message as it is, which may be a warning.
+  function report_getter(info, handle) result(status)
+    type(fuge_info), intent(in) :: info
+    type(body_handle), pointer, intent(in) :: handle
+    integer(c_int) :: status
+
+    status = FUGE_DONE
+    if (info%failed()) status = report_to_body(info, handle)
+  end function report_getter
 
 end module fuge_c_body

@@ -9,7 +9,7 @@ module fuge_c_general
   private
 
   integer :: k
-  ! C wants pointers that stay valid: constants in all but the attribute.
+  ! C gets pointers to these; never changed, though no parameter, which can have no address.
   character(kind=c_char, len=72), target :: meanings(LOWEST_STATUS:HIGHEST_STATUS + 1) = &
     [character(len=72) :: (trim(STATUS_MEANINGS(k))//c_null_char, k=LOWEST_STATUS, HIGHEST_STATUS), &
      'unknown status'//c_null_char]

@@ -1,10 +1,11 @@
 !> C bindings, section "matrix files".
 module fuge_c_matrices
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
-  use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_c_string
+  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, from_zero, report_to_c, require_count, &
+    require_pointer
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_POINTER, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_number_text, only: text
   implicit none
   private
@@ -22,15 +23,13 @@ contains
     type(fuge_info) :: info
     integer :: shown(2)
 
-    if (.not. (c_associated(path) .and. c_associated(rows) .and. c_associated(columns))) then
-      call report(info, FUGE_ERR_POINTER, 'path, rows or columns is NULL')
-    else if (lda < 0 .or. capacity < 0) then
-      call report(info, FUGE_ERR_SIZE, 'lda or capacity is negative: matrix has room for lda rows and capacity columns')
-    else
-      call fuge_read_matrix(from_c_string(path), whole, info)
-    end if
-    call copy_string(info%message, message, length)
-    status = int(info%status, c_int)
+    call require_pointer(path, 'path', info)
+    call require_pointer(rows, 'rows', info)
+    call require_pointer(columns, 'columns', info)
+    call require_count(lda, 0, 'lda', 'rows that fit into matrix', info)
+    call require_count(capacity, 0, 'capacity', 'columns that fit into matrix', info)
+    if (.not. info%failed()) call fuge_read_matrix(from_c_string(path), whole, info)
+    status = report_to_c(info, message, length)
     if (info%failed()) return
     if (c_associated(matrix)) then
       shown = min(shape(whole), [int(lda), int(capacity)])
@@ -41,10 +40,10 @@ contains
     call copy_integers([size(whole, 2)], columns)
   end function c_read_matrix
 
-  function c_read_sparse(path, columns_room, entries_room, column, row, value, rows, columns, entries, message, &
+  function c_read_sparse(path, column_capacity, entry_capacity, column, row, value, rows, columns, entries, message, &
     length) bind(c, name='fuge_read_sparse') result(status)
     type(c_ptr), intent(in), value :: path, column, row, value, rows, columns, entries, message
-    integer(c_int), intent(in), value :: columns_room, entries_room
+    integer(c_int), intent(in), value :: column_capacity, entry_capacity
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     integer, allocatable :: begin(:), i(:)
@@ -53,19 +52,17 @@ contains
     integer :: height, shown
 
     height = 0
-    if (.not. (c_associated(path) .and. c_associated(rows) .and. c_associated(columns) &
-               .and. c_associated(entries))) then
-      call report(info, FUGE_ERR_POINTER, 'path, rows, columns or entries is NULL')
-    else if (columns_room < 0 .or. entries_room < 0) then
-      call report(info, FUGE_ERR_SIZE, 'columns_room or entries_room is negative: they are the room in the arrays')
-    else
-      call fuge_read_sparse(from_c_string(path), height, begin, i, entry, info)
-    end if
-    call copy_string(info%message, message, length)
-    status = int(info%status, c_int)
+    call require_pointer(path, 'path', info)
+    call require_pointer(rows, 'rows', info)
+    call require_pointer(columns, 'columns', info)
+    call require_pointer(entries, 'entries', info)
+    call require_count(column_capacity, 0, 'column_capacity', 'columns that fit into column', info)
+    call require_count(entry_capacity, 0, 'entry_capacity', 'entries that fit into row and value', info)
+    if (.not. info%failed()) call fuge_read_sparse(from_c_string(path), height, begin, i, entry, info)
+    status = report_to_c(info, message, length)
     if (info%failed()) return
-    call copy_integers(begin(:min(size(begin), int(columns_room) + 1)) - 1, column)
-    shown = min(size(i), int(entries_room))
+    call copy_integers(begin(:min(size(begin), int(column_capacity) + 1)) - 1, column)
+    shown = min(size(i), int(entry_capacity))
     call copy_integers(i(:shown) - 1, row)
     call copy_reals(entry(:shown), value)
     call copy_integers([height], rows)
@@ -82,17 +79,16 @@ contains
     real(c_double), pointer :: whole(:, :)
     type(fuge_info) :: info
 
-    if (.not. (c_associated(path) .and. c_associated(matrix))) then
-      call report(info, FUGE_ERR_POINTER, 'path or matrix is NULL')
-    else if (rows < 0 .or. columns < 0 .or. lda < rows) then
-      call report(info, FUGE_ERR_SIZE, 'rows = '//text(int(rows))//', columns = '//text(int(columns))//', lda = ' &
-                  //text(int(lda))//': sizes are not negative, and lda is at least rows')
-    else
+    call require_pointer(path, 'path', info)
+    call require_pointer(matrix, 'matrix', info)
+    call require_count(rows, 0, 'rows', 'rows', info)
+    call require_count(columns, 0, 'columns', 'columns', info)
+    call require_count(lda, int(rows), 'lda', 'doubles from column to column', info)
+    if (.not. info%failed()) then
       call c_f_pointer(matrix, whole, [lda, columns])
       call fuge_write_matrix(from_c_string(path), whole(:rows, :), info, symmetric=symmetric /= 0)
     end if
-    call copy_string(info%message, message, length)
-    status = int(info%status, c_int)
+    status = report_to_c(info, message, length)
   end function c_write_matrix
 
   function c_write_sparse(path, rows, columns, column, row, value, symmetric, message, length) &
@@ -104,24 +100,20 @@ contains
     integer(c_int), pointer :: begin(:)
     type(fuge_info) :: info
 
-    if (.not. (c_associated(path) .and. c_associated(column) .and. c_associated(row) .and. c_associated(value))) then
-      call report(info, FUGE_ERR_POINTER, 'path, column, row or value is NULL')
-    else if (rows < 0 .or. columns < 0) then
-      call report(info, FUGE_ERR_SIZE, 'rows = '//text(int(rows))//', columns = '//text(int(columns)) &
-                  //': sizes are not negative')
-    else
+    call require_pointer(path, 'path', info)
+    call require_pointer(column, 'column', info)
+    call require_pointer(row, 'row', info)
+    call require_pointer(value, 'value', info)
+    call require_count(rows, 0, 'rows', 'rows', info)
+    call require_count(columns, 0, 'columns', 'columns', info)
+    if (.not. info%failed()) then
       call c_f_pointer(column, begin, [columns + 1])
-      if (begin(columns + 1) < 0) then
-        call report(info, FUGE_ERR_SIZE, 'column ends with '//text(int(begin(columns + 1)))//', the number of entries')
-      else
-        call write_columns(from_c_string(path), int(rows), begin, row, value, symmetric /= 0, info)
-      end if
+      call write_columns(from_c_string(path), int(rows), begin, row, value, symmetric /= 0, info)
     end if
-    call copy_string(info%message, message, length)
-    status = int(info%status, c_int)
+    status = report_to_c(info, message, length)
   end function c_write_sparse
 
-  !> With indices from 1.
+  !> Write compressed columns of C, whose indices count from 0.
   subroutine write_columns(path, rows, begin, row, value, symmetric, info)
     character(len=*), intent(in) :: path
     integer, intent(in) :: rows
@@ -129,21 +121,23 @@ contains
     type(c_ptr), intent(in) :: row, value
     logical, intent(in) :: symmetric
     type(fuge_info), intent(inout) :: info
-    integer(c_int), pointer :: rows_of_c(:)
+    integer(c_int), pointer :: rows_from_zero(:)
     real(c_double), pointer :: entry(:)
     integer, allocatable :: column(:), i(:)
     integer :: entries, status
 
+    call require_count(begin(size(begin)), 0, 'column('//text(size(begin) - 1)//')', 'entries', info)
+    if (info%failed()) return
     entries = int(begin(size(begin)))
     allocate (column(size(begin)), i(entries), stat=status)
     if (status /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of '//text(entries)//' indices')
       return
     end if
-    call c_f_pointer(row, rows_of_c, [entries])
+    call c_f_pointer(row, rows_from_zero, [entries])
     call c_f_pointer(value, entry, [entries])
-    column = int(begin) + 1
-    i = int(rows_of_c) + 1
+    column = from_zero(begin)
+    i = from_zero(rows_from_zero)
     call fuge_write_sparse(path, rows, column, i, entry, info, symmetric)
   end subroutine write_columns
 

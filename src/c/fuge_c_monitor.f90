@@ -27,16 +27,16 @@ module fuge_c_monitor
 
 contains
 
-  !> Call `callback` with `user` from now on; nobody for NULL.
+  !> Call `callback` with `user` from now on; NULL for none.
   subroutine set(self, callback, user)
     class(c_monitor), intent(inout) :: self
     type(c_funptr), intent(in) :: callback
     type(c_ptr), intent(in) :: user
-    procedure(c_progress), pointer :: target_of
+    procedure(c_progress), pointer :: found
 
-    nullify (target_of)
-    if (c_associated(callback)) call c_f_procpointer(callback, target_of)
-    self%callback => target_of
+    nullify (found)
+    if (c_associated(callback)) call c_f_procpointer(callback, found)
+    self%callback => found
     self%user = user
   end subroutine set
 

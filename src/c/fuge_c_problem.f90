@@ -1,13 +1,17 @@
 !> C bindings, section "problem": the data of a solve beside the operator.
+!>
+!> Each setter checks what it gets, so that the call with the error says so and changes nothing.
+!> `solve` checks all parts again, because a Fortran caller fills them without setters; beside a
+!> solve that costs nothing.
 module fuge_c_problem
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_associated, c_f_pointer
-  use fuge_c_solver, only: take_solver, answer
-  use fuge_c_types, only: solver_handle
+  use fuge_c_solver, only: find_solver, report_to_solver
+  use fuge_c_types, only: solver_handle, copy_integers, require_count, require_pointer
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: check_load, check_play
-  use fuge_status, only: fuge_info, report, FUGE_ERR_POINTER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, FUGE_ERR_MODES
-  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -20,11 +24,11 @@ contains
     real(dp), allocatable :: lower(:), play(:)
     type(fuge_info) :: info
 
-    call take_solver(solver, handle, info)
-    if (.not. info%failed()) call take_reals(gap, points_of(handle), 'gap', lower, info)
+    call find_solver(solver, handle, info)
+    if (.not. info%failed()) call copy_array(gap, points_of(handle), 'gap', lower, info)
     if (.not. info%failed()) call check_finite(lower, 'gap', info)
     if (.not. info%failed() .and. c_associated(gap_upper)) then
-      call take_reals(gap_upper, points_of(handle), 'gap_upper', play, info)
+      call copy_array(gap_upper, points_of(handle), 'gap_upper', play, info)
       if (.not. info%failed()) call check_play(play, info)
     end if
     if (.not. info%failed()) then
@@ -32,7 +36,7 @@ contains
       call move_alloc(play, handle%problem%gap_upper)
       handle%solved = .false.
     end if
-    status = answer(handle, info)
+    status = report_to_solver(info, handle)
   end function c_set_gap
 
   function c_set_excluded(solver, excluded) bind(c, name='fuge_set_excluded') result(status)
@@ -44,7 +48,7 @@ contains
     type(fuge_info) :: info
     integer :: stat
 
-    call take_solver(solver, handle, info)
+    call find_solver(solver, handle, info)
     if (.not. info%failed() .and. c_associated(excluded)) then
       call c_f_pointer(excluded, flags, [points_of(handle)])
       allocate (copy(size(flags)), stat=stat)
@@ -58,10 +62,10 @@ contains
       call move_alloc(copy, handle%problem%excluded)
       handle%solved = .false.
     end if
-    status = answer(handle, info)
+    status = report_to_solver(info, handle)
   end function c_set_excluded
 
-  !> The plain motion: one free translation.
+  !> One free translation.
   function c_set_load(solver, load) bind(c, name='fuge_set_load') result(status)
     type(c_ptr), intent(in), value :: solver
     real(c_double), intent(in), value :: load
@@ -70,14 +74,14 @@ contains
     real(dp), allocatable :: resultant(:)
     type(fuge_info) :: info
 
-    call take_solver(solver, handle, info)
+    call find_solver(solver, handle, info)
     if (.not. info%failed()) call check_load(load, info)
-    if (.not. info%failed()) call one_value(load, resultant, info)
+    if (.not. info%failed()) call array_of_one(load, resultant, info)
     if (.not. info%failed()) then
-      call forget_motions(handle)
+      call reset_motions(handle)
       call move_alloc(resultant, handle%problem%resultant)
     end if
-    status = answer(handle, info)
+    status = report_to_solver(info, handle)
   end function c_set_load
 
   function c_set_approach(solver, approach) bind(c, name='fuge_set_approach') result(status)
@@ -90,20 +94,20 @@ contains
     type(fuge_info) :: info
     integer :: stat
 
-    call take_solver(solver, handle, info)
-    if (.not. info%failed()) call check_finite([approach], 'approach', info)
-    if (.not. info%failed()) call one_value(approach, motion, info)
+    call find_solver(solver, handle, info)
+    if (.not. info%failed()) call check_finite(approach, 'approach', info)
+    if (.not. info%failed()) call array_of_one(approach, motion, info)
     if (.not. info%failed()) then
       allocate (prescribed(1), stat=stat)
       if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the approach')
     end if
     if (.not. info%failed()) then
       prescribed = .true.
-      call forget_motions(handle)
+      call reset_motions(handle)
       call move_alloc(motion, handle%problem%motion)
       call move_alloc(prescribed, handle%problem%prescribed)
     end if
-    status = answer(handle, info)
+    status = report_to_solver(info, handle)
   end function c_set_approach
 
   function c_set_modes(solver, m, modes, resultant) bind(c, name='fuge_set_modes') result(status)
@@ -114,17 +118,17 @@ contains
     real(dp), allocatable :: r(:, :), w(:)
     type(fuge_info) :: info
 
-    call take_solver(solver, handle, info)
-    if (.not. info%failed()) call check_count(int(m), points_of(handle), info)
-    if (.not. info%failed()) call take_columns(modes, points_of(handle), int(m), r, info)
-    if (.not. info%failed()) call take_reals(resultant, int(m), 'resultant', w, info)
+    call find_solver(solver, handle, info)
+    if (.not. info%failed()) call check_mode_count(m, points_of(handle), info)
+    if (.not. info%failed()) call copy_matrix(modes, points_of(handle), int(m), r, info)
+    if (.not. info%failed()) call copy_array(resultant, int(m), 'resultant', w, info)
     if (.not. info%failed()) call check_finite(w, 'resultant', info)
     if (.not. info%failed()) then
-      call forget_motions(handle)
+      call reset_motions(handle)
       call move_alloc(r, handle%problem%modes)
       call move_alloc(w, handle%problem%resultant)
     end if
-    status = answer(handle, info)
+    status = report_to_solver(info, handle)
   end function c_set_modes
 
   !> Prescribe one motion.
@@ -136,19 +140,19 @@ contains
     type(solver_handle), pointer :: handle
     type(fuge_info) :: info
 
-    call take_solver(solver, handle, info)
+    call find_solver(solver, handle, info)
     if (.not. info%failed()) call check_mode(handle, int(mode), motion, 'motion', info)
-    if (.not. info%failed()) call make_prescribed(handle, info)
+    if (.not. info%failed()) call allow_prescribed(handle, info)
     if (.not. info%failed()) then
       handle%problem%prescribed(mode + 1) = .true.
       handle%problem%motion(mode + 1) = motion
       handle%solved = .false.
     end if
-    status = answer(handle, info)
+    status = report_to_solver(info, handle)
   end function c_set_motion
 
-  !> Free one motion.
-  function c_free_motion(solver, mode, resultant) bind(c, name='fuge_set_resultant') result(status)
+  !> Let one motion be free, under its resultant.
+  function c_set_resultant(solver, mode, resultant) bind(c, name='fuge_set_resultant') result(status)
     type(c_ptr), intent(in), value :: solver
     integer(c_int), intent(in), value :: mode
     real(c_double), intent(in), value :: resultant
@@ -157,41 +161,37 @@ contains
     type(fuge_info) :: info
     integer :: stat
 
-    call take_solver(solver, handle, info)
+    call find_solver(solver, handle, info)
     if (.not. info%failed()) call check_mode(handle, int(mode), resultant, 'resultant', info)
     if (.not. info%failed()) then
       stat = 0
-      ! Only the plain motion can be without a resultant.
+      ! Only a single translation can be without a resultant.
       if (.not. allocated(handle%problem%resultant)) allocate (handle%problem%resultant(1), stat=stat)
       if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the resultant')
     end if
     if (.not. info%failed()) then
       handle%problem%resultant(mode + 1) = resultant
-      call take_free(handle, mode + 1)
+      call free_mode(handle, mode + 1)
       handle%solved = .false.
     end if
-    status = answer(handle, info)
-  end function c_free_motion
+    status = report_to_solver(info, handle)
+  end function c_set_resultant
 
-  function c_get_motions(solver, destination) bind(c, name='fuge_get_mode_count') result(status)
+  function c_get_mode_count(solver, destination) bind(c, name='fuge_get_mode_count') result(status)
     type(c_ptr), intent(in), value :: solver, destination
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
-    integer(c_int), pointer :: m
     type(fuge_info) :: info
 
-    call take_solver(solver, handle, info)
-    if (.not. info%failed()) then
-      if (c_associated(destination)) then
-        call c_f_pointer(destination, m)
-        m = int(handle%problem%mode_count(), c_int)
-      else
-        call report(info, FUGE_ERR_POINTER, 'm is NULL')
-        handle%message = info%message
-      end if
+    call find_solver(solver, handle, info)
+    call require_pointer(destination, 'm', info)
+    if (info%failed()) then
+      status = report_to_solver(info, handle)
+    else
+      call copy_integers([handle%problem%mode_count()], destination)
+      status = FUGE_DONE
     end if
-    status = int(info%status, c_int)
-  end function c_get_motions
+  end function c_get_mode_count
 
   pure function points_of(handle) result(n)
     type(solver_handle), intent(in) :: handle
@@ -201,7 +201,7 @@ contains
   end function points_of
 
   !> Back to one free translation, without a load yet.
-  pure subroutine forget_motions(handle)
+  pure subroutine reset_motions(handle)
     type(solver_handle), intent(inout) :: handle
 
     associate (problem => handle%problem)
@@ -211,20 +211,18 @@ contains
       if (allocated(problem%motion)) deallocate (problem%motion)
     end associate
     handle%solved = .false.
-  end subroutine forget_motions
+  end subroutine reset_motions
 
   !> More modes than points cannot be independent, and their array need not exist.
-  pure subroutine check_count(m, n, info)
-    integer, intent(in) :: m, n
+  pure subroutine check_mode_count(m, n, info)
+    integer(c_int), intent(in) :: m
+    integer, intent(in) :: n
     type(fuge_info), intent(inout) :: info
 
-    if (m < 0) then
-      call report(info, FUGE_ERR_SIZE, 'm = '//text(m)//' is negative: it is the number of modes')
-    else if (m > n) then
-      call report(info, FUGE_ERR_MODES, text(m)//' modes of '//text(n)//' point(s) depend on each other: leave ' &
-                  //text(m - n)//' out')
-    end if
-  end subroutine check_count
+    call require_count(m, 0, 'm', 'modes', info)
+    if (m > n) call report(info, FUGE_ERR_MODES, text(int(m))//' modes of '//text(n)//' point(s) are linearly ' &
+                           //'dependent: leave out '//text(int(m) - n))
+  end subroutine check_mode_count
 
   pure subroutine check_mode(handle, mode, value, name, info)
     type(solver_handle), intent(in) :: handle
@@ -235,18 +233,18 @@ contains
 
     associate (m => handle%problem%mode_count())
       if (m < 1) then
-        call report(info, FUGE_ERR_SIZE, 'there is no mode: fuge_set_modes has set none')
+        call report(info, FUGE_ERR_SIZE, 'the problem has no modes: fuge_set_modes was called with m = 0')
       else if (mode < 0 .or. mode >= m) then
-        call report(info, FUGE_ERR_SIZE, 'mode = '//text(mode)//' is none of the '//text(m)//': it has to be 0 .. ' &
+        call report(info, FUGE_ERR_SIZE, 'mode = '//text(mode)//' is not one of the '//text(m)//' modes, 0 .. ' &
                     //text(m - 1))
       else
-        call check_finite([value], name, info)
+        call check_finite(value, name, info)
       end if
     end associate
   end subroutine check_mode
 
-  !> Room to say which motions are prescribed, all free at first.
-  pure subroutine make_prescribed(handle, info)
+  !> Allocate the prescribed motions, if there are none yet; at first all motions are free.
+  pure subroutine allow_prescribed(handle, info)
     type(solver_handle), intent(inout) :: handle
     type(fuge_info), intent(inout) :: info
     logical, allocatable :: prescribed(:)
@@ -264,10 +262,10 @@ contains
     motion = 0.0_dp
     call move_alloc(prescribed, handle%problem%prescribed)
     call move_alloc(motion, handle%problem%motion)
-  end subroutine make_prescribed
+  end subroutine allow_prescribed
 
-  !> With no prescribed motion left the problem is as if there had been none.
-  pure subroutine take_free(handle, mode)
+  !> Mark one motion as free; with no prescribed motion left, the problem is as if there had been none.
+  pure subroutine free_mode(handle, mode)
     type(solver_handle), intent(inout) :: handle
     integer, intent(in) :: mode
 
@@ -277,9 +275,9 @@ contains
       if (any(problem%prescribed)) return
       deallocate (problem%prescribed, problem%motion)
     end associate
-  end subroutine take_free
+  end subroutine free_mode
 
-  pure subroutine one_value(value, array, info)
+  pure subroutine array_of_one(value, array, info)
     real(dp), intent(in) :: value
     real(dp), allocatable, intent(out) :: array(:)
     type(fuge_info), intent(inout) :: info
@@ -291,10 +289,10 @@ contains
     else
       call report(info, FUGE_ERR_MEMORY, 'no memory for one number')
     end if
-  end subroutine one_value
+  end subroutine array_of_one
 
   !> A copy of an array of C; NULL is refused unless it has no elements.
-  subroutine take_reals(source, length, name, copy, info)
+  subroutine copy_array(source, length, name, copy, info)
     type(c_ptr), intent(in) :: source
     integer, intent(in) :: length
     character(len=*), intent(in) :: name
@@ -303,19 +301,17 @@ contains
     real(c_double), pointer :: values(:)
     integer :: stat
 
-    if (length > 0 .and. .not. c_associated(source)) then
-      call report(info, FUGE_ERR_POINTER, name//' is NULL')
-      return
-    end if
+    if (length > 0) call require_pointer(source, name, info)
+    if (info%failed()) return
     allocate (copy(length), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of '//name)
     if (stat /= 0 .or. length < 1) return
     call c_f_pointer(source, values, [length])
     copy = values
-  end subroutine take_reals
+  end subroutine copy_array
 
-  !> The same for a matrix, whose values have to be finite.
-  subroutine take_columns(source, rows, columns, copy, info)
+  !> A copy of the modes of C, whose values have to be finite.
+  subroutine copy_matrix(source, rows, columns, copy, info)
     type(c_ptr), intent(in) :: source
     integer, intent(in) :: rows, columns
     real(dp), allocatable, intent(out) :: copy(:, :)
@@ -323,19 +319,17 @@ contains
     real(c_double), pointer :: values(:, :)
     integer :: j, stat
 
-    if (columns > 0 .and. .not. c_associated(source)) then
-      call report(info, FUGE_ERR_POINTER, 'modes is NULL')
-      return
-    end if
+    if (columns > 0) call require_pointer(source, 'modes', info)
+    if (info%failed()) return
     allocate (copy(rows, columns), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the modes')
     if (stat /= 0 .or. columns < 1) return
     call c_f_pointer(source, values, [rows, columns])
     copy = values
     do j = 1, columns
-      call check_finite(copy(:, j), 'mode '//text(j)//' ', info)
+      call check_finite(copy(:, j), 'mode '//index_text(j)//' at point ', info)
       if (info%failed()) return
     end do
-  end subroutine take_columns
+  end subroutine copy_matrix
 
 end module fuge_c_problem

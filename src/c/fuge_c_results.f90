@@ -1,11 +1,14 @@
 !> C bindings, section "results": what the last solve found.
+!>
+!> A getter that fails leaves its message in the solver; one that succeeds leaves the message of
+!> the solve, which may be a warning.
 module fuge_c_results
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
-  use fuge_c_solver, only: take_solver
-  use fuge_c_types, only: c_info, solver_handle, to_c, copy_string, copy_reals
+  use fuge_c_solver, only: find_solver, report_to_solver
+  use fuge_c_types, only: c_info, solver_handle, to_c, copy_integers, copy_reals, copy_string, require_pointer
+  use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_POINTER, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, &
-    FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -16,8 +19,8 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = ready(solver, force, handle)
-    if (status == FUGE_DONE) call copy_out(handle%solution%force, force)
+    status = find_answer(solver, force, 'force', handle)
+    if (status == FUGE_DONE) call copy_reals(handle%solution%force, force)
   end function c_get_force
 
   function c_get_gap(solver, gap) bind(c, name='fuge_get_gap') result(status)
@@ -25,33 +28,33 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = ready(solver, gap, handle)
-    if (status == FUGE_DONE) call copy_out(handle%solution%gap, gap)
+    status = find_answer(solver, gap, 'gap', handle)
+    if (status == FUGE_DONE) call copy_reals(handle%solution%gap, gap)
   end function c_get_gap
 
-  function c_get_rigid(solver, q) bind(c, name='fuge_get_motion') result(status)
-    type(c_ptr), intent(in), value :: solver, q
+  function c_get_motion(solver, motion) bind(c, name='fuge_get_motion') result(status)
+    type(c_ptr), intent(in), value :: solver, motion
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = ready(solver, q, handle)
-    if (status == FUGE_DONE) call copy_out(handle%solution%motion, q)
-  end function c_get_rigid
+    status = find_answer(solver, motion, 'motion', handle)
+    if (status == FUGE_DONE) call copy_reals(handle%solution%motion, motion)
+  end function c_get_motion
 
   !> Resultants of the contact forces found in all motions: equal to the loads up to
   !> rounding where free, the reaction where prescribed.
-  function c_get_resultant(solver, w) bind(c, name='fuge_get_resultant') result(status)
-    type(c_ptr), intent(in), value :: solver, w
+  function c_get_resultant(solver, resultant) bind(c, name='fuge_get_resultant') result(status)
+    type(c_ptr), intent(in), value :: solver, resultant
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = ready(solver, w, handle)
+    status = find_answer(solver, resultant, 'resultant', handle)
     if (status /= FUGE_DONE) return
     associate (problem => handle%problem, force => handle%solution%force)
       if (allocated(problem%modes)) then
-        call copy_out(matmul(force, problem%modes), w)
+        call copy_reals(matmul(force, problem%modes), resultant)
       else
-        call copy_out([sum(force)], w)
+        call copy_reals([sum(force)], resultant)
       end if
     end associate
   end function c_get_resultant
@@ -65,7 +68,7 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = ready(solver, force, handle)
+    status = find_answer(solver, force, 'force', handle)
     if (status == FUGE_DONE) status = differentiate(handle, gap_change, [load_change], force, gap, motion)
   end function c_get_derivative
 
@@ -78,7 +81,7 @@ contains
     real(c_double), pointer :: loads(:)
     integer :: k
 
-    status = ready(solver, force, handle)
+    status = find_answer(solver, force, 'force', handle)
     if (status /= FUGE_DONE) return
     associate (m => handle%problem%mode_count())
       if (c_associated(load_change)) then
@@ -91,7 +94,7 @@ contains
   end function c_get_derivatives
 
   function differentiate(handle, gap_change, load_change, force, gap, motion) result(status)
-    type(solver_handle), intent(inout) :: handle
+    type(solver_handle), pointer, intent(in) :: handle
     type(c_ptr), intent(in) :: gap_change, force, gap, motion
     real(c_double), intent(in) :: load_change(:)
     integer(c_int) :: status
@@ -112,12 +115,9 @@ contains
       end if
       call handle%solver%derivative(handle%operator%operator, direction, load_change, change, info)
     end if
-    status = int(info%status, c_int)
-    if (info%failed()) then
-      handle%message = info%message
-      return
-    end if
-    call copy_out(change%force, force)
+    status = report_to_solver(info, handle)
+    if (info%failed()) return
+    call copy_reals(change%force, force)
     call copy_reals(change%gap, gap)
     call copy_reals(change%motion, motion)
   end function differentiate
@@ -126,22 +126,19 @@ contains
     type(c_ptr), intent(in), value :: solver, destination
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
-    type(c_info), pointer :: target_info
+    type(c_info), pointer :: info_of_c
     type(fuge_info) :: info
 
-    call take_solver(solver, handle, info)
-    if (.not. info%failed()) then
-      if (.not. c_associated(destination)) then
-        call report(info, FUGE_ERR_POINTER, 'info is NULL')
-      else if (.not. handle%tried) then
-        call report(info, FUGE_ERR_CALL_ORDER, 'nothing is solved yet: call fuge_solve first')
-      else
-        call c_f_pointer(destination, target_info)
-        target_info = to_c(handle%info)
-      end if
-      if (info%failed()) handle%message = info%message
+    call find_solver(solver, handle, info)
+    call require_pointer(destination, 'info', info)
+    if (.not. info%failed()) call require_solve(handle, info)
+    if (info%failed()) then
+      status = report_to_solver(info, handle)
+    else
+      call c_f_pointer(destination, info_of_c)
+      info_of_c = to_c(handle%info)
+      status = FUGE_DONE
     end if
-    status = int(info%status, c_int)
   end function c_get_info
 
   function c_get_history(solver, first, number, basis, z, available) &
@@ -151,29 +148,40 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
     type(fuge_info) :: info
-    integer(c_int), pointer :: steps
 
-    call take_solver(solver, handle, info)
-    status = int(info%status, c_int)
-    if (info%failed()) return
-    associate (history => handle%solver%history)
-      if (.not. handle%tried) then
-        call report(info, FUGE_ERR_CALL_ORDER, 'nothing is solved yet: call fuge_solve first')
-      else if (.not. c_associated(available) .or. &
-               (number > 0 .and. .not. (c_associated(basis) .and. c_associated(z)))) then
-        call report(info, FUGE_ERR_POINTER, 'available is NULL, or basis or z is with count > 0')
-      else if (first < 0 .or. number < 0 .or. number > history%recorded() - max(0, min(first, history%recorded()))) then
-        call report(info, FUGE_ERR_SIZE, 'first and count reach beyond the steps kept: ask for them with count = 0, ' &
-                    //'and keep them with options.keep_history')
-      else
-        call c_f_pointer(available, steps)
-        steps = int(history%recorded(), c_int)
-        if (number > 0) call copy_steps(handle, int(first), int(number), basis, z)
-      end if
-    end associate
-    if (info%failed()) handle%message = info%message
-    status = int(info%status, c_int)
+    call find_solver(solver, handle, info)
+    call require_pointer(available, 'available', info)
+    if (number > 0) call require_pointer(basis, 'basis', info)
+    if (number > 0) call require_pointer(z, 'z', info)
+    if (.not. info%failed()) call require_solve(handle, info)
+    if (.not. info%failed()) call check_steps(handle%solver%history%recorded(), int(first), int(number), info)
+    if (info%failed()) then
+      status = report_to_solver(info, handle)
+    else
+      call copy_integers([handle%solver%history%recorded()], available)
+      if (number > 0) call copy_steps(handle, int(first), int(number), basis, z)
+      status = FUGE_DONE
+    end if
   end function c_get_history
+
+  !> FUGE_ERR_SIZE unless `recorded` steps include the range.
+  pure subroutine check_steps(recorded, first, number, info)
+    integer, intent(in) :: recorded, first, number
+    type(fuge_info), intent(inout) :: info
+
+    if (first < 0 .or. number < 0 .or. number > recorded - max(0, min(first, recorded))) &
+      call report(info, FUGE_ERR_SIZE, 'first = '//text(first)//' and count = '//text(number)//' reach beyond the ' &
+                  //text(recorded)//' steps kept: ask for their number with count = 0, and keep them with ' &
+                  //'options.keep_history')
+  end subroutine check_steps
+
+  !> FUGE_ERR_CALL_ORDER before the first solve.
+  pure subroutine require_solve(handle, info)
+    type(solver_handle), intent(in) :: handle
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. handle%tried) call report(info, FUGE_ERR_CALL_ORDER, 'there has been no solve: call fuge_solve first')
+  end subroutine require_solve
 
   subroutine copy_steps(handle, first, number, basis, z)
     type(solver_handle), intent(in) :: handle
@@ -193,46 +201,35 @@ contains
     end associate
   end subroutine copy_steps
 
-  function c_last_message(solver, buffer, length) bind(c, name='fuge_solver_message') result(status)
+  function c_solver_message(solver, buffer, length) bind(c, name='fuge_solver_message') result(status)
     type(c_ptr), intent(in), value :: solver, buffer
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
     type(fuge_info) :: info
 
-    call take_solver(solver, handle, info)
-    if (.not. info%failed() .and. .not. c_associated(buffer)) info%status = FUGE_ERR_POINTER
+    call find_solver(solver, handle, info)
+    call require_pointer(buffer, 'message', info)
     if (.not. info%failed()) call copy_string(handle%message, buffer, length)
     status = int(info%status, c_int)
-  end function c_last_message
+  end function c_solver_message
 
-  !> FUGE_DONE if there is an answer to copy and a place to put it.
-  function ready(solver, destination, handle) result(status)
+  !> The solver with an answer to copy to `destination`; otherwise the message says why not.
+  function find_answer(solver, destination, name, handle) result(status)
     type(c_ptr), intent(in) :: solver, destination
+    character(len=*), intent(in) :: name
     type(solver_handle), pointer, intent(out) :: handle
     integer(c_int) :: status
     type(fuge_info) :: info
 
-    call take_solver(solver, handle, info)
+    call find_solver(solver, handle, info)
+    call require_pointer(destination, name, info)
     if (.not. info%failed()) then
-      if (.not. c_associated(destination)) then
-        call report(info, FUGE_ERR_POINTER, 'the array for the result is NULL')
-      else if (.not. handle%solved) then
-        call report(info, FUGE_ERR_CALL_ORDER, 'there is no answer for the present problem: ' &
-                    //'call fuge_solve and look at its status')
-      end if
-      if (info%failed()) handle%message = info%message
+      if (.not. handle%solved) call report(info, FUGE_ERR_CALL_ORDER, 'there is no answer for the present problem: ' &
+                                           //'call fuge_solve and look at its status')
     end if
-    status = int(info%status, c_int)
-  end function ready
-
-  subroutine copy_out(values, destination)
-    real(c_double), intent(in) :: values(:)
-    type(c_ptr), intent(in) :: destination
-    real(c_double), pointer :: array(:)
-
-    call c_f_pointer(destination, array, [size(values)])
-    array = values
-  end subroutine copy_out
+    status = FUGE_DONE
+    if (info%failed()) status = report_to_solver(info, handle)
+  end function find_answer
 
 end module fuge_c_results

@@ -3,13 +3,12 @@ module fuge_c_smooth
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_null_ptr, c_funptr, c_loc, c_associated, &
     c_f_pointer, c_f_procpointer
-  use fuge_c_types, only: copy_string, copy_reals
+  use fuge_c_types, only: copy_reals, report_to_c, require_count, require_pointer, set_handle, take_handle
   use fuge_kinds, only: dp
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_profile_type, only: fuge_smooth_profile
   use fuge_smooth_punch, only: fuge_solve_smooth_punch
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY, FUGE_ERR_POINTER, &
-    FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -26,7 +25,7 @@ module fuge_c_smooth
   end interface
 
   type, extends(fuge_smooth_profile) :: callback_profile
-    procedure(c_profile), pointer, nopass :: at_places => null()
+    procedure(c_profile), pointer, nopass :: profile => null()
     type(c_ptr) :: user = c_null_ptr
   contains
     procedure :: evaluate
@@ -48,6 +47,7 @@ module fuge_c_smooth
 
 contains
 
+  !> Ten arguments, as in the header: the profile, the data of the scene, the result, the message.
   function c_solve_smooth_punch(profile, user, lower, upper, e_star, force, moment, destination, message, length) &
     bind(c, name='fuge_solve_smooth_punch') result(status)
     type(c_funptr), intent(in), value :: profile
@@ -57,16 +57,14 @@ contains
     integer(c_int) :: status
     type(callback_profile) :: punch
     type(smooth_handle), pointer :: handle
-    type(c_ptr), pointer :: slot
-    real(c_double), pointer :: turning
+    real(c_double), pointer :: prescribed
     type(fuge_info) :: info
     integer :: stat
 
-    stat = 0
-    nullify (handle)
-    if (.not. (c_associated(profile) .and. c_associated(destination))) then
-      call report(info, FUGE_ERR_POINTER, 'profile or contact is NULL')
-    else
+    nullify (handle, prescribed)
+    call require_pointer(profile, 'profile', info)
+    call require_pointer(destination, 'contact', info)
+    if (.not. info%failed()) then
       allocate (handle, stat=stat)
       if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact')
     end if
@@ -74,23 +72,21 @@ contains
       punch%lower = lower
       punch%upper = upper
       punch%user = user
-      punch%at_places => procedure_at(profile)
+      punch%profile => procedure_at(profile)
       if (c_associated(moment)) then
-        call c_f_pointer(moment, turning)
-        call fuge_solve_smooth_punch(punch, e_star, force, handle%contact, info, turning)
+        call c_f_pointer(moment, prescribed)
+        call fuge_solve_smooth_punch(punch, e_star, force, handle%contact, info, prescribed)
       else
         call fuge_solve_smooth_punch(punch, e_star, force, handle%contact, info)
       end if
     end if
-    call copy_string(info%message, message, length)
-    status = int(info%status, c_int)
+    status = report_to_c(info, message, length)
     if (.not. associated(handle)) return
     if (info%failed()) then
       deallocate (handle)
     else
       handle%info = info
-      call c_f_pointer(destination, slot)
-      slot = c_loc(handle)
+      call set_handle(c_loc(handle), destination)
     end if
   end function c_solve_smooth_punch
 
@@ -101,8 +97,8 @@ contains
     call c_f_procpointer(address, found)
   end function procedure_at
 
-  !> Copies are given away, so that a callback which writes to x harms nobody; results
-  !> start as NaN, so that one it forgets is seen.
+  !> The callback gets a copy, so that one which writes to x harms nobody; its results start as NaN,
+  !> so that a value that it forgets is seen.
   subroutine evaluate(self, x, gap, slope, status)
     class(callback_profile), intent(in) :: self
     real(dp), intent(in) :: x(:)
@@ -120,7 +116,7 @@ contains
     end if
     values = ieee_value(0.0_dp, ieee_quiet_nan)
     values(:, 1) = x
-    status = int(self%at_places(int(size(x), c_int), values(:, 1), values(:, 2), values(:, 3), self%user))
+    status = int(self%profile(int(size(x), c_int), values(:, 1), values(:, 2), values(:, 3), self%user))
     gap = values(:, 2)
     slope = values(:, 3)
     if (status < 0) status = FUGE_ERR_CALLBACK
@@ -129,27 +125,35 @@ contains
   subroutine c_smooth_free(source) bind(c, name='fuge_smooth_free')
     type(c_ptr), intent(in), value :: source
     type(smooth_handle), pointer :: handle
-    type(c_ptr), pointer :: slot
+    type(c_ptr) :: address
 
-    if (.not. c_associated(source)) return
-    call c_f_pointer(source, slot)
-    if (.not. c_associated(slot)) return
-    call c_f_pointer(slot, handle)
+    address = take_handle(source)
+    if (.not. c_associated(address)) return
+    call c_f_pointer(address, handle)
     deallocate (handle)
-    slot = c_null_ptr
   end subroutine c_smooth_free
 
-  function c_get_report(source, destination) bind(c, name='fuge_smooth_get_report') result(status)
-    type(c_ptr), intent(in), value :: source, destination
+  function c_get_report(source, destination, message, length) bind(c, name='fuge_smooth_get_report') result(status)
+    type(c_ptr), intent(in), value :: source, destination, message
+    integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(smooth_handle), pointer :: handle
     type(c_report), pointer :: answer
+    type(fuge_info) :: info
 
-    status = FUGE_ERR_POINTER
-    if (.not. (c_associated(source) .and. c_associated(destination))) return
-    call c_f_pointer(source, handle)
-    call c_f_pointer(destination, answer)
-    status = FUGE_DONE
+    call find_contact(source, handle, info)
+    call require_pointer(destination, 'report', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(destination, answer)
+      answer = report_of(handle)
+    end if
+    status = report_to_c(info, message, length)
+  end function c_get_report
+
+  pure function report_of(handle) result(answer)
+    type(smooth_handle), intent(in) :: handle
+    type(c_report) :: answer
+
     answer%iterations = int(handle%info%iterations, c_int)
     answer%coefficients = 0_c_int
     if (allocated(handle%contact%coefficients)) answer%coefficients = int(size(handle%contact%coefficients), c_int)
@@ -165,60 +169,79 @@ contains
     answer%pressure_error = handle%contact%pressure_error
     answer%reserved_int = 0_c_int
     answer%reserved = 0.0_c_double
-  end function c_get_report
+  end function report_of
 
-  function c_get_pressure(source, number, x, pressure) bind(c, name='fuge_smooth_get_pressure') result(status)
-    type(c_ptr), intent(in), value :: source, x, pressure
+  function c_get_pressure(source, number, x, pressure, message, length) &
+    bind(c, name='fuge_smooth_get_pressure') result(status)
+    type(c_ptr), intent(in), value :: source, x, pressure, message
     integer(c_int), intent(in), value :: number
+    integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(smooth_handle), pointer :: handle
     real(c_double), pointer :: places(:)
+    type(fuge_info) :: info
 
-    status = status_of(number, c_associated(source) .and. c_associated(x) .and. c_associated(pressure))
-    if (status /= FUGE_DONE) return
-    call c_f_pointer(source, handle)
-    call c_f_pointer(x, places, [number])
-    call copy_reals(handle%contact%pressure(places), pressure)
+    call find_contact(source, handle, info)
+    call require_count(number, 0, 'count', 'places', info)
+    call require_pointer(x, 'x', info)
+    call require_pointer(pressure, 'pressure', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(x, places, [number])
+      call copy_reals(handle%contact%pressure(places), pressure)
+    end if
+    status = report_to_c(info, message, length)
   end function c_get_pressure
 
-  function c_get_gap(source, number, x, initial_gap, gap) bind(c, name='fuge_smooth_get_gap') result(status)
-    type(c_ptr), intent(in), value :: source, x, initial_gap, gap
+  function c_get_gap(source, number, x, initial_gap, gap, message, length) &
+    bind(c, name='fuge_smooth_get_gap') result(status)
+    type(c_ptr), intent(in), value :: source, x, initial_gap, gap, message
     integer(c_int), intent(in), value :: number
+    integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(smooth_handle), pointer :: handle
     real(c_double), pointer :: places(:), initial(:)
+    type(fuge_info) :: info
 
-    status = status_of(number, c_associated(source) .and. c_associated(x) .and. c_associated(initial_gap) &
-                       .and. c_associated(gap))
-    if (status /= FUGE_DONE) return
-    call c_f_pointer(source, handle)
-    call c_f_pointer(x, places, [number])
-    call c_f_pointer(initial_gap, initial, [number])
-    call copy_reals(handle%contact%gap(places, initial), gap)
+    call find_contact(source, handle, info)
+    call require_count(number, 0, 'count', 'places', info)
+    call require_pointer(x, 'x', info)
+    call require_pointer(initial_gap, 'initial_gap', info)
+    call require_pointer(gap, 'gap', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(x, places, [number])
+      call c_f_pointer(initial_gap, initial, [number])
+      call copy_reals(handle%contact%gap(places, initial), gap)
+    end if
+    status = report_to_c(info, message, length)
   end function c_get_gap
 
-  function c_get_coefficients(source, capacity, coefficients) bind(c, name='fuge_smooth_get_coefficients') &
-    result(status)
-    type(c_ptr), intent(in), value :: source, coefficients
+  function c_get_coefficients(source, capacity, coefficients, message, length) &
+    bind(c, name='fuge_smooth_get_coefficients') result(status)
+    type(c_ptr), intent(in), value :: source, coefficients, message
     integer(c_int), intent(in), value :: capacity
+    integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(smooth_handle), pointer :: handle
+    type(fuge_info) :: info
 
-    status = status_of(capacity, c_associated(source) .and. c_associated(coefficients))
-    if (status /= FUGE_DONE) return
-    call c_f_pointer(source, handle)
+    call find_contact(source, handle, info)
+    call require_count(capacity, 0, 'capacity', 'elements of coefficients', info)
+    call require_pointer(coefficients, 'coefficients', info)
+    status = report_to_c(info, message, length)
+    if (info%failed()) return
     if (.not. allocated(handle%contact%coefficients)) return
     call copy_reals(handle%contact%coefficients(:min(int(capacity), size(handle%contact%coefficients))), coefficients)
   end function c_get_coefficients
 
-  pure function status_of(number, all_there) result(status)
-    integer(c_int), intent(in) :: number
-    logical, intent(in) :: all_there
-    integer(c_int) :: status
+  !> The contact behind a handle; FUGE_ERR_POINTER for NULL.
+  subroutine find_contact(source, handle, info)
+    type(c_ptr), intent(in) :: source
+    type(smooth_handle), pointer, intent(out) :: handle
+    type(fuge_info), intent(inout) :: info
 
-    status = FUGE_DONE
-    if (.not. all_there) status = FUGE_ERR_POINTER
-    if (number < 0) status = FUGE_ERR_SIZE
-  end function status_of
+    nullify (handle)
+    call require_pointer(source, 'contact', info)
+    if (.not. info%failed()) call c_f_pointer(source, handle)
+  end subroutine find_contact
 
 end module fuge_c_smooth

@@ -1,6 +1,6 @@
-!> What the C side sees of the library's types: structs, handles and strings.
+!> What all C bindings share: structs, handles, strings, arrays, and the messages.
 module fuge_c_types
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_null_char, c_ptr, c_size_t, &
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_funptr, c_null_char, c_null_ptr, c_ptr, c_size_t, &
     c_associated, c_f_pointer
   use fuge_c_monitor, only: c_monitor
   use fuge_history_type, only: fuge_history
@@ -8,11 +8,14 @@ module fuge_c_types
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
-  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_POINTER, FUGE_MESSAGE_LENGTH
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, message_counting_from, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE, &
+    FUGE_MESSAGE_LENGTH
   implicit none
   private
 
   public :: from_c, to_c, copy_string, copy_reals, copy_integers, from_c_string, from_zero
+  public :: message_for_c, report_to_c, require_count, require_pointer, set_handle, take_handle
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
@@ -45,13 +48,19 @@ module fuge_c_types
     type(c_monitor) :: monitor
     !> Report of the last solve.
     type(fuge_info) :: info
-    !> Of the last call that had something to say.
+    !> Message of the last call that set, solved or failed.
     character(len=FUGE_MESSAGE_LENGTH) :: message = ''
     !> The solution belongs to the present problem.
     logical :: solved = .false.
     !> A solve has been tried, so that `info` means something.
     logical :: tried = .false.
   end type solver_handle
+
+  !> Refuse NULL (FUGE_ERR_POINTER), unless an error is known already.
+  interface require_pointer
+    module procedure require_address
+    module procedure require_function
+  end interface require_pointer
 
   interface
     pure function c_strlen(string) bind(c, name='strlen') result(length)
@@ -87,6 +96,78 @@ contains
     info%reserved_int = 0
     info%reserved = 0.0_c_double
   end function to_c
+
+  !> The message as C counts: indices from 0.
+  pure function message_for_c(info) result(message)
+    type(fuge_info), intent(in) :: info
+    character(len=FUGE_MESSAGE_LENGTH) :: message
+
+    message = message_counting_from(0, info)
+  end function message_for_c
+
+  !> Leave the message in the buffer of a caller; the status to return.
+  function report_to_c(info, buffer, length) result(status)
+    type(fuge_info), intent(in) :: info
+    type(c_ptr), intent(in) :: buffer
+    integer(c_size_t), intent(in) :: length
+    integer(c_int) :: status
+
+    call copy_string(message_for_c(info), buffer, length)
+    status = int(info%status, c_int)
+  end function report_to_c
+
+  pure subroutine require_address(address, name, info)
+    type(c_ptr), intent(in) :: address
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed()) return
+    if (.not. c_associated(address)) call report(info, FUGE_ERR_POINTER, name//' is NULL')
+  end subroutine require_address
+
+  pure subroutine require_function(address, name, info)
+    type(c_funptr), intent(in) :: address
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed()) return
+    if (.not. c_associated(address)) call report(info, FUGE_ERR_POINTER, name//' is NULL')
+  end subroutine require_function
+
+  !> Refuse a number of elements below `least` (FUGE_ERR_SIZE), unless an error is known already.
+  pure subroutine require_count(number, least, name, meaning, info)
+    integer(c_int), intent(in) :: number
+    integer, intent(in) :: least
+    character(len=*), intent(in) :: name, meaning
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. number >= least) return
+    call report(info, FUGE_ERR_SIZE, name//' = '//text(int(number))//', the number of '//meaning//', has to be ' &
+                //text(least)//' or more')
+  end subroutine require_count
+
+  !> Give a new handle to the caller: *destination = address.
+  subroutine set_handle(address, destination)
+    type(c_ptr), intent(in) :: address, destination
+    type(c_ptr), pointer :: handle
+
+    call c_f_pointer(destination, handle)
+    handle = address
+  end subroutine set_handle
+
+  !> Take a handle from the caller, to free what is behind it: *source becomes NULL. NULL if there
+  !> is none, or `source` itself is NULL.
+  function take_handle(source) result(address)
+    type(c_ptr), intent(in) :: source
+    type(c_ptr) :: address
+    type(c_ptr), pointer :: handle
+
+    address = c_null_ptr
+    if (.not. c_associated(source)) return
+    call c_f_pointer(source, handle)
+    address = handle
+    handle = c_null_ptr
+  end function take_handle
 
   !> Copy a message into a C buffer of `length` bytes: cut if need be, always
   !> ended by NUL. A NULL buffer or length 0 is left alone.

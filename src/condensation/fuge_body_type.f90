@@ -6,7 +6,7 @@ module fuge_body_type
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_OVERFLOW
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   implicit none
   private
 
@@ -103,12 +103,12 @@ contains
     do k = 1, size(body%fixed)
       associate (dof => body%fixed(k))
         if (dof < 1 .or. dof > degrees) then
-          call report(info, FUGE_ERR_DOF, 'fixed('//text(k)//') = '//text(dof)//' is not one of the ' &
+          call report(info, FUGE_ERR_DOF, 'fixed('//index_text(k)//') = '//index_text(dof)//' is not one of the ' &
                       //text(degrees)//' degrees of freedom')
           return
         else if (place(dof) > 0) then
-          call report(info, FUGE_ERR_DOF, 'fixed('//text(place(dof))//') and fixed('//text(k)//') are both degree of ' &
-                      //'freedom '//text(dof)//': remove one of them')
+          call report(info, FUGE_ERR_DOF, 'fixed('//index_text(place(dof))//') and fixed('//index_text(k) &
+                      //') are both degree of freedom '//index_text(dof)//': remove one of them')
           return
         end if
         place(dof) = k
@@ -124,7 +124,7 @@ contains
     integer :: i
 
     if (.not. (allocated(body%dof) .and. allocated(body%normal))) then
-      call report(info, FUGE_ERR_SIZE, 'dof or normal is not allocated: both are needed to define the contact points')
+      call report(info, FUGE_ERR_SIZE, 'there are no contact points: dof and normal define them')
     else if (size(body%dof) < 1) then
       call report(info, FUGE_ERR_SIZE, 'dof is empty: at least one contact point is needed')
     else if (any(shape(body%dof) /= shape(body%normal))) then
@@ -147,21 +147,22 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: k
 
-    call check_finite(normal, 'contact point '//text(i)//': normal', info)
+    call check_finite(normal, 'contact point '//index_text(i)//': normal', info)
     ! alpha contains squares of normals.
-    if (.not. info%failed()) call check_range(normal, 'contact point '//text(i)//': normal', LARGEST_EXPONENT/4, info)
+    if (.not. info%failed()) call check_range(normal, 'contact point '//index_text(i)//': normal', &
+                                              LARGEST_EXPONENT/4, info)
     if (info%failed()) return
     do k = 1, size(dof)
       if (dof(k) < 0 .or. dof(k) > degrees) then
-        call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//': dof('//text(k)//') = '//text(dof(k)) &
-                    //' is not one of the '//text(degrees)//' degrees of freedom')
+        call report(info, FUGE_ERR_DOF, 'contact point '//index_text(i)//': dof('//index_text(k)//') = ' &
+                    //index_text(dof(k))//' is not one of the '//text(degrees)//' degrees of freedom')
       else if (dof(k) > 0 .and. any(dof(:k - 1) == dof(k))) then
-        call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//' names degree of freedom '//text(dof(k)) &
-                    //' twice: add up its normals')
+        call report(info, FUGE_ERR_DOF, 'contact point '//index_text(i)//' names degree of freedom ' &
+                    //index_text(dof(k))//' twice: add up its normals')
       end if
       if (info%failed()) return
     end do
-    if (.not. any(dof > 0 .and. abs(normal) > 0.0_dp)) call report(info, FUGE_ERR_DOF, 'contact point '//text(i) &
+    if (.not. any(dof > 0 .and. abs(normal) > 0.0_dp)) call report(info, FUGE_ERR_DOF, 'contact point '//index_text(i) &
       //' moves with no degree of freedom: it needs at least one with a normal other than zero')
   end subroutine check_point
 
@@ -176,7 +177,7 @@ contains
 
     do k = 1, size(values)
       if (.not. abs(values(k)) > 0.0_dp .or. abs(exponent(values(k))) <= most) cycle
-      call report(info, FUGE_ERR_OVERFLOW, name//'('//text(k)//') = '//text(values(k))//' is out of range: ' &
+      call report(info, FUGE_ERR_OVERFLOW, name//'('//index_text(k)//') = '//text(values(k))//' is out of range: ' &
                   //'choose other units')
       return
     end do
@@ -202,9 +203,9 @@ contains
       j = last(low)
       do while (j > 0)
         if (move_alike(body%dof(:, i), body%normal(:, i), body%dof(:, j), body%normal(:, j))) then
-          call report(info, FUGE_ERR_DOF, 'contact points '//text(j)//' and '//text(i)//' are the same: both have ' &
-                      //'degree of freedom '//text(low)//' and parallel normals; keep one of them, with gap_upper ' &
-                      //'if the point has two stops')
+          call report(info, FUGE_ERR_DOF, 'contact points '//index_text(j)//' and '//index_text(i) &
+                      //' are the same: both have degree of freedom '//index_text(low) &
+                      //' and parallel normals; keep one of them, with gap_upper if the point has two stops')
           return
         end if
         j = before(j)

@@ -20,12 +20,12 @@ module fuge_condensation
     pin_scale, point_displacement
   use fuge_input_checks, only: check_finite, is_finite_everywhere
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_rigid_body_modes, only: check_rigid_modes, choose_pins, find_rigid_modes, normalise_at_pins
   use fuge_smallest_eigenvalue, only: find_smallest_eigenvalue, unscale
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, &
-    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
+  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
   private
@@ -139,8 +139,7 @@ contains
     if (.not. info%failed()) call keep_resisted_modes(result, info)
     if (.not. info%failed()) call apply_load(result, info)
     if (.not. info%failed()) then
-      info%status = warning%status
-      info%message = warning%message
+      call report(info, warning%status, composed_message(warning))
       call move_condensed(result, condensed)
     end if
     call result%clear()
@@ -296,7 +295,7 @@ contains
     call unscale(magnitude, self%scale)
     if (maxval(magnitude) > 0.0_dp) info%residual = maxval(abs(residual))/maxval(magnitude)
     if (info%residual > RESIDUAL_TOLERANCE) call report(info, FUGE_WARN_RESIDUAL, &
-      'the displacements leave degree of freedom '//text(maxloc(abs(residual), 1))//' out of balance by ' &
+      'the displacements leave degree of freedom '//index_text(maxloc(abs(residual), 1))//' out of balance by ' &
       //text(info%residual)//' of the largest force')
   end subroutine find_residual
 
@@ -346,7 +345,7 @@ contains
       else if (self%constrained(j)) then
         all_scale(j) = 0.0_dp
       else
-        call report(info, FUGE_ERR_NOT_DEFINITE, 'degree of freedom '//text(j)//' has the stiffness ' &
+        call report(info, FUGE_ERR_NOT_DEFINITE, 'degree of freedom '//index_text(j)//' has the stiffness ' &
                     //text(all_scale(j))//' on the diagonal: make it positive, or fix the degree of freedom')
         return
       end if
@@ -371,12 +370,12 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory for the factor of the stiffness matrix')
     else if (.not. quotient > epsilon(quotient)) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive definite: with ' &
-                  //text(count(self%constrained))//' fixed or pinned, degree of freedom '//text(weakest) &
-                  //' still moves freely; fix it, or set floats or rigid_modes if the body floats')
+                  //text(count(self%constrained))//' fixed or pinned, degree of freedom '//index_text(weakest) &
+                  //' still moves freely; fix it, or, if the body floats, set its rigid modes or let them be found')
     else if (quotient < NEARLY_SINGULAR) then
       call report(info, FUGE_WARN_RESIDUAL, 'the stiffness matrix is nearly singular: its softest mode, which ' &
-                  //'moves degree of freedom '//text(weakest)//' most, has the relative stiffness '//text(quotient) &
-                  //'; alpha may have only '//text(max(nint(-log10(epsilon(quotient)/quotient)), 0)) &
+                  //'moves degree of freedom '//index_text(weakest)//' most, has the relative stiffness ' &
+                  //text(quotient)//'; alpha may have only '//text(max(nint(-log10(epsilon(quotient)/quotient)), 0)) &
                   //' correct digits')
     end if
   end subroutine factorise
@@ -414,8 +413,8 @@ contains
     end do
     do j = 1, n
       if (is_finite_everywhere(self%alpha(:, j)) .and. self%alpha(j, j) < huge(1.0_dp)) cycle
-      call report(info, FUGE_ERR_OVERFLOW, 'the influence of contact point '//text(j)//' overflows: choose other ' &
-                  //'units, or normals of length one')
+      call report(info, FUGE_ERR_OVERFLOW, 'the influence of contact point '//index_text(j) &
+                  //' overflows: choose other units, or normals of length one')
       return
     end do
     do j = 2, n

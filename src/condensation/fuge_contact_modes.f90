@@ -6,7 +6,7 @@ module fuge_contact_modes
   use fuge_kinds, only: dp
   use fuge_pivoted_qr, only: combine_independent, factorise_pivoted, numerical_rank
   use fuge_status, only: fuge_info, report, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text
   implicit none
   private
 
@@ -128,8 +128,8 @@ contains
           + error_of_work(unresisted(:, k), load, scale, mode_error)) cycle
       j = maxloc(abs(unresisted(:, k))*scale, 1)
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point, ' &
-                  //'and degree of freedom '//text(j)//' most: no contact force can hold it; fix that degree of ' &
-                  //'freedom, or balance the load')
+                  //'and degree of freedom '//index_text(j) &
+                  //' most: no contact force can hold it; fix that degree of freedom, or balance the load')
       return
     end do
   end subroutine check_unresisted

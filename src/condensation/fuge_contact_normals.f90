@@ -3,7 +3,7 @@ module fuge_contact_normals
   use fuge_body_type, only: fuge_body
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_DOF
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text
   implicit none
   private
 
@@ -98,8 +98,9 @@ contains
         moves = moves .or. (abs(body%normal(k, i)) > 0.0_dp .and. .not. constrained(body%dof(k, i)))
       end do
       if (moves) cycle
-      call report(info, FUGE_ERR_DOF, 'contact point '//text(i)//' cannot move in the direction of its force, ' &
-                  //'because of the supports: leave it out, or free degree of freedom '//text(maxval(body%dof(:, i))))
+      call report(info, FUGE_ERR_DOF, 'contact point '//index_text(i)//' cannot move in the direction of its force, ' &
+                  //'because of the supports: leave it out, or free degree of freedom ' &
+                  //index_text(maxval(body%dof(:, i))))
       return
     end do
   end subroutine check_free_points

@@ -11,7 +11,7 @@ module fuge_rigid_body_modes
   use fuge_smallest_eigenvalue, only: unscale
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NOT_DEFINITE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   implicit none
   private
 
@@ -62,7 +62,7 @@ contains
       call report(info, status, 'no memory for the factor of the stiffness matrix')
     else if (pivot <= 0.0_dp) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive semidefinite: displacing ' &
-                  //'degree of freedom '//text(weakest)//' releases energy; look for wrong signs or inverted ' &
+                  //'degree of freedom '//index_text(weakest)//' releases energy; look for wrong signs or inverted ' &
                   //'elements')
     end if
     if (info%failed()) return
@@ -181,13 +181,13 @@ contains
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to check the rigid modes')
     do k = 1, size(rigid_modes, 2)
       if (info%failed()) return
-      call check_finite(rigid_modes(:, k), 'mode '//text(k)//' ', info)
+      call check_finite(rigid_modes(:, k), 'mode '//index_text(k)//' at degree of freedom ', info)
       if (info%failed()) return
       j = maxloc(abs(rigid_modes(:, k))*scale, 1, fixed)
       if (j > 0) then
         if (abs(rigid_modes(j, k))*scale(j) > RANK_TOLERANCE*maxval(abs(rigid_modes(:, k))*scale)) then
-          call report(info, FUGE_ERR_MODES, 'mode '//text(k)//' moves degree of freedom '//text(j)//', which is ' &
-                      //'fixed: a rigid motion leaves the supports at rest')
+          call report(info, FUGE_ERR_MODES, 'mode '//index_text(k)//' moves degree of freedom '//index_text(j) &
+                      //', which is fixed: a rigid motion leaves the supports at rest')
           return
         end if
       end if
@@ -198,8 +198,9 @@ contains
       largest = maxval(magnitude)
       j = maxloc(abs(product), 1)
       if (force <= FORCE_TOLERANCE*largest) cycle
-      call report(info, FUGE_ERR_MODES, 'mode '//text(k)//' is not rigid: the stiffness resists it at degree of ' &
-                  //'freedom '//text(j)//', with a force of '//text(force/largest)//' of its largest term')
+      call report(info, FUGE_ERR_MODES, 'mode '//index_text(k)//' is not rigid: the stiffness resists ' &
+                  //'it at degree of freedom '//index_text(j)//', with a force of ' &
+                  //text(force/largest)//' of its largest term')
     end do
   end subroutine check_rigid_modes
 

@@ -5,7 +5,7 @@ module fuge_stiffness_check
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   implicit none
   private
 
@@ -21,7 +21,7 @@ contains
     integer, intent(in) :: i, j
     integer :: length
 
-    length = len('stiffness(,)') + len(text(i)) + len(text(j))
+    length = len('stiffness(,)') + len(index_text(i)) + len(index_text(j))
   end function entry_name_length
 
   !> Entry (i, j) as messages name it.
@@ -29,7 +29,7 @@ contains
     integer, intent(in) :: i, j
     character(len=entry_name_length(i, j)) :: name
 
-    name = 'stiffness('//text(i)//','//text(j)//')'
+    name = 'stiffness('//index_text(i)//','//index_text(j)//')'
   end function entry_name
 
   !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE) and numbers near overflow

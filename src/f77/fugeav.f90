@@ -1,8 +1,8 @@
-!> FUGEAV, for callers without modules: the contact problem of one translation that is given.
-!> Arguments in doc/legacy.md; `alpha` is not copied.
+!> FUGEAV: the contact problem of one prescribed translation. Arguments in doc/legacy.md; `alpha`
+!> is not copied.
 subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_matrix, hold_motions, solve_matrix
+  use fuge_f77_problem, only: check_matrix, prescribe_motions, solve_matrix
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
   use fuge_status, only: fuge_info
@@ -17,7 +17,7 @@ subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
 
   call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call set_problem(gap, 0.0_dp, problem, found)
-  if (.not. found%failed()) call hold_motions([1], [v0], problem, found)
+  if (.not. found%failed()) call prescribe_motions([1], [v0], problem, found)
   if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)
   info = found%status
   if (found%failed()) return

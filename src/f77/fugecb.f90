@@ -1,13 +1,12 @@
-!> FUGECB, for callers without modules: influence matrix of the contact points of an elastic
-!> body whose stiffness matrix is in LAPACK's symmetric band storage. Arguments in
-!> doc/legacy.md.
+!> FUGECB: influence matrix of the contact points of an elastic body whose stiffness matrix is in
+!> LAPACK's symmetric band storage. Arguments in doc/legacy.md.
 subroutine fugecb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
                   alpha, lda, b, r, ldr, w, nheld, msg, info)
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_matrix, check_modes
-  use fuge_legacy_body, only: check_body_sizes, condense_band, give_condensed, make_body
+  use fuge_f77_problem, only: check_matrix, check_modes
+  use fuge_f77_body, only: check_body_sizes, condense_band, copy_condensed, set_body
   use fuge_status, only: fuge_info
   implicit none
   character(len=1), intent(in) :: uplo
@@ -26,9 +25,9 @@ subroutine fugecb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
   if (.not. found%failed()) call check_matrix(kd + 1, 'KD + 1', ldab, 'LDAB', found)
   if (.not. found%failed()) call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call check_modes(n, m, ldr, found)
-  if (.not. found%failed()) call make_body(ifix, ufix, p, z, idof, dn, body, found)
+  if (.not. found%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, found)
   if (.not. found%failed()) call condense_band(uplo, kd, ab, body, condensed, found)
   info = found%status
   msg = found%message
-  if (.not. found%failed()) call give_condensed(body, condensed, alpha, b, r, w, nheld)
+  if (.not. found%failed()) call copy_condensed(body, condensed, alpha, b, r, w, nheld)
 end subroutine fugecb

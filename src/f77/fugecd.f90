@@ -1,12 +1,12 @@
-!> FUGECD, for callers without modules: influence matrix of the contact points of an elastic
-!> body whose stiffness matrix is in full storage. Arguments in doc/legacy.md.
+!> FUGECD: influence matrix of the contact points of an elastic body whose stiffness matrix is in
+!> full storage. Arguments in doc/legacy.md.
 subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
                   alpha, lda, b, r, ldr, w, nheld, msg, info)
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_matrix, check_modes
-  use fuge_legacy_body, only: check_body_sizes, condense_dense, give_condensed, make_body
+  use fuge_f77_problem, only: check_matrix, check_modes
+  use fuge_f77_body, only: check_body_sizes, condense_dense, copy_condensed, set_body
   use fuge_status, only: fuge_info
   implicit none
   integer, intent(in) :: nd, lds, nfix, m, ldz, n, nw, lda, ldr
@@ -24,9 +24,9 @@ subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
   if (.not. found%failed()) call check_matrix(nd, 'ND', lds, 'LDS', found)
   if (.not. found%failed()) call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call check_modes(n, m, ldr, found)
-  if (.not. found%failed()) call make_body(ifix, ufix, p, z, idof, dn, body, found)
+  if (.not. found%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, found)
   if (.not. found%failed()) call condense_dense(s, body, condensed, found)
   info = found%status
   msg = found%message
-  if (.not. found%failed()) call give_condensed(body, condensed, alpha, b, r, w, nheld)
+  if (.not. found%failed()) call copy_condensed(body, condensed, alpha, b, r, w, nheld)
 end subroutine fugecd

@@ -1,8 +1,8 @@
-!> FUGEGV, for callers without modules: general problems with rigid motions, two stops and
-!> points that take no part. Arguments in doc/legacy.md; `alpha` is not copied.
+!> FUGEGV: general problems with rigid motions, two stops and excluded points. Arguments in
+!> doc/legacy.md; `alpha` is not copied.
 subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_matrix, check_modes, pose_problem, solve_matrix
+  use fuge_f77_problem, only: check_matrix, check_modes, set_general_problem, solve_matrix
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info
@@ -17,7 +17,7 @@ subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
 
   call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call check_modes(n, m, ldr, found)
-  if (.not. found%failed()) call pose_problem(gap, nstop, play, r, w, problem, found)
+  if (.not. found%failed()) call set_general_problem(gap, nstop, play, r, w, problem, found)
   if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)
   info = found%status
   if (found%failed()) return

@@ -1,10 +1,10 @@
-!> FUGEGX, for callers without modules: FUGEGV with prescribed motions and options, which
-!> gives the residual and the message too. Arguments in doc/legacy.md; `alpha` is not copied.
+!> FUGEGX: FUGEGV with prescribed motions and options; also returns the residual and the message.
+!> Arguments in doc/legacy.md; `alpha` is not copied.
 subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, method, tol, maxit, &
                   f, c, ncon, niter, resid, msg, info)
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_matrix, check_modes, hold_motions, pose_problem, solve_matrix
+  use fuge_f77_problem, only: check_matrix, check_modes, prescribe_motions, set_general_problem, solve_matrix
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info
@@ -30,8 +30,8 @@ subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, metho
   end if
   call check_matrix(n, 'N', lda, 'LDA', found)
   if (.not. found%failed()) call check_modes(n, m, ldr, found)
-  if (.not. found%failed()) call pose_problem(gap, nstop, play, r, w, problem, found)
-  if (.not. found%failed()) call hold_motions(nheld, q, problem, found)
+  if (.not. found%failed()) call set_general_problem(gap, nstop, play, r, w, problem, found)
+  if (.not. found%failed()) call prescribe_motions(nheld, q, problem, found)
   if (.not. found%failed()) call solve_matrix(alpha, problem, options, solution, found)
   info = found%status
   msg = found%message

@@ -1,11 +1,11 @@
-!> FUGERB, for callers without modules: displacements of the body of FUGECB under its load and
-!> the contact forces. Arguments in doc/legacy.md.
+!> FUGERB: displacements of the body of FUGECB under its load and the contact forces. Arguments in
+!> doc/legacy.md.
 subroutine fugerb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
                   f, q, u, resid, msg, info)
   use fuge_body_type, only: fuge_body
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_matrix
-  use fuge_legacy_body, only: check_body_sizes, make_body, recover_band
+  use fuge_f77_problem, only: check_matrix
+  use fuge_f77_body, only: check_body_sizes, set_body, recover_band
   use fuge_status, only: fuge_info
   implicit none
   character(len=1), intent(in) :: uplo
@@ -20,7 +20,7 @@ subroutine fugerb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
 
   call check_body_sizes(nd, nfix, m, ldz, n, nw, found)
   if (.not. found%failed()) call check_matrix(kd + 1, 'KD + 1', ldab, 'LDAB', found)
-  if (.not. found%failed()) call make_body(ifix, ufix, p, z, idof, dn, body, found)
+  if (.not. found%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, found)
   if (.not. found%failed()) call recover_band(uplo, kd, ab, body, f, q, u, found)
   info = found%status
   msg = found%message

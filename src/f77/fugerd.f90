@@ -1,11 +1,11 @@
-!> FUGERD, for callers without modules: displacements of the body of FUGECD under its load and
-!> the contact forces. Arguments in doc/legacy.md.
+!> FUGERD: displacements of the body of FUGECD under its load and the contact forces. Arguments in
+!> doc/legacy.md.
 subroutine fugerd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
                   f, q, u, resid, msg, info)
   use fuge_body_type, only: fuge_body
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_matrix
-  use fuge_legacy_body, only: check_body_sizes, make_body, recover_dense
+  use fuge_f77_problem, only: check_matrix
+  use fuge_f77_body, only: check_body_sizes, set_body, recover_dense
   use fuge_status, only: fuge_info
   implicit none
   integer, intent(in) :: nd, lds, nfix, m, ldz, n, nw
@@ -19,7 +19,7 @@ subroutine fugerd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
 
   call check_body_sizes(nd, nfix, m, ldz, n, nw, found)
   if (.not. found%failed()) call check_matrix(nd, 'ND', lds, 'LDS', found)
-  if (.not. found%failed()) call make_body(ifix, ufix, p, z, idof, dn, body, found)
+  if (.not. found%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, found)
   if (.not. found%failed()) call recover_dense(s, body, f, q, u, found)
   info = found%status
   msg = found%message

@@ -1,5 +1,4 @@
-!> FUGERM, for callers without modules: rigid motions of a body from the places of its nodes.
-!> Arguments in doc/legacy.md.
+!> FUGERM: rigid modes of a body from the positions of its nodes. Arguments in doc/legacy.md.
 subroutine fugerm(ndim, nn, x, z, ldz, info)
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp

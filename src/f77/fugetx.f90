@@ -1,5 +1,4 @@
-!> FUGETX, for callers without modules: the general meaning of a status, cut or filled with
-!> blanks. Arguments in doc/legacy.md.
+!> FUGETX: the general meaning of a status, cut or filled with blanks. Arguments in doc/legacy.md.
 subroutine fugetx(info, text)
   use fuge_status, only: fuge_status_text
   implicit none

@@ -19,7 +19,7 @@ module fuge_edge_refinement
   use fuge_halfplane_influence, only: check_halfplane, FUGE_CENTRE, FUGE_HAT
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_GRID
   implicit none
   private
@@ -145,13 +145,13 @@ contains
     h = width(1)
     do k = 2, size(x)
       if (abs(width(k) - h) <= PLACE_TOLERANCE*h .and. abs(x(k) - x(k - 1) - h) <= PLACE_TOLERANCE*h) cycle
-      call report(info, FUGE_ERR_GRID, 'cell '//text(k)//' at x = '//text(x(k))//' of width '//text(width(k)) &
+      call report(info, FUGE_ERR_GRID, 'cell '//index_text(k)//' at x = '//text(x(k))//' of width '//text(width(k)) &
                   //' does not continue a uniform grid of width '//text(h))
       return
     end do
     if (.not. folded .or. is_on_axis(x(1), h) .or. x(1) >= h) return
     if (abs(x(1) - 0.5_dp*h) <= PLACE_TOLERANCE*h) return
-    call report(info, FUGE_ERR_GRID, 'x(1) = '//text(x(1)) &
+    call report(info, FUGE_ERR_GRID, 'x('//index_text(1)//') = '//text(x(1)) &
                 //': a symmetric uniform grid starts at 0, at width/2, or at a width or more')
   end subroutine check_uniform
 

@@ -14,8 +14,8 @@ module fuge_halfplane_fft
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_NOT_FINITE, &
-    FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_CALL_ORDER
+  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
+    FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   implicit none
   private
 
@@ -145,7 +145,8 @@ contains
       length = operator%preconditioner_plan%length
     end if
     if (info%failed()) then
-      if (info%status == FUGE_ERR_MEMORY) info%message = 'n = '//text(operator%cells)//': '//trim(info%message)
+      if (info%status == FUGE_ERR_MEMORY) call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//': ' &
+                                                      //composed_message(info))
       return
     end if
     allocate (operator%spectrum(0:operator%plan%length/2), operator%inverse_spectrum(0:length/2), stat=stat)

@@ -19,7 +19,7 @@ module fuge_halfplane_influence
   use fuge_elastic_moduli, only: check_e_star
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, &
     FUGE_ERR_OVERFLOW
   implicit none
@@ -263,16 +263,17 @@ contains
 
     do k = 1, size(x)
       if (.not. width(k) > 0.0_dp) then
-        call report(info, FUGE_ERR_WIDTH, 'width('//text(k)//') = '//text(width(k))//' is not positive')
+        call report(info, FUGE_ERR_WIDTH, 'width('//index_text(k)//') = '//text(width(k))//' is not positive')
       else if (symmetric .and. x(k) < 0.0_dp) then
-        call report(info, FUGE_ERR_WIDTH, 'x('//text(k)//') = '//text(x(k)) &
+        call report(info, FUGE_ERR_WIDTH, 'x('//index_text(k)//') = '//text(x(k)) &
                     //' is negative: a symmetric model takes the cells with x >= 0 only')
       else if (element /= FUGE_MEAN .and. abs(width(k) - width(1)) > WIDTH_TOLERANCE*width(1)) then
-        call report(info, FUGE_ERR_GRID, 'width('//text(k)//') = '//text(width(k))//' differs from width(1) by ' &
+        call report(info, FUGE_ERR_GRID, 'width('//index_text(k)//') = '//text(width(k))//' differs from width(' &
+                    //index_text(1)//') by ' &
                     //text(width(k) - width(1))//': on unequal cells only FUGE_MEAN is symmetric, use it')
       else if (exponent(x(k)) > LARGEST_EXPONENT_OF_2 .or. abs(exponent(width(k))) > LARGEST_EXPONENT_OF_2) then
-        call report(info, FUGE_ERR_OVERFLOW, 'cell '//text(k)//' at x = '//text(x(k))//' of width '//text(width(k)) &
-                    //' is out of range: choose another unit of length')
+        call report(info, FUGE_ERR_OVERFLOW, 'cell '//index_text(k)//' at x = '//text(x(k))//' of width ' &
+                    //text(width(k))//' is out of range: choose another unit of length')
       end if
       if (info%failed()) return
     end do

@@ -4,7 +4,7 @@ module fuge_matrix_market_writer
   use fuge_kinds, only: dp
   use fuge_matrix_market_lines, only: banner_line
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_text_writer, only: text_output
   implicit none
   private
@@ -142,7 +142,7 @@ contains
     real(dp), intent(in) :: value
     type(fuge_info), intent(inout) :: info
 
-    call report(info, FUGE_ERR_NOT_FINITE, 'entry ('//text(i)//', '//text(j)//') = '//text(value) &
+    call report(info, FUGE_ERR_NOT_FINITE, 'entry ('//index_text(i)//', '//index_text(j)//') = '//text(value) &
                 //' is not a finite number')
   end subroutine refuse_entry
 
@@ -155,18 +155,20 @@ contains
     integer :: j, k, last
 
     last = min(size(row), size(value))
-    if (column(1) /= 1) call report(info, FUGE_ERR_SIZE, 'column(1) = '//text(column(1)) &
-                                    //': it must be 1, where the first column begins')
+    if (column(1) /= 1) call report(info, FUGE_ERR_SIZE, 'column('//index_text(1)//') = '//index_text(column(1)) &
+                                    //': it must be '//index_text(1)//', where the first column begins')
     do j = 1, size(column) - 1
       if (info%failed()) return
       if (column(j + 1) < column(j) .or. column(j + 1) - 1 > last) then
-        call report(info, FUGE_ERR_SIZE, 'column('//text(j + 1)//') = '//text(column(j + 1))//' is outside ' &
-                    //text(column(j))//' .. '//text(last + 1)//', from the previous column to the end of row and value')
+        call report(info, FUGE_ERR_SIZE, 'column('//index_text(j + 1)//') = '//index_text(column(j + 1)) &
+                    //' is outside '//index_text(column(j))//' .. '//index_text(last + 1) &
+                    //', from the previous column to the end of row and value')
         return
       end if
       do k = column(j), column(j + 1) - 1
         if (row(k) < 1 .or. row(k) > rows) then
-          call report(info, FUGE_ERR_SIZE, 'row('//text(k)//') = '//text(row(k))//' is outside 1 .. '//text(rows))
+          call report(info, FUGE_ERR_SIZE, 'row('//index_text(k)//') = '//index_text(row(k))//' is outside ' &
+                      //index_text(1)//' .. '//index_text(rows))
         else if (.not. ieee_is_finite(value(k))) then
           call refuse_entry(row(k), j, value(k), info)
         end if

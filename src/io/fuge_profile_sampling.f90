@@ -7,7 +7,7 @@ module fuge_profile_sampling
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   implicit none
   private
@@ -155,13 +155,14 @@ contains
     if (info%failed()) return
     do k = 1, size(x)
       if (max(exponent(x(k)), exponent(z(k))) <= LARGEST_EXPONENT) cycle
-      call report(info, FUGE_ERR_OVERFLOW, 'point '//text(k)//' at x = '//text(x(k))//', z = '//text(z(k)) &
+      call report(info, FUGE_ERR_OVERFLOW, 'point '//index_text(k)//' at x = '//text(x(k))//', z = '//text(z(k)) &
                   //' is out of range: choose another unit of length')
       return
     end do
     do k = 2, size(x)
       if (x(k) > x(k - 1)) cycle
-      call report(info, FUGE_ERR_WIDTH, 'x('//text(k)//') = '//text(x(k))//' does not exceed x('//text(k - 1)//') = ' &
+      call report(info, FUGE_ERR_WIDTH, 'x('//index_text(k)//') = '//text(x(k))//' does not exceed x(' &
+                  //index_text(k - 1)//') = ' &
                   //text(x(k - 1))//': x must increase; sort the points and merge repeated ones')
       return
     end do
@@ -186,7 +187,7 @@ contains
     last = x(size(x))
     do k = 1, size(centre)
       if (max(first - centre(k), centre(k) - last) <= END_TOLERANCE*(last - first)) cycle
-      call report(info, FUGE_ERR_WIDTH, 'centre('//text(k)//') = '//text(centre(k))//' is outside the profile, ' &
+      call report(info, FUGE_ERR_WIDTH, 'centre('//index_text(k)//') = '//text(centre(k))//' is outside the profile, ' &
                   //text(first)//' .. '//text(last)//': extend the profile, or leave the point out')
       return
     end do

@@ -6,7 +6,7 @@ module fuge_matrix_operator
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: find_asymmetry
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
     FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
@@ -143,9 +143,10 @@ contains
     weight = 1.0_dp
     call find_asymmetry(alpha, weight, SYMMETRY_TOLERANCE*(most - least), i, j)
     if (i > 0) then
-      call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//text(i)//','//text(j)//') and alpha(' &
-        //text(j)//','//text(i)//') differ by '//text(abs(alpha(i, j) - alpha(j, i))) &
-        //' (coefficients from '//text(least)//' to '//text(most)//'): if that is rounding, pass (alpha + transpose(alpha))/2')
+      call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//index_text(i)//','//index_text(j)//') and alpha(' &
+        //index_text(j)//','//index_text(i)//') differ by '//text(abs(alpha(i, j) - alpha(j, i))) &
+        //' (coefficients from '//text(least)//' to '//text(most) &
+        //'): if that is rounding, pass (alpha + transpose(alpha))/2')
     end if
   end subroutine check_influence_matrix
 
@@ -157,7 +158,7 @@ contains
     do j = 1, size(alpha, 2)
       do i = 1, size(alpha, 1)
         if (ieee_is_finite(alpha(i, j))) cycle
-        call report(info, FUGE_ERR_NOT_FINITE, 'alpha('//text(i)//','//text(j)//') = ' &
+        call report(info, FUGE_ERR_NOT_FINITE, 'alpha('//index_text(i)//','//index_text(j)//') = ' &
           //text(alpha(i, j))//' is not a finite number')
         return
       end do

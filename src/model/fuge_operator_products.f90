@@ -5,8 +5,8 @@ module fuge_operator_products
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_OVERFLOW, &
-    LOWEST_STATUS
+  use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_CALLBACK, &
+    FUGE_ERR_OVERFLOW, LOWEST_STATUS
   implicit none
   private
 
@@ -80,11 +80,11 @@ contains
 
     call check_finite(input, input_name, check)
     if (check%failed()) then
-      call report(info, FUGE_ERR_OVERFLOW, 'before '//what//' '//text(number)//', '//trim(check%message) &
+      call report(info, FUGE_ERR_OVERFLOW, 'before '//what//' '//text(number)//', '//composed_message(check) &
                   //': choose units in which forces and lengths are nearer to 1')
     else
       call check_finite(result, result_name, check)
-      call report(info, FUGE_ERR_CALLBACK, what//' '//text(number)//': '//trim(check%message) &
+      call report(info, FUGE_ERR_CALLBACK, what//' '//text(number)//': '//composed_message(check) &
                   //': mend the operator''s callback')
     end if
   end subroutine report_not_finite

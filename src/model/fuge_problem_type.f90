@@ -14,7 +14,7 @@ module fuge_problem_type
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP
   implicit none
@@ -146,10 +146,11 @@ contains
 
     do k = 1, size(gap_upper)
       if (ieee_is_nan(gap_upper(k))) then
-        call report(info, FUGE_ERR_NOT_FINITE, 'gap_upper('//text(k)//') is NaN: use infinity for one-sided contact')
+        call report(info, FUGE_ERR_NOT_FINITE, 'gap_upper('//index_text(k) &
+                    //') is NaN: use infinity for one-sided contact')
       else if (gap_upper(k) < 0.0_dp) then
-        call report(info, FUGE_ERR_GAP, 'gap_upper('//text(k)//') = '//text(gap_upper(k))//' is negative: the upper ' &
-                    //'stop would lie below the lower one; 0 ties the point')
+        call report(info, FUGE_ERR_GAP, 'gap_upper('//index_text(k)//') = '//text(gap_upper(k)) &
+                    //' is negative: the upper stop would lie below the lower one; 0 ties the point')
       end if
       if (info%failed()) return
     end do
@@ -172,7 +173,7 @@ contains
         return
       end if
       do j = 1, m
-        call check_values(problem%modes(:, j), 'mode '//text(j)//' ', info)
+        call check_values(problem%modes(:, j), 'mode '//index_text(j)//' at point ', info)
         if (info%failed()) return
       end do
     end if

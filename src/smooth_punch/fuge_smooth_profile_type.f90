@@ -132,7 +132,8 @@ contains
                   //' value(s): give 2**k + 1 of them, k >= 1, at the points of the procedure points')
       return
     end if
-    call check_finite([lower, upper], 'lower and upper', info)
+    call check_finite(lower, 'lower', info)
+    if (.not. info%failed()) call check_finite(upper, 'upper', info)
     if (.not. info%failed()) call check_finite(gap, 'gap', info)
     if (info%failed()) return
     if (.not. lower < upper) then

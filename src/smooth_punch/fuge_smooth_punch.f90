@@ -92,10 +92,10 @@ contains
     real(dp), intent(in) :: e_star, force
     type(fuge_info), intent(inout) :: info
 
-    call check_finite([profile%lower], 'profile%lower', info)
-    if (.not. info%failed()) call check_finite([profile%upper], 'profile%upper', info)
+    call check_finite(profile%lower, 'lower', info)
+    if (.not. info%failed()) call check_finite(profile%upper, 'upper', info)
     if (.not. info%failed()) call check_e_star(e_star, info)
-    if (.not. info%failed()) call check_finite([force], 'force', info)
+    if (.not. info%failed()) call check_finite(force, 'force', info)
     if (info%failed()) return
     if (.not. profile%lower < profile%upper) then
       call report(info, FUGE_ERR_WIDTH, 'the profile goes from lower = '//text(profile%lower)//' to upper = ' &
@@ -116,7 +116,7 @@ contains
     real(dp), intent(inout) :: line_of_action
     type(fuge_info), intent(inout) :: info
 
-    call check_finite([moment], 'moment', info)
+    call check_finite(moment, 'moment', info)
     if (info%failed()) return
     if (force > 0.0_dp) then
       if (exponent(moment) - exponent(force) < maxexponent(moment) - 2) then

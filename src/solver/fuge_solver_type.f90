@@ -149,7 +149,7 @@ contains
       if (.not. info%failed()) call find_derivative(self%canonical, operator, self%factor, self%state, gap_change, &
                                                     load_change, change, info)
     class default
-      call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a fuge_dense_operator')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a dense operator')
     end select
   end subroutine derivative_by_loads
 
@@ -231,7 +231,7 @@ contains
       if (options%method == FUGE_AUTO) then
         call run_iteration(self, operator, problem, options, monitor, solution, info)
       else
-        call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a fuge_dense_operator: use ' &
+        call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a dense operator: use ' &
                     //'FUGE_ITERATIVE for other operators')
       end if
     end select
@@ -343,11 +343,11 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (options%keep_history) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'only the tableau keeps a history, and it needs a fuge_dense_operator: ' &
+      call report(info, FUGE_ERR_UNSUPPORTED, 'only the tableau keeps a history, and it needs a dense operator: ' &
                   //'leave keep_history out')
     else if (allocated(problem%modes) .or. allocated(problem%gap_upper) .or. allocated(problem%excluded)) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration solves one-sided contact under one load or with a ' &
-                  //'prescribed approach: use FUGE_ACTIVE_SET with a fuge_dense_operator')
+                  //'prescribed approach: use FUGE_ACTIVE_SET with a dense operator')
     end if
   end subroutine check_iterative
 

@@ -37,8 +37,8 @@ static const double GAP[N] = {0.5, 1.0, 2.0};
 /* A solver with load 0: the certificate makes one product. */
 static fuge_solver *callback_solver(fuge_apply apply, void *user, fuge_operator **op) {
   fuge_solver *solver = NULL;
-  CHECK_STATUS(fuge_operator_callback(N, apply, user, op), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_new(*op, NULL, &solver), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_callback(N, apply, user, op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(*op, NULL, &solver, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_set_gap(solver, GAP, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_set_load(solver, 0.0), FUGE_DONE);
   return solver;
@@ -112,16 +112,16 @@ static void test_failures(void) {
   check_fails(seven, "product 1: the operator returned status 7");
   check_fails(minus_one, "product 1: a callback failed");
   check_fails(minus_hundred, "product 1: a callback failed");
-  check_fails(nan, "product 1: displacement(2) = NaN");
-  check_fails(infinite, "product 1: displacement(3) = Inf");
-  check_fails(forgotten, "product 1: displacement(2) = NaN");
+  check_fails(nan, "product 1: displacement(1) = NaN");
+  check_fails(infinite, "product 1: displacement(2) = Inf");
+  check_fails(forgotten, "product 1: displacement(1) = NaN");
 }
 
 static void check_refused(int n, fuge_apply apply, int status) {
   char place;
   fuge_operator *const before = (fuge_operator *)(void *)&place;
   fuge_operator *op = before;
-  CHECK_STATUS(fuge_operator_callback(n, apply, NULL, &op), status);
+  CHECK_STATUS(fuge_operator_callback(n, apply, NULL, &op, NULL, 0), status);
   CHECK(op == before);
 }
 
@@ -129,24 +129,24 @@ static void test_refusals(void) {
   check_refused(0, multiply, FUGE_ERR_SIZE);
   check_refused(-3, multiply, FUGE_ERR_SIZE);
   check_refused(N, NULL, FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_operator_callback(N, multiply, NULL, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_operator_callback(N, multiply, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
 }
 
 static void check_diagonal(fuge_operator *op, double second, int status) {
   const double diagonal[N] = {1.0, second, 3.0};
-  CHECK_STATUS(fuge_operator_set_diagonal(op, diagonal), status);
+  CHECK_STATUS(fuge_operator_set_diagonal(op, diagonal, NULL, 0), status);
 }
 
 static void test_preconditioner_refusals(void) {
   const double diagonal[2] = {1.0, 1.0};
   scene s = {0};
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_callback(N, multiply, &s, &op), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_preconditioner(NULL, multiply), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_operator_set_preconditioner(op, NULL), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_operator_set_preconditioner(op, multiply), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_diagonal(NULL, diagonal), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_operator_set_diagonal(op, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_operator_callback(N, multiply, &s, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_preconditioner(NULL, multiply, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, multiply, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_diagonal(NULL, diagonal, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_operator_set_diagonal(op, NULL, NULL, 0), FUGE_ERR_POINTER);
   check_diagonal(op, NAN, FUGE_ERR_NOT_FINITE);
   check_diagonal(op, INFINITY, FUGE_ERR_NOT_FINITE);
   check_diagonal(op, 0.0, FUGE_ERR_NOT_DEFINITE);
@@ -157,9 +157,9 @@ static void test_preconditioner_refusals(void) {
   CHECK_INT(s.calls, 0);
   fuge_operator_free(&op);
 
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_preconditioner(op, multiply), FUGE_ERR_UNSUPPORTED);
-  CHECK_STATUS(fuge_operator_set_diagonal(op, diagonal), FUGE_ERR_UNSUPPORTED);
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, multiply, NULL, 0), FUGE_ERR_UNSUPPORTED);
+  CHECK_STATUS(fuge_operator_set_diagonal(op, diagonal, NULL, 0), FUGE_ERR_UNSUPPORTED);
   fuge_operator_free(&op);
 }
 
@@ -218,10 +218,10 @@ static fuge_solver *bed_solver(user *u, int kind, fuge_operator **op) {
   double diagonal[M];
   fuge_solver *solver = NULL;
   for (int k = 0; k < M; k++) diagonal[k] = bed[k + k * M];
-  CHECK_STATUS(fuge_operator_callback(M, multiply_bed, u, op), FUGE_DONE);
-  if (kind == DIAGONAL) CHECK_STATUS(fuge_operator_set_diagonal(*op, diagonal), FUGE_DONE);
-  if (kind == PRECONDITIONER) CHECK_STATUS(fuge_operator_set_preconditioner(*op, preconditioner_bed), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_new(*op, NULL, &solver), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_callback(M, multiply_bed, u, op, NULL, 0), FUGE_DONE);
+  if (kind == DIAGONAL) CHECK_STATUS(fuge_operator_set_diagonal(*op, diagonal, NULL, 0), FUGE_DONE);
+  if (kind == PRECONDITIONER) CHECK_STATUS(fuge_operator_set_preconditioner(*op, preconditioner_bed, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(*op, NULL, &solver, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_set_gap(solver, bed_gap, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
   return solver;
@@ -231,7 +231,7 @@ static fuge_solver *bed_solver(user *u, int kind, fuge_operator **op) {
 static void check_bed(fuge_solver *solver, const user *u, int kind) {
   double force[M], gap[M], approach, resultant, right_force[M], right_gap[M], right_approach;
   fuge_info info;
-  CHECK_STATUS(fuge_solve_dense(M, bed, M, bed_gap, 2.0, right_force, right_gap, &right_approach), FUGE_DONE);
+  CHECK_STATUS(fuge_solve_dense(M, bed, M, bed_gap, 2.0, right_force, right_gap, &right_approach, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
   CHECK_INT(info.products, u->products);
   CHECK(info.products > 1);
@@ -284,7 +284,7 @@ static int check_bed_fails(int k, int of_preconditioner, int returns) {
   if (status != FUGE_DONE) {
     CHECK_INT(status, FUGE_ERR_CALLBACK);
     if (returns == 0)
-      snprintf(part, sizeof part, "%s(5) = NaN", of_preconditioner ? "force" : "displacement");
+      snprintf(part, sizeof part, "%s(4) = NaN", of_preconditioner ? "force" : "displacement");
     else
       snprintf(part, sizeof part, "the operator returned status %d", returns);
     CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
@@ -336,11 +336,11 @@ static void test_wrong_preconditioner(void) {
   user u = {0};
   fuge_operator *op = NULL;
   fuge_solver *solver = bed_solver(&u, NO_PRECONDITIONER, &op);
-  CHECK_STATUS(fuge_operator_set_preconditioner(op, wrong_preconditioner), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, wrong_preconditioner, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_NOT_DEFINITE);
   CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
   CHECK_CONTAINS(message, "preconditioner");
-  CHECK_STATUS(fuge_operator_set_preconditioner(op, preconditioner_bed), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_preconditioner(op, preconditioner_bed, NULL, 0), FUGE_DONE);
   memset(&u, 0, sizeof u);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   check_bed(solver, &u, PRECONDITIONER);
@@ -358,7 +358,7 @@ static void test_unsupported(void) {
     fuge_solver_free(&other);
     fuge_default_options(&options);
     options.method = method;
-    CHECK_STATUS(fuge_solver_new(op, &options, &solver), FUGE_DONE);
+    CHECK_STATUS(fuge_solver_new(op, &options, &solver, NULL, 0), FUGE_DONE);
     CHECK_STATUS(fuge_set_gap(solver, bed_gap, NULL), FUGE_DONE);
     CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
     CHECK_STATUS(fuge_solve(solver), FUGE_ERR_UNSUPPORTED);

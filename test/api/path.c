@@ -12,7 +12,7 @@ static void test_two_points(void) {
   int point[MOST], contacts[MOST], events = -1;
   char message[256] = "old";
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, MOST, load, approach, stiffness, point, contacts, &events,
                               message, sizeof message), FUGE_DONE);
   CHECK_INT(events, 2);
@@ -34,7 +34,7 @@ static void test_capacity(void) {
   double load[2] = {-1.0, -1.0};
   int events = -1;
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0), FUGE_DONE);
   CHECK_INT(events, 2);
   CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, 1, load, NULL, NULL, NULL, NULL, &events, NULL, 0), FUGE_DONE);
@@ -48,7 +48,7 @@ static void test_refusals(void) {
   int events = -1;
   char message[256] = "";
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_load_path(NULL, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0),
                FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_load_path(op, NULL, 1.0, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0), FUGE_ERR_POINTER);
@@ -66,28 +66,28 @@ static void test_refusals(void) {
 /* Both in contact at F = 20: dF = (1/2, 1/2), dv_0 = 0.15 per unit of load. */
 static void test_derivative(void) {
   const double unit[2] = {0.0, 1.0};
-  double force[2], gap[2], rigid = -1.0;
+  double force[2], gap[2], motion = -1.0;
   fuge_operator *op = NULL;
   fuge_solver *solver = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_new(op, NULL, &solver), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(op, NULL, &solver, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_set_load(solver, 20.0), FUGE_DONE);
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &rigid), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_ERR_CALL_ORDER);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, NULL, gap, &rigid), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &rigid), FUGE_DONE);
+  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, NULL, gap, &motion), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_DONE);
   CHECK_NEAR(force[0], 0.5, 1e-14);
   CHECK_NEAR(force[1], 0.5, 1e-14);
   CHECK_NEAR(gap[0], 0.0, 0.0);
-  CHECK_NEAR(rigid, 0.15, 1e-14);
+  CHECK_NEAR(motion, 0.15, 1e-14);
   /* A unit of gap at point 2 moves 5 units of force to point 1 (0.2 F_1 - 0.2 F_2 = 2 .. 1). */
   CHECK_STATUS(fuge_get_derivative(solver, unit, 0.0, force, NULL, NULL), FUGE_DONE);
   CHECK_NEAR(force[0], 5.0, 1e-13);
   CHECK_NEAR(force[1], -5.0, 1e-13);
   CHECK_STATUS(fuge_set_load(solver, 0.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &rigid), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_ERR_CALL_ORDER);
   fuge_solver_free(&solver);
   fuge_operator_free(&op);
 }
@@ -96,37 +96,38 @@ static void test_derivative(void) {
 static void test_follow_path(void) {
   const double finish[1] = {20.0}, back[1] = {-1.0};
   double parameter[MOST], motion[MOST], rate[MOST];
-  int point[MOST], side[MOST], contacts[MOST], entries = -1;
+  int point[MOST], state[MOST], contacts[MOST], entries = -1;
   char message[256] = "old";
   fuge_operator *op = NULL;
   fuge_solver *s = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_new(op, NULL, &s), FUGE_DONE);
-  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, message, sizeof message),
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(op, NULL, &s, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
                FUGE_ERR_CALL_ORDER);
+  fuge_solver_message(s, message, sizeof message);
   CHECK_CONTAINS(message, "fuge_set_gap before fuge_follow_path");
   CHECK_STATUS(fuge_set_gap(s, TABLE1_GAP, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
                FUGE_ERR_CALL_ORDER);
   CHECK_STATUS(fuge_set_load(s, 5.0), FUGE_DONE);
-  CHECK_STATUS(fuge_follow_path(NULL, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+  CHECK_STATUS(fuge_follow_path(NULL, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
                FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_follow_path(s, NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_follow_path(s, finish, -1, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_follow_path(s, back, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+  CHECK_STATUS(fuge_follow_path(s, NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_follow_path(s, finish, -1, NULL, NULL, NULL, NULL, NULL, NULL, &entries), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_follow_path(s, back, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
                FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_INT(entries, -1);
-  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, message, sizeof message),
+  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
                FUGE_DONE);
   CHECK_INT(entries, 2);
+  fuge_solver_message(s, message, sizeof message);
   CHECK_STRING(message, "");
-  CHECK_STATUS(fuge_follow_path(s, finish, MOST, parameter, motion, rate, point, side, contacts, &entries, message,
-                                sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_follow_path(s, finish, MOST, parameter, motion, rate, point, state, contacts, &entries), FUGE_DONE);
   CHECK_INT(entries, 2);
   CHECK_INT(point[0], 0);
   CHECK_INT(point[1], 2);
-  CHECK_INT(side[1], 1);
+  CHECK_INT(state[1], 1);
   CHECK_INT(contacts[0], 1);
   CHECK_INT(contacts[1], 2);
   CHECK_NEAR(parameter[0], 0.0, 0.0);
@@ -148,19 +149,19 @@ static void test_follow_motions(void) {
   char message[256] = "";
   fuge_operator *op = NULL;
   fuge_solver *s = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, alpha, 2, &op), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_new(op, NULL, &s), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_dense(2, alpha, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_solver_new(op, NULL, &s, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_set_gap(s, gap, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_set_modes(s, 2, modes, middle), FUGE_DONE);
-  CHECK_STATUS(fuge_follow_path(s, right, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_follow_path(s, right, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries), FUGE_DONE);
   CHECK_INT(entries, 1);
   CHECK_NEAR(motion[0], 1.0, 1e-14);
   CHECK_NEAR(motion[1], 0.0, 1e-14);
   CHECK_NEAR(rate[0], 0.0, 1e-14);
   CHECK_NEAR(rate[1], 0.5, 1e-14);
   /* The line of action passes point 2, at 1, half way. */
-  CHECK_STATUS(fuge_follow_path(s, beside, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries, message,
-                                sizeof message), FUGE_ERR_NO_EQUILIBRIUM);
+  CHECK_STATUS(fuge_follow_path(s, beside, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries), FUGE_ERR_NO_EQUILIBRIUM);
+  fuge_solver_message(s, message, sizeof message);
   CHECK_CONTAINS(message, "parameter");
   CHECK_INT(entries, 1);
   fuge_solver_free(&s);

@@ -58,7 +58,7 @@ static void test_sample(void) {
   char message[256] = "";
   fill(height, 2);
   CHECK_STATUS(fuge_sample_profile(2, x, z, 2, outside, height, message, sizeof message), FUGE_ERR_WIDTH);
-  CHECK_CONTAINS(message, "centre(2) = 2.0");
+  CHECK_CONTAINS(message, "centre(1) = 2.0");
   CHECK_STATUS(fuge_sample_profile(-1, x, z, 2, centre, height, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_sample_profile(2, x, z, -1, centre, height, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_sample_profile(2, NULL, z, 2, centre, height, NULL, 0), FUGE_ERR_POINTER);

@@ -137,7 +137,7 @@ C     Forces that do not balance the load.
       CALL FUGERD(3, S, 4, 0, IFIX, UFIX, P, 1, Z, 4, 2, 1, IDOF, DN,
      $            F, Q, U, RESID, MSG, INFO)
       CALL STATUS('FUGERD out of balance', INFO, -10)
-      CALL HASTXT('FUGERD out of balance', MSG, 'rigid motion 1')
+      CALL HASTXT('FUGERD out of balance', MSG, 'rigid mode 1')
       CALL NUMBER('FUGERD out of balance, U', U(1), 7.D0, 0.D0)
 C     It does float.
       CALL FUGECD(3, S, 4, 0, IFIX, UFIX, P, 0, Z, 4, 2, 1, IDOF, DN,

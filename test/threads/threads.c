@@ -74,7 +74,7 @@ static void solve(record *r, const fuge_operator *op, int n, int method, int num
   options.method = method;
   options.keep_history = method == FUGE_TABLEAU;
   make_gap(n, number, gap);
-  expect(r, fuge_solver_new(op, &options, &s), FUGE_DONE);
+  expect(r, fuge_solver_new(op, &options, &s, NULL, 0), FUGE_DONE);
   expect(r, fuge_set_gap(s, gap, NULL), FUGE_DONE);
   for (int k = 1; k <= 3; k++) {
     expect(r, fuge_set_load(s, k * LOAD * (1.0 + 0.01 * number)), FUGE_DONE);
@@ -112,15 +112,15 @@ static void follow(record *r, int number) {
                            sizeof message), FUGE_DONE);
   put(r, loads, events);
   put(r, approach, events);
-  expect(r, fuge_solver_new(shared.dense, NULL, &s), FUGE_DONE);
+  expect(r, fuge_solver_new(shared.dense, NULL, &s, NULL, 0), FUGE_DONE);
   expect(r, fuge_set_gap(s, gap, NULL), FUGE_DONE);
   expect(r, fuge_set_load(s, LOAD), FUGE_DONE);
-  expect(r, fuge_follow_path(s, &end, 2 * N, parameter, NULL, NULL, NULL, NULL, NULL, &entries, message,
-                             sizeof message), FUGE_DONE);
+  expect(r, fuge_follow_path(s, &end, 2 * N, parameter, NULL, NULL, NULL, NULL, NULL, &entries), FUGE_DONE);
   put(r, parameter, entries);
   end = -(1.0 + number);
-  expect(r, fuge_follow_path(s, &end, 2 * N, parameter, NULL, NULL, NULL, NULL, NULL, &entries, message,
-                             sizeof message), FUGE_ERR_NO_EQUILIBRIUM);
+  expect(r, fuge_follow_path(s, &end, 2 * N, parameter, NULL, NULL, NULL, NULL, NULL, &entries),
+         FUGE_ERR_NO_EQUILIBRIUM);
+  fuge_solver_message(s, message, sizeof message);
   put_text(r, message);
   fuge_solver_free(&s);
 }
@@ -141,16 +141,17 @@ static void read_profile(record *r, int number) {
 static void refuse(record *r, int number) {
   double alpha[N * N];
   char message[256] = "";
+  fuge_operator *op = NULL;
   memcpy(alpha, shared.alpha, sizeof alpha);
   alpha[9 + number * N] += 1.0;
-  expect(r, fuge_check_dense(N, alpha, N, alpha, LOAD, message, sizeof message), FUGE_ERR_NOT_SYMMETRIC);
+  expect(r, fuge_operator_dense(N, alpha, N, &op, message, sizeof message), FUGE_ERR_NOT_SYMMETRIC);
   put_text(r, message);
 }
 
 /* An operator of one's own, made and freed while others are made and used. */
 static void solve_own_cells(record *r, int number) {
   fuge_operator *own = NULL;
-  expect(r, fuge_operator_halfplane(CELLS - 2 * number, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &own), FUGE_DONE);
+  expect(r, fuge_operator_halfplane(CELLS - 2 * number, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &own, NULL, 0), FUGE_DONE);
   solve(r, own, CELLS - 2 * number, FUGE_ITERATIVE, number);
   fuge_operator_free(&own);
 }
@@ -206,10 +207,10 @@ static void make_ground(void) {
     x[k] = k;
     width[k] = 1.0;
   }
-  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_MEAN, shared.alpha, N), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_dense(N, shared.alpha, N, &shared.dense), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_halfplane(CELLS, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &shared.cells), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_callback(N, spring, &flexibility, &shared.springs), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_MEAN, shared.alpha, N, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_dense(N, shared.alpha, N, &shared.dense, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_halfplane(CELLS, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &shared.cells, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_callback(N, spring, &flexibility, &shared.springs, NULL, 0), FUGE_DONE);
   snprintf(shared.path, sizeof shared.path, "threads_profile.txt");
   file = fopen(shared.path, "w");
   CHECK(file != NULL);

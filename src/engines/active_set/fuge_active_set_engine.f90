@@ -12,7 +12,7 @@ module fuge_active_set_engine
   use fuge_kkt_factor, only: kkt_factor
   use fuge_matrix_checks, only: check_magnitudes, check_pairs
   use fuge_monitor_type, only: fuge_monitor
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE
   implicit none
@@ -100,7 +100,8 @@ contains
     if (size(motion) < 1) return
     call find_free_motion(canonical, solution, motion)
     if (.not. any(abs(motion) > 0.0_dp)) return
-    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not hold motion '//text(canonical%dominant_mode(motion)) &
+    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not hold motion ' &
+                //index_text(canonical%dominant_mode(motion)) &
                 //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
   end subroutine report_free_motion
 

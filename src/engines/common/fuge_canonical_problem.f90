@@ -10,7 +10,7 @@ module fuge_canonical_problem
   use fuge_pivoted_qr, only: orthonormalise, orthonormalise_in_order
   use fuge_problem_type, only: fuge_problem
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   implicit none
   private
 
@@ -149,7 +149,7 @@ contains
     where (spread(canonical%excluded, 2, m)) basis = 0.0_dp
     scales = maxval(abs(basis), dim=1)
     if (any(.not. scales > 0.0_dp)) then
-      call report(info, FUGE_ERR_MODES, 'mode '//text(canonical%free(minloc(scales, dim=1)))//' moves no point')
+      call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(minloc(scales, dim=1)))//' moves no point')
       return
     end if
     basis = basis/spread(scales, 1, size(basis, 1))
@@ -163,7 +163,7 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
       return
     else if (rank < m) then
-      call report(info, FUGE_ERR_MODES, 'mode '//text(canonical%free(order(rank + 1))) &
+      call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(order(rank + 1))) &
                   //' is a combination of the other modes: leave it out')
       return
     end if
@@ -399,7 +399,8 @@ contains
         call solve_small(canonical%basis_change, remainder, motion)
         worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
         call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
-                    //' in motion '//text(canonical%free(worst))//' together with the others: moving along it by ' &
+                    //' in motion '//index_text(canonical%free(worst)) &
+                    //' together with the others: moving along it by ' &
                     //text(motion(worst))//' closes no contact, but the resultants do work')
       end associate
     end if

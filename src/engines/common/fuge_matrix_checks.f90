@@ -2,7 +2,7 @@
 module fuge_matrix_checks
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW
   implicit none
   private
@@ -38,7 +38,7 @@ contains
         energy = (own(i) - alpha(i, j)) + (own(j) - alpha(i, j))
         if (energy >= -PAIR_TOLERANCE*(abs(own(i)) + abs(own(j)))) cycle
         call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite: opposite forces at points ' &
-                    //text(j)//' and '//text(i)//' store the negative energy '//text(0.5_dp*energy) &
+                    //index_text(j)//' and '//index_text(i)//' store the negative energy '//text(0.5_dp*energy) &
                     //' per force squared; look for a wrong sign')
         return
       end do

@@ -14,7 +14,7 @@ module fuge_contact_preconditioner
   use fuge_number_text, only: text
   use fuge_operator_products, only: precondition
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
 
@@ -285,7 +285,7 @@ contains
     call precondition(level%operator, level%residual, force, coarse)
     coarse_share = coarse_share + real(size(force), dp)/real(points, dp)
     if (coarse%failed()) call report(info, coarse%status, 'on the grid of '//text(size(force))//' cells: ' &
-                                     //coarse%message)
+                                     //composed_message(coarse))
     where (level%weight > 0.0_dp) force = force/level%weight
   end subroutine precondition_coarse
 

@@ -10,7 +10,7 @@ module fuge_nested_grids
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_projected_gradients, only: contact_iterate, start_iterate
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -52,7 +52,7 @@ contains
       preconditionings = preconditionings + share*real(coarse_info%preconditionings, dp)
       if (coarse_info%failed()) then
         call report(info, coarse_info%status, 'on the grid of '//text(coarse%points())//' points: ' &
-                    //coarse_info%message)
+                    //composed_message(coarse_info))
         exit
       end if
     end do

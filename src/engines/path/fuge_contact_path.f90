@@ -56,7 +56,7 @@ contains
       line%last = load
       if (.not. info%failed()) call follow(operator, problem, [1.0_dp], line, path, info)
     class default
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the load path needs the coefficients of a fuge_dense_operator')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the load path needs the coefficients of a dense operator')
     end select
   end subroutine fuge_load_path
 
@@ -91,7 +91,7 @@ contains
         call follow(operator, problem, finish - start, line, path, info)
       end associate
     class default
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the path needs the coefficients of a fuge_dense_operator')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the path needs the coefficients of a dense operator')
     end select
   end subroutine fuge_follow_path
 

@@ -12,7 +12,7 @@ module fuge_tableau_engine
   use fuge_kkt_factor, only: kkt_factor
   use fuge_matrix_checks, only: check_magnitudes
   use fuge_monitor_type, only: fuge_monitor
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_paper_tableau, only: run_phase_one
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT
@@ -72,8 +72,9 @@ contains
       call report(info, status, 'no memory to factor alpha')
     else if (deficient > 0) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces '//kind_of_forces(canonical) &
-                  //': point '//text(deficient)//' and others carry some that store no energy; look for a repeated ' &
-                  //'point or a wrong sign at point '//text(deficient))
+                  //': point '//index_text(deficient) &
+                  //' and others carry some that store no energy; look for a repeated point ' &
+                  //'or a wrong sign at point '//index_text(deficient))
     end if
   end subroutine check_solvable
 

@@ -1,6 +1,6 @@
-!> What the external procedures for FORTRAN 77 share: a general problem from plain arrays,
-!> and its solve.
-module fuge_legacy
+!> Shared by the external procedures for FORTRAN 77: a general problem from plain arrays, and
+!> its solution.
+module fuge_f77_problem
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_kinds, only: dp
@@ -12,9 +12,9 @@ module fuge_legacy
   implicit none
   private
 
-  public :: check_matrix, check_modes, pose_problem, hold_motions, solve_matrix
+  public :: check_matrix, check_modes, set_general_problem, prescribe_motions, solve_matrix
 
-  !> Stops at a point.
+  !> Values of NSTOP, the number of stops at a point.
   integer, parameter :: EXCLUDED = 0
   integer, parameter :: ONE_SIDED = 1
   integer, parameter :: TWO_SIDED = 2
@@ -28,13 +28,13 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (n < 1) then
-      call report(info, FUGE_ERR_SIZE, n_name//' = '//text(n)//': it has to be 1 at least')
+      call report(info, FUGE_ERR_SIZE, n_name//' = '//text(n)//': it has to be 1 or more')
     else if (lead < n) then
       call report(info, FUGE_ERR_SIZE, lead_name//' = '//text(lead)//' is less than '//n_name//' = '//text(n))
     end if
   end subroutine check_matrix
 
-  !> Refuse impossible numbers of motions: FUGE_ERR_SIZE, and FUGE_ERR_MODES for more than
+  !> Refuse impossible numbers of modes: FUGE_ERR_SIZE, and FUGE_ERR_MODES for more modes than
   !> points, which cannot be independent.
   pure subroutine check_modes(n, m, ldr, info)
     integer, intent(in) :: n, m, ldr
@@ -43,17 +43,17 @@ contains
     if (m < 0) then
       call report(info, FUGE_ERR_SIZE, 'M = '//text(m)//' is negative: it is the number of motions')
     else if (m > n) then
-      call report(info, FUGE_ERR_MODES, text(m)//' motions of '//text(n)//' point(s) depend on each other: leave ' &
-                  //text(m - n)//' out')
+      call report(info, FUGE_ERR_MODES, text(m)//' motions of '//text(n)//' point(s) are linearly dependent: ' &
+                  //'leave out '//text(m - n))
     else if (m > 0) then
       call check_matrix(n, 'N', ldr, 'LDR', info)
     end if
   end subroutine check_modes
 
-  !> A problem with all motions free: `gap` (n), `stops` (n) as above, `play` (n) read only
-  !> where there are two stops, `modes` (ldr, m), ldr >= n, `resultant` (m).
+  !> Set a problem with all motions free: `gap` (n), `stops` (n) as above, `play` (n), which is
+  !> read only where there are two stops, `modes` (ldr, m), ldr >= n, `resultant` (m).
   !> Errors: FUGE_ERR_OPTION for other stops, FUGE_ERR_MEMORY.
-  pure subroutine pose_problem(gap, stops, play, modes, resultant, problem, info)
+  pure subroutine set_general_problem(gap, stops, play, modes, resultant, problem, info)
     real(dp), intent(in) :: gap(:), play(:), modes(:, :), resultant(:)
     integer, intent(in) :: stops(:)
     type(fuge_problem), intent(inout) :: problem
@@ -79,10 +79,10 @@ contains
     if (.not. allocated(problem%gap_upper)) return
     problem%gap_upper = ieee_value(0.0_dp, ieee_positive_inf)
     where (stops == TWO_SIDED) problem%gap_upper = play
-  end subroutine pose_problem
+  end subroutine set_general_problem
 
-  !> Prescribe the motions `motion` (m) where `held` (m) is not zero. Error: FUGE_ERR_MEMORY.
-  pure subroutine hold_motions(held, motion, problem, info)
+  !> Prescribe `motion` (m) where `held` (m) is not zero. Error: FUGE_ERR_MEMORY.
+  pure subroutine prescribe_motions(held, motion, problem, info)
     integer, intent(in) :: held(:)
     real(dp), intent(in) :: motion(:)
     type(fuge_problem), intent(inout) :: problem
@@ -96,7 +96,7 @@ contains
       problem%prescribed = held /= 0
       problem%motion = motion
     end if
-  end subroutine hold_motions
+  end subroutine prescribe_motions
 
   !> Solve for the matrix `alpha`, (n, n) or (lda, n), which is not copied. Errors as `set` of
   !> `fuge_dense_operator` and `solve` of `fuge_solver`.
@@ -113,6 +113,7 @@ contains
     if (.not. info%failed()) call solver%solve(operator, problem, solution, info, options)
   end subroutine solve_matrix
 
+  !> Refuse any other number of stops (FUGE_ERR_OPTION).
   pure subroutine check_stops(stops, info)
     integer, intent(in) :: stops(:)
     type(fuge_info), intent(inout) :: info
@@ -120,10 +121,10 @@ contains
 
     do k = 1, size(stops)
       if (any(stops(k) == [EXCLUDED, ONE_SIDED, TWO_SIDED])) cycle
-      call report(info, FUGE_ERR_OPTION, 'NSTOP('//text(k)//') = '//text(stops(k))//': a point has 1 stop, or 2 ' &
-                  //'with play between them, or 0 if it takes no part')
+      call report(info, FUGE_ERR_OPTION, 'NSTOP('//text(k)//') = '//text(stops(k))//': a point has 1 stop, 2 ' &
+                  //'with play between them, or 0 if it is excluded')
       return
     end do
   end subroutine check_stops
 
-end module fuge_legacy
+end module fuge_f77_problem

@@ -1,12 +1,12 @@
-!> What the external procedures for FORTRAN 77 share: an elastic body from plain arrays, its
-!> condensation, and the recovery of its displacements from a new factorisation.
-module fuge_legacy_body
+!> Shared by the external procedures for FORTRAN 77: an elastic body from plain arrays, its
+!> condensation, and the recovery of its displacements by a new factorisation.
+module fuge_f77_body
   use fuge_body_type, only: fuge_body, check_body
   use fuge_input_checks, only: check_finite
   use fuge_condensation, only: fuge_condense, fuge_condensed, condense_to_recover
   use fuge_contact_normals, only: add_contact_forces, point_displacement
   use fuge_kinds, only: dp
-  use fuge_legacy, only: check_modes
+  use fuge_f77_problem, only: check_modes
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_NO_EQUILIBRIUM
@@ -17,14 +17,14 @@ module fuge_legacy_body
   implicit none
   private
 
-  public :: check_body_sizes, make_body, condense_dense, condense_band, recover_dense, recover_band, give_condensed
+  public :: check_body_sizes, set_body, condense_dense, condense_band, recover_dense, recover_band, copy_condensed
 
-  !> Forces that drive a rigid motion by less of their parts are in equilibrium.
+  !> Forces whose work in a rigid mode is below this fraction of its terms are in equilibrium.
   real(dp), parameter :: BALANCED = 1.0e-8_dp
 
 contains
 
-  !> Refuse impossible sizes: FUGE_ERR_SIZE, and FUGE_ERR_MODES for more motions than points.
+  !> Refuse impossible sizes: FUGE_ERR_SIZE, and FUGE_ERR_MODES for more rigid modes than points.
   pure subroutine check_body_sizes(nd, nfix, m, ldz, n, nw, info)
     integer, intent(in) :: nd, nfix, m, ldz, n, nw
     type(fuge_info), intent(inout) :: info
@@ -32,7 +32,7 @@ contains
     if (nd < 1) then
       call report(info, FUGE_ERR_SIZE, 'ND = '//text(nd)//': at least one degree of freedom is needed')
     else if (nfix < 0 .or. nfix > nd) then
-      call report(info, FUGE_ERR_SIZE, 'NFIX = '//text(nfix)//' of '//text(nd)//' degrees of freedom cannot be held')
+      call report(info, FUGE_ERR_SIZE, 'NFIX = '//text(nfix)//' of '//text(nd)//' degrees of freedom cannot be fixed')
     else if (n < 1 .or. nw < 1) then
       call report(info, FUGE_ERR_SIZE, 'N = '//text(n)//', NW = '//text(nw)//': at least one contact point with one ' &
                   //'degree of freedom is needed')
@@ -43,34 +43,34 @@ contains
     end if
   end subroutine check_body_sizes
 
-  !> The body with supports `fixed` that are moved by `given`, external load `load` (nd),
-  !> rigid motions `motions` (ldz, m), contact points `dof` and `normal` (nw, n).
+  !> Set a body: fixed degrees of freedom `fixed` with displacements `displacement`, external load
+  !> `load` (nd), rigid modes `rigid_modes` (ldz, m), contact points `dof` and `normal` (nw, n).
   !> Error: FUGE_ERR_MEMORY.
-  pure subroutine make_body(fixed, given, load, motions, dof, normal, body, info)
+  pure subroutine set_body(fixed, displacement, load, rigid_modes, dof, normal, body, info)
     integer, intent(in) :: fixed(:), dof(:, :)
-    real(dp), intent(in) :: given(:), load(:), motions(:, :), normal(:, :)
+    real(dp), intent(in) :: displacement(:), load(:), rigid_modes(:, :), normal(:, :)
     type(fuge_body), intent(inout) :: body
     type(fuge_info), intent(inout) :: info
     integer :: m, stat
 
-    m = size(motions, 2)
-    allocate (body%fixed(size(fixed)), body%displacement(size(given)), body%load(size(load)), &
+    m = size(rigid_modes, 2)
+    allocate (body%fixed(size(fixed)), body%displacement(size(displacement)), body%load(size(load)), &
               body%dof(size(dof, 1), size(dof, 2)), body%normal(size(dof, 1), size(dof, 2)), stat=stat)
     if (stat == 0 .and. m > 0) allocate (body%rigid_modes(size(load), m), stat=stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of supports, load, motions and contact points')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of supports, load, rigid modes and contact points')
       return
     end if
     body%fixed = fixed
-    body%displacement = given
+    body%displacement = displacement
     body%load = load
     body%dof = dof
     body%normal = normal
-    if (m > 0) body%rigid_modes = motions(:size(load), :)
-  end subroutine make_body
+    if (m > 0) body%rigid_modes = rigid_modes(:size(load), :)
+  end subroutine set_body
 
-  !> Condense a body with the stiffness matrix `matrix`, (lda, nd), which is not copied but
-  !> for its factor. Errors as `set` of `fuge_dense_stiffness` and `fuge_condense`.
+  !> Condense a body with the stiffness matrix `matrix` (lda, nd); the only copy of it is its
+  !> factor. Errors as `set` of `fuge_dense_stiffness` and `fuge_condense`.
   subroutine condense_dense(matrix, body, condensed, info)
     real(dp), intent(in), target :: matrix(:, :)
     type(fuge_body), intent(in) :: body
@@ -82,8 +82,8 @@ contains
     if (.not. info%failed()) call fuge_condense(stiffness, body, condensed, info)
   end subroutine condense_dense
 
-  !> The same for the triangle `uplo` in LAPACK's band storage, (ldab, nd), with `kd`
-  !> diagonals beside the main one.
+  !> The same for the triangle `uplo` in LAPACK's band storage (ldab, nd), with `kd` diagonals
+  !> beside the main one.
   subroutine condense_band(uplo, kd, band, body, condensed, info)
     character(len=1), intent(in) :: uplo
     integer, intent(in) :: kd
@@ -93,12 +93,12 @@ contains
     type(fuge_info), intent(out) :: info
     type(fuge_band_stiffness) :: stiffness
 
-    call take_band(uplo, kd, band, stiffness, info)
+    call set_band(uplo, kd, band, stiffness, info)
     if (.not. info%failed()) call fuge_condense(stiffness, body, condensed, info)
   end subroutine condense_band
 
-  !> Displacements `u` (nd) under the contact forces `force` (n) and motions `motion` (m), as
-  !> `recover` below.
+  !> Displacements `u` (nd) under the contact forces `force` (n) and motions `motion` (m). Errors
+  !> as `set` of `fuge_dense_stiffness` and `recover_displacements`.
   subroutine recover_dense(matrix, body, force, motion, u, info)
     real(dp), intent(in), target :: matrix(:, :)
     type(fuge_body), intent(in) :: body
@@ -108,9 +108,10 @@ contains
     type(fuge_dense_stiffness) :: stiffness
 
     call stiffness%set(matrix, info)
-    if (.not. info%failed()) call recover(stiffness, body, force, motion, u, info)
+    if (.not. info%failed()) call recover_displacements(stiffness, body, force, motion, u, info)
   end subroutine recover_dense
 
+  !> The same for a band, as in `condense_band`.
   subroutine recover_band(uplo, kd, band, body, force, motion, u, info)
     character(len=1), intent(in) :: uplo
     integer, intent(in) :: kd
@@ -121,14 +122,14 @@ contains
     type(fuge_info), intent(out) :: info
     type(fuge_band_stiffness) :: stiffness
 
-    call take_band(uplo, kd, band, stiffness, info)
-    if (.not. info%failed()) call recover(stiffness, body, force, motion, u, info)
+    call set_band(uplo, kd, band, stiffness, info)
+    if (.not. info%failed()) call recover_displacements(stiffness, body, force, motion, u, info)
   end subroutine recover_band
 
-  !> Copy what has been condensed to the caller's arrays: `alpha` (lda, n), `b` (n), `modes`
-  !> (ldr, m), `resultant` (m). Motions that the contact points do not feel are left out by
-  !> `fuge_condense`, but have to keep their places here: `held` (m) is 1 for them, else 0.
-  pure subroutine give_condensed(body, condensed, alpha, b, modes, resultant, held)
+  !> Copy a condensed body to the caller's arrays: `alpha` (lda, n), `b` (n), `modes` (ldr, m),
+  !> `resultant` (m). Modes that move no contact point are left out by `fuge_condense`, but have to
+  !> keep their places here: `held` (m) is 1 for them, else 0.
+  pure subroutine copy_condensed(body, condensed, alpha, b, modes, resultant, held)
     type(fuge_body), intent(in) :: body
     type(fuge_condensed), intent(in) :: condensed
     real(dp), intent(inout) :: alpha(:, :), b(:), modes(:, :), resultant(:)
@@ -146,7 +147,7 @@ contains
       resultant(j) = dot_product(body%rigid_modes(:, j), body%load)
       held(j) = 1
       if (kept == size(condensed%resultant)) cycle
-      ! Those kept are the same, in the same order.
+      ! `fuge_condense` keeps the modes unchanged and in the same order.
       associate (next => condensed%modes(:, kept + 1))
         if (maxval(abs(modes(:n, j) - next)) > sqrt(epsilon(1.0_dp))*maxval(abs(next))) cycle
       end associate
@@ -155,10 +156,11 @@ contains
       modes(:n, j) = condensed%modes(:, kept)
       resultant(j) = condensed%resultant(kept)
     end do
-  end subroutine give_condensed
+  end subroutine copy_condensed
 
-  !> Errors beside those of `set`: FUGE_ERR_OPTION for another triangle.
-  subroutine take_band(uplo, kd, band, stiffness, info)
+  !> Set the stiffness from a band. Errors as `set` of `fuge_band_stiffness`, and FUGE_ERR_OPTION
+  !> for another triangle.
+  subroutine set_band(uplo, kd, band, stiffness, info)
     character(len=1), intent(in) :: uplo
     integer, intent(in) :: kd
     real(dp), intent(in), target :: band(:, :)
@@ -170,59 +172,60 @@ contains
     else
       call stiffness%set(band, scan(uplo, 'Uu') > 0, info, kd)
     end if
-  end subroutine take_band
+  end subroutine set_band
 
-  !> The contact forces are known, so that alpha and its solves are left out.
-  subroutine recover(stiffness, body, force, motion, u, info)
+  !> Displacements by a condensation without alpha and its n solves: the contact forces are known.
+  !> Errors as `fuge_condense` and `check_equilibrium`.
+  subroutine recover_displacements(stiffness, body, force, motion, u, info)
     class(fuge_stiffness), intent(in) :: stiffness
     type(fuge_body), intent(in) :: body
     real(dp), intent(in) :: force(:), motion(:)
     real(dp), intent(inout) :: u(:)
     type(fuge_info), intent(out) :: info
     type(fuge_condensed) :: condensed
-    type(fuge_solution) :: pressed
+    type(fuge_solution) :: contact_only
 
     call check_body(body, size(u), info)
     if (.not. info%failed()) call check_equilibrium(body, force, motion, info)
     if (info%failed()) return
     call condense_to_recover(stiffness, body, condensed, info)
     if (info%failed()) return
-    pressed%force = force
-    ! All the motions here are given, those that the contact does not feel too: added below.
-    pressed%motion = 0.0_dp*motion
-    call condensed%recover(pressed, u, info)
+    contact_only%force = force
+    ! The motions are added below, including those that move no contact point.
+    contact_only%motion = 0.0_dp*motion
+    call condensed%recover(contact_only, u, info)
     if (.not. info%failed() .and. size(motion) > 0) u = u + matmul(body%rigid_modes, motion)
-  end subroutine recover
+  end subroutine recover_displacements
 
-  !> Refuse forces and motions that are not finite (FUGE_ERR_NOT_FINITE), and forces that the
-  !> load does not balance in a rigid motion (FUGE_ERR_NO_EQUILIBRIUM).
+  !> Refuse forces and motions that are not finite (FUGE_ERR_NOT_FINITE), and contact forces that
+  !> are not in equilibrium with the load in a rigid mode (FUGE_ERR_NO_EQUILIBRIUM).
   pure subroutine check_equilibrium(body, force, motion, info)
     type(fuge_body), intent(in) :: body
     real(dp), intent(in) :: force(:), motion(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: pressed(:)
-    real(dp) :: work, parts
+    real(dp), allocatable :: contact_load(:)
+    real(dp) :: work, magnitude
     integer :: j, stat
 
     call check_finite(force, 'F', info)
     if (.not. info%failed()) call check_finite(motion, 'Q', info)
     if (info%failed() .or. size(motion) < 1) return
-    allocate (pressed(size(body%load)), stat=stat)
+    allocate (contact_load(size(body%load)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to check the equilibrium')
       return
     end if
-    pressed = 0.0_dp
-    call add_contact_forces(body, force, pressed)
+    contact_load = 0.0_dp
+    call add_contact_forces(body, force, contact_load)
     do j = 1, size(motion)
-      work = dot_product(body%rigid_modes(:, j), body%load + pressed)
-      parts = dot_product(abs(body%rigid_modes(:, j)), abs(body%load) + abs(pressed))
-      if (abs(work) > BALANCED*parts) then
-        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load and contact forces drive rigid motion '//text(j)//': take ' &
-                    //'the forces of the problem with the resultants W, or fix a degree of freedom')
+      work = dot_product(body%rigid_modes(:, j), body%load + contact_load)
+      magnitude = dot_product(abs(body%rigid_modes(:, j)), abs(body%load) + abs(contact_load))
+      if (abs(work) > BALANCED*magnitude) then
+        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load and contact forces are not in equilibrium in rigid mode ' &
+                    //text(j)//': use the forces of the problem with the resultants W, or fix a degree of freedom')
         return
       end if
     end do
   end subroutine check_equilibrium
 
-end module fuge_legacy_body
+end module fuge_f77_body
