@@ -428,46 +428,44 @@ int fuge_get_mode_count(const fuge_solver *s, int *m);
 
 /* ---- load path ---------------------------------------------------------- */
 
-/* The exact course of the contact as the load grows from 0 to load, without load
- * steps: every load at which a point comes into contact or leaves it.  Points that change
- * at the same load have an entry each.
- *   op         in   a dense operator, n points
- *   gap        in   n; length             load  in  >= 0; force
- *   capacity   in   length of the five arrays, each of which may be NULL
- *   loads      out  load at the event, ascending; the first ones are 0
- *   approach   out  v_0 there; length
- *   stiffness  out  dF_0/dv_0 from there to the next event; force per length
- *   point      out  the point, counted from 1; negative: it leaves the contact
- *   contacts   out  points in contact from there on
- *   events     out  number of events, of which the first capacity are written
- * FUGE_ERR_UNSUPPORTED for another operator, FUGE_ERR_NO_EQUILIBRIUM for a load < 0. */
-int fuge_load_path(const fuge_operator *op, const double *gap, double load, int capacity,
-                   double *loads, double *approach, double *stiffness, int *point, int *contacts,
-                   int *events, char *message, size_t len);
-
 enum {                          /* state of a contact point */
   FUGE_AT_LOWER_STOP = 1,       /* gap 0, force >= 0; of either sign if tied */
   FUGE_OPEN = 0,                /* between the stops, no force */
   FUGE_AT_UPPER_STOP = -1       /* gap = play, force <= 0 */
 };
 
+/* The exact course of the contact as the load of one translation grows from 0 to load,
+ * without load steps: every load at which a point comes into contact or leaves it.
+ *   op         in   a dense operator, n points
+ *   gap        in   n; length             load  in  >= 0; force
+ *   capacity   in   entries that fit into the six arrays, each of which may be NULL
+ *   parameter  out  the load, ascending; the first entry is the start, 0, where all points
+ *                   are open, the others are the events; force
+ *   motion     out  v_0 there; length
+ *   rate       out  dv_0/dF_0 from there to the next entry, 1 over the contact stiffness
+ *   point      out  the point that changes; -1 for the start
+ *   state      out  its new state: FUGE_AT_LOWER_STOP or FUGE_OPEN
+ *   contacts   out  points in contact from there on
+ *   entries    out  number of entries, of which the first capacity are written
+ * Points that change together have an entry each; motion, rate and contacts are then
+ * those after all of them.  FUGE_ERR_UNSUPPORTED for another operator,
+ * FUGE_ERR_NO_EQUILIBRIUM for a load < 0. */
+int fuge_load_path(const fuge_operator *op, const double *gap, double load, int capacity,
+                   double *parameter, double *motion, double *rate, int *point, int *state,
+                   int *contacts, int *entries, char *message, size_t len);
+
 /* The same between two general problems: from that of the solver, in equilibrium, to one
  * with other resultants and prescribed motions, all of which change linearly with a
  * parameter from 0 to 1.  No fuge_solve is needed, and the results of one stay.
  *   finish     in   m; at the end, resultants of free motions and prescribed motions
- *   capacity   in   entries that fit into the six arrays, each of which may be NULL
- *   parameter  out  ascending; the first entry is the start, 0, the others are the events
- *                   before 1
+ *   parameter  out  ascending, 0 at the start; the events are those before 1
  *   motion     out  m for each entry: q there, entry k at motion + k*m; after the jump if
  *                   q jumps, as it may if no contact holds it
  *   rate       out  m for each entry: dq/d(parameter) from there to the next one
- *   point      out  the point that changes, counted from 1; 0 for the start
- *   state      out  its new state: FUGE_AT_LOWER_STOP, FUGE_OPEN or FUGE_AT_UPPER_STOP
+ *   state      out  any of the three states
  *   contacts   out  points at a stop from there on
- *   entries    out  number of entries, of which the first capacity are written
- * Points that change together have an entry each; motion, rate and contacts are then
- * those after all of them.  FUGE_ERR_NO_EQUILIBRIUM if equilibrium ends on the path: the
- * message has the parameter; choose an end before it.  FUGE_ERR_CALL_ORDER and
+ * The other arguments are as above.  FUGE_ERR_NO_EQUILIBRIUM if equilibrium ends on the
+ * path: the message has the parameter; choose an end before it.  FUGE_ERR_CALL_ORDER and
  * FUGE_ERR_UNSUPPORTED as for fuge_solve with a matrix. */
 int fuge_follow_path(const fuge_solver *s, const double *finish, int capacity, double *parameter,
                      double *motion, double *rate, int *point, int *state, int *contacts,

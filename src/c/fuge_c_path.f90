@@ -12,10 +12,10 @@ module fuge_c_path
 
 contains
 
-  !> Twelve arguments, as in the header: the scene, an array for each part of an event, the message.
-  function c_load_path(operator, gap, load, capacity, loads, approach, stiffness, point, contacts, events, &
+  !> Thirteen arguments, as in the header: the problem, an array for each part of an entry, the message.
+  function c_load_path(operator, gap, load, capacity, parameter, motion, rate, point, state, contacts, entries, &
                        message, length) bind(c, name='fuge_load_path') result(status)
-    type(c_ptr), intent(in), value :: operator, gap, loads, approach, stiffness, point, contacts, events, message
+    type(c_ptr), intent(in), value :: operator, gap, parameter, motion, rate, point, state, contacts, entries, message
     real(c_double), intent(in), value :: load
     integer(c_int), intent(in), value :: capacity
     integer(c_size_t), intent(in), value :: length
@@ -24,12 +24,11 @@ contains
     real(c_double), pointer :: initial(:)
     type(fuge_path) :: path
     type(fuge_info) :: info
-    integer :: last
 
     call require_pointer(operator, 'op', info)
     call require_pointer(gap, 'gap', info)
-    call require_pointer(events, 'events', info)
-    call require_count(capacity, 0, 'capacity', 'elements of each array', info)
+    call require_pointer(entries, 'entries', info)
+    call require_count(capacity, 0, 'capacity', 'entries that fit into the arrays', info)
     if (.not. info%failed()) then
       call c_f_pointer(operator, handle)
       call c_f_pointer(gap, initial, [handle%operator%points()])
@@ -37,14 +36,8 @@ contains
     end if
     status = report_to_c(info, message, length)
     if (info%failed()) return
-    ! The start, without load, is no event here.
-    last = 1 + min(path%entries - 1, int(capacity))
-    call copy_reals(path%parameter(2:last), loads)
-    call copy_reals(path%motion(1, 2:last), approach)
-    call copy_reals(1.0_c_double/path%rate(1, 2:last), stiffness)
-    call copy_integers(merge(path%point(2:last), -path%point(2:last), path%state(2:last) /= 0), point)
-    call copy_integers(path%contacts(2:last), contacts)
-    call copy_integers([path%entries - 1], events)
+    call copy_path(path, int(capacity), parameter, motion, rate, point, state, contacts)
+    call copy_integers([path%entries], entries)
   end function c_load_path
 
   !> Ten arguments, as in the header: the end of the path, and an array for each part of an entry.
@@ -57,7 +50,6 @@ contains
     real(c_double), pointer :: values(:)
     type(fuge_path) :: path
     type(fuge_info) :: info
-    integer :: count
 
     call find_solver(solver, handle, info)
     call require_pointer(finish, 'finish', info)
@@ -70,14 +62,24 @@ contains
     end if
     status = report_to_solver(info, handle)
     if (info%failed()) return
-    count = min(path%entries, int(capacity))
-    call copy_reals(path%parameter(:count), parameter)
-    call copy_reals([path%motion(:, :count)], motion)
-    call copy_reals([path%rate(:, :count)], rate)
-    call copy_integers(path%point(:count), point)
-    call copy_integers(path%state(:count), state)
-    call copy_integers(path%contacts(:count), contacts)
+    call copy_path(path, int(capacity), parameter, motion, rate, point, state, contacts)
     call copy_integers([path%entries], entries)
   end function c_follow_path
+
+  !> Copy the first entries of a path to the arrays that are not NULL; points count from 0.
+  subroutine copy_path(path, capacity, parameter, motion, rate, point, state, contacts)
+    type(fuge_path), intent(in) :: path
+    integer, intent(in) :: capacity
+    type(c_ptr), intent(in) :: parameter, motion, rate, point, state, contacts
+    integer :: last
+
+    last = min(path%entries, capacity)
+    call copy_reals(path%parameter(:last), parameter)
+    call copy_reals([path%motion(:, :last)], motion)
+    call copy_reals([path%rate(:, :last)], rate)
+    call copy_integers(path%point(:last) - 1, point)
+    call copy_integers(path%state(:last), state)
+    call copy_integers(path%contacts(:last), contacts)
+  end subroutine copy_path
 
 end module fuge_c_path

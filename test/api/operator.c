@@ -205,7 +205,7 @@ static void test_halfplane_unsupported(void) {
   for (int method = FUGE_TABLEAU; method <= FUGE_ACTIVE_SET; method++) {
     char message[256] = "";
     double force[CELLS], x[CELLS], gap[CELLS];
-    int events = -1;
+    int entries = -1;
     fuge_operator *op = NULL;
     fuge_solver *solver = halfplane_solver(FUGE_MEAN, FUGE_FREE, method, &op);
     CHECK_STATUS(fuge_solve(solver), FUGE_ERR_UNSUPPORTED);
@@ -215,9 +215,9 @@ static void test_halfplane_unsupported(void) {
     CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
     CHECK_UNTOUCHED(force, CELLS);
     make_gap(x, gap);
-    CHECK_STATUS(fuge_load_path(op, gap, LOAD, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0),
+    CHECK_STATUS(fuge_load_path(op, gap, LOAD, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
                  FUGE_ERR_UNSUPPORTED);
-    CHECK_INT(events, -1);
+    CHECK_INT(entries, -1);
     free_both(&solver, &op);
   }
 }

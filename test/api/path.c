@@ -6,60 +6,67 @@
 
 enum { MOST = 8 };
 
-/* Point 1 alone up to F = 10, then both: see test_parametric.pf. */
+/* Point 0 alone up to F = 10, then both: see test_contact_path.pf. */
 static void test_two_points(void) {
-  double load[MOST], approach[MOST], stiffness[MOST];
-  int point[MOST], contacts[MOST], events = -1;
+  double load[MOST], approach[MOST], rate[MOST];
+  int point[MOST], state[MOST], contacts[MOST], entries = -1;
   char message[256] = "old";
   fuge_operator *op = NULL;
   CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, MOST, load, approach, stiffness, point, contacts, &events,
+  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, MOST, load, approach, rate, point, state, contacts, &entries,
                               message, sizeof message), FUGE_DONE);
-  CHECK_INT(events, 2);
+  CHECK_INT(entries, 3);
   CHECK_STRING(message, "");
-  CHECK_INT(point[0], 1);
-  CHECK_INT(point[1], 2);
-  CHECK_INT(contacts[0], 1);
-  CHECK_INT(contacts[1], 2);
+  CHECK_INT(point[0], -1);
+  CHECK_INT(point[1], 0);
+  CHECK_INT(point[2], 1);
+  CHECK_INT(state[0], FUGE_OPEN);
+  CHECK_INT(state[1], FUGE_AT_LOWER_STOP);
+  CHECK_INT(state[2], FUGE_AT_LOWER_STOP);
+  CHECK_INT(contacts[1], 1);
+  CHECK_INT(contacts[2], 2);
   CHECK_NEAR(load[0], 0.0, 0.0);
-  CHECK_NEAR(load[1], 10.0, 1e-13);
-  CHECK_NEAR(approach[1], 2.0, 1e-13);
-  CHECK_NEAR(stiffness[0], 5.0, 1e-13);
-  CHECK_NEAR(stiffness[1], 20.0 / 3.0, 1e-13);
+  CHECK_NEAR(load[1], 0.0, 0.0);
+  CHECK_NEAR(load[2], 10.0, 1e-13);
+  CHECK_NEAR(approach[2], 2.0, 1e-13);
+  CHECK_NEAR(1.0 / rate[1], 5.0, 1e-13);
+  CHECK_NEAR(1.0 / rate[2], 20.0 / 3.0, 1e-13);
   fuge_operator_free(&op);
 }
 
-/* Only as much as there is room for, and only what is wanted. */
+/* Only as many entries as fit, and only the arrays that are wanted. */
 static void test_capacity(void) {
   double load[2] = {-1.0, -1.0};
-  int events = -1;
+  int entries = -1;
   fuge_operator *op = NULL;
   CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0), FUGE_DONE);
-  CHECK_INT(events, 2);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, 1, load, NULL, NULL, NULL, NULL, &events, NULL, 0), FUGE_DONE);
-  CHECK_INT(events, 2);
+  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+               FUGE_DONE);
+  CHECK_INT(entries, 3);
+  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, 1, load, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+               FUGE_DONE);
+  CHECK_INT(entries, 3);
   CHECK_NEAR(load[0], 0.0, 0.0);
   CHECK_NEAR(load[1], -1.0, 0.0);
   fuge_operator_free(&op);
 }
 
 static void test_refusals(void) {
-  int events = -1;
+  int entries = -1;
   char message[256] = "";
   fuge_operator *op = NULL;
   CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_load_path(NULL, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0),
+  CHECK_STATUS(fuge_load_path(NULL, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
                FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_load_path(op, NULL, 1.0, 0, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0),
+  CHECK_STATUS(fuge_load_path(op, NULL, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0),
                FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 1.0, -1, NULL, NULL, NULL, NULL, NULL, &events, NULL, 0),
+  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 1.0, -1, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
                FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, -3.0, 0, NULL, NULL, NULL, NULL, NULL, &events, message,
+  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, -3.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, message,
                               sizeof message), FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_CONTAINS(message, "-3.0");
-  CHECK_INT(events, -1);
+  CHECK_INT(entries, -1);
   fuge_operator_free(&op);
 }
 
@@ -92,7 +99,7 @@ static void test_derivative(void) {
   fuge_operator_free(&op);
 }
 
-/* Point 1 alone below F = 10, both above: one event on the way from 5 to 20. */
+/* Point 0 alone below F = 10, both above: one event on the way from 5 to 20. */
 static void test_follow_path(void) {
   const double finish[1] = {20.0}, back[1] = {-1.0};
   double parameter[MOST], motion[MOST], rate[MOST];
@@ -125,9 +132,9 @@ static void test_follow_path(void) {
   CHECK_STRING(message, "");
   CHECK_STATUS(fuge_follow_path(s, finish, MOST, parameter, motion, rate, point, state, contacts, &entries), FUGE_DONE);
   CHECK_INT(entries, 2);
-  CHECK_INT(point[0], 0);
-  CHECK_INT(point[1], 2);
-  CHECK_INT(state[1], 1);
+  CHECK_INT(point[0], -1);
+  CHECK_INT(point[1], 1);
+  CHECK_INT(state[1], FUGE_AT_LOWER_STOP);
   CHECK_INT(contacts[0], 1);
   CHECK_INT(contacts[1], 2);
   CHECK_NEAR(parameter[0], 0.0, 0.0);

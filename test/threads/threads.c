@@ -104,14 +104,14 @@ static void solve(record *r, const fuge_operator *op, int n, int method, int num
 static void follow(record *r, int number) {
   double gap[N], loads[2 * N], approach[2 * N], parameter[2 * N];
   double end = 3.0 * LOAD;
-  int events = 0, entries = 0;
+  int path_entries = 0, entries = 0;
   char message[256] = "";
   fuge_solver *s = NULL;
   make_gap(N, number, gap);
-  expect(r, fuge_load_path(shared.dense, gap, end, 2 * N, loads, approach, NULL, NULL, NULL, &events, message,
+  expect(r, fuge_load_path(shared.dense, gap, end, 2 * N, loads, approach, NULL, NULL, NULL, NULL, &path_entries, message,
                            sizeof message), FUGE_DONE);
-  put(r, loads, events);
-  put(r, approach, events);
+  put(r, loads, path_entries);
+  put(r, approach, path_entries);
   expect(r, fuge_solver_new(shared.dense, NULL, &s, NULL, 0), FUGE_DONE);
   expect(r, fuge_set_gap(s, gap, NULL), FUGE_DONE);
   expect(r, fuge_set_load(s, LOAD), FUGE_DONE);
