@@ -220,7 +220,8 @@ static fuge_solver *bed_solver(user *u, int kind, fuge_operator **op) {
   for (int k = 0; k < M; k++) diagonal[k] = bed[k + k * M];
   CHECK_STATUS(fuge_operator_callback(M, multiply_bed, u, op, NULL, 0), FUGE_DONE);
   if (kind == DIAGONAL) CHECK_STATUS(fuge_operator_set_diagonal(*op, diagonal, NULL, 0), FUGE_DONE);
-  if (kind == PRECONDITIONER) CHECK_STATUS(fuge_operator_set_preconditioner(*op, preconditioner_bed, NULL, 0), FUGE_DONE);
+  if (kind == PRECONDITIONER)
+    CHECK_STATUS(fuge_operator_set_preconditioner(*op, preconditioner_bed, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_solver_new(*op, NULL, &solver, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_set_gap(solver, bed_gap, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);

@@ -146,7 +146,8 @@ static void test_bad_for_solve(void) {
 static void test_error_in_place(void) {
   double force[2], gap[2] = {0.0, NAN}, approach = SENTINEL;
   fill(force, 2);
-  CHECK_STATUS(fuge_solve_dense(2, TABLE1_ALPHA, 2, gap, TABLE1_LOAD, force, gap, &approach, NULL, 0), FUGE_ERR_NOT_FINITE);
+  CHECK_STATUS(fuge_solve_dense(2, TABLE1_ALPHA, 2, gap, TABLE1_LOAD, force, gap, &approach, NULL, 0),
+               FUGE_ERR_NOT_FINITE);
   CHECK_NEAR(gap[0], 0.0, 0.0);
   CHECK(isnan(gap[1]));
 }

@@ -72,7 +72,8 @@ static void test_folding(void) {
     width[N - 1 - k] = width[N + k] = UNEQUAL[k];
   }
   CHECK_STATUS(fuge_halfplane_matrix(2 * N, x, width, E_STAR, FUGE_MEAN, whole, 2 * N, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfplane_symmetric_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, folded, N, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_symmetric_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, folded, N, NULL, 0),
+               FUGE_DONE);
   for (int i = 0; i < N; i++)
     for (int k = 0; k < N; k++) {
       double cell = whole[N + i + (N + k) * 2 * N], image = whole[N + i + (N - 1 - k) * 2 * N];
@@ -174,7 +175,8 @@ static void test_null_pointers(void) {
     double alpha[N * N];
     char message[256] = "";
     fill(alpha, N * N);
-    CHECK_STATUS(MATRIX[folded](N, NULL, EQUAL, E_STAR, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_POINTER);
+    CHECK_STATUS(MATRIX[folded](N, NULL, EQUAL, E_STAR, FUGE_MEAN, alpha, N, message, sizeof message),
+                 FUGE_ERR_POINTER);
     CHECK_STRING(message, "x is NULL");
     CHECK_STATUS(MATRIX[folded](N, X, NULL, E_STAR, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_POINTER);
     CHECK_STRING(message, "width is NULL");

@@ -141,7 +141,9 @@ static int load_path_of_springs(char *message, size_t len) {
 
 static int body_dense(char *message, size_t len) { return fuge_body_dense(2, TABLE1_ALPHA, 1, &body, message, len); }
 
-static int body_band(char *message, size_t len) { return fuge_body_band(2, 2, TABLE1_ALPHA, 2, 1, &body, message, len); }
+static int body_band(char *message, size_t len) {
+  return fuge_body_band(2, 2, TABLE1_ALPHA, 2, 1, &body, message, len);
+}
 
 static int rigid_modes(char *message, size_t len) { return fuge_rigid_modes(4, 2, X, reals, message, len); }
 

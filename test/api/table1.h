@@ -29,7 +29,8 @@ static inline void check_table1(const double *force, const double *gap, double a
 /* An operator and a solver of it; without them no test makes sense. */
 static inline fuge_solver *new_solver(const double *alpha, int n, const fuge_options *options, fuge_operator **op) {
   fuge_solver *solver = NULL;
-  if (fuge_operator_dense(n, alpha, n, op, NULL, 0) != FUGE_DONE || fuge_solver_new(*op, options, &solver, NULL, 0) != FUGE_DONE) {
+  if (fuge_operator_dense(n, alpha, n, op, NULL, 0) != FUGE_DONE ||
+      fuge_solver_new(*op, options, &solver, NULL, 0) != FUGE_DONE) {
     printf("no solver\n");
     exit(EXIT_FAILURE);
   }
