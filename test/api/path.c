@@ -132,13 +132,8 @@ static void test_follow_path(void) {
   CHECK_STRING(message, "");
   CHECK_STATUS(fuge_follow_path(s, finish, MOST, parameter, motion, rate, point, state, contacts, &entries), FUGE_DONE);
   CHECK_INT(entries, 2);
-<<<<<<< HEAD
   CHECK_INT(point[0], -1);
   CHECK_INT(point[1], 1);
-=======
-  CHECK_INT(point[0], 0);
-  CHECK_INT(point[1], 2);
->>>>>>> fea72093a27b5f5a2f248343d640007170008f9b
   CHECK_INT(state[1], FUGE_AT_LOWER_STOP);
   CHECK_INT(contacts[0], 1);
   CHECK_INT(contacts[1], 2);
