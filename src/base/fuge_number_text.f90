@@ -25,11 +25,27 @@ module fuge_number_text
 
 contains
 
+  !> Digit by digit: internal write statements of several threads take the same locks as files.
   pure function integer_field(value) result(field)
     integer, intent(in) :: value
     character(len=12) :: field
+    integer :: first, rest
 
-    write (field, '(i0)') value
+    field = ''
+    first = len(field)
+    ! The negative number always exists.
+    rest = merge(value, -value, value < 0)
+    do
+      field(first:first) = achar(iachar('0') - mod(rest, 10))
+      rest = rest/10
+      if (rest == 0) exit
+      first = first - 1
+    end do
+    if (value < 0) then
+      first = first - 1
+      field(first:first) = '-'
+    end if
+    field = field(first:)
   end function integer_field
 
   pure function text_integer(value) result(string)

@@ -200,11 +200,14 @@ contains
     character(len=*), intent(in) :: number
     integer, intent(in) :: first
     character(len=12) :: field
-    integer :: value, status
+    integer :: k, value
 
-    field = number
-    read (field, '(i12)', iostat=status) value
-    if (status == 0 .and. len(number) > 0) field = text(value + (first - 1))
+    value = 0
+    do k = 1, len(number)
+      if (number(k:k) /= '-') value = 10*value - (iachar(number(k:k)) - iachar('0'))
+    end do
+    if (scan(number, '-') < 1) value = -value
+    field = text(value + (first - 1))
   end function renumbered
 
   !> Append a part to the first `written` characters; what does not fit is cut.
