@@ -95,7 +95,9 @@ contains
 
     self%path = path
     if (len_trim(path) == 0) return
-    open (newunit=self%unit, file=path, status='replace', action='write', iostat=self%failure, iomsg=self%reason)
+    ! A stream, because flang's run-time library aborts on a full disk when it closes a formatted file.
+    open (newunit=self%unit, file=path, status='replace', action='write', access='stream', form='unformatted', &
+          iostat=self%failure, iomsg=self%reason)
     if (self%failure /= 0) call refuse(self, 'opened', info)
   end subroutine create
 
@@ -104,7 +106,11 @@ contains
     character(len=*), intent(in) :: line
 
     if (self%failure /= 0) return
-    write (self%unit, '(a)', iostat=self%failure, iomsg=self%reason) trim(adjustl(line))
+    if (self%unit == output_unit) then
+      write (self%unit, '(a)') trim(adjustl(line))
+    else
+      write (self%unit, iostat=self%failure, iomsg=self%reason) trim(adjustl(line))//new_line('a')
+    end if
     self%bytes = self%bytes + len_trim(adjustl(line)) + 1
   end subroutine put
 

@@ -1,5 +1,6 @@
 !> The dense engines on the paper's problem, called from a matrix, gaps and a load.
 module plain_runs
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use fuge_block_pivoting, only: run_block_pivoting
   use fuge_kkt_factor, only: kkt_factor
   use fuge_definiteness, only: check_definite
@@ -55,7 +56,8 @@ contains
 
     call set_problem(gap, load, problem, info)
     call make_canonical(problem, canonical, info)
-    matrix => alpha
+    ! Through an address: nothing writes to alpha.
+    call c_f_pointer(c_loc(alpha(1, 1)), matrix, shape(alpha))
     call canonical%set_matrix(matrix, datum)
   end subroutine make_plain
 
