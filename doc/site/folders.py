@@ -48,8 +48,7 @@ def read_table(path):
         if line.strip() and not line.startswith("#"):
             folder, _, used = line.partition(":")
             rows[folder.strip()] = used.split()
-    everything = [folder for folder in rows if folder not in PUBLIC]
-    return {folder: set(everything if used == ["all"] else used) for folder, used in rows.items()}
+    return {folder: set(used) for folder, used in rows.items()}
 
 
 def reachable(arrows, start):
