@@ -1,8 +1,8 @@
 !> C bindings, section "two bodies": their elasticity.
 module fuge_c_bodies
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
-  use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
   use fuge_c_types, only: report_to_c, require_pointer
+  use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
   use fuge_status, only: fuge_info
   implicit none
   private

@@ -5,8 +5,8 @@ module fuge_c_matrices
     require_pointer
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
 

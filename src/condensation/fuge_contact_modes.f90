@@ -4,9 +4,9 @@ module fuge_contact_modes
   use fuge_body_type, only: fuge_body
   use fuge_contact_normals, only: displacement_scale, point_displacement
   use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text
   use fuge_pivoted_qr, only: combine_independent, factorise_pivoted, numerical_rank
   use fuge_status, only: fuge_info, report, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_number_text, only: index_text
   implicit none
   private
 

@@ -5,10 +5,10 @@ module fuge_stiffness_dense
   use fuge_input_checks, only: find_asymmetry
   use fuge_kinds, only: dp
   use fuge_lapack, only: dpotrf, dpotrs
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY
   use fuge_stiffness_check, only: check_entries, check_pair, SYMMETRY_TOLERANCE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
-  use fuge_number_text, only: text
   implicit none
   private
 

@@ -2,18 +2,18 @@
 !> condensation, and the recovery of its displacements by a new factorisation.
 module fuge_f77_body
   use fuge_body_type, only: fuge_body, check_body
-  use fuge_input_checks, only: check_finite
   use fuge_condensation, only: fuge_condense, fuge_condensed, condense_to_recover
   use fuge_contact_normals, only: add_contact_forces, point_displacement
-  use fuge_kinds, only: dp
   use fuge_f77_problem, only: check_modes
+  use fuge_input_checks, only: check_finite
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_NO_EQUILIBRIUM
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
-  use fuge_number_text, only: text
   implicit none
   private
 

@@ -2,13 +2,13 @@
 !> its solution.
 module fuge_f77_problem
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
-  use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_kinds, only: dp
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_number_text, only: text
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_OPTION
-  use fuge_number_text, only: text
   implicit none
   private
 

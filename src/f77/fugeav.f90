@@ -1,8 +1,8 @@
 !> FUGEAV: the contact problem of one prescribed translation. Arguments in doc/legacy.md; `alpha`
 !> is not copied.
 subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
-  use fuge_kinds, only: dp
   use fuge_f77_problem, only: check_matrix, prescribe_motions, solve_matrix
+  use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
   use fuge_status, only: fuge_info

@@ -4,9 +4,9 @@ subroutine fugecb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
                   alpha, lda, b, r, ldr, w, nheld, msg, info)
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
-  use fuge_kinds, only: dp
-  use fuge_f77_problem, only: check_matrix, check_modes
   use fuge_f77_body, only: check_body_sizes, condense_band, copy_condensed, set_body
+  use fuge_f77_problem, only: check_matrix, check_modes
+  use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   implicit none
   character(len=1), intent(in) :: uplo

@@ -1,8 +1,8 @@
 !> FUGEGV: general problems with rigid motions, two stops and excluded points. Arguments in
 !> doc/legacy.md; `alpha` is not copied.
 subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
-  use fuge_kinds, only: dp
   use fuge_f77_problem, only: check_matrix, check_modes, set_general_problem, solve_matrix
+  use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info

@@ -3,8 +3,8 @@
 subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, method, tol, maxit, &
                   f, c, ncon, niter, resid, msg, info)
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-  use fuge_kinds, only: dp
   use fuge_f77_problem, only: check_matrix, check_modes, prescribe_motions, set_general_problem, solve_matrix
+  use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info

@@ -1,8 +1,8 @@
 !> FUGEHP: the influence matrix of cells on a half-plane. Arguments in doc/legacy.md.
 subroutine fugehp(n, x, width, estar, nelem, nsym, alpha, lda, info)
+  use fuge_f77_problem, only: check_matrix
   use fuge_halfplane_influence, only: fuge_halfplane_matrix
   use fuge_kinds, only: dp
-  use fuge_f77_problem, only: check_matrix
   use fuge_status, only: fuge_info
   implicit none
   integer, intent(in) :: n, nelem, nsym, lda

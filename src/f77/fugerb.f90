@@ -3,9 +3,9 @@
 subroutine fugerb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
                   f, q, u, resid, msg, info)
   use fuge_body_type, only: fuge_body
-  use fuge_kinds, only: dp
-  use fuge_f77_problem, only: check_matrix
   use fuge_f77_body, only: check_body_sizes, set_body, recover_band
+  use fuge_f77_problem, only: check_matrix
+  use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   implicit none
   character(len=1), intent(in) :: uplo

@@ -1,8 +1,8 @@
 !> FUGESV: the contact problem of one translation under a load. Arguments in doc/legacy.md;
 !> `alpha` is not copied.
 subroutine fugesv(n, alpha, lda, gap, f0, f, c, v0, info)
-  use fuge_kinds, only: dp
   use fuge_f77_problem, only: check_matrix
+  use fuge_kinds, only: dp
   use fuge_solver_type, only: fuge_solve_dense
   use fuge_status, only: fuge_info
   implicit none

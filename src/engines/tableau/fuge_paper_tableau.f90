@@ -13,14 +13,14 @@
 !> Lengths and forces are scaled by powers of two, which changes no digit and makes every comparison relative to the
 !> data.
 module fuge_paper_tableau
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_column_numbers, only: artificial_column, force_column, gap_column, rigid_column, is_artificial, is_force, &
+    partner_column, point_of
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_options_type, only: fuge_options
-  use fuge_column_numbers, only: artificial_column, force_column, gap_column, rigid_column, is_artificial, is_force, &
-    partner_column, point_of
   use fuge_pivot_rule, only: select_pivot, select_for_equilibrium
-  use fuge_canonical_problem, only: canonical_problem
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
   use fuge_variable_bounds, only: variable_bounds
   implicit none

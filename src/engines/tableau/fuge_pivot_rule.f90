@@ -10,8 +10,8 @@
 !>
 !> The tableau is scaled: its lengths and forces are of order 1, so that the tolerances here are relative to the data.
 module fuge_pivot_rule
-  use fuge_kinds, only: dp
   use fuge_column_numbers, only: partner_column, is_artificial, stored_columns
+  use fuge_kinds, only: dp
   use fuge_options_type, only: FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
   use fuge_variable_bounds, only: variable_bounds
   implicit none
