@@ -211,12 +211,12 @@ contains
       if (count(wrong) < fewest_wrong) stalls_left = PATIENCE
       fewest_wrong = min(fewest_wrong, count(wrong))
       if (stalls_left < 0) call keep_first(wrong)
-      where (wrong) here%state = here%weakly_active - here%state
+      where (wrong) here%state = merge(FUGE_OPEN, here%weakly_active, here%state /= FUGE_OPEN)
     end do
     status = FUGE_ERR_ITERATION_LIMIT
   end subroutine find_rates
 
-  !> The rates with the present states.
+  !> The rates with the present states, by a factor of the points at a stop. `status`: that of the factor.
   subroutine solve_for_rates(canonical, line, factor, here, status)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
