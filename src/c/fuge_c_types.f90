@@ -3,7 +3,6 @@ module fuge_c_types
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_funptr, c_null_char, c_null_ptr, c_ptr, c_size_t, &
     c_associated, c_f_pointer
   use fuge_c_monitor, only: c_monitor
-  use fuge_history_type, only: fuge_history
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options

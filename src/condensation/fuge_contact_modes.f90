@@ -129,7 +129,7 @@ contains
       j = maxloc(abs(unresisted(:, k))*scale, 1)
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point, ' &
                   //'and degree of freedom '//index_text(j) &
-                  //' most: no contact force can hold it; fix that degree of freedom, or balance the load')
+                  //' most: no contact force can resist it; fix that degree of freedom, or balance the load')
       return
     end do
   end subroutine check_unresisted

@@ -81,19 +81,19 @@ contains
     where (stops == TWO_SIDED) problem%gap_upper = play
   end subroutine set_general_problem
 
-  !> Prescribe `motion` (m) where `held` (m) is not zero. Error: FUGE_ERR_MEMORY.
-  pure subroutine prescribe_motions(held, motion, problem, info)
-    integer, intent(in) :: held(:)
+  !> Prescribe `motion` (m) where `marks` (m) is not zero. Error: FUGE_ERR_MEMORY.
+  pure subroutine prescribe_motions(marks, motion, problem, info)
+    integer, intent(in) :: marks(:)
     real(dp), intent(in) :: motion(:)
     type(fuge_problem), intent(inout) :: problem
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    allocate (problem%prescribed(size(held)), problem%motion(size(held)), stat=stat)
+    allocate (problem%prescribed(size(marks)), problem%motion(size(marks)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the prescribed motions')
     else
-      problem%prescribed = held /= 0
+      problem%prescribed = marks /= 0
       problem%motion = motion
     end if
   end subroutine prescribe_motions

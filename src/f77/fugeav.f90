@@ -13,14 +13,14 @@ subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
   integer, intent(out) :: info
   type(fuge_problem) :: problem
   type(fuge_solution) :: solution
-  type(fuge_info) :: found
+  type(fuge_info) :: outcome
 
-  call check_matrix(n, 'N', lda, 'LDA', found)
-  if (.not. found%failed()) call set_problem(gap, 0.0_dp, problem, found)
-  if (.not. found%failed()) call prescribe_motions([1], [v0], problem, found)
-  if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)
-  info = found%status
-  if (found%failed()) return
+  call check_matrix(n, 'N', lda, 'LDA', outcome)
+  if (.not. outcome%failed()) call set_problem(gap, 0.0_dp, problem, outcome)
+  if (.not. outcome%failed()) call prescribe_motions([1], [v0], problem, outcome)
+  if (.not. outcome%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, outcome)
+  info = outcome%status
+  if (outcome%failed()) return
   f = solution%force
   c = solution%gap
   f0 = sum(solution%force)

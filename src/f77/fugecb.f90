@@ -19,15 +19,15 @@ subroutine fugecb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
   integer, intent(out) :: info
   type(fuge_body) :: body
   type(fuge_condensed) :: condensed
-  type(fuge_info) :: found
+  type(fuge_info) :: outcome
 
-  call check_body_sizes(nd, nfix, m, ldz, n, nw, found)
-  if (.not. found%failed()) call check_matrix(kd + 1, 'KD + 1', ldab, 'LDAB', found)
-  if (.not. found%failed()) call check_matrix(n, 'N', lda, 'LDA', found)
-  if (.not. found%failed()) call check_modes(n, m, ldr, found)
-  if (.not. found%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, found)
-  if (.not. found%failed()) call condense_band(uplo, kd, ab, body, condensed, found)
-  info = found%status
-  msg = found%message
-  if (.not. found%failed()) call copy_condensed(body, condensed, alpha, b, r, w, nheld)
+  call check_body_sizes(nd, nfix, m, ldz, n, nw, outcome)
+  if (.not. outcome%failed()) call check_matrix(kd + 1, 'KD + 1', ldab, 'LDAB', outcome)
+  if (.not. outcome%failed()) call check_matrix(n, 'N', lda, 'LDA', outcome)
+  if (.not. outcome%failed()) call check_modes(n, m, ldr, outcome)
+  if (.not. outcome%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, outcome)
+  if (.not. outcome%failed()) call condense_band(uplo, kd, ab, body, condensed, outcome)
+  info = outcome%status
+  msg = outcome%message
+  if (.not. outcome%failed()) call copy_condensed(body, condensed, alpha, b, r, w, nheld)
 end subroutine fugecb

@@ -9,9 +9,9 @@ subroutine fugehp(n, x, width, estar, nelem, nsym, alpha, lda, info)
   real(dp), intent(in) :: x(n), width(n), estar
   real(dp), intent(inout) :: alpha(lda, n)
   integer, intent(out) :: info
-  type(fuge_info) :: found
+  type(fuge_info) :: outcome
 
-  call check_matrix(n, 'N', lda, 'LDA', found)
-  if (.not. found%failed()) call fuge_halfplane_matrix(x, width, estar, nelem, alpha, found, nsym /= 0)
-  info = found%status
+  call check_matrix(n, 'N', lda, 'LDA', outcome)
+  if (.not. outcome%failed()) call fuge_halfplane_matrix(x, width, estar, nelem, alpha, outcome, nsym /= 0)
+  info = outcome%status
 end subroutine fugehp

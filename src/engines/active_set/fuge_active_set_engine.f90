@@ -24,8 +24,8 @@ contains
 
   !> Solve by block principal pivoting.
   !>
-  !> `canonical` with its matrix; `solution` allocated, its state (n) a guess on entry, or all open to have one
-  !> made; on return solution and `factor` belong together. Errors in `info`.
+  !> `canonical` with its matrix; `solution` allocated, its state (n) a guess on entry, or all open if there is
+  !> none; on return solution and `factor` belong together. Errors in `info`.
   subroutine solve_by_active_set(canonical, options, monitor, factor, solution, info)
     type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
@@ -44,8 +44,7 @@ contains
     where (canonical%upper >= huge(1.0_dp)) solution%state = max(solution%state, FUGE_OPEN)
     if (all(solution%state == FUGE_OPEN)) call make_guess(canonical, solution%state, info%products)
     call solve_from_set(canonical, iteration_limit(options, size(solution%state) + 1), monitor, factor, solution, &
-                        sets, &
-                        info)
+                        sets, info)
     info%iterations = sets
   end subroutine solve_by_active_set
 
@@ -63,7 +62,8 @@ contains
     call guess_initial_set(canonical, state, products)
   end subroutine make_guess
 
-  !> From a contact set, found or guessed, to the solution and its status in words. `sets` counts those tried.
+  !> From a contact set, guessed or found by the tableau, to the solution and its status in words. `sets` counts the
+  !> sets tried.
   subroutine solve_from_set(canonical, limit, monitor, factor, solution, sets, info)
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: limit
@@ -100,7 +100,7 @@ contains
     if (size(motion) < 1) return
     call find_free_motion(canonical, solution, motion)
     if (.not. any(abs(motion) > 0.0_dp)) return
-    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not hold motion ' &
+    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not resist motion ' &
                 //index_text(canonical%dominant_mode(motion)) &
                 //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
   end subroutine report_free_motion

@@ -113,7 +113,8 @@ contains
     call set%measure(canonical, progress%refine_now, solution)
   end subroutine solve_working_set
 
-  !> What the primal active-set method has left is rounding; the certificate decides about the solution.
+  !> Are the violations that the primal active-set method has left no more than rounding? The certificate then decides
+  !> about the solution.
   pure function is_noise(set, progress, factor)
     type(working_set), intent(in) :: set
     type(pivoting_progress), intent(in) :: progress
@@ -123,7 +124,7 @@ contains
     is_noise = progress%stalls_left < 0 .and. maxval(set%violation) < NOISE*max(1.0_dp, NOISE_GROWTH*factor%pivot_ratio)
   end function is_noise
 
-  !> Fewer wrong points than ever renew the patience, unless it has run out.
+  !> Count an exchange; fewer wrong points than ever before renew the stalls left, unless there are none.
   pure subroutine count_progress(wrong, progress)
     integer, intent(in) :: wrong
     type(pivoting_progress), intent(inout) :: progress
