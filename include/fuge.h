@@ -169,7 +169,7 @@ int fuge_solve_dense(int n, const double *alpha, int lda, const double *gap, dou
 
 /* ---- two bodies --------------------------------------------------------- */
 
-enum {                          /* state of a plane problem */
+enum {                          /* plane_state, of a body */
   FUGE_PLANE_STRAIN = 0,        /* long bodies, no strain out of the plane */
   FUGE_PLANE_STRESS = 1         /* thin bodies, no stress out of the plane */
 };
@@ -180,8 +180,8 @@ enum {                          /* state of a plane problem */
  *   poisson  in   nu, above -1 and at most 0.5
  *   modulus  out  force per length^2
  * FUGE_ERR_MODULUS for E or nu out of range: with such a nu the shear or the bulk
- * modulus is not positive.  FUGE_ERR_OPTION for another state. */
-int fuge_plane_modulus(double young, double poisson, int state, double *modulus,
+ * modulus is not positive.  FUGE_ERR_OPTION for another plane_state. */
+int fuge_plane_modulus(double young, double poisson, int plane_state, double *modulus,
                        char *message, size_t len);
 
 /* Combined modulus of two bodies, 1/e_star = 1/e1 + 1/e2: the e_star of the half-plane.

@@ -9,10 +9,10 @@ module fuge_c_bodies
 
 contains
 
-  function c_plane_modulus(young, poisson, state, modulus, message, length) &
+  function c_plane_modulus(young, poisson, plane_state, modulus, message, length) &
     bind(c, name='fuge_plane_modulus') result(status)
     real(c_double), intent(in), value :: young, poisson
-    integer(c_int), intent(in), value :: state
+    integer(c_int), intent(in), value :: plane_state
     type(c_ptr), intent(in), value :: modulus, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
@@ -22,7 +22,7 @@ contains
     call require_pointer(modulus, 'modulus', info)
     if (.not. info%failed()) then
       call c_f_pointer(modulus, value)
-      call fuge_plane_modulus(young, poisson, int(state), value, info)
+      call fuge_plane_modulus(young, poisson, int(plane_state), value, info)
     end if
     status = report_to_c(info, message, length)
   end function c_plane_modulus

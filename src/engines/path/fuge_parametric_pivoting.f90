@@ -10,13 +10,13 @@ module fuge_parametric_pivoting
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_equilibrium, only: find_equilibrium
-  use fuge_free_modes, only: find_unresisted, without_unresisted
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: add_elastic_displacement, rigid_displacement, solve_set
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_path_type, only: append_entry, fuge_path, start_path
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_unresisted_motions, only: find_unresisted_basis, without_unresisted
   implicit none
   private
 
@@ -140,7 +140,7 @@ contains
     if (size(load_rate) < 1) return
     do turn = 1, ITERATIONS_PER_ROW*(size(loaded) + 1)
       loaded = here%state /= FUGE_OPEN .and. here%weakly_active == FUGE_OPEN
-      call find_unresisted(canonical%modes, loaded, here%unresisted)
+      call find_unresisted_basis(canonical%modes, loaded, here%unresisted)
       if (size(here%unresisted, 2) < 1) return
       call find_equilibrium(canonical%modes, load_rate, loaded .or. here%weakly_active > FUGE_OPEN, &
                             loaded .or. here%weakly_active < FUGE_OPEN, force, motion)
@@ -227,7 +227,7 @@ contains
     call factor%set(canonical, here%state /= FUGE_OPEN, status)
     if (status /= FUGE_DONE) return
     call solve_set(factor, canonical%datum, line%reduced_gap_rate, line%load_rate, here%force_rate, here%motion_rate)
-    call find_unresisted(canonical%modes, here%state /= FUGE_OPEN, here%unresisted)
+    call find_unresisted_basis(canonical%modes, here%state /= FUGE_OPEN, here%unresisted)
     if (is_balanced(line%load_rate, here%unresisted)) then
       here%motion_rate = without_unresisted(here%motion_rate, here%unresisted)
     end if
