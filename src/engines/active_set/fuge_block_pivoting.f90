@@ -19,8 +19,8 @@ module fuge_block_pivoting
 
   public :: run_block_pivoting
 
-  !> Block exchanges without progress before the primal active-set method takes over.
-  integer, parameter, public :: PATIENCE = 3
+  !> Block exchanges without a new minimum of wrong points before single exchanges begin.
+  integer, parameter, public :: MAX_STALLS = 3
   !> A large ratio of the pivots raises the violations that count as rounding.
   real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
   !> Ratio of the pivots above which signs are judged after refinement only.
@@ -34,7 +34,7 @@ module fuge_block_pivoting
     logical :: is_new_set = .true.
     !> Fewest wrong points of all sets, and the exchanges that may still go without fewer.
     integer :: fewest_wrong = huge(1)
-    integer :: stalls_left = PATIENCE
+    integer :: stalls_left = MAX_STALLS
   end type pivoting_progress
 
 contains
@@ -130,9 +130,9 @@ contains
     type(pivoting_progress), intent(inout) :: progress
 
     progress%stalls_left = progress%stalls_left - 1
-    if (wrong < progress%fewest_wrong .and. progress%stalls_left >= 0) progress%stalls_left = PATIENCE
+    if (wrong < progress%fewest_wrong .and. progress%stalls_left >= 0) progress%stalls_left = MAX_STALLS
     progress%fewest_wrong = min(progress%fewest_wrong, wrong)
-    progress%refine_now = progress%stalls_left < PATIENCE
+    progress%refine_now = progress%stalls_left < MAX_STALLS
   end subroutine count_progress
 
   !> A point in contact with a tensile force opens; an open one beyond a stop joins it.

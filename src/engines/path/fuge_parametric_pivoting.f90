@@ -5,7 +5,7 @@
 !> and how the next piece runs, follows from a small contact problem in the rates of the weakly active points. Where
 !> no such rates exist, the motions that nothing resists jump.
 module fuge_parametric_pivoting
-  use fuge_block_pivoting, only: PATIENCE
+  use fuge_block_pivoting, only: MAX_STALLS
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
@@ -199,7 +199,7 @@ contains
 
     where (here%weakly_active /= FUGE_OPEN) here%state = here%weakly_active
     fewest_wrong = huge(fewest_wrong)
-    stalls_left = PATIENCE
+    stalls_left = MAX_STALLS
     do trial = 1, ITERATIONS_PER_ROW*(count(here%weakly_active /= FUGE_OPEN) + 1)
       call solve_for_rates(canonical, line, factor, here, status)
       if (status /= FUGE_DONE) return
@@ -208,7 +208,7 @@ contains
                                                           here%state /= FUGE_OPEN)
       if (.not. any(wrong)) return
       stalls_left = stalls_left - 1
-      if (count(wrong) < fewest_wrong) stalls_left = PATIENCE
+      if (count(wrong) < fewest_wrong) stalls_left = MAX_STALLS
       fewest_wrong = min(fewest_wrong, count(wrong))
       if (stalls_left < 0) call keep_first(wrong)
       where (wrong) here%state = merge(FUGE_OPEN, here%weakly_active, here%state /= FUGE_OPEN)
