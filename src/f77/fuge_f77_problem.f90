@@ -12,7 +12,7 @@ module fuge_f77_problem
   implicit none
   private
 
-  public :: check_matrix, check_modes, set_general_problem, prescribe_motions, solve_matrix
+  public :: check_dimensions, check_modes, set_general_problem, prescribe_motions, solve_matrix
 
   !> Values of NSTOP, the number of stops at a point.
   integer, parameter :: EXCLUDED = 0
@@ -22,7 +22,7 @@ module fuge_f77_problem
 contains
 
   !> Refuse a count `n` below one, and a leading dimension `lead` below that (FUGE_ERR_SIZE).
-  pure subroutine check_matrix(n, n_name, lead, lead_name, info)
+  pure subroutine check_dimensions(n, n_name, lead, lead_name, info)
     integer, intent(in) :: n, lead
     character(len=*), intent(in) :: n_name, lead_name
     type(fuge_info), intent(inout) :: info
@@ -32,7 +32,7 @@ contains
     else if (lead < n) then
       call report(info, FUGE_ERR_SIZE, lead_name//' = '//text(lead)//' is less than '//n_name//' = '//text(n))
     end if
-  end subroutine check_matrix
+  end subroutine check_dimensions
 
   !> Refuse impossible numbers of modes: FUGE_ERR_SIZE, and FUGE_ERR_MODES for more modes than
   !> points, which cannot be independent.
@@ -46,7 +46,7 @@ contains
       call report(info, FUGE_ERR_MODES, text(m)//' motions of '//text(n)//' point(s) are linearly dependent: ' &
                   //'leave out '//text(m - n))
     else if (m > 0) then
-      call check_matrix(n, 'N', ldr, 'LDR', info)
+      call check_dimensions(n, 'N', ldr, 'LDR', info)
     end if
   end subroutine check_modes
 

@@ -1,7 +1,7 @@
 !> FUGEAV: the contact problem of one prescribed translation. Arguments in doc/legacy.md; `alpha`
 !> is not copied.
 subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
-  use fuge_f77_problem, only: check_matrix, prescribe_motions, solve_matrix
+  use fuge_f77_problem, only: check_dimensions, prescribe_motions, solve_matrix
   use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
@@ -15,7 +15,7 @@ subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
   type(fuge_solution) :: solution
   type(fuge_info) :: outcome
 
-  call check_matrix(n, 'N', lda, 'LDA', outcome)
+  call check_dimensions(n, 'N', lda, 'LDA', outcome)
   if (.not. outcome%failed()) call set_problem(gap, 0.0_dp, problem, outcome)
   if (.not. outcome%failed()) call prescribe_motions([1], [v0], problem, outcome)
   if (.not. outcome%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, outcome)

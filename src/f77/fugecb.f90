@@ -5,7 +5,7 @@ subroutine fugecb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
   use fuge_f77_body, only: check_body_sizes, condense_band, copy_condensed, set_body
-  use fuge_f77_problem, only: check_matrix, check_modes
+  use fuge_f77_problem, only: check_dimensions, check_modes
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   implicit none
@@ -22,8 +22,8 @@ subroutine fugecb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
   type(fuge_info) :: outcome
 
   call check_body_sizes(nd, nfix, m, ldz, n, nw, outcome)
-  if (.not. outcome%failed()) call check_matrix(kd + 1, 'KD + 1', ldab, 'LDAB', outcome)
-  if (.not. outcome%failed()) call check_matrix(n, 'N', lda, 'LDA', outcome)
+  if (.not. outcome%failed()) call check_dimensions(kd + 1, 'KD + 1', ldab, 'LDAB', outcome)
+  if (.not. outcome%failed()) call check_dimensions(n, 'N', lda, 'LDA', outcome)
   if (.not. outcome%failed()) call check_modes(n, m, ldr, outcome)
   if (.not. outcome%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, outcome)
   if (.not. outcome%failed()) call condense_band(uplo, kd, ab, body, condensed, outcome)

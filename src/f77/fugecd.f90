@@ -5,7 +5,7 @@ subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
   use fuge_f77_body, only: check_body_sizes, condense_dense, copy_condensed, set_body
-  use fuge_f77_problem, only: check_matrix, check_modes
+  use fuge_f77_problem, only: check_dimensions, check_modes
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   implicit none
@@ -21,8 +21,8 @@ subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
   type(fuge_info) :: outcome
 
   call check_body_sizes(nd, nfix, m, ldz, n, nw, outcome)
-  if (.not. outcome%failed()) call check_matrix(nd, 'ND', lds, 'LDS', outcome)
-  if (.not. outcome%failed()) call check_matrix(n, 'N', lda, 'LDA', outcome)
+  if (.not. outcome%failed()) call check_dimensions(nd, 'ND', lds, 'LDS', outcome)
+  if (.not. outcome%failed()) call check_dimensions(n, 'N', lda, 'LDA', outcome)
   if (.not. outcome%failed()) call check_modes(n, m, ldr, outcome)
   if (.not. outcome%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, outcome)
   if (.not. outcome%failed()) call condense_dense(s, body, condensed, outcome)

@@ -3,7 +3,7 @@
 subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, method, tol, maxit, &
                   f, c, ncon, niter, resid, msg, info)
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-  use fuge_f77_problem, only: check_matrix, check_modes, prescribe_motions, set_general_problem, solve_matrix
+  use fuge_f77_problem, only: check_dimensions, check_modes, prescribe_motions, set_general_problem, solve_matrix
   use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
@@ -28,7 +28,7 @@ subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, metho
   else if (tol > 0.0_dp) then
     options%tolerance = tol
   end if
-  call check_matrix(n, 'N', lda, 'LDA', outcome)
+  call check_dimensions(n, 'N', lda, 'LDA', outcome)
   if (.not. outcome%failed()) call check_modes(n, m, ldr, outcome)
   if (.not. outcome%failed()) call set_general_problem(gap, nstop, play, r, w, problem, outcome)
   if (.not. outcome%failed()) call prescribe_motions(nheld, q, problem, outcome)

@@ -1,6 +1,6 @@
 !> FUGEHP: the influence matrix of cells on a half-plane. Arguments in doc/legacy.md.
 subroutine fugehp(n, x, width, estar, nelem, nsym, alpha, lda, info)
-  use fuge_f77_problem, only: check_matrix
+  use fuge_f77_problem, only: check_dimensions
   use fuge_halfplane_influence, only: fuge_halfplane_matrix
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
@@ -11,7 +11,7 @@ subroutine fugehp(n, x, width, estar, nelem, nsym, alpha, lda, info)
   integer, intent(out) :: info
   type(fuge_info) :: outcome
 
-  call check_matrix(n, 'N', lda, 'LDA', outcome)
+  call check_dimensions(n, 'N', lda, 'LDA', outcome)
   if (.not. outcome%failed()) call fuge_halfplane_matrix(x, width, estar, nelem, alpha, outcome, nsym /= 0)
   info = outcome%status
 end subroutine fugehp

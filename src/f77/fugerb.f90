@@ -4,7 +4,7 @@ subroutine fugerb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
                   f, q, u, resid, msg, info)
   use fuge_body_type, only: fuge_body
   use fuge_f77_body, only: check_body_sizes, set_body, recover_band
-  use fuge_f77_problem, only: check_matrix
+  use fuge_f77_problem, only: check_dimensions
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   implicit none
@@ -19,7 +19,7 @@ subroutine fugerb(uplo, nd, kd, ab, ldab, nfix, ifix, ufix, p, m, z, ldz, n, nw,
   type(fuge_info) :: outcome
 
   call check_body_sizes(nd, nfix, m, ldz, n, nw, outcome)
-  if (.not. outcome%failed()) call check_matrix(kd + 1, 'KD + 1', ldab, 'LDAB', outcome)
+  if (.not. outcome%failed()) call check_dimensions(kd + 1, 'KD + 1', ldab, 'LDAB', outcome)
   if (.not. outcome%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, outcome)
   if (.not. outcome%failed()) call recover_band(uplo, kd, ab, body, f, q, u, outcome)
   info = outcome%status

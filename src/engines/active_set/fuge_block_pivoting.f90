@@ -86,7 +86,7 @@ contains
         progress%is_new_set = .true.
       end if
     end do
-    call finish(canonical, set, factor, solution)
+    call remove_rounding(canonical, set, factor, solution)
   end subroutine run_block_pivoting
 
   !> Factor the set, solve its equations, refine where that is called for, and measure the violations.
@@ -147,7 +147,7 @@ contains
   end subroutine exchange_violating
 
   !> Take rounding out of forces, gaps and motion of the accepted set.
-  subroutine finish(canonical, set, factor, solution)
+  subroutine remove_rounding(canonical, set, factor, solution)
     type(canonical_problem), intent(in) :: canonical
     type(working_set), intent(in) :: set
     type(kkt_factor), intent(in) :: factor
@@ -167,6 +167,6 @@ contains
       gap = merge(merge(0.0_dp, upper, state > FUGE_OPEN), gap, state /= FUGE_OPEN)
       if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + datum*canonical%load(1)
     end associate
-  end subroutine finish
+  end subroutine remove_rounding
 
 end module fuge_block_pivoting
