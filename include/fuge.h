@@ -27,7 +27,7 @@
  *
  * and points may be excluded: no force, any gap.  The paper's problem is R = 1, q = v_0,
  * w = F_0.  alpha has to be positive definite on the forces with R^T f = 0 in the free
- * motions.  The forces are then unique.  A free motion that no contact holds (w = 0, or a
+ * motions.  The forces are then unique.  A free motion that no contact resists (w = 0, or a
  * body about to tip) is not: the solution has one of the possible values, with
  * FUGE_WARN_NOT_UNIQUE.  General problems need a dense operator, for the active set or the
  * tableau; the iteration takes the paper's problem and a prescribed translation.
@@ -169,7 +169,7 @@ int fuge_solve_dense(int n, const double *alpha, int lda, const double *gap, dou
 
 /* ---- two bodies --------------------------------------------------------- */
 
-enum {                          /* state of a plane problem */
+enum {                          /* plane_state, of a body */
   FUGE_PLANE_STRAIN = 0,        /* long bodies, no strain out of the plane */
   FUGE_PLANE_STRESS = 1         /* thin bodies, no stress out of the plane */
 };
@@ -180,8 +180,8 @@ enum {                          /* state of a plane problem */
  *   poisson  in   nu, above -1 and at most 0.5
  *   modulus  out  force per length^2
  * FUGE_ERR_MODULUS for E or nu out of range: with such a nu the shear or the bulk
- * modulus is not positive.  FUGE_ERR_OPTION for another state. */
-int fuge_plane_modulus(double young, double poisson, int state, double *modulus,
+ * modulus is not positive.  FUGE_ERR_OPTION for another plane_state. */
+int fuge_plane_modulus(double young, double poisson, int plane_state, double *modulus,
                        char *message, size_t len);
 
 /* Combined modulus of two bodies, 1/e_star = 1/e1 + 1/e2: the e_star of the half-plane.
@@ -243,8 +243,8 @@ enum {                          /* element: what a force and a displacement stan
 int fuge_halfplane_matrix(int n, const double *x, const double *width, double e_star,
                           int element, double *alpha, int lda, char *message, size_t len);
 
-/* The same for a scene symmetric about x = 0, of which only the cells with x >= 0 are
- * given: a force is the sum over a cell and its mirror image, the load is the whole load. */
+/* The same for a model symmetric about x = 0, of which only the cells with x >= 0 are
+ * passed: a force is the sum over a cell and its mirror image, the load is the whole load. */
 int fuge_halfplane_symmetric_matrix(int n, const double *x, const double *width, double e_star,
                                     int element, double *alpha, int lda,
                                     char *message, size_t len);
@@ -266,10 +266,10 @@ enum {                          /* kind of an edge; all but the first are edges 
  *   element     in   as for the matrix.  With FUGE_MEAN the gap has to be the mean over
  *                    a cell too; if it is the gap at the centre, use FUGE_HAT, whose
  *                    forces are the same
- *   symmetric   in   1: the scene of fuge_halfplane_symmetric_matrix, with x[0] = 0 or
+ *   symmetric   in   1: the model of fuge_halfplane_symmetric_matrix, with x[0] = 0 or
  *                    width/2 if it starts on the axis.  An interval that touches the axis
  *                    comes out whole, left = -right, any other one at x > 0 only.
- *                    0: the scene of fuge_halfplane_matrix
+ *                    0: the model of fuge_halfplane_matrix
  *   capacity    in   length of the four arrays, each of which may be NULL
  *   left, right out  the edges, from left to right; length
  *   left_kind, right_kind  out  FUGE_EDGE_...
@@ -460,7 +460,7 @@ int fuge_load_path(const fuge_operator *op, const double *gap, double load, int 
  *   finish     in   m; at the end, resultants of free motions and prescribed motions
  *   parameter  out  ascending, 0 at the start; the events are those before 1
  *   motion     out  m for each entry: q there, entry k at motion + k*m; after the jump if
- *                   q jumps, as it may if no contact holds it
+ *                   q jumps, as it may if no contact resists it
  *   rate       out  m for each entry: dq/d(parameter) from there to the next one
  *   state      out  any of the three states
  *   contacts   out  points at a stop from there on

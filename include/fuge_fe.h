@@ -77,7 +77,7 @@ int fuge_body_set_contact(fuge_body *body, int n, int width, const int *dof, con
 /* Condense: one Cholesky factorisation and n + 4 solves.  FUGE_ERR_SIZE, FUGE_ERR_DOF,
  * FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_NOT_DEFINITE (the message names the
  * degree of freedom), FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM (a load that no contact can
- * hold), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_WARN_RESIDUAL if K is so close to singular
+ * resist), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_WARN_RESIDUAL if K is so close to singular
  * that few digits of alpha may be correct.  The getters below give FUGE_ERR_CALL_ORDER
  * before it, and after a call that changes the body. */
 int fuge_body_condense(fuge_body *body);
@@ -89,7 +89,7 @@ int fuge_body_get_influence(const fuge_body *body, double *alpha, int lda);
  * gaps. */
 int fuge_body_get_displacement(const fuge_body *body, double *displacement);
 
-/* Number m of rigid modes that the contact has to hold, 0 if the body does not float.
+/* Number m of rigid modes that the contact has to resist, 0 if the body does not float.
  * Those that move no contact point are left out. */
 int fuge_body_get_mode_count(const fuge_body *body, int *m);
 

@@ -5,10 +5,10 @@ module fuge_sparse
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_compressed_columns, only: compress_columns, compressed_columns, matrix_triplets
   use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY
   use fuge_stiffness_check, only: check_entry, check_pair
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
-  use fuge_number_text, only: index_text, text
   implicit none
   private
 

@@ -6,7 +6,7 @@ module fuge_kinds
 
   !> Kind of all real data of the interface: C's double.
   integer, parameter, public :: fuge_dp = real64
-  !> The same kind, by its name inside the library.
+  !> fuge_dp, by its name inside the library.
   integer, parameter, public :: dp = fuge_dp
 
   integer, parameter :: wider = selected_real_kind(p=18)

@@ -1,8 +1,8 @@
 !> Status codes, their texts, and the report that every call fills.
 !>
-!> 0 is done, positive is done with a warning, negative is an error that
-!> leaves all outputs untouched. This is the one table of codes and texts: include/fuge.h,
-!> doc/errors.md and the man page repeat them, and a test compares them.
+!> 0 is done, positive is done with a warning, negative is an error that leaves all outputs
+!> untouched. This is the one table of codes and texts: include/fuge.h, doc/errors.md and the man
+!> page repeat them, and a test compares them.
 !>
 !> Messages name points, rows, degrees of freedom and modes by their index, which counts from 1
 !> in Fortran and from 0 in C. Both languages share the procedures that compose messages, most of
@@ -106,7 +106,7 @@ module fuge_status
   !> Length of a message; longer ones are cut.
   integer, parameter, public :: FUGE_MESSAGE_LENGTH = 256
 
-  !> The same with the marks of 32 indices.
+  !> Length of a message with the marks of up to 32 indices.
   integer, parameter :: COMPOSED_LENGTH = FUGE_MESSAGE_LENGTH + 32
 
   !> The report of a call.

@@ -1,18 +1,18 @@
 !> C bindings, section "two bodies": their elasticity.
 module fuge_c_bodies
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
-  use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
   use fuge_c_types, only: report_to_c, require_pointer
+  use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
   use fuge_status, only: fuge_info
   implicit none
   private
 
 contains
 
-  function c_plane_modulus(young, poisson, state, modulus, message, length) &
+  function c_plane_modulus(young, poisson, plane_state, modulus, message, length) &
     bind(c, name='fuge_plane_modulus') result(status)
     real(c_double), intent(in), value :: young, poisson
-    integer(c_int), intent(in), value :: state
+    integer(c_int), intent(in), value :: plane_state
     type(c_ptr), intent(in), value :: modulus, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
@@ -22,7 +22,7 @@ contains
     call require_pointer(modulus, 'modulus', info)
     if (.not. info%failed()) then
       call c_f_pointer(modulus, value)
-      call fuge_plane_modulus(young, poisson, int(state), value, info)
+      call fuge_plane_modulus(young, poisson, int(plane_state), value, info)
     end if
     status = report_to_c(info, message, length)
   end function c_plane_modulus

@@ -447,7 +447,7 @@ contains
     if (.not. info%failed()) call c_f_pointer(body, handle)
   end subroutine find_body
 
-  !> The same for a body that has been condensed; FUGE_ERR_CALL_ORDER for another.
+  !> The condensed body behind a handle; FUGE_ERR_CALL_ORDER for one that is not condensed.
   subroutine find_condensed(body, handle, info)
     type(c_ptr), intent(in) :: body
     type(body_handle), pointer, intent(out) :: handle
@@ -459,7 +459,7 @@ contains
                                        //'were set: call fuge_body_condense first')
   end subroutine find_condensed
 
-  !> Leave the message in the body; the status to return.
+  !> Leave the message in the body. The result is the status to return.
   function report_to_body(info, handle) result(status)
     type(fuge_info), intent(in) :: info
     type(body_handle), pointer, intent(in) :: handle
@@ -469,7 +469,7 @@ contains
     status = int(info%status, c_int)
   end function report_to_body
 
-  !> The same after data were set, which what has been condensed no longer belongs to.
+  !> `report_to_body` after a call that sets data: if it succeeds, the body has to be condensed anew.
   function report_data(info, handle) result(status)
     type(fuge_info), intent(in) :: info
     type(body_handle), pointer, intent(in) :: handle
@@ -479,7 +479,7 @@ contains
     if (.not. info%failed()) handle%done = .false.
   end function report_data
 
-  !> The same for a getter: one that succeeds leaves the message as it is, which may be a warning.
+  !> `report_to_body` for a getter: one that succeeds leaves the message as it is, which may be a warning.
   function report_getter(info, handle) result(status)
     type(fuge_info), intent(in) :: info
     type(body_handle), pointer, intent(in) :: handle

@@ -9,7 +9,7 @@ module fuge_c_edges
 
 contains
 
-  !> Thirteen arguments, as in the header: the scene, an array for each part of an interval, the message.
+  !> Fourteen arguments, as in the header: cells and forces, an array for each part of an interval, the message.
   function c_contact_edges(n, x, width, force, element, symmetric, capacity, left, right, left_kind, right_kind, &
                            number, message, length) bind(c, name='fuge_contact_edges') result(status)
     integer(c_int), intent(in), value :: n, element, symmetric, capacity

@@ -10,6 +10,7 @@ module fuge_c_halfplane
 
 contains
 
+  !> Nine arguments, as in the header: the cells, the matrix, the message.
   function c_halfplane_matrix(n, x, width, e_star, element, alpha, lda, message, length) &
     bind(c, name='fuge_halfplane_matrix') result(status)
     integer(c_int), intent(in), value :: n, element, lda
@@ -23,6 +24,7 @@ contains
     status = report_to_c(info, message, length)
   end function c_halfplane_matrix
 
+  !> Nine arguments, as in the header: the cells, the matrix, the message.
   function c_halfplane_symmetric_matrix(n, x, width, e_star, element, alpha, lda, message, length) &
     bind(c, name='fuge_halfplane_symmetric_matrix') result(status)
     integer(c_int), intent(in), value :: n, element, lda
@@ -36,7 +38,7 @@ contains
     status = report_to_c(info, message, length)
   end function c_halfplane_symmetric_matrix
 
-  !> Both of the above; their arguments, the model and the report.
+  !> The influence matrix of a whole or a `symmetric` model. Nine arguments: those of the two functions that call it.
   subroutine fill_matrix(n, x, width, e_star, element, symmetric, alpha, lda, info)
     integer(c_int), intent(in) :: n, element, lda
     type(c_ptr), intent(in) :: x, width, alpha

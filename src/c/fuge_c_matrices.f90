@@ -5,8 +5,8 @@ module fuge_c_matrices
     require_pointer
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -40,6 +40,7 @@ contains
     call copy_integers([size(whole, 2)], columns)
   end function c_read_matrix
 
+  !> Eleven arguments, as in the header: the file, three arrays with their sizes, the message.
   function c_read_sparse(path, column_capacity, entry_capacity, column, row, value, rows, columns, entries, message, &
     length) bind(c, name='fuge_read_sparse') result(status)
     type(c_ptr), intent(in), value :: path, column, row, value, rows, columns, entries, message
@@ -91,6 +92,7 @@ contains
     status = report_to_c(info, message, length)
   end function c_write_matrix
 
+  !> Nine arguments, as in the header: the file, the matrix, the message.
   function c_write_sparse(path, rows, columns, column, row, value, symmetric, message, length) &
     bind(c, name='fuge_write_sparse') result(status)
     type(c_ptr), intent(in), value :: path, column, row, value, message

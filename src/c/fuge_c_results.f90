@@ -19,7 +19,7 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = find_answer(solver, force, 'force', handle)
+    status = find_solution(solver, force, 'force', handle)
     if (status == FUGE_DONE) call copy_reals(handle%solution%force, force)
   end function c_get_force
 
@@ -28,7 +28,7 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = find_answer(solver, gap, 'gap', handle)
+    status = find_solution(solver, gap, 'gap', handle)
     if (status == FUGE_DONE) call copy_reals(handle%solution%gap, gap)
   end function c_get_gap
 
@@ -37,7 +37,7 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = find_answer(solver, motion, 'motion', handle)
+    status = find_solution(solver, motion, 'motion', handle)
     if (status == FUGE_DONE) call copy_reals(handle%solution%motion, motion)
   end function c_get_motion
 
@@ -48,7 +48,7 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = find_answer(solver, resultant, 'resultant', handle)
+    status = find_solution(solver, resultant, 'resultant', handle)
     if (status /= FUGE_DONE) return
     associate (problem => handle%problem, force => handle%solution%force)
       if (allocated(problem%modes)) then
@@ -59,8 +59,7 @@ contains
     end associate
   end function c_get_resultant
 
-  !> First-order changes of the last solution with one load, see `derivative` of
-  !> `fuge_solver`.
+  !> First-order changes of the last solution with the gaps and one load, see `derivative` of `fuge_solver`.
   function c_get_derivative(solver, gap_change, load_change, force, gap, motion) &
     bind(c, name='fuge_get_derivative') result(status)
     type(c_ptr), intent(in), value :: solver, gap_change, force, gap, motion
@@ -68,11 +67,11 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
 
-    status = find_answer(solver, force, 'force', handle)
+    status = find_solution(solver, force, 'force', handle)
     if (status == FUGE_DONE) status = differentiate(handle, gap_change, [load_change], force, gap, motion)
   end function c_get_derivative
 
-  !> The same with all loads; NULL for none that changes.
+  !> First-order changes of the last solution with the gaps and all loads; either is NULL if none of it changes.
   function c_get_derivatives(solver, gap_change, load_change, force, gap, motion) &
     bind(c, name='fuge_get_derivatives') result(status)
     type(c_ptr), intent(in), value :: solver, gap_change, load_change, force, gap, motion
@@ -81,7 +80,7 @@ contains
     real(c_double), pointer :: loads(:)
     integer :: k
 
-    status = find_answer(solver, force, 'force', handle)
+    status = find_solution(solver, force, 'force', handle)
     if (status /= FUGE_DONE) return
     associate (m => handle%problem%mode_count())
       if (c_associated(load_change)) then
@@ -214,8 +213,9 @@ contains
     status = int(info%status, c_int)
   end function c_solver_message
 
-  !> The solver with an answer to copy to `destination`; otherwise the message says why not.
-  function find_answer(solver, destination, name, handle) result(status)
+  !> The solver with a solution to copy to `destination`. Otherwise its message says why there is none
+  !> (FUGE_ERR_CALL_ORDER, FUGE_ERR_POINTER).
+  function find_solution(solver, destination, name, handle) result(status)
     type(c_ptr), intent(in) :: solver, destination
     character(len=*), intent(in) :: name
     type(solver_handle), pointer, intent(out) :: handle
@@ -225,11 +225,11 @@ contains
     call find_solver(solver, handle, info)
     call require_pointer(destination, name, info)
     if (.not. info%failed()) then
-      if (.not. handle%solved) call report(info, FUGE_ERR_CALL_ORDER, 'there is no answer for the present problem: ' &
+      if (.not. handle%solved) call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution of the present problem: ' &
                                            //'call fuge_solve and look at its status')
     end if
     status = FUGE_DONE
     if (info%failed()) status = report_to_solver(info, handle)
-  end function find_answer
+  end function find_solution
 
 end module fuge_c_results

@@ -47,7 +47,7 @@ module fuge_c_smooth
 
 contains
 
-  !> Ten arguments, as in the header: the profile, the data of the scene, the result, the message.
+  !> Ten arguments, as in the header: the profile, the other data of the problem, the result, the message.
   function c_solve_smooth_punch(profile, user, lower, upper, e_star, force, moment, destination, message, length) &
     bind(c, name='fuge_solve_smooth_punch') result(status)
     type(c_funptr), intent(in), value :: profile
@@ -138,37 +138,37 @@ contains
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(smooth_handle), pointer :: handle
-    type(c_report), pointer :: answer
+    type(c_report), pointer :: summary
     type(fuge_info) :: info
 
     call find_contact(source, handle, info)
     call require_pointer(destination, 'report', info)
     if (.not. info%failed()) then
-      call c_f_pointer(destination, answer)
-      answer = report_of(handle)
+      call c_f_pointer(destination, summary)
+      summary = report_of(handle)
     end if
     status = report_to_c(info, message, length)
   end function c_get_report
 
-  pure function report_of(handle) result(answer)
+  pure function report_of(handle) result(summary)
     type(smooth_handle), intent(in) :: handle
-    type(c_report) :: answer
+    type(c_report) :: summary
 
-    answer%iterations = int(handle%info%iterations, c_int)
-    answer%coefficients = 0_c_int
-    if (allocated(handle%contact%coefficients)) answer%coefficients = int(size(handle%contact%coefficients), c_int)
-    answer%left = handle%contact%ends(1)
-    answer%right = handle%contact%ends(2)
-    answer%half_width = handle%contact%half_width
-    answer%force = handle%contact%force
-    answer%moment = handle%contact%moment
-    answer%approach = handle%contact%approach
-    answer%tilt = handle%contact%tilt
-    answer%residual = handle%info%residual
-    answer%end_error = handle%contact%end_error
-    answer%pressure_error = handle%contact%pressure_error
-    answer%reserved_int = 0_c_int
-    answer%reserved = 0.0_c_double
+    summary%iterations = int(handle%info%iterations, c_int)
+    summary%coefficients = 0_c_int
+    if (allocated(handle%contact%coefficients)) summary%coefficients = int(size(handle%contact%coefficients), c_int)
+    summary%left = handle%contact%ends(1)
+    summary%right = handle%contact%ends(2)
+    summary%half_width = handle%contact%half_width
+    summary%force = handle%contact%force
+    summary%moment = handle%contact%moment
+    summary%approach = handle%contact%approach
+    summary%tilt = handle%contact%tilt
+    summary%residual = handle%info%residual
+    summary%end_error = handle%contact%end_error
+    summary%pressure_error = handle%contact%pressure_error
+    summary%reserved_int = 0_c_int
+    summary%reserved = 0.0_c_double
   end function report_of
 
   function c_get_pressure(source, number, x, pressure, message, length) &

@@ -110,7 +110,7 @@ contains
     end if
   end subroutine require_problem
 
-  !> Forget answers and history; operator, options and problem stay.
+  !> Forget solutions and history; operator, options and problem stay.
   function c_reset(solver) bind(c, name='fuge_reset') result(status)
     type(c_ptr), intent(in), value :: solver
     integer(c_int) :: status
@@ -137,7 +137,7 @@ contains
     if (.not. info%failed()) call c_f_pointer(solver, handle)
   end subroutine find_solver
 
-  !> Leave the message in the solver; the status to return.
+  !> Leave the message in the solver. The result is the status to return.
   function report_to_solver(info, handle) result(status)
     type(fuge_info), intent(in) :: info
     type(solver_handle), pointer, intent(in) :: handle

@@ -3,12 +3,11 @@ module fuge_c_types
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_funptr, c_null_char, c_null_ptr, c_ptr, c_size_t, &
     c_associated, c_f_pointer
   use fuge_c_monitor, only: c_monitor
-  use fuge_history_type, only: fuge_history
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
-  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, message_counting_from, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE, &
     FUGE_MESSAGE_LENGTH
   implicit none

@@ -4,9 +4,9 @@ module fuge_body_type
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_OVERFLOW
-  use fuge_number_text, only: index_text, text
   implicit none
   private
 

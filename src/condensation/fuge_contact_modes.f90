@@ -4,9 +4,9 @@ module fuge_contact_modes
   use fuge_body_type, only: fuge_body
   use fuge_contact_normals, only: displacement_scale, point_displacement
   use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text
   use fuge_pivoted_qr, only: combine_independent, factorise_pivoted, numerical_rank
   use fuge_status, only: fuge_info, report, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_number_text, only: index_text
   implicit none
   private
 
@@ -129,7 +129,7 @@ contains
       j = maxloc(abs(unresisted(:, k))*scale, 1)
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the load drives a rigid motion that moves no contact point, ' &
                   //'and degree of freedom '//index_text(j) &
-                  //' most: no contact force can hold it; fix that degree of freedom, or balance the load')
+                  //' most: no contact force can resist it; fix that degree of freedom, or balance the load')
       return
     end do
   end subroutine check_unresisted

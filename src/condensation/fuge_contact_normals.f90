@@ -2,8 +2,8 @@
 module fuge_contact_normals
   use fuge_body_type, only: fuge_body
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF
   use fuge_number_text, only: index_text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF
   implicit none
   private
 

@@ -7,11 +7,11 @@ module fuge_rigid_body_modes
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_lapack, only: dsyev
+  use fuge_number_text, only: index_text, text
   use fuge_pivoted_qr, only: factorise_pivoted, numerical_rank, orthonormalise
   use fuge_smallest_eigenvalue, only: unscale
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NOT_DEFINITE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
-  use fuge_number_text, only: index_text, text
   implicit none
   private
 

@@ -4,10 +4,10 @@ module fuge_stiffness_band
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
   use fuge_kinds, only: dp
   use fuge_lapack, only: dpbtrf, dpbtrs
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY
   use fuge_stiffness_check, only: check_entries
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
-  use fuge_number_text, only: text
   implicit none
   private
 

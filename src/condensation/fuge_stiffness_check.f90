@@ -4,8 +4,8 @@ module fuge_stiffness_check
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
   use fuge_number_text, only: index_text, text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
   implicit none
   private
 

@@ -5,10 +5,10 @@ module fuge_stiffness_dense
   use fuge_input_checks, only: find_asymmetry
   use fuge_kinds, only: dp
   use fuge_lapack, only: dpotrf, dpotrs
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY
   use fuge_stiffness_check, only: check_entries, check_pair, SYMMETRY_TOLERANCE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
-  use fuge_number_text, only: text
   implicit none
   private
 
@@ -51,7 +51,7 @@ contains
       call report(info, FUGE_ERR_POINTER, 'the stiffness matrix is a section with gaps between its columns: pass ' &
                   //'the whole array; rows beyond the degrees of freedom are ignored')
     else
-      call check_matrix(matrix, info)
+      call check_stiffness(matrix, info)
     end if
     if (info%failed()) return
     ! Through an address, because only `set` knows that the matrix is contiguous.
@@ -155,7 +155,7 @@ contains
   end subroutine solve
 
   !> Refuse entries that are not finite or near overflow, and a matrix that is not symmetric.
-  pure subroutine check_matrix(matrix, info)
+  pure subroutine check_stiffness(matrix, info)
     real(dp), intent(in), contiguous :: matrix(:, :)
     type(fuge_info), intent(inout) :: info
     real(dp) :: weight(size(matrix, 2))
@@ -169,6 +169,6 @@ contains
     end do
     call find_asymmetry(matrix, weight, SYMMETRY_TOLERANCE, i, j)
     if (i > 0) call check_pair(j, i, matrix(j, i), matrix(i, j), matrix(j, j), matrix(i, i), info)
-  end subroutine check_matrix
+  end subroutine check_stiffness
 
 end module fuge_stiffness_dense

@@ -2,18 +2,18 @@
 !> condensation, and the recovery of its displacements by a new factorisation.
 module fuge_f77_body
   use fuge_body_type, only: fuge_body, check_body
-  use fuge_input_checks, only: check_finite
   use fuge_condensation, only: fuge_condense, fuge_condensed, condense_to_recover
   use fuge_contact_normals, only: add_contact_forces, point_displacement
-  use fuge_kinds, only: dp
   use fuge_f77_problem, only: check_modes
+  use fuge_input_checks, only: check_finite
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_NO_EQUILIBRIUM
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
-  use fuge_number_text, only: text
   implicit none
   private
 
@@ -82,8 +82,8 @@ contains
     if (.not. info%failed()) call fuge_condense(stiffness, body, condensed, info)
   end subroutine condense_dense
 
-  !> The same for the triangle `uplo` in LAPACK's band storage (ldab, nd), with `kd` diagonals
-  !> beside the main one.
+  !> Condense a body with the triangle `uplo` of its stiffness matrix in LAPACK's band storage, `band` (ldab, nd), with
+  !> `kd` diagonals beside the main one. Errors as `set_band` and `fuge_condense`.
   subroutine condense_band(uplo, kd, band, body, condensed, info)
     character(len=1), intent(in) :: uplo
     integer, intent(in) :: kd
@@ -111,7 +111,7 @@ contains
     if (.not. info%failed()) call recover_displacements(stiffness, body, force, motion, u, info)
   end subroutine recover_dense
 
-  !> The same for a band, as in `condense_band`.
+  !> As `recover_dense`, for a stiffness matrix in band storage as in `condense_band`.
   subroutine recover_band(uplo, kd, band, body, force, motion, u, info)
     character(len=1), intent(in) :: uplo
     integer, intent(in) :: kd
@@ -128,30 +128,30 @@ contains
 
   !> Copy a condensed body to the caller's arrays: `alpha` (lda, n), `b` (n), `modes` (ldr, m),
   !> `resultant` (m). Modes that move no contact point are left out by `fuge_condense`, but have to
-  !> keep their places here: `held` (m) is 1 for them, else 0.
-  pure subroutine copy_condensed(body, condensed, alpha, b, modes, resultant, held)
+  !> keep their places here, with the motion prescribed: `marks` (m) is 1 for them, else 0.
+  pure subroutine copy_condensed(body, condensed, alpha, b, modes, resultant, marks)
     type(fuge_body), intent(in) :: body
     type(fuge_condensed), intent(in) :: condensed
     real(dp), intent(inout) :: alpha(:, :), b(:), modes(:, :), resultant(:)
-    integer, intent(inout) :: held(:)
+    integer, intent(inout) :: marks(:)
     integer :: i, j, kept, n
 
     n = size(b)
     alpha(:n, :) = condensed%alpha
     b = condensed%displacement
     kept = 0
-    do j = 1, size(held)
+    do j = 1, size(marks)
       do i = 1, n
         modes(i, j) = -point_displacement(body%dof(:, i), body%normal(:, i), body%rigid_modes(:, j))
       end do
       resultant(j) = dot_product(body%rigid_modes(:, j), body%load)
-      held(j) = 1
+      marks(j) = 1
       if (kept == size(condensed%resultant)) cycle
       ! `fuge_condense` keeps the modes unchanged and in the same order.
       associate (next => condensed%modes(:, kept + 1))
         if (maxval(abs(modes(:n, j) - next)) > sqrt(epsilon(1.0_dp))*maxval(abs(next))) cycle
       end associate
-      held(j) = 0
+      marks(j) = 0
       kept = kept + 1
       modes(:n, j) = condensed%modes(:, kept)
       resultant(j) = condensed%resultant(kept)

@@ -2,17 +2,17 @@
 !> its solution.
 module fuge_f77_problem
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
-  use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_kinds, only: dp
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_number_text, only: text
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_OPTION
-  use fuge_number_text, only: text
   implicit none
   private
 
-  public :: check_matrix, check_modes, set_general_problem, prescribe_motions, solve_matrix
+  public :: check_dimensions, check_modes, set_general_problem, prescribe_motions, solve_matrix
 
   !> Values of NSTOP, the number of stops at a point.
   integer, parameter :: EXCLUDED = 0
@@ -22,7 +22,7 @@ module fuge_f77_problem
 contains
 
   !> Refuse a count `n` below one, and a leading dimension `lead` below that (FUGE_ERR_SIZE).
-  pure subroutine check_matrix(n, n_name, lead, lead_name, info)
+  pure subroutine check_dimensions(n, n_name, lead, lead_name, info)
     integer, intent(in) :: n, lead
     character(len=*), intent(in) :: n_name, lead_name
     type(fuge_info), intent(inout) :: info
@@ -32,7 +32,7 @@ contains
     else if (lead < n) then
       call report(info, FUGE_ERR_SIZE, lead_name//' = '//text(lead)//' is less than '//n_name//' = '//text(n))
     end if
-  end subroutine check_matrix
+  end subroutine check_dimensions
 
   !> Refuse impossible numbers of modes: FUGE_ERR_SIZE, and FUGE_ERR_MODES for more modes than
   !> points, which cannot be independent.
@@ -46,7 +46,7 @@ contains
       call report(info, FUGE_ERR_MODES, text(m)//' motions of '//text(n)//' point(s) are linearly dependent: ' &
                   //'leave out '//text(m - n))
     else if (m > 0) then
-      call check_matrix(n, 'N', ldr, 'LDR', info)
+      call check_dimensions(n, 'N', ldr, 'LDR', info)
     end if
   end subroutine check_modes
 
@@ -81,19 +81,19 @@ contains
     where (stops == TWO_SIDED) problem%gap_upper = play
   end subroutine set_general_problem
 
-  !> Prescribe `motion` (m) where `held` (m) is not zero. Error: FUGE_ERR_MEMORY.
-  pure subroutine prescribe_motions(held, motion, problem, info)
-    integer, intent(in) :: held(:)
+  !> Prescribe `motion` (m) where `marks` (m) is not zero. Error: FUGE_ERR_MEMORY.
+  pure subroutine prescribe_motions(marks, motion, problem, info)
+    integer, intent(in) :: marks(:)
     real(dp), intent(in) :: motion(:)
     type(fuge_problem), intent(inout) :: problem
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    allocate (problem%prescribed(size(held)), problem%motion(size(held)), stat=stat)
+    allocate (problem%prescribed(size(marks)), problem%motion(size(marks)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the prescribed motions')
     else
-      problem%prescribed = held /= 0
+      problem%prescribed = marks /= 0
       problem%motion = motion
     end if
   end subroutine prescribe_motions

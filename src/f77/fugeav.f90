@@ -1,8 +1,8 @@
 !> FUGEAV: the contact problem of one prescribed translation. Arguments in doc/legacy.md; `alpha`
 !> is not copied.
 subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
+  use fuge_f77_problem, only: check_dimensions, prescribe_motions, solve_matrix
   use fuge_kinds, only: dp
-  use fuge_f77_problem, only: check_matrix, prescribe_motions, solve_matrix
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
   use fuge_status, only: fuge_info
@@ -13,14 +13,14 @@ subroutine fugeav(n, alpha, lda, gap, v0, f, c, f0, info)
   integer, intent(out) :: info
   type(fuge_problem) :: problem
   type(fuge_solution) :: solution
-  type(fuge_info) :: found
+  type(fuge_info) :: outcome
 
-  call check_matrix(n, 'N', lda, 'LDA', found)
-  if (.not. found%failed()) call set_problem(gap, 0.0_dp, problem, found)
-  if (.not. found%failed()) call prescribe_motions([1], [v0], problem, found)
-  if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)
-  info = found%status
-  if (found%failed()) return
+  call check_dimensions(n, 'N', lda, 'LDA', outcome)
+  if (.not. outcome%failed()) call set_problem(gap, 0.0_dp, problem, outcome)
+  if (.not. outcome%failed()) call prescribe_motions([1], [v0], problem, outcome)
+  if (.not. outcome%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, outcome)
+  info = outcome%status
+  if (outcome%failed()) return
   f = solution%force
   c = solution%gap
   f0 = sum(solution%force)

@@ -4,9 +4,9 @@ subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
                   alpha, lda, b, r, ldr, w, nheld, msg, info)
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
-  use fuge_kinds, only: dp
-  use fuge_f77_problem, only: check_matrix, check_modes
   use fuge_f77_body, only: check_body_sizes, condense_dense, copy_condensed, set_body
+  use fuge_f77_problem, only: check_dimensions, check_modes
+  use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   implicit none
   integer, intent(in) :: nd, lds, nfix, m, ldz, n, nw, lda, ldr
@@ -18,15 +18,15 @@ subroutine fugecd(nd, s, lds, nfix, ifix, ufix, p, m, z, ldz, n, nw, idof, dn, &
   integer, intent(out) :: info
   type(fuge_body) :: body
   type(fuge_condensed) :: condensed
-  type(fuge_info) :: found
+  type(fuge_info) :: outcome
 
-  call check_body_sizes(nd, nfix, m, ldz, n, nw, found)
-  if (.not. found%failed()) call check_matrix(nd, 'ND', lds, 'LDS', found)
-  if (.not. found%failed()) call check_matrix(n, 'N', lda, 'LDA', found)
-  if (.not. found%failed()) call check_modes(n, m, ldr, found)
-  if (.not. found%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, found)
-  if (.not. found%failed()) call condense_dense(s, body, condensed, found)
-  info = found%status
-  msg = found%message
-  if (.not. found%failed()) call copy_condensed(body, condensed, alpha, b, r, w, nheld)
+  call check_body_sizes(nd, nfix, m, ldz, n, nw, outcome)
+  if (.not. outcome%failed()) call check_dimensions(nd, 'ND', lds, 'LDS', outcome)
+  if (.not. outcome%failed()) call check_dimensions(n, 'N', lda, 'LDA', outcome)
+  if (.not. outcome%failed()) call check_modes(n, m, ldr, outcome)
+  if (.not. outcome%failed()) call set_body(ifix, ufix, p, z, idof, dn, body, outcome)
+  if (.not. outcome%failed()) call condense_dense(s, body, condensed, outcome)
+  info = outcome%status
+  msg = outcome%message
+  if (.not. outcome%failed()) call copy_condensed(body, condensed, alpha, b, r, w, nheld)
 end subroutine fugecd

@@ -1,8 +1,8 @@
 !> FUGEGV: general problems with rigid motions, two stops and excluded points. Arguments in
 !> doc/legacy.md; `alpha` is not copied.
 subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
+  use fuge_f77_problem, only: check_dimensions, check_modes, set_general_problem, solve_matrix
   use fuge_kinds, only: dp
-  use fuge_f77_problem, only: check_matrix, check_modes, set_general_problem, solve_matrix
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info
@@ -13,14 +13,14 @@ subroutine fugegv(n, m, alpha, lda, gap, nstop, play, r, ldr, w, f, c, q, info)
   integer, intent(out) :: info
   type(fuge_problem) :: problem
   type(fuge_solution) :: solution
-  type(fuge_info) :: found
+  type(fuge_info) :: outcome
 
-  call check_matrix(n, 'N', lda, 'LDA', found)
-  if (.not. found%failed()) call check_modes(n, m, ldr, found)
-  if (.not. found%failed()) call set_general_problem(gap, nstop, play, r, w, problem, found)
-  if (.not. found%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, found)
-  info = found%status
-  if (found%failed()) return
+  call check_dimensions(n, 'N', lda, 'LDA', outcome)
+  if (.not. outcome%failed()) call check_modes(n, m, ldr, outcome)
+  if (.not. outcome%failed()) call set_general_problem(gap, nstop, play, r, w, problem, outcome)
+  if (.not. outcome%failed()) call solve_matrix(alpha, problem, fuge_options(), solution, outcome)
+  info = outcome%status
+  if (outcome%failed()) return
   f = solution%force
   c = solution%gap
   q = solution%motion

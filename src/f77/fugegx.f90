@@ -3,8 +3,8 @@
 subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, method, tol, maxit, &
                   f, c, ncon, niter, resid, msg, info)
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+  use fuge_f77_problem, only: check_dimensions, check_modes, prescribe_motions, set_general_problem, solve_matrix
   use fuge_kinds, only: dp
-  use fuge_f77_problem, only: check_matrix, check_modes, prescribe_motions, set_general_problem, solve_matrix
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info
@@ -18,7 +18,7 @@ subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, metho
   type(fuge_options) :: options
   type(fuge_problem) :: problem
   type(fuge_solution) :: solution
-  type(fuge_info) :: found
+  type(fuge_info) :: outcome
 
   options%method = method
   options%max_iterations = maxit
@@ -28,19 +28,19 @@ subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, metho
   else if (tol > 0.0_dp) then
     options%tolerance = tol
   end if
-  call check_matrix(n, 'N', lda, 'LDA', found)
-  if (.not. found%failed()) call check_modes(n, m, ldr, found)
-  if (.not. found%failed()) call set_general_problem(gap, nstop, play, r, w, problem, found)
-  if (.not. found%failed()) call prescribe_motions(nheld, q, problem, found)
-  if (.not. found%failed()) call solve_matrix(alpha, problem, options, solution, found)
-  info = found%status
-  msg = found%message
-  if (found%failed()) return
+  call check_dimensions(n, 'N', lda, 'LDA', outcome)
+  if (.not. outcome%failed()) call check_modes(n, m, ldr, outcome)
+  if (.not. outcome%failed()) call set_general_problem(gap, nstop, play, r, w, problem, outcome)
+  if (.not. outcome%failed()) call prescribe_motions(nheld, q, problem, outcome)
+  if (.not. outcome%failed()) call solve_matrix(alpha, problem, options, solution, outcome)
+  info = outcome%status
+  msg = outcome%message
+  if (outcome%failed()) return
   f = solution%force
   c = solution%gap
   where (nheld == 0) q = solution%motion
   where (nheld /= 0) w = matmul(solution%force, problem%modes)
-  ncon = found%contacts
-  niter = found%iterations
-  resid = found%residual
+  ncon = outcome%contacts
+  niter = outcome%iterations
+  resid = outcome%residual
 end subroutine fugegx

@@ -9,7 +9,7 @@ subroutine fugerm(ndim, nn, x, z, ldz, info)
   real(dp), intent(in) :: x(ndim, nn)
   real(dp), intent(inout) :: z(ldz, 3*ndim - 3)
   integer, intent(out) :: info
-  type(fuge_info) :: found
+  type(fuge_info) :: outcome
   integer :: k
 
   info = FUGE_ERR_SIZE
@@ -17,9 +17,9 @@ subroutine fugerm(ndim, nn, x, z, ldz, info)
   ! Not ndim*nn, which might overflow.
   if (ldz/ndim < nn) return
   do k = 1, nn
-    call check_finite(x(:, k), 'X', found)
-    info = found%status
-    if (found%failed()) return
+    call check_finite(x(:, k), 'X', outcome)
+    info = outcome%status
+    if (outcome%failed()) return
   end do
   z(:ndim*nn, :) = fuge_rigid_modes(x)
 end subroutine fugerm

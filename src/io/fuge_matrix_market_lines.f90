@@ -5,9 +5,9 @@
 !> symmetric.
 module fuge_matrix_market_lines
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_text_fields, only: after_blanks, describe_field, find_field, quoted, read_number, read_whole, FIELD_NUMBER
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_text_fields, only: after_blanks, describe_field, find_field, quoted, read_number, read_whole, FIELD_NUMBER
   implicit none
   private
 

@@ -3,8 +3,8 @@ module fuge_matrix_market_writer
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
   use fuge_matrix_market_lines, only: banner_line
-  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE
   use fuge_number_text, only: index_text, text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE
   use fuge_text_writer, only: text_output
   implicit none
   private

@@ -1,7 +1,7 @@
 !> One line of a profile file: two numbers, a comment or a header.
 module fuge_profile_lines
-  use fuge_text_fields, only: after_blanks, describe_field, is_blank, read_number, FIELD_NUMBER, FIELD_WORD
   use fuge_kinds, only: dp
+  use fuge_text_fields, only: after_blanks, describe_field, is_blank, read_number, FIELD_NUMBER, FIELD_WORD
   implicit none
   private
 

@@ -281,7 +281,7 @@ contains
     end if
   end function sizes_agree
 
-  !> -1 if not allocated.
+  !> Number of values; -1 if not allocated.
   pure function size_of(values) result(n)
     real(dp), intent(in), allocatable :: values(:)
     integer :: n

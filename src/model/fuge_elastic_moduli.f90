@@ -26,26 +26,26 @@ contains
   !> stress (Johnson, section 2.1).
   !>
   !> `young` > 0 and `modulus` force per length squared, `young` +infinity for a rigid body;
-  !> `poisson` in (-1, 0.5], also in plane stress; `state` FUGE_PLANE_STRAIN or
+  !> `poisson` in (-1, 0.5], also in plane stress; `plane_state` FUGE_PLANE_STRAIN or
   !> FUGE_PLANE_STRESS. Errors, `modulus` untouched: FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION for
-  !> `state`; FUGE_ERR_MODULUS for `young` and for `poisson`, because outside its range the
+  !> `plane_state`; FUGE_ERR_MODULUS for `young` and for `poisson`, because outside its range the
   !> shear or the bulk modulus is not positive; FUGE_ERR_OVERFLOW.
-  pure subroutine fuge_plane_modulus(young, poisson, state, modulus, info)
+  pure subroutine fuge_plane_modulus(young, poisson, plane_state, modulus, info)
     real(dp), intent(in) :: young, poisson
-    integer, intent(in) :: state
+    integer, intent(in) :: plane_state
     real(dp), intent(inout) :: modulus
     type(fuge_info), intent(out) :: info
 
     call check_modulus(young, 'young', info)
     if (.not. info%failed()) call check_poisson(poisson, info)
     if (info%failed()) return
-    select case (state)
+    select case (plane_state)
     case (FUGE_PLANE_STRAIN)
       call divide_by_strain_factor(young, poisson, modulus, info)
     case (FUGE_PLANE_STRESS)
       modulus = young
     case default
-      call report(info, FUGE_ERR_OPTION, 'state = '//text(state) &
+      call report(info, FUGE_ERR_OPTION, 'plane_state = '//text(plane_state) &
                   //' is unknown: use FUGE_PLANE_STRAIN or FUGE_PLANE_STRESS')
     end select
   end subroutine fuge_plane_modulus

@@ -35,12 +35,10 @@ contains
 
   !> Point to `alpha` as the influence matrix.
   !>
-  !> `alpha` is (n, n), or (lda, n) with lda > n where the first n rows count;
-  !> length per force. It is not copied: declare it `target` and keep it
-  !> unchanged as long as the operator lives.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC,
-  !> FUGE_ERR_OVERFLOW, FUGE_ERR_POINTER for a section that is not contiguous; they leave the
-  !> operator as it was.
+  !> `alpha` is (n, n), or (lda, n) with lda > n where the first n rows count; length per force. It is
+  !> not copied: declare it `target` and keep it unchanged as long as the operator lives.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_POINTER for a section that is not contiguous; they leave the operator as it was.
   subroutine set(self, alpha, info)
     class(fuge_dense_operator), intent(inout) :: self
     real(dp), intent(in), target :: alpha(:, :)

@@ -8,9 +8,9 @@ module fuge_fft
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t, c_associated
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_PLANNER
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_SIZE
-  use fuge_number_text, only: text
   implicit none
   private
 

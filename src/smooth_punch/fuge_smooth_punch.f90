@@ -67,8 +67,8 @@ contains
     if (info%failed()) return
     if (.not. force > 0.0_dp) then
       contact = point_contact(position, gap, e_star)
-      if (load%free_tilt) call report(info, FUGE_WARN_NOT_UNIQUE, &
-                                      'without a force nothing resists a tilt: it is returned as 0, others are possible')
+      if (load%free_tilt) call report(info, FUGE_WARN_NOT_UNIQUE, 'without a force nothing resists a tilt: it is ' &
+                                      //'returned as 0, others are possible')
       return
     end if
 

@@ -46,7 +46,7 @@ contains
     call canonical%transform_change(gap_change, load_change, reduced_gap, load)
     call solve_set(factor, datum, reduced_gap, load, force, free_motion)
     if (.not. is_in_equilibrium(canonical%modes, load, force)) then
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not hold the motions that these resultants act ' &
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not resist the motions that these resultants act ' &
                   //'in: they would turn the body over, whatever the size of the change')
       return
     end if

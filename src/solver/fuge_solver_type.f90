@@ -135,7 +135,8 @@ contains
     call derivative_by_loads(self, operator, gap_change, [load_change], change, info)
   end subroutine derivative_by_load
 
-  !> The same for changes of all resultants, `load_change` (m); where a motion is prescribed, for changes of the motion.
+  !> As `derivative_by_load`, for changes of all resultants, `load_change` (m); where a motion is prescribed, of the
+  !> motion.
   subroutine derivative_by_loads(self, operator, gap_change, load_change, change, info)
     class(fuge_solver), intent(in) :: self
     class(fuge_operator), intent(in) :: operator
@@ -245,18 +246,18 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
-    type(contact_solution) :: found
+    type(contact_solution) :: engine_solution
     integer :: stat
 
     call make_canonical(problem, self%canonical, info)
     if (info%failed()) return
-    call allocate_solution(problem%points(), size(self%canonical%load), found, info)
+    call allocate_solution(problem%points(), size(self%canonical%load), engine_solution, info)
     if (info%failed()) return
     call self%canonical%set_matrix(operator%alpha, operator%datum())
     if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
-      call solve_by_tableau(self%canonical, options, monitor, self%history, self%factor, found, info)
+      call solve_by_tableau(self%canonical, options, monitor, self%history, self%factor, engine_solution, info)
     else
-      call run_active_set(self, options, monitor, found, info)
+      call run_active_set(self, options, monitor, engine_solution, info)
     end if
     ! The matrix is the caller's and may be gone before the next call.
     self%canonical%alpha => null()
@@ -266,11 +267,12 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
       return
     end if
-    call self%canonical%to_given_modes(prescribed_values(problem), found%motion, solution%motion)
-    call self%canonical%set_excluded_gaps(operator%alpha, problem%gap, found%force, solution%motion, found%gap)
-    call move_alloc(found%force, solution%force)
-    call move_alloc(found%gap, solution%gap)
-    call move_alloc(found%state, self%state)
+    call self%canonical%to_given_modes(prescribed_values(problem), engine_solution%motion, solution%motion)
+    call self%canonical%set_excluded_gaps(operator%alpha, problem%gap, engine_solution%force, solution%motion, &
+                                          engine_solution%gap)
+    call move_alloc(engine_solution%force, solution%force)
+    call move_alloc(engine_solution%gap, solution%gap)
+    call move_alloc(engine_solution%state, self%state)
   end subroutine run_dense_engine
 
   !> The prescribed motions, zero where free, (m).

@@ -6,7 +6,6 @@ module fuge_active_set_engine
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
   use fuge_engine_messages, only: explain_status
-  use fuge_free_modes, only: find_free_motion
   use fuge_initial_set, only: guess_initial_set
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -15,6 +14,7 @@ module fuge_active_set_engine
   use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE
+  use fuge_unresisted_motions, only: find_unresisted_motion
   implicit none
   private
 
@@ -24,8 +24,8 @@ contains
 
   !> Solve by block principal pivoting.
   !>
-  !> `canonical` with its matrix; `solution` allocated, its state (n) a guess on entry, or all open to have one
-  !> made; on return solution and `factor` belong together. Errors in `info`.
+  !> `canonical` with its matrix; `solution` allocated, its state (n) a guess on entry, or all open if there is
+  !> none; on return solution and `factor` belong together. Errors in `info`.
   subroutine solve_by_active_set(canonical, options, monitor, factor, solution, info)
     type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
@@ -44,8 +44,7 @@ contains
     where (canonical%upper >= huge(1.0_dp)) solution%state = max(solution%state, FUGE_OPEN)
     if (all(solution%state == FUGE_OPEN)) call make_guess(canonical, solution%state, info%products)
     call solve_from_set(canonical, iteration_limit(options, size(solution%state) + 1), monitor, factor, solution, &
-                        sets, &
-                        info)
+                        sets, info)
     info%iterations = sets
   end subroutine solve_by_active_set
 
@@ -63,7 +62,8 @@ contains
     call guess_initial_set(canonical, state, products)
   end subroutine make_guess
 
-  !> From a contact set, found or guessed, to the solution and its status in words. `sets` counts those tried.
+  !> From a contact set, guessed or found by the tableau, to the solution and its status in words. `sets` counts the
+  !> sets tried.
   subroutine solve_from_set(canonical, limit, monitor, factor, solution, sets, info)
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: limit
@@ -86,23 +86,23 @@ contains
       call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
                   //'the forces are not; those given are near the least squares')
     else if (status == FUGE_DONE .and. .not. canonical%plain) then
-      call report_free_motion(canonical, solution, info)
+      call report_unresisted_motion(canonical, solution, info)
     end if
   end subroutine solve_from_set
 
   !> Warn of a motion that the contact does not resist, by the mode that dominates it.
-  subroutine report_free_motion(canonical, solution, info)
+  subroutine report_unresisted_motion(canonical, solution, info)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     type(fuge_info), intent(inout) :: info
     real(dp) :: motion(size(canonical%load))
 
     if (size(motion) < 1) return
-    call find_free_motion(canonical, solution, motion)
+    call find_unresisted_motion(canonical, solution, motion)
     if (.not. any(abs(motion) > 0.0_dp)) return
-    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not hold motion ' &
+    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not resist motion ' &
                 //index_text(canonical%dominant_mode(motion)) &
                 //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
-  end subroutine report_free_motion
+  end subroutine report_unresisted_motion
 
 end module fuge_active_set_engine

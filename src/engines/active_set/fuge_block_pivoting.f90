@@ -19,8 +19,8 @@ module fuge_block_pivoting
 
   public :: run_block_pivoting
 
-  !> Block exchanges without progress before the primal active-set method takes over.
-  integer, parameter, public :: PATIENCE = 3
+  !> Block exchanges without a new minimum of wrong points before single exchanges begin.
+  integer, parameter, public :: MAX_STALLS = 3
   !> A large ratio of the pivots raises the violations that count as rounding.
   real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
   !> Ratio of the pivots above which signs are judged after refinement only.
@@ -34,7 +34,7 @@ module fuge_block_pivoting
     logical :: is_new_set = .true.
     !> Fewest wrong points of all sets, and the exchanges that may still go without fewer.
     integer :: fewest_wrong = huge(1)
-    integer :: stalls_left = PATIENCE
+    integer :: stalls_left = MAX_STALLS
   end type pivoting_progress
 
 contains
@@ -86,7 +86,7 @@ contains
         progress%is_new_set = .true.
       end if
     end do
-    call finish(canonical, set, factor, solution)
+    call remove_rounding(canonical, set, factor, solution)
   end subroutine run_block_pivoting
 
   !> Factor the set, solve its equations, refine where that is called for, and measure the violations.
@@ -113,7 +113,8 @@ contains
     call set%measure(canonical, progress%refine_now, solution)
   end subroutine solve_working_set
 
-  !> What the primal active-set method has left is rounding; the certificate decides about the solution.
+  !> Are the violations that the primal active-set method has left no more than rounding? The certificate then decides
+  !> about the solution.
   pure function is_noise(set, progress, factor)
     type(working_set), intent(in) :: set
     type(pivoting_progress), intent(in) :: progress
@@ -123,15 +124,15 @@ contains
     is_noise = progress%stalls_left < 0 .and. maxval(set%violation) < NOISE*max(1.0_dp, NOISE_GROWTH*factor%pivot_ratio)
   end function is_noise
 
-  !> Fewer wrong points than ever renew the patience, unless it has run out.
+  !> Count an exchange; fewer wrong points than ever before renew the stalls left, unless there are none.
   pure subroutine count_progress(wrong, progress)
     integer, intent(in) :: wrong
     type(pivoting_progress), intent(inout) :: progress
 
     progress%stalls_left = progress%stalls_left - 1
-    if (wrong < progress%fewest_wrong .and. progress%stalls_left >= 0) progress%stalls_left = PATIENCE
+    if (wrong < progress%fewest_wrong .and. progress%stalls_left >= 0) progress%stalls_left = MAX_STALLS
     progress%fewest_wrong = min(progress%fewest_wrong, wrong)
-    progress%refine_now = progress%stalls_left < PATIENCE
+    progress%refine_now = progress%stalls_left < MAX_STALLS
   end subroutine count_progress
 
   !> A point in contact with a tensile force opens; an open one beyond a stop joins it.
@@ -146,7 +147,7 @@ contains
   end subroutine exchange_violating
 
   !> Take rounding out of forces, gaps and motion of the accepted set.
-  subroutine finish(canonical, set, factor, solution)
+  subroutine remove_rounding(canonical, set, factor, solution)
     type(canonical_problem), intent(in) :: canonical
     type(working_set), intent(in) :: set
     type(kkt_factor), intent(in) :: factor
@@ -166,6 +167,6 @@ contains
       gap = merge(merge(0.0_dp, upper, state > FUGE_OPEN), gap, state /= FUGE_OPEN)
       if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + datum*canonical%load(1)
     end associate
-  end subroutine finish
+  end subroutine remove_rounding
 
 end module fuge_block_pivoting

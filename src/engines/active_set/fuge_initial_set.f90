@@ -54,13 +54,13 @@ contains
     call make_scaled(canonical, scaled)
     if (.not. scaled%factor > 0.0_dp) return
     fallback = state
-    call start(canonical, scaled, state, force)
+    call start_forces(canonical, scaled, state, force)
     direction = 0.0_dp
     previous = 1.0_dp
     restarted = .true.
     quiet_for = 0
     do iteration = 1, MOST_ITERATIONS
-      call multiply(canonical%alpha, force, scaled%factor, rigid_gap)
+      call multiply_by_alpha(canonical%alpha, force, scaled%factor, rigid_gap)
       rigid_gap = rigid_gap + scaled%gap
       noise = ROUNDING*maxval(abs(rigid_gap))
       slope = rigid_gap
@@ -72,7 +72,7 @@ contains
       if (restarted) direction = 0.0_dp
       direction = merge(slope + (squares/previous)*direction, 0.0_dp, state /= FUGE_OPEN)
       previous = squares
-      call multiply(canonical%alpha, direction, scaled%factor, change)
+      call multiply_by_alpha(canonical%alpha, direction, scaled%factor, change)
       products = products + 2
       call remove_rigid_part(canonical, state /= FUGE_OPEN, change)
       curvature = sum(change*direction, mask=state /= FUGE_OPEN)
@@ -80,7 +80,7 @@ contains
       step = sum(slope*direction, mask=state /= FUGE_OPEN)/curvature
       before = state
       force = force - step*direction
-      call exchange(scaled, canonical%excluded, rigid_gap, step, state, force, restarted)
+      call exchange_points(scaled, canonical%excluded, rigid_gap, step, state, force, restarted)
       call restore_equilibrium(canonical, scaled, state, force)
       if (.not. any(state /= FUGE_OPEN)) then
         state = before
@@ -124,8 +124,8 @@ contains
     scaled%tied = canonical%is_tied()
   end subroutine make_scaled
 
-  !> Even forces at all points that need no second stop.
-  subroutine start(canonical, scaled, state, force)
+  !> Start with even forces at all points that have one stop only or are tied.
+  subroutine start_forces(canonical, scaled, state, force)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
     integer, intent(inout) :: state(:)
@@ -140,18 +140,19 @@ contains
       force = 0.0_dp
       call restore_equilibrium(canonical, scaled, state, force)
     end if
-  end subroutine start
+  end subroutine start_forces
 
-  subroutine multiply(alpha, force, factor, displacement)
+  !> displacement = factor alpha force, all (n).
+  subroutine multiply_by_alpha(alpha, force, factor, displacement)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: force(:), factor
     real(dp), intent(out) :: displacement(:)
 
     call dgemv('N', size(force), size(force), factor, alpha, size(alpha, 1), force, 1, 0.0_dp, displacement, 1)
-  end subroutine multiply
+  end subroutine multiply_by_alpha
 
   !> Points whose force no longer pushes at their stop open; open ones beyond a stop join it. `joined` if any did.
-  pure subroutine exchange(scaled, excluded, gap, step, state, force, joined)
+  pure subroutine exchange_points(scaled, excluded, gap, step, state, force, joined)
     type(scaled_problem), intent(in) :: scaled
     logical, intent(in) :: excluded(:)
     real(dp), intent(in) :: gap(:), step
@@ -175,7 +176,7 @@ contains
       end if
       joined = joined .or. state(k) /= FUGE_OPEN
     end do
-  end subroutine exchange
+  end subroutine exchange_points
 
   !> Have few enough points changed?
   pure function is_settled(canonical, before, state)

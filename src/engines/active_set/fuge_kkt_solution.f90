@@ -10,8 +10,7 @@ module fuge_kkt_solution
   private
 
   public :: add_elastic_displacement, displacement_magnitude, largest_contribution, refine_solution, &
-    rigid_displacement, &
-    solve_set, translation_at_shallowest
+    rigid_displacement, solve_set, translation_at_shallowest
 
   !> A correction above this fraction of the largest force calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp

@@ -1,8 +1,8 @@
 !> The primal active-set method, which ends: the energy falls with every point that joins.
 !>
 !> From feasible forces step towards the solution of the working set until a force would become tensile: that
-!> point leaves. At the solution the point furthest beyond a stop joins; there is none at the answer (C. L.
-!> Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23).
+!> point leaves. At the solution the point furthest beyond a stop joins; when there is none, the solution solves the
+!> problem (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23).
 module fuge_primal_active_set
   use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_canonical_problem, only: canonical_problem

@@ -1,7 +1,7 @@
 !> The equations of a working set: solved, refined, and measured against the contact conditions.
 !>
-!> The block pivoting and the primal active-set method try one set after the other; what they do with
-!> each is the same and stands here.
+!> Block principal pivoting and the primal active-set method try one set after the other, and share these operations
+!> on each.
 module fuge_working_set
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution

@@ -1,6 +1,7 @@
 !> The step of an active-set method towards the forces of its working set, as far as none becomes tensile
 !> (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23).
 module fuge_blocking_step
+  use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp
   implicit none
   private
@@ -57,22 +58,22 @@ contains
       locked(k) = .true.
     else
       call find_blocking(force, target, is_tensile(target, noise, state, tied), step_length, k)
-      where (state /= 0) force = force + step_length*(target - force)
+      where (state /= FUGE_OPEN) force = force + step_length*(target - force)
       where (.not. tied) force = real(state, dp)*max(state*force, 0.0_dp)
     end if
     force(k) = 0.0_dp
-    state(k) = 0
+    state(k) = FUGE_OPEN
   end subroutine step_to_blocking
 
-  !> Is the force tensile at its stop? Zero counts as tensile, except with `noise` > 0, where only tension above `noise`
-  !> does: a point without force may be the one that resists a rigid mode.
+  !> Is the force tensile, that is, does it pull at the stop of its point? Zero counts as tensile, except with `noise`
+  !> > 0, where only tension above `noise` does: a point without force may be the one that resists a rigid mode.
   elemental function is_tensile(force, noise, state, tied)
     real(dp), intent(in) :: force, noise
     integer, intent(in) :: state
     logical, intent(in) :: tied
     logical :: is_tensile
 
-    is_tensile = state /= 0 .and. .not. tied
+    is_tensile = state /= FUGE_OPEN .and. .not. tied
     if (.not. is_tensile) return
     if (noise > 0.0_dp) then
       is_tensile = force*state < -noise

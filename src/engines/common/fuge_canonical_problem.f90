@@ -7,10 +7,10 @@ module fuge_canonical_problem
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgesv
+  use fuge_number_text, only: index_text, text
   use fuge_pivoted_qr, only: orthonormalise, orthonormalise_in_order
   use fuge_problem_type, only: fuge_problem
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_number_text, only: index_text, text
   implicit none
   private
 

@@ -1,5 +1,6 @@
 !> Forces, gaps and motions of the canonical problem together with the state of each point.
 module fuge_contact_solution
+  use fuge_contact_states, only: FUGE_OPEN
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
@@ -16,7 +17,7 @@ module fuge_contact_solution
 
 contains
 
-  !> Room for n points, all open, and m motions. Error: FUGE_ERR_MEMORY.
+  !> Allocate a solution of n points, all open, with m motions. Error: FUGE_ERR_MEMORY.
   pure subroutine allocate_solution(n, m, solution, info)
     integer, intent(in) :: n, m
     type(contact_solution), intent(out) :: solution
@@ -28,7 +29,7 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
       return
     end if
-    solution%state = 0
+    solution%state = FUGE_OPEN
   end subroutine allocate_solution
 
 end module fuge_contact_solution

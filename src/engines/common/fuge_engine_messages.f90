@@ -10,7 +10,7 @@ module fuge_engine_messages
 
 contains
 
-  !> Put an engine's status into words.
+  !> Report the `status` of an engine in words. `limit`: the iterations allowed; `contacts`: points in the contact set.
   pure subroutine explain_status(status, limit, contacts, info)
     integer, intent(in) :: status, limit, contacts
     type(fuge_info), intent(inout) :: info

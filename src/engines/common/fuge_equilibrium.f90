@@ -6,6 +6,7 @@
 !> along which no point closes, while the resultant does work.
 module fuge_equilibrium
   use fuge_blocking_step, only: find_blocking
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgelsy
   implicit none
@@ -35,20 +36,20 @@ contains
     integer :: state(size(force)), newest, iteration
 
     force = 0.0_dp
-    state = 0
+    state = FUGE_OPEN
     remainder = resultant
     do iteration = 1, 20*(size(modes, 2) + 1) + size(force)
       if (is_in_equilibrium(modes, resultant, force, remainder)) exit
       work = matmul(modes, remainder)
       where (.not. pulls) work = max(work, 0.0_dp)
       where (.not. pushes) work = min(work, 0.0_dp)
-      where (state /= 0) work = 0.0_dp
+      where (state /= FUGE_OPEN) work = 0.0_dp
       newest = maxloc(abs(work), dim=1)
       if (abs(work(newest)) <= ROUNDING*maxval(abs(remainder))*sum(abs(modes(newest, :)))) then
         if (proves_no_equilibrium(modes, resultant, pushes, pulls, remainder)) return
         exit
       end if
-      state(newest) = merge(1, -1, work(newest) > 0.0_dp)
+      state(newest) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, work(newest) > 0.0_dp)
       call solve_least_squares(modes, resultant, state, force)
       remainder = resultant - matmul(force, modes)
     end do
@@ -99,11 +100,11 @@ contains
 
     do
       call solve_on_active(modes, resultant, state, target)
-      call find_blocking(force, target, state /= 0 .and. target*state <= 0.0_dp, step_length, blocking)
+      call find_blocking(force, target, state /= FUGE_OPEN .and. target*state <= 0.0_dp, step_length, blocking)
       if (blocking == 0) exit
       force = force + step_length*(target - force)
       ! One point is dropped in each pass, so the loop ends.
-      state(blocking) = 0
+      state(blocking) = FUGE_OPEN
       force(blocking) = 0.0_dp
     end do
     force = target
@@ -114,12 +115,13 @@ contains
     real(dp), intent(in) :: modes(:, :), resultant(:)
     integer, intent(in) :: state(:)
     real(dp), intent(out) :: force(:)
-    real(dp) :: matrix(size(modes, 2), count(state /= 0)), right(max(size(modes, 2), count(state /= 0)))
-    real(dp) :: work(64*(size(modes, 2) + count(state /= 0)) + 64)
-    integer :: points(count(state /= 0)), order(count(state /= 0)), k, p, m, rank, info
+    real(dp) :: matrix(size(modes, 2), count(state /= FUGE_OPEN))
+    real(dp) :: right(max(size(modes, 2), count(state /= FUGE_OPEN)))
+    real(dp) :: work(64*(size(modes, 2) + count(state /= FUGE_OPEN)) + 64)
+    integer :: points(count(state /= FUGE_OPEN)), order(count(state /= FUGE_OPEN)), k, p, m, rank, info
 
     m = size(modes, 2)
-    points = pack([(k, k=1, size(state))], state /= 0)
+    points = pack([(k, k=1, size(state))], state /= FUGE_OPEN)
     p = size(points)
     matrix = transpose(modes(points, :))
     right = 0.0_dp

@@ -1,4 +1,4 @@
-!> What can be told from the coefficients of alpha before anything is factored.
+!> Checks of the coefficients of alpha that need no factorisation.
 module fuge_matrix_checks
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
@@ -9,13 +9,12 @@ module fuge_matrix_checks
 
   public :: check_matrix, check_magnitudes, check_pairs
 
-  !> A negative energy below this part of the coefficients is rounding.
+  !> A negative energy below this fraction of the coefficients is rounding.
   real(dp), parameter :: PAIR_TOLERANCE = 1.0e-12_dp
 
 contains
 
-  !> What can be refused before anything is factored: FUGE_ERR_OVERFLOW,
-  !> FUGE_ERR_NOT_DEFINITE.
+  !> Refuse an alpha that `check_magnitudes` (FUGE_ERR_OVERFLOW) or `check_pairs` (FUGE_ERR_NOT_DEFINITE) refuses.
   pure subroutine check_matrix(alpha, load, info)
     real(dp), intent(in) :: alpha(:, :), load
     type(fuge_info), intent(inout) :: info
@@ -24,8 +23,8 @@ contains
     if (.not. info%failed()) call check_pairs(alpha, info)
   end subroutine check_matrix
 
-  !> Refuse an alpha for which a pair of opposite forces gains energy: the cheap part
-  !> of definiteness. The contact block itself is seen when it is factored.
+  !> Refuse an alpha for which a pair of opposite forces gains energy (FUGE_ERR_NOT_DEFINITE): the cheap part of
+  !> definiteness. Whether the block of a contact set is definite shows when it is factored.
   pure subroutine check_pairs(alpha, info)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_info), intent(inout) :: info
@@ -45,8 +44,8 @@ contains
     end do
   end subroutine check_pairs
 
-  !> Refuse an alpha whose products with the load leave the range of double precision,
-  !> at either end.
+  !> Refuse an alpha whose products with the load leave the range of double precision, at either end
+  !> (FUGE_ERR_OVERFLOW).
   pure subroutine check_magnitudes(alpha, load, info)
     real(dp), intent(in) :: alpha(:, :), load
     type(fuge_info), intent(inout) :: info

@@ -130,7 +130,7 @@ contains
       relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
     end if
     call tell_monitor(monitor, info%iterations, relative, count(iterate%contact), status)
-    if (status /= FUGE_DONE) call report(info, FUGE_ERR_CANCELLED, 'cancelled by the progress callback after ' &
+    if (status /= FUGE_DONE) call report(info, FUGE_ERR_CANCELLED, 'cancelled by the progress monitor after ' &
                                          //text(info%iterations)//' contact sets')
   end subroutine solve_on_contact_set
 

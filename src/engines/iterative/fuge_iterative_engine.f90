@@ -133,7 +133,7 @@ contains
   end subroutine assemble_solution
 
   !> Refuse an approach at which the mean gap is closed where equal forces displace nothing, as on
-  !> a periodic surface: no forces hold it. Errors: FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY, those
+  !> a periodic surface: no forces resist it. Errors: FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY, those
   !> of the operator.
   subroutine check_approach(operator, approach, reduced_gap, info)
     class(fuge_operator), intent(in) :: operator

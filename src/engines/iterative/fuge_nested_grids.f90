@@ -100,13 +100,13 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory for the starting forces on '//text(n)//' points')
       return
     end if
-    call interpolate(force, fine)
+    call interpolate_forces(force, fine)
     call move_alloc(fine, force)
   end subroutine prolong
 
   !> Linear interpolation between the centres of the coarse cells; each coarse cell carries the
   !> forces of two fine cells.
-  pure subroutine interpolate(coarse, fine)
+  pure subroutine interpolate_forces(coarse, fine)
     real(dp), intent(in) :: coarse(:)
     real(dp), intent(out) :: fine(:)
     integer :: k, last
@@ -116,7 +116,7 @@ contains
       fine(2*k - 1) = 0.375_dp*coarse(k) + 0.125_dp*coarse(max(k - 1, 1))
       if (2*k <= size(fine)) fine(2*k) = 0.375_dp*coarse(k) + 0.125_dp*coarse(min(k + 1, last))
     end do
-  end subroutine interpolate
+  end subroutine interpolate_forces
 
   !> Restrict gaps to a grid of `cells` cells, each `width` cells wide (the last one may be
   !> narrower): `coarse` (cells) are the means over them. Error: FUGE_ERR_MEMORY.

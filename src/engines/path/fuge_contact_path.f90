@@ -196,7 +196,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(contact_solution) :: solution
     type(kkt_factor) :: factor
-    type(monitor_relay) :: nobody
+    type(monitor_relay) :: no_monitor
     integer :: status
 
     call allocate_solution(size(canonical%gap), size(canonical%load), solution, info)
@@ -207,7 +207,7 @@ contains
       canonical%gap = canonical%gap - gap_datum
       solution%gap = canonical%gap
     else
-      call solve_by_active_set(canonical, fuge_options(), nobody, factor, solution, info)
+      call solve_by_active_set(canonical, fuge_options(), no_monitor, factor, solution, info)
       if (info%failed()) return
       ! The path itself chooses where unresisted motions begin; only the forces have to be unique.
       if (.not. factor%regularisation > 0.0_dp) call report(info, FUGE_DONE, '')

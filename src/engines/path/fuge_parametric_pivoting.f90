@@ -5,18 +5,18 @@
 !> and how the next piece runs, follows from a small contact problem in the rates of the weakly active points. Where
 !> no such rates exist, the motions that nothing resists jump.
 module fuge_parametric_pivoting
-  use fuge_block_pivoting, only: PATIENCE
+  use fuge_block_pivoting, only: MAX_STALLS
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_equilibrium, only: find_equilibrium
-  use fuge_free_modes, only: find_unresisted, without_unresisted
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: add_elastic_displacement, rigid_displacement, solve_set
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_path_type, only: append_entry, fuge_path, start_path
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_unresisted_motions, only: find_unresisted_basis, without_unresisted
   implicit none
   private
 
@@ -140,7 +140,7 @@ contains
     if (size(load_rate) < 1) return
     do turn = 1, ITERATIONS_PER_ROW*(size(loaded) + 1)
       loaded = here%state /= FUGE_OPEN .and. here%weakly_active == FUGE_OPEN
-      call find_unresisted(canonical%modes, loaded, here%unresisted)
+      call find_unresisted_basis(canonical%modes, loaded, here%unresisted)
       if (size(here%unresisted, 2) < 1) return
       call find_equilibrium(canonical%modes, load_rate, loaded .or. here%weakly_active > FUGE_OPEN, &
                             loaded .or. here%weakly_active < FUGE_OPEN, force, motion)
@@ -199,7 +199,7 @@ contains
 
     where (here%weakly_active /= FUGE_OPEN) here%state = here%weakly_active
     fewest_wrong = huge(fewest_wrong)
-    stalls_left = PATIENCE
+    stalls_left = MAX_STALLS
     do trial = 1, ITERATIONS_PER_ROW*(count(here%weakly_active /= FUGE_OPEN) + 1)
       call solve_for_rates(canonical, line, factor, here, status)
       if (status /= FUGE_DONE) return
@@ -208,15 +208,15 @@ contains
                                                           here%state /= FUGE_OPEN)
       if (.not. any(wrong)) return
       stalls_left = stalls_left - 1
-      if (count(wrong) < fewest_wrong) stalls_left = PATIENCE
+      if (count(wrong) < fewest_wrong) stalls_left = MAX_STALLS
       fewest_wrong = min(fewest_wrong, count(wrong))
       if (stalls_left < 0) call keep_first(wrong)
-      where (wrong) here%state = here%weakly_active - here%state
+      where (wrong) here%state = merge(FUGE_OPEN, here%weakly_active, here%state /= FUGE_OPEN)
     end do
     status = FUGE_ERR_ITERATION_LIMIT
   end subroutine find_rates
 
-  !> The rates with the present states.
+  !> The rates with the present states, by a factor of the points at a stop. `status`: that of the factor.
   subroutine solve_for_rates(canonical, line, factor, here, status)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
@@ -227,7 +227,7 @@ contains
     call factor%set(canonical, here%state /= FUGE_OPEN, status)
     if (status /= FUGE_DONE) return
     call solve_set(factor, canonical%datum, line%reduced_gap_rate, line%load_rate, here%force_rate, here%motion_rate)
-    call find_unresisted(canonical%modes, here%state /= FUGE_OPEN, here%unresisted)
+    call find_unresisted_basis(canonical%modes, here%state /= FUGE_OPEN, here%unresisted)
     if (is_balanced(line%load_rate, here%unresisted)) then
       here%motion_rate = without_unresisted(here%motion_rate, here%unresisted)
     end if

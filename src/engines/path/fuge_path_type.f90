@@ -1,5 +1,6 @@
 !> The course of a contact along a line of loads: the type, and how entries are added.
 module fuge_path_type
+  use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
@@ -23,9 +24,8 @@ module fuge_path_type
     !> Points at a stop from there on.
     integer, allocatable :: contacts(:)
     !> Motions q there, and dq/d(parameter) from there to the next entry, (m, entries), prescribed ones included. A
-    !> motion
-    !> that nothing resists may jump; the value is that after the jump. For `fuge_load_path` q is the approach v_0, and
-    !> 1/rate the contact stiffness dF_0/dv_0.
+    !> motion that nothing resists may jump; the value is that after the jump. For `fuge_load_path` q is the approach
+    !> v_0, and 1/rate the contact stiffness dF_0/dv_0.
     real(dp), allocatable :: motion(:, :), rate(:, :)
   contains
     procedure :: states
@@ -46,7 +46,7 @@ contains
     end do
   end function states
 
-  !> Begin with the states (n) at the start and room for some entries of m motions. `status`: FUGE_DONE or
+  !> Begin a path with the states (n) at the start, and allocate some entries of m motions. `status`: FUGE_DONE or
   !> FUGE_ERR_MEMORY.
   pure subroutine start_path(state, m, path, status)
     integer, intent(in) :: state(:), m
@@ -77,13 +77,13 @@ contains
       path%motion(:, last) = motion
       path%rate(:, last) = rate
       path%point(last) = point
-      path%state(last) = 0
+      path%state(last) = FUGE_OPEN
       if (point > 0) path%state(last) = state(point)
-      path%contacts(last) = count(state /= 0)
+      path%contacts(last) = count(state /= FUGE_OPEN)
     end associate
   end subroutine append_entry
 
-  !> Give back the room that entries have left. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
+  !> Free the memory beyond the last entry. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
   pure subroutine trim_path(path, status)
     type(fuge_path), intent(inout) :: path
     integer, intent(out) :: status

@@ -39,8 +39,8 @@ contains
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
   end subroutine start
 
-  !> Append a step: `basis` holds a column number for each row, z is the sum of
-  !> the artificials in the caller's units. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
+  !> Append a step: `basis` holds a column number for each row, z is the sum of the artificials in the caller's units.
+  !> `status`: FUGE_DONE or FUGE_ERR_MEMORY.
   pure subroutine record(self, basis, z, status)
     class(fuge_history), intent(inout) :: self
     integer, intent(in) :: basis(:)
@@ -100,8 +100,8 @@ contains
     if (step >= 0 .and. step < self%steps) rows = size(self%columns, 1)
   end function rows_at
 
-  !> Sum of the artificial variables after pivot `step`; lengths and forces add
-  !> up in the caller's units, as in the paper. 0 if there is no such step.
+  !> Sum of the artificial variables after pivot `step`; lengths and forces add up in the caller's units, as in the
+  !> paper. 0 if there is no such step.
   pure function z(self, step)
     class(fuge_history), intent(in) :: self
     integer, intent(in) :: step
@@ -120,7 +120,8 @@ contains
     digits = len_trim(buffer)
   end function digits_of
 
-  !> All steps align: the largest number of all is in the artificial start.
+  !> Characters of a column number, a blank included. All steps align, because the largest number of all is in the
+  !> artificial start.
   pure function column_width(self) result(width)
     class(fuge_history), intent(in) :: self
     integer :: width
@@ -128,7 +129,7 @@ contains
     width = digits_of(maxval(self%columns(:, 1))) + 1
   end function column_width
 
-  !> 0 if there is no such step.
+  !> Number of characters of `line` for a step; 0 if there is no such step.
   pure function line_length(self, step) result(length)
     class(fuge_history), intent(in) :: self
     integer, intent(in) :: step

@@ -1,9 +1,8 @@
 !> The paper's tableau and its Phase I (Fischer, Hoyer, Melosh, section 3).
 !>
-!> Rows 1..n are equation (9), rows n+1..n+m the equilibrium (11) in each free motion, the
-!> last row is the objective z, the sum of the artificial variables. Columns are numbered
-!> as in `fuge_column_numbers`; those of the artificials are never stored, only the vector
-!> of basis columns. One more column holds the right-hand side.
+!> Rows 1..n are equation (9), rows n+1..n+m the equilibrium (11) in each free motion, the last row is the objective z,
+!> the sum of the artificial variables. Columns are numbered as in `fuge_column_numbers`; those of the artificials are
+!> never stored, only the vector of basis columns. One more column holds the right-hand side.
 !>
 !> Beyond the paper, motions and the forces of tied points are free of sign, and a play is an upper bound of c_k.
 !> Every point is described from the stop that it was last at; where that is the upper one its variables are
@@ -13,14 +12,15 @@
 !> Lengths and forces are scaled by powers of two, which changes no digit and makes every comparison relative to the
 !> data.
 module fuge_paper_tableau
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_column_numbers, only: artificial_column, force_column, gap_column, rigid_column, is_artificial, is_force, &
+    partner_column, point_of
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_options_type, only: fuge_options
-  use fuge_column_numbers, only: artificial_column, force_column, gap_column, rigid_column, is_artificial, is_force, &
-    partner_column, point_of
   use fuge_pivot_rule, only: select_pivot, select_for_equilibrium
-  use fuge_canonical_problem, only: canonical_problem
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
   use fuge_variable_bounds, only: variable_bounds
   implicit none
@@ -29,14 +29,14 @@ module fuge_paper_tableau
   public :: run_phase_one
 
   type, public :: paper_tableau
-    !> Rows and columns as above, scaled, (n+m+1, 2n+m+1).
+    !> Entries of the tableau with its right-hand side and last row, scaled, (n+m+1, 2n+m+1).
     real(dp), allocatable :: table(:, :)
     !> Column number in the basis for each row, (n+m).
     integer, allocatable :: basis(:)
     !> Points described from their upper stop, (n).
     logical, allocatable :: complemented(:)
-    !> What was added to every gap: for the paper's problem to keep right-hand sides and
-    !> v_0 non-negative, otherwise to count gaps from the lowest; length.
+    !> What was added to every gap: for the paper's problem to keep right-hand sides and v_0 non-negative, otherwise to
+    !> count gaps from the lowest; length.
     real(dp) :: shift = 0.0_dp
     !> A scaled length times 2**length_exponent is the caller's; forces likewise.
     integer :: length_exponent = 0
@@ -60,10 +60,9 @@ module fuge_paper_tableau
 
 contains
 
-  !> Set up the tableau of Bild 3 with the artificial basis; step 1 is done.
+  !> Set up the tableau of Bild 3, the paper's problem, with the artificial basis; step 1 is done.
   !>
-  !> `alpha` (at least n rows, n columns) length per force, `gap` (n) length,
-  !> `load` > 0 force. Error: FUGE_ERR_MEMORY.
+  !> `alpha` (at least n rows, n columns) length per force, `gap` (n) length, `load` > 0 force. Error: FUGE_ERR_MEMORY.
   pure subroutine start_plain(self, alpha, gap, load, status)
     class(paper_tableau), intent(inout) :: self
     real(dp), intent(in) :: alpha(:, :), gap(:), load
@@ -86,7 +85,7 @@ contains
     call subtract_rows_from_last(self)
   end subroutine start_plain
 
-  !> The same for the canonical problem, with its matrix.
+  !> Set up the tableau of a canonical problem, with its matrix; step 1 is done. Error: FUGE_ERR_MEMORY.
   pure subroutine start_canonical(self, canonical, status)
     class(paper_tableau), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
@@ -151,9 +150,8 @@ contains
 
   !> The datum shift and the powers of two.
   !>
-  !> v_0 F_0 = F.(a + b) + F.alpha F, and F.alpha F >= F_0**2 min(alpha) because no
-  !> force is negative: so this shift makes v_0, and every right-hand side after
-  !> the first pivot, non-negative for any datum of alpha and of the gaps.
+  !> v_0 F_0 = F.(a + b) + F.alpha F, and F.alpha F >= F_0**2 min(alpha) because no force is negative: so this shift
+  !> makes v_0, and every right-hand side after the first pivot, non-negative for any datum of alpha and of the gaps.
   pure subroutine set_datum_and_scales(self, alpha, gap, load)
     class(paper_tableau), intent(inout) :: self
     real(dp), intent(in) :: alpha(:, :), gap(:), load
@@ -367,9 +365,10 @@ contains
     integer :: state(self%bounds%n)
     integer :: i
 
-    state = 0
+    state = FUGE_OPEN
     do i = 1, size(self%basis)
-      if (is_force(self%bounds%n, self%basis(i))) state(self%basis(i)) = merge(-1, 1, self%complemented(self%basis(i)))
+      if (is_force(self%bounds%n, self%basis(i))) state(self%basis(i)) = &
+        merge(FUGE_AT_UPPER_STOP, FUGE_AT_LOWER_STOP, self%complemented(self%basis(i)))
     end do
   end function states
 
@@ -455,7 +454,7 @@ contains
 
     pivots = 0
     start = 1.0_dp
-    state = 0
+    state = FUGE_OPEN
     call tableau%start(canonical, status)
     if (status == FUGE_DONE .and. options%keep_history) call history%start(size(tableau%basis), status)
     do while (status == FUGE_DONE)

@@ -10,8 +10,8 @@
 !>
 !> The tableau is scaled: its lengths and forces are of order 1, so that the tolerances here are relative to the data.
 module fuge_pivot_rule
-  use fuge_kinds, only: dp
   use fuge_column_numbers, only: partner_column, is_artificial, stored_columns
+  use fuge_kinds, only: dp
   use fuge_options_type, only: FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
   use fuge_variable_bounds, only: variable_bounds
   implicit none
@@ -34,10 +34,9 @@ contains
 
   !> The next pivot by `rule`; `column` = 0 when no column is admissible.
   !>
-  !> `table` (n+m+1, 2n+m+1) is the tableau with the z row last and the right-hand
-  !> side in the last column, `basis` (n+m) the column number of each row. `row` is
-  !> negative if its variable leaves at its upper bound, and 0 if none leaves because
-  !> `column` reaches its own bound.
+  !> `table` (n+m+1, 2n+m+1) is the tableau with the z row last and the right-hand side in the last column, `basis`
+  !> (n+m) the column number of each row. `row` is negative if its variable leaves at its upper bound, and 0 if none
+  !> leaves because `column` reaches its own bound.
   pure subroutine select_pivot(table, basis, bounds, rule, column, row)
     real(dp), intent(in) :: table(:, :)
     integer, intent(in) :: basis(:), rule
@@ -83,7 +82,7 @@ contains
   !> cannot cycle; for the paper's problem that is F_1. An artificial left at zero is exchanged for the largest entry of
   !> its row.
   !>
-  !> Arguments as above; `column` = 0 if no forces can carry the resultant.
+  !> Arguments as for `select_pivot`; `column` = 0 if no forces can carry the resultant.
   pure subroutine select_for_equilibrium(table, basis, bounds, column, row)
     real(dp), intent(in) :: table(:, :)
     integer, intent(in) :: basis(:)

@@ -1,8 +1,8 @@
 !> Bounds of the tableau's variables: which are free of sign, which have an upper bound, and the order in which ties
 !> are broken.
 module fuge_variable_bounds
-  use fuge_kinds, only: dp
   use fuge_column_numbers, only: gap_column, is_gap, stored_columns
+  use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private

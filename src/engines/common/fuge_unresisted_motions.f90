@@ -1,5 +1,5 @@
 !> Rigid motions that the contact does not resist: they are not unique, though the forces are.
-module fuge_free_modes
+module fuge_unresisted_motions
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
@@ -9,7 +9,7 @@ module fuge_free_modes
   implicit none
   private
 
-  public :: find_free_motion, find_unresisted, without_unresisted
+  public :: find_unresisted_motion, find_unresisted_basis, without_unresisted
 
   !> Rows of the modes that differ by less than this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
@@ -20,7 +20,7 @@ contains
 
   !> A motion (m) of the bodies that changes no force of the solution, or zero if there is none: the
   !> motion of the solution is unique then.
-  subroutine find_free_motion(canonical, solution, motion)
+  subroutine find_unresisted_motion(canonical, solution, motion)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     real(dp), intent(out) :: motion(:)
@@ -31,7 +31,7 @@ contains
 
     motion = 0.0_dp
     loaded = carries_force(canonical, solution)
-    call find_unresisted(canonical%modes, loaded, basis)
+    call find_unresisted_basis(canonical%modes, loaded, basis)
     associate (state => solution%state, gap => solution%gap)
       ! A point that touches without force resists in one sense only.
       resists_closing = loaded .or. ((state > FUGE_OPEN .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
@@ -43,7 +43,7 @@ contains
       call find_equilibrium(canonical%modes, -basis(:, j), resists_closing, resists_opening, work, motion)
       if (any(abs(motion) > 0.0_dp)) return
     end do
-  end subroutine find_free_motion
+  end subroutine find_unresisted_motion
 
   !> Points (n) that are tied, or that carry more force than rounding makes.
   pure function carries_force(canonical, solution) result(carries)
@@ -66,7 +66,7 @@ contains
   !> An orthonormal basis of the motions q with R q = 0 at the points marked in `resists` (n).
   !>
   !> `modes` R (n, m) with columns of about the same size; `basis` (m, number of such motions).
-  subroutine find_unresisted(modes, resists, basis)
+  subroutine find_unresisted_basis(modes, resists, basis)
     real(dp), intent(in) :: modes(:, :)
     logical, intent(in) :: resists(:)
     real(dp), allocatable, intent(out) :: basis(:, :)
@@ -76,7 +76,7 @@ contains
     rows = transpose(modes(pack([(j, j=1, size(resists))], resists), :))
     ! Without memory no motion counts as unresisted.
     call orthogonal_complement(rows, DEPENDENT, basis, status)
-  end subroutine find_unresisted
+  end subroutine find_unresisted_basis
 
   !> The motion (m) less its part in the `basis` of the unresisted ones.
   pure function without_unresisted(motion, basis) result(rest)
@@ -90,4 +90,4 @@ contains
     end do
   end function without_unresisted
 
-end module fuge_free_modes
+end module fuge_unresisted_motions
