@@ -2,7 +2,9 @@
 !>
 !> A point is at its lower stop where the gap is zero and the force pushes, at its upper stop
 !> where the gap has reached the play and the force pulls, and open in between, without force.
-!> A one-sided point has no upper stop. A tied point (play zero) counts as at its lower stop.
+!> A one-sided point has no upper stop. A tied point (play zero) counts as at its lower stop. The
+!> values are the signs of the forces: the engines multiply by them, so that force*state < 0 is
+!> tension at either stop.
 module fuge_contact_states
   implicit none
   private

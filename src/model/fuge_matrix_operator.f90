@@ -144,7 +144,7 @@ contains
       call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//index_text(i)//','//index_text(j)//') and alpha(' &
         //index_text(j)//','//index_text(i)//') differ by '//text(abs(alpha(i, j) - alpha(j, i))) &
         //' (coefficients from '//text(least)//' to '//text(most) &
-        //'): if that is rounding, pass (alpha + transpose(alpha))/2')
+        //'): if that is rounding, pass (alpha + alpha^T)/2')
     end if
   end subroutine check_influence_matrix
 
