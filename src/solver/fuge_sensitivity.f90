@@ -2,9 +2,10 @@
 module fuge_sensitivity
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_states, only: FUGE_OPEN
+  use fuge_displacements, only: add_elastic_displacement, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_kkt_solution, only: add_elastic_displacement, rigid_displacement, solve_set
+  use fuge_kkt_solution, only: solve_set
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution

@@ -7,9 +7,10 @@ module fuge_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
+  use fuge_displacements, only: add_elastic_displacement, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_kkt_solution, only: add_elastic_displacement, rigid_displacement, translation_at_shallowest
+  use fuge_kkt_solution, only: translation_at_shallowest
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_primal_active_set, only: joined_stop, run_primal_active_set, NOISE
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT

@@ -1,16 +1,13 @@
-!> Forces and motion of a given contact set to the last digits, and the displacements that follow.
-!>
-!> Displacements are those of alpha less `datum`, the coefficient nearest to zero: a constant in all of alpha
-!> that changes the translation only and, taken out first, costs no digits.
+!> Forces and motion of a given contact set, solved with its factor and refined to the last digits.
 module fuge_kkt_solution
   use fuge_canonical_problem, only: canonical_problem
+  use fuge_displacements, only: add_elastic_displacement, displacement_magnitude, rigid_displacement
   use fuge_kinds, only: dp, xp
   use fuge_kkt_factor, only: kkt_factor
   implicit none
   private
 
-  public :: add_elastic_displacement, displacement_magnitude, largest_contribution, refine_solution, &
-    rigid_displacement, solve_set, translation_at_shallowest
+  public :: refine_solution, solve_set, translation_at_shallowest
 
   !> A correction above this fraction of the largest force calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
@@ -39,60 +36,6 @@ contains
 
     if (abs(difference) > 0.0_dp) motion(1) = motion(1) + difference*load(1)
   end subroutine change_datum
-
-  !> R q at each point, (n).
-  pure function rigid_displacement(modes, motion) result(displacement)
-    real(dp), intent(in), contiguous :: modes(:, :)
-    real(dp), intent(in) :: motion(:)
-    real(dp) :: displacement(size(modes, 1))
-    integer :: j
-
-    displacement = 0.0_dp
-    do j = 1, size(motion)
-      displacement = displacement + modes(:, j)*motion(j)
-    end do
-  end function rigid_displacement
-
-  !> u := u + (alpha - datum) f, with the columns of the contact only.
-  !>
-  !> Not by BLAS: taking the datum out of each coefficient keeps the digits of the product.
-  pure subroutine add_elastic_displacement(alpha, datum, contact, force, u)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, force(:)
-    logical, intent(in) :: contact(:)
-    real(dp), intent(inout) :: u(:)
-    integer :: j, n
-
-    n = size(u)
-    do j = 1, n
-      if (contact(j)) u = u + (alpha(:n, j) - datum)*force(j)
-    end do
-  end subroutine add_elastic_displacement
-
-  !> sum_j |alpha_kj - datum| |f_j|, (n): the size of the terms of a displacement, which may cancel.
-  pure function displacement_magnitude(alpha, datum, contact, force) result(magnitude)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, force(:)
-    logical, intent(in) :: contact(:)
-    real(dp) :: magnitude(size(contact))
-    integer :: j
-
-    magnitude = 0.0_dp
-    do j = 1, size(contact)
-      if (contact(j)) magnitude = magnitude + abs((alpha(:size(contact), j) - datum)*force(j))
-    end do
-  end function displacement_magnitude
-
-  !> The contribution of the largest force to these magnitudes, (n): less than all, at the cost of one column.
-  pure function largest_contribution(alpha, datum, force) result(magnitude)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, force(:)
-    real(dp) :: magnitude(size(force))
-    integer :: k
-
-    k = maxloc(abs(force), dim=1)
-    magnitude = abs((alpha(:size(force), k) - datum)*force(k))
-  end function largest_contribution
 
   !> The translation recomputed from the contact point with the smallest terms, so that a translation of exactly zero is
   !> returned as zero. For the plain problem.

@@ -6,11 +6,11 @@ module fuge_working_set
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
+  use fuge_displacements, only: add_elastic_displacement, displacement_magnitude, largest_contribution, &
+    rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_kkt_solution, only: add_elastic_displacement, displacement_magnitude, largest_contribution, &
-    refine_solution, &
-    rigid_displacement, solve_set
+  use fuge_kkt_solution, only: refine_solution, solve_set
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private

@@ -16,7 +16,7 @@ module fuge_contact_set_search
   use fuge_projected_gradients, only: compute_displacement, contact_iterate, deformed_gap, evaluate_iterate, &
     run_projected_gradients
   use fuge_set_exchange, only: exchange, exchange_extrapolated
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -130,8 +130,7 @@ contains
       relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
     end if
     call tell_monitor(monitor, info%iterations, relative, count(iterate%contact), status)
-    if (status /= FUGE_DONE) call report(info, FUGE_ERR_CANCELLED, 'cancelled by the progress monitor after ' &
-                                         //text(info%iterations)//' contact sets')
+    if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine solve_on_contact_set
 
   !> Number of points in the contact set with a tensile force and of open points that penetrate by

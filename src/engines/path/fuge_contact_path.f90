@@ -46,11 +46,7 @@ contains
     if (info%failed()) return
     select type (operator)
     class is (fuge_dense_operator)
-      if (operator%points() < 1) then
-        call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before')
-      else
-        call check_problem(problem, operator%points(), info)
-      end if
+      call check_start(operator, problem, info)
       if (.not. info%failed() .and. load > 0.0_dp) call check_matrix(operator%alpha, load, info)
       if (.not. info%failed()) call set_problem(gap, 0.0_dp, problem, info)
       line%last = load
@@ -78,11 +74,7 @@ contains
 
     select type (operator)
     class is (fuge_dense_operator)
-      if (operator%points() < 1) then
-        call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before')
-      else
-        call check_problem(problem, operator%points(), info)
-      end if
+      call check_start(operator, problem, info)
       if (.not. info%failed()) call check_finish(operator%alpha, problem, finish, info)
       if (info%failed()) return
       associate (start => start_values(problem))
@@ -94,6 +86,19 @@ contains
       call report(info, FUGE_ERR_UNSUPPORTED, 'the path needs the coefficients of a dense operator')
     end select
   end subroutine fuge_follow_path
+
+  !> Refuse an operator that is not set, or a problem that does not fit it.
+  subroutine check_start(operator, problem, info)
+    class(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_info), intent(inout) :: info
+
+    if (operator%points() < 1) then
+      call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before')
+    else
+      call check_problem(problem, operator%points(), info)
+    end if
+  end subroutine check_start
 
   !> Refuse an end that no path leads to.
   pure subroutine check_finish(alpha, problem, finish, info)

@@ -9,10 +9,11 @@ module fuge_parametric_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_displacements, only: add_elastic_displacement, rigid_displacement
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_kkt_solution, only: add_elastic_displacement, rigid_displacement, solve_set
+  use fuge_kkt_solution, only: solve_set
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_path_type, only: append_entry, fuge_path, start_path
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
@@ -127,25 +128,25 @@ contains
 
   !> Where the points with force do not resist all motions, and the weakly active ones cannot carry the change of the
   !> load, move the bodies at constant forces until they can.
-  subroutine move_until_resisted(canonical, load_rate, here, status)
+  subroutine move_until_resisted(canonical, load_rate, position, status)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: load_rate(:)
-    type(path_position), intent(inout) :: here
+    type(path_position), intent(inout) :: position
     integer, intent(out) :: status
-    real(dp) :: force(size(here%state)), motion(size(load_rate))
-    logical :: loaded(size(here%state))
+    real(dp) :: force(size(position%state)), motion(size(load_rate))
+    logical :: loaded(size(position%state))
     integer :: turn
 
     status = FUGE_DONE
     if (size(load_rate) < 1) return
     do turn = 1, ITERATIONS_PER_ROW*(size(loaded) + 1)
-      loaded = here%state /= FUGE_OPEN .and. here%weakly_active == FUGE_OPEN
-      call find_unresisted_basis(canonical%modes, loaded, here%unresisted)
-      if (size(here%unresisted, 2) < 1) return
-      call find_equilibrium(canonical%modes, load_rate, loaded .or. here%weakly_active > FUGE_OPEN, &
-                            loaded .or. here%weakly_active < FUGE_OPEN, force, motion)
+      loaded = position%state /= FUGE_OPEN .and. position%weakly_active == FUGE_OPEN
+      call find_unresisted_basis(canonical%modes, loaded, position%unresisted)
+      if (size(position%unresisted, 2) < 1) return
+      call find_equilibrium(canonical%modes, load_rate, loaded .or. position%weakly_active > FUGE_OPEN, &
+                            loaded .or. position%weakly_active < FUGE_OPEN, force, motion)
       if (.not. any(abs(motion) > 0.0_dp)) return
-      call move_to_stop(canonical, motion, loaded, here, status)
+      call move_to_stop(canonical, motion, loaded, position, status)
       if (status /= FUGE_DONE) return
     end do
     status = FUGE_ERR_ITERATION_LIMIT
@@ -153,11 +154,11 @@ contains
 
   !> Move along `direction` (m) as far as the stops allow. `status`: FUGE_DONE, or FUGE_ERR_NO_EQUILIBRIUM if no stop
   !> is reached.
-  subroutine move_to_stop(canonical, direction, loaded, here, status)
+  subroutine move_to_stop(canonical, direction, loaded, position, status)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: direction(:)
     logical, intent(in) :: loaded(:)
-    type(path_position), intent(inout) :: here
+    type(path_position), intent(inout) :: position
     integer, intent(out) :: status
     real(dp) :: closing(size(loaded)), reach(size(loaded)), least
 
@@ -165,76 +166,77 @@ contains
     where (loaded .or. canonical%excluded) closing = 0.0_dp
     where (abs(closing) <= TIE_TOLERANCE*maxval(abs(closing))) closing = 0.0_dp
     ! A point that seems to move into the stop where it is does so by rounding.
-    where (closing*real(here%weakly_active, dp) > 0.0_dp) closing = 0.0_dp
+    where (closing*real(position%weakly_active, dp) > 0.0_dp) closing = 0.0_dp
     reach = huge(least)
-    where (closing > 0.0_dp) reach = max(here%gap, 0.0_dp)/closing
+    where (closing > 0.0_dp) reach = max(position%gap, 0.0_dp)/closing
     where (closing < 0.0_dp .and. canonical%upper < huge(least))
-      reach = max(canonical%upper - here%gap, 0.0_dp)/abs(closing)
+      reach = max(canonical%upper - position%gap, 0.0_dp)/abs(closing)
     end where
     least = minval(reach)
     status = merge(FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, least < huge(least))
     if (status /= FUGE_DONE) return
-    here%motion = here%motion + least*direction
+    position%motion = position%motion + least*direction
     where (abs(closing) > 0.0_dp)
-      here%gap = here%gap - least*closing
-      here%state = FUGE_OPEN
-      here%force = 0.0_dp
-      here%weakly_active = FUGE_OPEN
+      position%gap = position%gap - least*closing
+      position%state = FUGE_OPEN
+      position%force = 0.0_dp
+      position%weakly_active = FUGE_OPEN
     end where
     where (reach <= least*(1.0_dp + TIE_TOLERANCE))
-      here%weakly_active = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, closing > 0.0_dp)
+      position%weakly_active = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, closing > 0.0_dp)
     end where
   end subroutine move_to_stop
 
   !> The rates per unit of the parameter. Points with force stay at their stop, open ones stay open; the rates of the
   !> weakly active points satisfy a contact problem, solved by block pivoting with single exchanges as the fallback.
-  subroutine find_rates(canonical, line, factor, here, status)
+  subroutine find_rates(canonical, line, factor, position, status)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
     type(kkt_factor), intent(inout) :: factor
-    type(path_position), intent(inout) :: here
+    type(path_position), intent(inout) :: position
     integer, intent(out) :: status
-    logical :: wrong(size(here%state))
+    logical :: wrong(size(position%state))
     integer :: trial, fewest_wrong, stalls_left
 
-    where (here%weakly_active /= FUGE_OPEN) here%state = here%weakly_active
+    where (position%weakly_active /= FUGE_OPEN) position%state = position%weakly_active
     fewest_wrong = huge(fewest_wrong)
     stalls_left = MAX_STALLS
-    do trial = 1, ITERATIONS_PER_ROW*(count(here%weakly_active /= FUGE_OPEN) + 1)
-      call solve_for_rates(canonical, line, factor, here, status)
+    do trial = 1, ITERATIONS_PER_ROW*(count(position%weakly_active /= FUGE_OPEN) + 1)
+      call solve_for_rates(canonical, line, factor, position, status)
       if (status /= FUGE_DONE) return
-      wrong = here%weakly_active /= FUGE_OPEN .and. merge(is_falling(here%weakly_active*here%force_rate), &
-                                                          is_falling(here%weakly_active*here%gap_rate), &
-                                                          here%state /= FUGE_OPEN)
+      wrong = position%weakly_active /= FUGE_OPEN .and. merge(is_falling(position%weakly_active*position%force_rate), &
+                                                          is_falling(position%weakly_active*position%gap_rate), &
+                                                          position%state /= FUGE_OPEN)
       if (.not. any(wrong)) return
       stalls_left = stalls_left - 1
       if (count(wrong) < fewest_wrong) stalls_left = MAX_STALLS
       fewest_wrong = min(fewest_wrong, count(wrong))
       if (stalls_left < 0) call keep_first(wrong)
-      where (wrong) here%state = merge(FUGE_OPEN, here%weakly_active, here%state /= FUGE_OPEN)
+      where (wrong) position%state = merge(FUGE_OPEN, position%weakly_active, position%state /= FUGE_OPEN)
     end do
     status = FUGE_ERR_ITERATION_LIMIT
   end subroutine find_rates
 
   !> The rates with the present states, by a factor of the points at a stop. `status`: that of the factor.
-  subroutine solve_for_rates(canonical, line, factor, here, status)
+  subroutine solve_for_rates(canonical, line, factor, position, status)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
     type(kkt_factor), intent(inout) :: factor
-    type(path_position), intent(inout) :: here
+    type(path_position), intent(inout) :: position
     integer, intent(out) :: status
 
-    call factor%set(canonical, here%state /= FUGE_OPEN, status)
+    call factor%set(canonical, position%state /= FUGE_OPEN, status)
     if (status /= FUGE_DONE) return
-    call solve_set(factor, canonical%datum, line%reduced_gap_rate, line%load_rate, here%force_rate, here%motion_rate)
-    call find_unresisted_basis(canonical%modes, here%state /= FUGE_OPEN, here%unresisted)
-    if (is_balanced(line%load_rate, here%unresisted)) then
-      here%motion_rate = without_unresisted(here%motion_rate, here%unresisted)
+    call solve_set(factor, canonical%datum, line%reduced_gap_rate, line%load_rate, position%force_rate, &
+                   position%motion_rate)
+    call find_unresisted_basis(canonical%modes, position%state /= FUGE_OPEN, position%unresisted)
+    if (is_balanced(line%load_rate, position%unresisted)) then
+      position%motion_rate = without_unresisted(position%motion_rate, position%unresisted)
     end if
-    here%gap_rate = line%reduced_gap_rate - rigid_displacement(canonical%modes, here%motion_rate)
-    call add_elastic_displacement(canonical%alpha, canonical%datum, here%state /= FUGE_OPEN, here%force_rate, &
-                                  here%gap_rate)
-    where (here%state /= FUGE_OPEN .or. canonical%excluded) here%gap_rate = 0.0_dp
+    position%gap_rate = line%reduced_gap_rate - rigid_displacement(canonical%modes, position%motion_rate)
+    call add_elastic_displacement(canonical%alpha, canonical%datum, position%state /= FUGE_OPEN, position%force_rate, &
+                                  position%gap_rate)
+    where (position%state /= FUGE_OPEN .or. canonical%excluded) position%gap_rate = 0.0_dp
   end subroutine solve_for_rates
 
   !> Is the resultant in the unresisted motions no more than rounding?
@@ -267,93 +269,96 @@ contains
   end subroutine keep_first
 
   !> How far the next event is, and the points that may change at it.
-  subroutine find_next_event(canonical, line, here, step)
+  subroutine find_next_event(canonical, line, position, step)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
-    type(path_position), intent(inout) :: here
+    type(path_position), intent(inout) :: position
     real(dp), intent(out) :: step
-    real(dp) :: reach(size(here%state))
-    logical :: open(size(here%state)), reached(size(here%state))
+    real(dp) :: reach(size(position%state))
+    logical :: open(size(position%state)), reached(size(position%state))
 
     reach = huge(step)
-    open = here%state == FUGE_OPEN .and. .not. canonical%excluded
-    where (here%state /= FUGE_OPEN .and. canonical%upper > 0.0_dp)
-      where (is_falling(here%state*here%force_rate)) reach = max(here%state*here%force, 0.0_dp)/abs(here%force_rate)
+    open = position%state == FUGE_OPEN .and. .not. canonical%excluded
+    where (position%state /= FUGE_OPEN .and. canonical%upper > 0.0_dp)
+      where (is_falling(position%state*position%force_rate)) reach = max(position%state*position%force, &
+          0.0_dp)/abs(position%force_rate)
     end where
-    where (open .and. is_falling(here%gap_rate)) reach = max(here%gap, 0.0_dp)/abs(here%gap_rate)
-    where (open .and. is_falling(-here%gap_rate) .and. canonical%upper < huge(step))
-      reach = max(canonical%upper - here%gap, 0.0_dp)/abs(here%gap_rate)
+    where (open .and. is_falling(position%gap_rate)) reach = max(position%gap, 0.0_dp)/abs(position%gap_rate)
+    where (open .and. is_falling(-position%gap_rate) .and. canonical%upper < huge(step))
+      reach = max(canonical%upper - position%gap, 0.0_dp)/abs(position%gap_rate)
     end where
     step = minval(reach)
     reached = reach < huge(step)
-    associate (width => tie_width(line, here%parameter + step))
+    associate (width => tie_width(line, position%parameter + step))
       if (step < huge(step)) reached = reached .and. reach - step <= width
       ! Points of an event that is no more than rounding away belong to this one too.
-      if (step > width) here%weakly_active = FUGE_OPEN
+      if (step > width) position%weakly_active = FUGE_OPEN
     end associate
     where (reached)
-      here%weakly_active = merge(here%state, merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, here%gap_rate < 0.0_dp), &
-                                 here%state /= FUGE_OPEN)
+      position%weakly_active = merge(position%state, merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, &
+                                                           position%gap_rate < 0.0_dp), &
+                                 position%state /= FUGE_OPEN)
     end where
   end subroutine find_next_event
 
   !> Advance along the line and solve anew for the values there, except for motions that nothing resists.
-  subroutine advance(canonical, line, factor, step, here)
+  subroutine advance(canonical, line, factor, step, position)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
     type(kkt_factor), intent(in) :: factor
     real(dp), intent(in) :: step
-    type(path_position), intent(inout) :: here
-    real(dp) :: residual(size(here%state)), correction(size(here%state))
-    real(dp) :: missing(size(here%motion)), shift(size(here%motion))
+    type(path_position), intent(inout) :: position
+    real(dp) :: residual(size(position%state)), correction(size(position%state))
+    real(dp) :: missing(size(position%motion)), shift(size(position%motion))
 
-    here%parameter = here%parameter + step
-    where (here%state == FUGE_OPEN) here%force = 0.0_dp
-    here%force = here%force + step*here%force_rate
-    here%motion = here%motion + step*here%motion_rate
-    missing = canonical%load + here%parameter*line%load_rate - matmul(here%force, canonical%modes)
-    residual = gaps_at(canonical, line, here)
-    where (here%state < FUGE_OPEN) residual = residual - canonical%upper
+    position%parameter = position%parameter + step
+    where (position%state == FUGE_OPEN) position%force = 0.0_dp
+    position%force = position%force + step*position%force_rate
+    position%motion = position%motion + step*position%motion_rate
+    missing = canonical%load + position%parameter*line%load_rate - matmul(position%force, canonical%modes)
+    residual = gaps_at(canonical, line, position)
+    where (position%state < FUGE_OPEN) residual = residual - canonical%upper
     call solve_set(factor, canonical%datum, residual, missing, correction, shift)
-    here%force = here%force + correction
-    here%motion = here%motion + without_unresisted(shift, here%unresisted)
-    here%gap = gaps_at(canonical, line, here)
-    where (here%state /= FUGE_OPEN) here%gap = merge(0.0_dp, canonical%upper, here%state > FUGE_OPEN)
+    position%force = position%force + correction
+    position%motion = position%motion + without_unresisted(shift, position%unresisted)
+    position%gap = gaps_at(canonical, line, position)
+    where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
   end subroutine advance
 
   !> c = g + A f - R q, (n).
-  pure function gaps_at(canonical, line, here) result(gap)
+  pure function gaps_at(canonical, line, position) result(gap)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
-    type(path_position), intent(in) :: here
-    real(dp) :: gap(size(here%state))
+    type(path_position), intent(in) :: position
+    real(dp) :: gap(size(position%state))
 
-    gap = canonical%gap + here%parameter*line%reduced_gap_rate - rigid_displacement(canonical%modes, here%motion)
-    call add_elastic_displacement(canonical%alpha, canonical%datum, here%state /= FUGE_OPEN, here%force, gap)
+    gap = canonical%gap + position%parameter*line%reduced_gap_rate - rigid_displacement(canonical%modes, &
+        position%motion)
+    call add_elastic_displacement(canonical%alpha, canonical%datum, position%state /= FUGE_OPEN, position%force, gap)
   end function gaps_at
 
   !> Append an entry for each point whose state has changed.
-  subroutine append_changes(path, here, before, status)
+  subroutine append_changes(path, position, before, status)
     type(fuge_path), intent(inout) :: path
-    type(path_position), intent(in) :: here
+    type(path_position), intent(in) :: position
     integer, intent(in) :: before(:)
     integer, intent(out) :: status
     integer :: k
 
     status = FUGE_DONE
     do k = 1, size(before)
-      if (here%state(k) /= before(k)) call append_position(path, here, k, status)
+      if (position%state(k) /= before(k)) call append_position(path, position, k, status)
       if (status /= FUGE_DONE) return
     end do
   end subroutine append_changes
 
-  subroutine append_position(path, here, point, status)
+  subroutine append_position(path, position, point, status)
     type(fuge_path), intent(inout) :: path
-    type(path_position), intent(in) :: here
+    type(path_position), intent(in) :: position
     integer, intent(in) :: point
     integer, intent(out) :: status
 
-    call append_entry(path, here%parameter, point, here%state, here%motion, here%motion_rate, status)
+    call append_entry(path, position%parameter, point, position%state, position%motion, position%motion_rate, status)
   end subroutine append_position
 
 end module fuge_parametric_pivoting
