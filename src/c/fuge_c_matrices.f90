@@ -61,7 +61,7 @@ contains
     if (.not. info%failed()) call fuge_read_sparse(from_c_string(path), height, begin, i, entry, info)
     status = report_to_c(info, message, length)
     if (info%failed()) return
-    call copy_integers(begin(:min(size(begin), int(column_capacity) + 1)) - 1, column)
+    call copy_integers(begin(:min(size(begin) - 1, int(column_capacity)) + 1) - 1, column)
     shown = min(size(i), int(entry_capacity))
     call copy_integers(i(:shown) - 1, row)
     call copy_reals(entry(:shown), value)
