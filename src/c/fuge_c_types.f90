@@ -170,7 +170,8 @@ contains
   end function take_handle
 
   !> Copy a message into a C buffer of `length` bytes: cut if need be, always
-  !> ended by NUL. A NULL buffer or length 0 is left alone.
+  !> ended by NUL. A NULL buffer or length 0 is left alone. In C the length has no sign: one that is
+  !> negative here is more than any message needs.
   subroutine copy_string(message, buffer, length)
     character(len=*), intent(in) :: message
     type(c_ptr), intent(in) :: buffer
@@ -178,8 +179,9 @@ contains
     character(kind=c_char), pointer :: bytes(:)
     integer :: k, last
 
-    if (.not. c_associated(buffer) .or. length < 1) return
-    last = int(min(int(len_trim(message), c_size_t), length - 1))
+    if (.not. c_associated(buffer) .or. length == 0) return
+    last = len_trim(message)
+    if (length > 0) last = int(min(int(last, c_size_t), length - 1))
     call c_f_pointer(buffer, bytes, [last + 1])
     do k = 1, last
       bytes(k) = message(k:k)
