@@ -135,13 +135,17 @@ contains
     end do
   end function count_lines
 
-  !> Report that the present line cannot be used (FUGE_ERR_FILE), and the `reason`.
+  !> Report that the present line cannot be used (FUGE_ERR_FILE), and the `reason`. An empty file has no line.
   pure subroutine refuse(self, reason, info)
     class(text_file), intent(in) :: self
     character(len=*), intent(in) :: reason
     type(fuge_info), intent(inout) :: info
 
-    call report(info, FUGE_ERR_FILE, self%name//', line '//text(self%line)//': '//reason)
+    if (self%line < 1) then
+      call report(info, FUGE_ERR_FILE, self%name//': '//reason)
+    else
+      call report(info, FUGE_ERR_FILE, self%name//', line '//text(self%line)//': '//reason)
+    end if
   end subroutine refuse
 
 end module fuge_text_reader
