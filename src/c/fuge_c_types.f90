@@ -15,7 +15,7 @@ module fuge_c_types
   private
 
   public :: from_c, to_c, copy_string, copy_reals, copy_integers, from_c_string, from_zero
-  public :: message_for_c, report_to_c, require_count, require_pointer, set_handle, take_handle
+  public :: message_for_c, report_to_c, require_columns, require_count, require_pointer, set_handle, take_handle
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
@@ -145,6 +145,18 @@ contains
     call report(info, FUGE_ERR_SIZE, name//' = '//text(int(number))//', the number of '//meaning//', has to be ' &
                 //text(least)//' or more')
   end subroutine require_count
+
+  !> Refuse a number of compressed columns whose array of beginnings, one more, has more elements than
+  !> an integer counts (FUGE_ERR_SIZE), unless an error is known already.
+  pure subroutine require_columns(number, name, info)
+    integer(c_int), intent(in) :: number
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. number < huge(number)) return
+    call report(info, FUGE_ERR_SIZE, name//' = '//text(int(number))//' is too large: there can be '//text(huge(1) - 1) &
+                //' columns')
+  end subroutine require_columns
 
   !> Give a new handle to the caller: *destination = address.
   subroutine set_handle(address, destination)

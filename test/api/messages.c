@@ -1,5 +1,6 @@
 /* The rule of fuge.h for messages: every call outside of solvers and bodies that refuses data says
  * what is wrong and where, with indices from 0, in the buffer of its last two arguments. */
+#include <limits.h>
 #include "table1.h"
 
 enum { MANY = 16, UNSET = -77 };
@@ -180,6 +181,14 @@ static int write_sparse(char *message, size_t len) {
   return fuge_write_sparse("api_messages_scratch.mtx", 2, 2, column, row, ONES, 0, message, len);
 }
 
+static int write_too_many(char *message, size_t len) {
+  return fuge_write_sparse("api_messages_scratch.mtx", 2, INT_MAX, ints, ints, reals, 0, message, len);
+}
+
+static int path_of_two_lines(char *message, size_t len) {
+  return fuge_read_matrix("no_such\n%s'folder/\xc3\xa4", 2, 2, reals, ints, ints + 1, message, len);
+}
+
 static int smooth_interval(char *message, size_t len) {
   return fuge_solve_smooth_punch(profile, NULL, 1.0, -1.0, 1.0, 1.0, NULL, &smooth, message, len);
 }
@@ -212,6 +221,10 @@ static int smooth_coefficients(char *message, size_t len) {
 static int body_sparse(char *message, size_t len) {
   const int column[3] = {0, 0, 0}, row[1] = {0};
   return fuge_body_sparse(2, column, row, ONES, &body, message, len);
+}
+
+static int body_sparse_many(char *message, size_t len) {
+  return fuge_body_sparse(INT_MAX, ints, ints, reals, &body, message, len);
 }
 #endif
 
@@ -254,6 +267,8 @@ static const refusal REFUSALS[] = {
   {read_sparse, FUGE_ERR_SIZE, "entry_capacity = -1"},
   {write_matrix, FUGE_ERR_NOT_FINITE, "entry (1, 0) = NaN"},
   {write_sparse, FUGE_ERR_SIZE, "row(1) = 2 is outside 0 .. 1"},
+  {write_too_many, FUGE_ERR_SIZE, "columns = 2147483647 is too large"},
+  {path_of_two_lines, FUGE_ERR_FILE, "\"no_such?%s'folder/\xc3\xa4\" cannot be opened"},
   {smooth_interval, FUGE_ERR_WIDTH, "lower = 1.0"},
   {smooth_report, FUGE_ERR_POINTER, "report is NULL"},
   {smooth_pressure, FUGE_ERR_SIZE, "count = -1"},
@@ -262,6 +277,7 @@ static const refusal REFUSALS[] = {
   {smooth_gap, FUGE_ERR_POINTER, "initial_gap is NULL"},
   {smooth_coefficients, FUGE_ERR_SIZE, "capacity = -3"},
 #ifdef HAVE_SPARSE
+  {body_sparse_many, FUGE_ERR_SIZE, "degrees = 2147483647 is too large"},
   {body_sparse, FUGE_ERR_SIZE, "column(2) = 0"},
 #endif
 };
