@@ -66,7 +66,8 @@ int fuge_body_find_rigid_modes(fuge_body *body);
 
 /* Rigid modes of nodes in the plane or in space: position is dimensions x nodes,
  * rigid_modes (dimensions*nodes) x 3 or x 6, translations before rotations about the
- * centre of the nodes.  FUGE_ERR_SIZE unless dimensions is 2 or 3 and nodes > 0. */
+ * centre of the nodes.  FUGE_ERR_SIZE unless dimensions is 2 or 3 and nodes > 0;
+ * FUGE_ERR_NOT_FINITE for a position. */
 int fuge_rigid_modes(int dimensions, int nodes, const double *position, double *rigid_modes,
                      char *message, size_t len);
 

@@ -68,7 +68,8 @@ typedef struct fuge_smooth_report {
 } fuge_smooth_report;
 
 /* A contact does not change once it is solved, and holds no message: several threads may
- * read it at once.  FUGE_ERR_POINTER, FUGE_ERR_SIZE. */
+ * read it at once.  FUGE_ERR_POINTER, FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE for a place or an
+ * initial gap. */
 int fuge_smooth_get_report(const fuge_smooth *contact, fuge_smooth_report *report,
                            char *message, size_t len);
 

@@ -2,7 +2,7 @@
 module fuge_c_sparse
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
   use fuge_c_body, only: new_body, stiffness_source
-  use fuge_c_types, only: from_zero, report_to_c, require_count, require_pointer
+  use fuge_c_types, only: from_zero, report_to_c, require_columns, require_count, require_pointer
   use fuge_number_text, only: text
   use fuge_sparse, only: fuge_sparse_stiffness
   use fuge_status, only: fuge_info
@@ -31,6 +31,7 @@ contains
 
     allocate (sparse)
     call require_count(degrees, 1, 'degrees', 'degrees of freedom', info)
+    call require_columns(degrees, 'degrees', info)
     call require_pointer(column, 'column', info)
     call require_pointer(row, 'row', info)
     call require_pointer(value, 'value', info)

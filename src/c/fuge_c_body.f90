@@ -6,8 +6,9 @@ module fuge_c_body
     require_count, &
     require_pointer, set_handle, take_handle
   use fuge_condensation, only: fuge_condense, fuge_condensed
+  use fuge_input_checks, only: check_finite, is_finite_everywhere
   use fuge_nodal_modes, only: fuge_rigid_modes
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, &
     FUGE_MESSAGE_LENGTH
@@ -263,21 +264,42 @@ contains
     type(c_ptr), intent(in), value :: position, rigid_modes, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    real(c_double), pointer :: places(:, :), values(:, :)
+    real(c_double), pointer, contiguous :: places(:, :)
+    real(c_double), pointer :: values(:, :)
     type(fuge_info) :: info
 
     if (dimensions < 2 .or. dimensions > 3) call report(info, FUGE_ERR_SIZE, 'dimensions = '//text(int(dimensions)) &
                                                         //': nodes are in the plane, 2, or in space, 3')
     call require_count(nodes, 1, 'nodes', 'nodes', info)
+    if (.not. info%failed() .and. nodes > huge(nodes)/max(dimensions, 1)) call report(info, FUGE_ERR_SIZE, 'nodes = ' &
+      //text(int(nodes))//' have more than '//text(int(huge(nodes)))//' degrees of freedom: pass fewer nodes')
     call require_pointer(position, 'position', info)
     call require_pointer(rigid_modes, 'rigid_modes', info)
     if (.not. info%failed()) then
       call c_f_pointer(position, places, [dimensions, nodes])
+      call check_positions(places, info)
+    end if
+    if (.not. info%failed()) then
       call c_f_pointer(rigid_modes, values, [int(dimensions)*int(nodes), 3*int(dimensions) - 3])
       values = fuge_rigid_modes(places)
     end if
     status = report_to_c(info, message, length)
   end function c_rigid_modes
+
+  !> Refuse positions of nodes that are NaN or infinite (FUGE_ERR_NOT_FINITE).
+  pure subroutine check_positions(position, info)
+    real(c_double), intent(in), contiguous :: position(:, :)
+    type(fuge_info), intent(inout) :: info
+    integer :: axis, node
+
+    do node = 1, size(position, 2)
+      if (is_finite_everywhere(position(:, node))) cycle
+      do axis = 1, size(position, 1)
+        call check_finite(position(axis, node), 'position('//index_text(axis)//','//index_text(node)//')', info)
+        if (info%failed()) return
+      end do
+    end do
+  end subroutine check_positions
 
   function c_body_set_contact(body, n, width, dof, normal) bind(c, name='fuge_body_set_contact') result(status)
     type(c_ptr), intent(in), value :: body, dof, normal

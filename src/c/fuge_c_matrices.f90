@@ -1,8 +1,8 @@
 !> C bindings, section "matrix files".
 module fuge_c_matrices
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
-  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, from_zero, report_to_c, require_count, &
-    require_pointer
+  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, from_zero, report_to_c, require_columns, &
+    require_count, require_pointer
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
   use fuge_number_text, only: text
@@ -62,7 +62,7 @@ contains
     if (.not. info%failed()) call fuge_read_sparse(from_c_string(path), height, begin, i, entry, info)
     status = report_to_c(info, message, length)
     if (info%failed()) return
-    call copy_integers(begin(:min(size(begin), int(column_capacity) + 1)) - 1, column)
+    call copy_integers(begin(:min(size(begin) - 1, int(column_capacity)) + 1) - 1, column)
     shown = min(size(i), int(entry_capacity))
     call copy_integers(i(:shown) - 1, row)
     call copy_reals(entry(:shown), value)
@@ -108,6 +108,7 @@ contains
     call require_pointer(value, 'value', info)
     call require_count(rows, 0, 'rows', 'rows', info)
     call require_count(columns, 0, 'columns', 'columns', info)
+    call require_columns(columns, 'columns', info)
     if (.not. info%failed()) then
       call c_f_pointer(column, begin, [columns + 1])
       call write_columns(from_c_string(path), int(rows), begin, row, value, symmetric /= 0, info)

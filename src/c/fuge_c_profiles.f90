@@ -45,10 +45,11 @@ contains
     call require_pointer(z, 'z', info)
     call require_pointer(centre, 'centre', info)
     call require_pointer(height, 'height', info)
+    call require_count(n, 2, 'n', 'points of the profile', info)
     call require_count(points, 0, 'points', 'elements of centre and height', info)
     if (.not. info%failed()) then
-      call c_f_pointer(x, places, [max(n, 0)])
-      call c_f_pointer(z, heights, [max(n, 0)])
+      call c_f_pointer(x, places, [n])
+      call c_f_pointer(z, heights, [n])
       call c_f_pointer(centre, centres, [points])
       call c_f_pointer(height, sampled, [points])
       call fuge_sample_profile(places, heights, centres, sampled, info)
@@ -66,9 +67,10 @@ contains
 
     call require_pointer(x, 'x', info)
     call require_pointer(z, 'z', info)
+    call require_count(n, 2, 'n', 'points of the profile', info)
     if (.not. info%failed()) then
-      call c_f_pointer(x, places, [max(n, 0)])
-      call c_f_pointer(z, heights, [max(n, 0)])
+      call c_f_pointer(x, places, [n])
+      call c_f_pointer(z, heights, [n])
       call fuge_level_profile(places, heights, int(form), info)
     end if
     status = report_to_c(info, message, length)

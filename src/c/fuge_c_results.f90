@@ -114,8 +114,12 @@ contains
       end if
       call handle%solver%derivative(handle%operator%operator, direction, load_change, change, info)
     end if
-    status = report_to_solver(info, handle)
-    if (info%failed()) return
+    ! As of any getter, a success leaves the message as it is.
+    status = FUGE_DONE
+    if (info%failed()) then
+      status = report_to_solver(info, handle)
+      return
+    end if
     call copy_reals(change%force, force)
     call copy_reals(change%gap, gap)
     call copy_reals(change%motion, motion)

@@ -4,6 +4,7 @@ module fuge_c_smooth
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_null_ptr, c_funptr, c_loc, c_associated, &
     c_f_pointer, c_f_procpointer
   use fuge_c_types, only: copy_reals, report_to_c, require_count, require_pointer, set_handle, take_handle
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_profile_type, only: fuge_smooth_profile
@@ -187,8 +188,9 @@ contains
     call require_pointer(pressure, 'pressure', info)
     if (.not. info%failed()) then
       call c_f_pointer(x, places, [number])
-      call copy_reals(handle%contact%pressure(places), pressure)
+      call check_finite(places, 'x', info)
     end if
+    if (.not. info%failed()) call copy_reals(handle%contact%pressure(places), pressure)
     status = report_to_c(info, message, length)
   end function c_get_pressure
 
@@ -210,8 +212,10 @@ contains
     if (.not. info%failed()) then
       call c_f_pointer(x, places, [number])
       call c_f_pointer(initial_gap, initial, [number])
-      call copy_reals(handle%contact%gap(places, initial), gap)
+      call check_finite(places, 'x', info)
     end if
+    if (.not. info%failed()) call check_finite(initial, 'initial_gap', info)
+    if (.not. info%failed()) call copy_reals(handle%contact%gap(places, initial), gap)
     status = report_to_c(info, message, length)
   end function c_get_gap
 

@@ -14,7 +14,7 @@ module fuge_c_types
   private
 
   public :: from_c, to_c, copy_string, copy_reals, copy_integers, from_c_string, from_zero
-  public :: message_for_c, report_to_c, require_count, require_pointer, set_handle, take_handle
+  public :: message_for_c, report_to_c, require_columns, require_count, require_pointer, set_handle, take_handle
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
@@ -145,6 +145,18 @@ contains
                 //text(least)//' or more')
   end subroutine require_count
 
+  !> Refuse a number of compressed columns whose array of beginnings, one more, has more elements than
+  !> an integer counts (FUGE_ERR_SIZE), unless an error is known already.
+  pure subroutine require_columns(number, name, info)
+    integer(c_int), intent(in) :: number
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. number < huge(number)) return
+    call report(info, FUGE_ERR_SIZE, name//' = '//text(int(number))//' is too large: there can be '//text(huge(1) - 1) &
+                //' columns')
+  end subroutine require_columns
+
   !> Give a new handle to the caller: *destination = address.
   subroutine set_handle(address, destination)
     type(c_ptr), intent(in) :: address, destination
@@ -169,7 +181,8 @@ contains
   end function take_handle
 
   !> Copy a message into a C buffer of `length` bytes: cut if need be, always
-  !> ended by NUL. A NULL buffer or length 0 is left alone.
+  !> ended by NUL. A NULL buffer or length 0 is left alone. In C the length has no sign: one that is
+  !> negative here is more than any message needs.
   subroutine copy_string(message, buffer, length)
     character(len=*), intent(in) :: message
     type(c_ptr), intent(in) :: buffer
@@ -177,8 +190,9 @@ contains
     character(kind=c_char), pointer :: bytes(:)
     integer :: k, last
 
-    if (.not. c_associated(buffer) .or. length < 1) return
-    last = int(min(int(len_trim(message), c_size_t), length - 1))
+    if (.not. c_associated(buffer) .or. length == 0) return
+    last = len_trim(message)
+    if (length > 0) last = int(min(int(last, c_size_t), length - 1))
     call c_f_pointer(buffer, bytes, [last + 1])
     do k = 1, last
       bytes(k) = message(k:k)

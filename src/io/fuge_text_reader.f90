@@ -35,11 +35,11 @@ module fuge_text_reader
 
 contains
 
-  !> The path for a message: in quotes, only the end of a long one.
+  !> The path for a message: in quotes, only the end of a long one, control characters as ?.
   pure function quoted_path(path) result(name)
     character(len=*), intent(in) :: path
     character(len=merge(PATH_LENGTH + 4, len_trim(path) + 2, len_trim(path) > PATH_LENGTH)) :: name
-    integer :: length
+    integer :: k, length
 
     length = len_trim(path)
     if (length > PATH_LENGTH) then
@@ -47,6 +47,9 @@ contains
     else
       name = '"'//path(:length)//'"'
     end if
+    do k = 1, len(name)
+      if (iachar(name(k:k)) < 32 .or. iachar(name(k:k)) == 127) name(k:k) = '?'
+    end do
   end function quoted_path
 
   !> The reason in an I/O message of the run-time library, without the path: the messages of
@@ -135,13 +138,17 @@ contains
     end do
   end function count_lines
 
-  !> Report that the present line cannot be used (FUGE_ERR_FILE), and the `reason`.
+  !> Report that the present line cannot be used (FUGE_ERR_FILE), and the `reason`. An empty file has no line.
   pure subroutine refuse(self, reason, info)
     class(text_file), intent(in) :: self
     character(len=*), intent(in) :: reason
     type(fuge_info), intent(inout) :: info
 
-    call report(info, FUGE_ERR_FILE, self%name//', line '//text(self%line)//': '//reason)
+    if (self%line < 1) then
+      call report(info, FUGE_ERR_FILE, self%name//': '//reason)
+    else
+      call report(info, FUGE_ERR_FILE, self%name//', line '//text(self%line)//': '//reason)
+    end if
   end subroutine refuse
 
 end module fuge_text_reader

@@ -1,4 +1,5 @@
 /* Section "matrix files" of fuge_fe.h. */
+#include <limits.h>
 #include "check.h"
 
 static const char *const NAME = "api_matrices_scratch.mtx";
@@ -93,6 +94,13 @@ static void test_sparse(void) {
   CHECK_INT(entries, 7);
   CHECK_NEAR(found[1], -1.0, 0.0);
   CHECK_UNTOUCHED(found + 2, 5);
+  for (int k = 0; k < 4; k++) found_column[k] = -1;
+  CHECK_STATUS(fuge_read_sparse(NAME, 0, 0, found_column, NULL, NULL, &rows, &columns, &entries, NULL, 0), FUGE_DONE);
+  CHECK(found_column[0] == 0 && found_column[1] == -1);
+  CHECK_STATUS(fuge_read_sparse(NAME, INT_MAX, INT_MAX, found_column, found_row, found, &rows, &columns, &entries, NULL,
+                                0), FUGE_DONE);
+  CHECK(memcmp(column, found_column, sizeof column) == 0);
+  CHECK(memcmp(value, found, sizeof value) == 0);
   remove(NAME);
 }
 

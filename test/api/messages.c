@@ -1,5 +1,6 @@
 /* The rule of fuge.h for messages: every call outside of solvers and bodies that refuses data says
  * what is wrong and where, with indices from 0, in the buffer of its last two arguments. */
+#include <limits.h>
 #include "table1.h"
 
 enum { MANY = 16, UNSET = -77 };
@@ -81,6 +82,14 @@ static int sample_falling(char *message, size_t len) {
   return fuge_sample_profile(2, FALLING, ONES, 1, X, reals, message, len);
 }
 
+static int sample_no_points(char *message, size_t len) {
+  return fuge_sample_profile(-5, X, ONES, 1, X, reals, message, len);
+}
+
+static int level_one_point(char *message, size_t len) {
+  return fuge_level_profile(1, X, reals, FUGE_LEVEL_MEAN, message, len);
+}
+
 static int level_unknown(char *message, size_t len) {
   return fuge_level_profile(2, X, reals, 9, message, len);
 }
@@ -147,6 +156,13 @@ static int body_band(char *message, size_t len) {
 
 static int rigid_modes(char *message, size_t len) { return fuge_rigid_modes(4, 2, X, reals, message, len); }
 
+static int rigid_modes_hole(char *message, size_t len) { return fuge_rigid_modes(2, 2, HOLE, reals, message, len); }
+
+/* Refused before any position is read. */
+static int rigid_modes_many(char *message, size_t len) {
+  return fuge_rigid_modes(3, 1000000000, X, reals, message, len);
+}
+
 static int read_matrix(char *message, size_t len) {
   return fuge_read_matrix("no_such_folder/matrix.mtx", 2, 2, reals, ints, ints + 1, message, len);
 }
@@ -165,6 +181,14 @@ static int write_sparse(char *message, size_t len) {
   return fuge_write_sparse("api_messages_scratch.mtx", 2, 2, column, row, ONES, 0, message, len);
 }
 
+static int write_too_many(char *message, size_t len) {
+  return fuge_write_sparse("api_messages_scratch.mtx", 2, INT_MAX, ints, ints, reals, 0, message, len);
+}
+
+static int path_of_two_lines(char *message, size_t len) {
+  return fuge_read_matrix("no_such\n%s'folder/\xc3\xa4", 2, 2, reals, ints, ints + 1, message, len);
+}
+
 static int smooth_interval(char *message, size_t len) {
   return fuge_solve_smooth_punch(profile, NULL, 1.0, -1.0, 1.0, 1.0, NULL, &smooth, message, len);
 }
@@ -175,6 +199,14 @@ static int smooth_report(char *message, size_t len) { return fuge_smooth_get_rep
 
 static int smooth_pressure(char *message, size_t len) {
   return fuge_smooth_get_pressure(cylinder, -1, X, reals, message, len);
+}
+
+static int smooth_pressure_hole(char *message, size_t len) {
+  return fuge_smooth_get_pressure(cylinder, 4, HOLE, reals, message, len);
+}
+
+static int smooth_gap_hole(char *message, size_t len) {
+  return fuge_smooth_get_gap(cylinder, 2, X, HOLE, reals, message, len);
 }
 
 static int smooth_gap(char *message, size_t len) {
@@ -189,6 +221,10 @@ static int smooth_coefficients(char *message, size_t len) {
 static int body_sparse(char *message, size_t len) {
   const int column[3] = {0, 0, 0}, row[1] = {0};
   return fuge_body_sparse(2, column, row, ONES, &body, message, len);
+}
+
+static int body_sparse_many(char *message, size_t len) {
+  return fuge_body_sparse(INT_MAX, ints, ints, reals, &body, message, len);
 }
 #endif
 
@@ -206,6 +242,8 @@ static const refusal REFUSALS[] = {
   {displacement_shares, FUGE_ERR_MODULUS, "both"},
   {read_profile, FUGE_ERR_FILE, "\"no_such_folder/profile.txt\" cannot be opened"},
   {sample_falling, FUGE_ERR_WIDTH, "x(1) = 0.500000 does not exceed x(0) = 1.5"},
+  {sample_no_points, FUGE_ERR_SIZE, "n = -5, the number of points of the profile"},
+  {level_one_point, FUGE_ERR_SIZE, "n = 1, the number of points of the profile"},
   {level_unknown, FUGE_ERR_OPTION, "form = 9"},
   {matrix_width, FUGE_ERR_WIDTH, "width(1) = 0.0"},
   {matrix_unequal, FUGE_ERR_GRID, "width(1) = 2.000000 differs from width(0) by 1.0"},
@@ -223,16 +261,23 @@ static const refusal REFUSALS[] = {
   {body_dense, FUGE_ERR_SIZE, "ldk = 1 is less than degrees = 2"},
   {body_band, FUGE_ERR_SIZE, "ldab = 2 is not above kd = 2"},
   {rigid_modes, FUGE_ERR_SIZE, "dimensions = 4"},
+  {rigid_modes_hole, FUGE_ERR_NOT_FINITE, "position(1,0) = NaN"},
+  {rigid_modes_many, FUGE_ERR_SIZE, "nodes = 1000000000 have more than 2147483647 degrees of freedom"},
   {read_matrix, FUGE_ERR_FILE, "\"no_such_folder/matrix.mtx\" cannot be opened"},
   {read_sparse, FUGE_ERR_SIZE, "entry_capacity = -1"},
   {write_matrix, FUGE_ERR_NOT_FINITE, "entry (1, 0) = NaN"},
   {write_sparse, FUGE_ERR_SIZE, "row(1) = 2 is outside 0 .. 1"},
+  {write_too_many, FUGE_ERR_SIZE, "columns = 2147483647 is too large"},
+  {path_of_two_lines, FUGE_ERR_FILE, "\"no_such?%s'folder/\xc3\xa4\" cannot be opened"},
   {smooth_interval, FUGE_ERR_WIDTH, "lower = 1.0"},
   {smooth_report, FUGE_ERR_POINTER, "report is NULL"},
   {smooth_pressure, FUGE_ERR_SIZE, "count = -1"},
+  {smooth_pressure_hole, FUGE_ERR_NOT_FINITE, "x(1) = NaN"},
+  {smooth_gap_hole, FUGE_ERR_NOT_FINITE, "initial_gap(1) = NaN"},
   {smooth_gap, FUGE_ERR_POINTER, "initial_gap is NULL"},
   {smooth_coefficients, FUGE_ERR_SIZE, "capacity = -3"},
 #ifdef HAVE_SPARSE
+  {body_sparse_many, FUGE_ERR_SIZE, "degrees = 2147483647 is too large"},
   {body_sparse, FUGE_ERR_SIZE, "column(2) = 0"},
 #endif
 };
@@ -249,6 +294,13 @@ static void check_cut(const refusal *bad, const char *whole, size_t len) {
   for (size_t k = len; k < sizeof buffer; k++) CHECK(buffer[k] == '#');
 }
 
+/* The largest len is no negative one. */
+static void check_unlimited(const refusal *bad, const char *whole) {
+  char buffer[512] = "old";
+  CHECK_STATUS(bad->call(buffer, (size_t)-1), bad->status);
+  CHECK_STRING(buffer, whole);
+}
+
 static void test_refusals(void) {
   for (size_t k = 0; k < sizeof REFUSALS / sizeof REFUSALS[0]; k++) {
     const refusal *bad = &REFUSALS[k];
@@ -262,6 +314,7 @@ static void test_refusals(void) {
     check_cut(bad, message, 0);
     check_cut(bad, message, 1);
     check_cut(bad, message, 8);
+    check_unlimited(bad, message);
     check_outputs();
   }
 }

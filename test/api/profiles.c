@@ -40,6 +40,9 @@ static void test_read_refusals(void) {
   write_file("0 1\n1\n");
   CHECK_STATUS(fuge_read_profile(NAME, 2, x, z, &count, message, sizeof message), FUGE_ERR_FILE);
   CHECK_STRING(message, "\"api_profiles_scratch.txt\", line 2: only one column: x and z are needed");
+  write_file("");
+  CHECK_STATUS(fuge_read_profile(NAME, 2, x, z, &count, message, sizeof message), FUGE_ERR_FILE);
+  CHECK_STRING(message, "\"api_profiles_scratch.txt\": the file ends after 0 point(s): a profile needs 2 or more");
   remove(NAME);
   CHECK_STATUS(fuge_read_profile(NAME, 2, x, z, &count, message, sizeof message), FUGE_ERR_FILE);
   CHECK_CONTAINS(message, "cannot be opened");

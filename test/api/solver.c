@@ -441,6 +441,8 @@ static void test_residual_warning(void) {
     CHECK_INT(status, info.residual > options.tolerance ? FUGE_WARN_RESIDUAL : FUGE_DONE);
     if (status != FUGE_WARN_RESIDUAL) continue;
     check_message(solver, "residual");
+    CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, NULL, NULL), FUGE_DONE);
+    check_message(solver, "residual");
     warned++;
   }
   CHECK(warned > 0);
