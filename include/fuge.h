@@ -43,8 +43,9 @@
  * MESSAGES.  A message says what is wrong, where, and how to mend it; it is empty when all
  * is well.  A call on a solver or a body leaves its message there, for fuge_solver_message
  * and fuge_body_message.  Every other call that can refuse its data has `message` and `len`
- * as its last arguments: at most len bytes are written, always ended by NUL.  No message is
- * longer than 256 characters.  NULL, or len = 0, if no message is wanted.
+ * as its last arguments: at most len bytes are written, always ended by NUL.  A buffer of
+ * FUGE_MESSAGE_LENGTH + 1 bytes holds every message.  NULL, or len = 0, if no message is
+ * wanted.
  *
  * THREADS.  Calls in different threads at once are safe unless two of them have the same
  * solver or body, even if both only read results.  Solvers of several threads may share
@@ -67,6 +68,10 @@ extern "C" {
 #endif
 
 #define FUGE_VERSION "0.1.0"
+
+enum {
+  FUGE_MESSAGE_LENGTH = 256     /* characters of the longest message */
+};
 
 /* ---- status ------------------------------------------------------------- */
 
@@ -439,8 +444,8 @@ enum {                          /* state of a contact point */
  *   op         in   a dense operator, n points
  *   gap        in   n; length             load  in  >= 0; force
  *   capacity   in   entries that fit into the six arrays, each of which may be NULL
- *   parameter  out  the load, ascending; the first entry is the start, 0, where all points
- *                   are open, the others are the events; force
+ *   parameter  out  the load, ascending; the first entry is the start, 0, before any
+ *                   point touches, the others are the events; force
  *   motion     out  v_0 there; length
  *   rate       out  dv_0/dF_0 from there to the next entry, 1 over the contact stiffness
  *   point      out  the point that changes; -1 for the start

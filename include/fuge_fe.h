@@ -60,7 +60,8 @@ int fuge_body_fix(fuge_body *body, int count, const int *dof, const double *disp
 int fuge_body_set_load(fuge_body *body, const double *load);
 
 /* The body floats: these are the rigid modes that its supports allow (Z, degrees x m), or
- * fuge_body_condense finds them.  m = 0: the body does not float, as at first. */
+ * fuge_body_condense finds them.  m = 0: the body does not float, as at first.
+ * FUGE_ERR_MODES for m > degrees. */
 int fuge_body_set_rigid_modes(fuge_body *body, int m, const double *rigid_modes);
 int fuge_body_find_rigid_modes(fuge_body *body);
 

@@ -103,7 +103,7 @@ static int let_touch(block *b) {
 
 static int condense(block *b) {
   const fe_mesh *m = &b->mesh;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   int status = fuge_body_band(fe_degrees(m), fe_band(m), b->stiffness, fe_band(m) + 1, 0, &b->body,
                               message, sizeof message);
   if (status == FUGE_DONE) status = hold(b);
@@ -133,7 +133,7 @@ static int make_block(int elements, int doublings, int sides_held, block *b) {
 /* displacement: of the points without contact forces; NULL: none.  gap: the gaps that are left. */
 static int press(int n, const double *x, const double *alpha, const double *displacement, double load,
                  double *force, double *gap, double *approach) {
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   for (int k = 0; k < n; k++) gap[k] = PROFILE * pow(x[k], 4) + (displacement ? displacement[k] : 0.0);
   int status = fuge_solve_dense(n, alpha, n, gap, load, force, gap, approach, message, sizeof message);
   return explain(status, message);
@@ -148,7 +148,7 @@ static int press_block(const block *b, double load, double *force, double *gap, 
  * supports that carry the load. */
 static int recover(const block *b, const double *force, const double *gap, double approach, double *u) {
   const fe_mesh *m = &b->mesh;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   int status = fuge_body_recover(b->body, force, NULL, u);
   if (status != FUGE_DONE) fuge_body_message(b->body, message, sizeof message);
   if (explain(status, message) != FUGE_DONE) return status;
@@ -285,7 +285,7 @@ static int grow_block(int elements, double *factor) {
 
 static int halfplane_alpha(int n, const double *x, double *alpha) {
   double *width = fe_reserve((size_t)n, sizeof *width);
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   for (int k = 0; k < n; k++) width[k] = x[1];
   int status = fuge_halfplane_symmetric_matrix(n, x, width, e_star(), FUGE_HAT, alpha, n, message, sizeof message);
   free(width);

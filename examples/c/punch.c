@@ -22,7 +22,7 @@ static int explain(int status, const char *message) {
 static int solve(const double *alpha, const double *gap, double *force, fuge_info *info) {
   fuge_operator *op = NULL;
   fuge_solver *solver = NULL;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   int status = fuge_operator_dense(N, alpha, N, &op, message, sizeof message);
   if (status == FUGE_DONE) status = fuge_solver_new(op, NULL, &solver, message, sizeof message);
   if (status == FUGE_DONE) status = fuge_set_gap(solver, gap, NULL);
@@ -39,7 +39,7 @@ static int solve(const double *alpha, const double *gap, double *force, fuge_inf
 int main(void) {
   double x[N], width[N], gap[N], alpha[N * N], force[N], contact_edge = 0.0, largest = 0.0, refined = 0.0;
   int kind = FUGE_EDGE_FEW_CELLS, intervals = 0;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_info info;
   for (int k = 0; k < N; k++) {
     x[k] = (k + 0.5) * H;

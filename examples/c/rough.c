@@ -142,7 +142,7 @@ static int watch(int iteration, double residual, int contacts, void *user) {
   return limit > 0 && iteration >= limit;
 }
 
-static char message[256];
+static char message[FUGE_MESSAGE_LENGTH + 1];
 
 /* Prints what went wrong, if anything did.  solver: NULL if the call has written to message. */
 static int explain(int status, const fuge_solver *solver) {

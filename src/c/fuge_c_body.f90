@@ -10,8 +10,8 @@ module fuge_c_body
   use fuge_nodal_modes, only: fuge_rigid_modes
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, &
-    FUGE_MESSAGE_LENGTH
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_MODES, &
+    FUGE_ERR_SIZE, FUGE_MESSAGE_LENGTH
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
@@ -232,6 +232,10 @@ contains
     call find_body(body, handle, info)
     call require_count(m, 0, 'm', 'rigid modes', info)
     if (m > 0) call require_pointer(rigid_modes, 'rigid_modes', info)
+    if (.not. info%failed()) then
+      if (m > handle%degrees) call report(info, FUGE_ERR_MODES, text(int(m))//' rigid modes of '//text(handle%degrees) &
+        //' degrees of freedom depend on each other: give as many as the supports allow')
+    end if
     if (.not. info%failed() .and. m > 0) then
       call c_f_pointer(rigid_modes, values, [handle%degrees, int(m)])
       allocate (copy, source=values, stat=stat)

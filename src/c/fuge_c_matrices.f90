@@ -2,7 +2,7 @@
 module fuge_c_matrices
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_types, only: copy_integers, copy_reals, from_c_string, from_zero, report_to_c, require_columns, &
-    require_count, require_pointer
+    require_count, require_path, require_pointer
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
   use fuge_number_text, only: text
@@ -23,7 +23,7 @@ contains
     type(fuge_info) :: info
     integer :: shown(2)
 
-    call require_pointer(path, 'path', info)
+    call require_path(path, info)
     call require_pointer(rows, 'rows', info)
     call require_pointer(columns, 'columns', info)
     call require_count(lda, 0, 'lda', 'rows that fit into matrix', info)
@@ -53,7 +53,7 @@ contains
     integer :: height, shown
 
     height = 0
-    call require_pointer(path, 'path', info)
+    call require_path(path, info)
     call require_pointer(rows, 'rows', info)
     call require_pointer(columns, 'columns', info)
     call require_pointer(entries, 'entries', info)
@@ -80,7 +80,7 @@ contains
     real(c_double), pointer :: whole(:, :)
     type(fuge_info) :: info
 
-    call require_pointer(path, 'path', info)
+    call require_path(path, info)
     call require_pointer(matrix, 'matrix', info)
     call require_count(rows, 0, 'rows', 'rows', info)
     call require_count(columns, 0, 'columns', 'columns', info)
@@ -102,7 +102,7 @@ contains
     integer(c_int), pointer :: begin(:)
     type(fuge_info) :: info
 
-    call require_pointer(path, 'path', info)
+    call require_path(path, info)
     call require_pointer(column, 'column', info)
     call require_pointer(row, 'row', info)
     call require_pointer(value, 'value', info)

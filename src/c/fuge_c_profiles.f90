@@ -1,7 +1,8 @@
 !> C bindings, section "profiles".
 module fuge_c_profiles
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
-  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, report_to_c, require_count, require_pointer
+  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, report_to_c, require_count, require_path, &
+    require_pointer
   use fuge_profile_files, only: fuge_read_profile
   use fuge_profile_sampling, only: fuge_level_profile, fuge_sample_profile
   use fuge_status, only: fuge_info
@@ -20,7 +21,7 @@ contains
     type(fuge_info) :: info
     integer :: written
 
-    call require_pointer(path, 'path', info)
+    call require_path(path, info)
     call require_pointer(count, 'count', info)
     call require_count(capacity, 0, 'capacity', 'elements of x and z', info)
     if (.not. info%failed()) call fuge_read_profile(from_c_string(path), all_x, all_z, info)

@@ -8,13 +8,14 @@ module fuge_c_types
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
-  use fuge_status, only: fuge_info, message_counting_from, report, FUGE_ERR_POINTER, FUGE_ERR_SIZE, &
-    FUGE_MESSAGE_LENGTH
+  use fuge_status, only: fuge_info, message_counting_from, report, FUGE_ERR_FILE, FUGE_ERR_POINTER, &
+    FUGE_ERR_SIZE, FUGE_MESSAGE_LENGTH
   implicit none
   private
 
   public :: from_c, to_c, copy_string, copy_reals, copy_integers, from_c_string, from_zero
-  public :: message_for_c, report_to_c, require_columns, require_count, require_pointer, set_handle, take_handle
+  public :: message_for_c, report_to_c, require_columns, require_count, require_path, require_pointer, set_handle, &
+    take_handle
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
@@ -221,6 +222,19 @@ contains
     call c_f_pointer(destination, array, [size(values)])
     array = int(values, c_int)
   end subroutine copy_integers
+
+  !> Refuse NULL and a path that ends in a blank, which Fortran would take for another file.
+  subroutine require_path(path, info)
+    type(c_ptr), intent(in) :: path
+    type(fuge_info), intent(inout) :: info
+
+    call require_pointer(path, 'path', info)
+    if (info%failed()) return
+    associate (string => from_c_string(path))
+      if (len_trim(string) > 0 .and. len_trim(string) < len(string)) call report(info, FUGE_ERR_FILE, 'the path "' &
+        //string//'" ends in a blank: choose a path without it')
+    end associate
+  end subroutine require_path
 
   !> A string of C, ended by NUL.
   function from_c_string(source) result(string)

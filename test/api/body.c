@@ -225,6 +225,8 @@ static void test_bad_calls(void) {
   CHECK_STATUS(fuge_body_set_load(body, NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_body_set_rigid_modes(body, -1, x), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_body_set_rigid_modes(body, 1, NULL), FUGE_ERR_POINTER);
+  /* Refused before the array is read, which is shorter. */
+  CHECK_STATUS(fuge_body_set_rigid_modes(body, 1000, x), FUGE_ERR_MODES);
   CHECK_STATUS(fuge_body_set_contact(body, 0, 1, &dof, x), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_body_set_contact(body, 1, 1, NULL, x), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_body_condense(body), FUGE_ERR_SIZE);

@@ -2,9 +2,6 @@
 # Fails with the names where the header, with those beside it, and the Fortran sources differ.
 cmake_minimum_required(VERSION 3.20)
 
-# Numbers that are not for C.
-set(fortran_only FUGE_MESSAGE_LENGTH)
-
 # result: what the files say, with ';' and comments of C taken out
 function(read_sources result)
   set(all "")
@@ -21,7 +18,6 @@ endfunction()
 function(find_numbers result text pattern)
   string(REGEX MATCHALL "${pattern}" found "${text}")
   list(TRANSFORM found REPLACE ".*(FUGE_[A-Z0-9_]+) *= *(-?[0-9]+).*" "\\1 = \\2")
-  list(FILTER found EXCLUDE REGEX "^(${fortran_only}) ")
   list(SORT found)
   set(${result} "${found}" PARENT_SCOPE)
 endfunction()

@@ -131,6 +131,10 @@ static void test_write_refusals(void) {
   CHECK_STATUS(fuge_write_matrix(NAME, 2, 2, matrix, 1, 0, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_matrix(NAME, 1, 2, matrix, 1, 1, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_matrix("", 2, 1, matrix, 2, 0, NULL, 0), FUGE_ERR_FILE);
+  /* Fortran would write to the path without the blank. */
+  CHECK_STATUS(fuge_write_matrix("scratch_blank.mtx ", 2, 1, matrix, 2, 0, message, sizeof message), FUGE_ERR_FILE);
+  CHECK_CONTAINS(message, "\"scratch_blank.mtx \" ends in a blank");
+  CHECK(fopen("scratch_blank.mtx", "r") == NULL);
   CHECK_STATUS(fuge_write_matrix("no_such_folder/a.mtx", 2, 1, matrix, 2, 0, message, sizeof message), FUGE_ERR_FILE);
   CHECK_CONTAINS(message, "\"no_such_folder/a.mtx\" cannot be opened");
   CHECK_STATUS(fuge_write_sparse(NULL, 2, 2, column, row, matrix, 0, NULL, 0), FUGE_ERR_POINTER);
