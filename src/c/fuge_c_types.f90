@@ -229,12 +229,16 @@ contains
     type(fuge_info), intent(inout) :: info
 
     call require_pointer(path, 'path', info)
-    if (info%failed()) return
-    associate (string => from_c_string(path))
-      if (len_trim(string) > 0 .and. len_trim(string) < len(string)) call report(info, FUGE_ERR_FILE, 'the path "' &
-        //string//'" ends in a blank: choose a path without it')
-    end associate
+    if (.not. info%failed()) call refuse_last_blank(from_c_string(path), info)
   end subroutine require_path
+
+  pure subroutine refuse_last_blank(path, info)
+    character(len=*), intent(in) :: path
+    type(fuge_info), intent(inout) :: info
+
+    if (len_trim(path) == 0 .or. len_trim(path) == len(path)) return
+    call report(info, FUGE_ERR_FILE, 'the path "'//path//'" ends in a blank: choose a path without it')
+  end subroutine refuse_last_blank
 
   !> A string of C, ended by NUL.
   function from_c_string(source) result(string)
