@@ -213,7 +213,7 @@ contains
   !> Append a part to the first `written` characters; what does not fit is cut.
   pure subroutine append(part, message, written)
     character(len=*), intent(in) :: part
-    character(len=*), intent(inout) :: message
+    character(len=FUGE_MESSAGE_LENGTH), intent(inout) :: message
     integer, intent(inout) :: written
 
     if (written >= len(message)) return

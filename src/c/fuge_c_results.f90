@@ -172,10 +172,11 @@ contains
     integer, intent(in) :: recorded, first, number
     type(fuge_info), intent(inout) :: info
 
-    if (first < 0 .or. number < 0 .or. number > recorded - max(0, min(first, recorded))) &
+    if (first < 0 .or. number < 0 .or. number > recorded - max(0, min(first, recorded))) then
       call report(info, FUGE_ERR_SIZE, 'first = '//text(first)//' and count = '//text(number)//' reach beyond the ' &
                   //text(recorded)//' steps kept: ask for their number with count = 0, and keep them with ' &
                   //'options.keep_history')
+    end if
   end subroutine check_steps
 
   !> FUGE_ERR_CALL_ORDER before the first solve.

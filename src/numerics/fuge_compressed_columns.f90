@@ -32,10 +32,13 @@ contains
     class(matrix_triplets), intent(inout) :: self
     integer(int64), intent(in) :: most
     integer, intent(out) :: status
+    integer :: stat
 
     self%count = 0
     status = 1
-    if (most < int(huge(1), int64)) allocate (self%row(most), self%column(most), self%value(most), stat=status)
+    if (most >= int(huge(1), int64)) return
+    allocate (self%row(most), self%column(most), self%value(most), stat=stat)
+    if (stat == 0) status = 0
   end subroutine reserve
 
   !> Add an entry to reserved memory.

@@ -51,8 +51,9 @@ contains
 
     k = 0
     if (newest > 0) then
-      if (is_tensile(target(newest), noise, state(newest), tied(newest)) .and. .not. abs(force(newest)) > 0.0_dp) &
+      if (is_tensile(target(newest), noise, state(newest), tied(newest)) .and. .not. abs(force(newest)) > 0.0_dp) then
         k = newest
+      end if
     end if
     if (k > 0) then
       locked(k) = .true.
