@@ -371,6 +371,12 @@ contains
     end if
     canonical%feasible_force = 0.0_dp
     if (size(canonical%load) < 1) return
+    if (all(canonical%excluded)) then
+      ! Without a load too: gaps could not be counted from any point.
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'all points are excluded: nothing resists the free motions; ' &
+                  //'prescribe them, or let points take part')
+      return
+    end if
     call find_equilibrium(canonical%modes, canonical%load, .not. canonical%excluded, &
                           canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded, &
                           canonical%feasible_force, remainder)
@@ -386,9 +392,7 @@ contains
     real(dp) :: motion(size(remainder))
     integer :: worst
 
-    if (all(canonical%excluded)) then
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'all points are excluded: nothing carries the resultant')
-    else if (.not. allocated(problem%modes)) then
+    if (.not. allocated(problem%modes)) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'resultant '//text(problem%resultant(1))//' is negative: contact ' &
                   //'forces can only push, so it must be >= 0')
     else
