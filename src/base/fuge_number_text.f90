@@ -6,8 +6,9 @@
 !> The length of each result is known before the call, because gfortran keeps the length of
 !> a deferred-length result (`len=:`) in a variable that all threads share.
 module fuge_number_text
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge_kinds, only: dp
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_kinds, only: dp, xp
   implicit none
   private
 
@@ -25,7 +26,7 @@ module fuge_number_text
 
 contains
 
-  !> Digit by digit: internal write statements of several threads take the same locks as files.
+  !> Digit by digit, not by an internal write: see `real_field`.
   pure function integer_field(value) result(field)
     integer, intent(in) :: value
     character(len=12) :: field
@@ -64,20 +65,79 @@ contains
     string = INDEX_MARK//integer_field(value)
   end function index_text
 
+  !> A real number to six digits or so. Not by an internal write: gfortran's run-time library keeps internal units in the
+  !> list through which `open` walks in another thread.
   pure function real_field(value) result(field)
     real(dp), intent(in) :: value
     character(len=24) :: field
 
-    if (.not. ieee_is_finite(value)) then
-      ! On its own branch, because a comparison with NaN may trap.
-      write (field, '(es13.5e3)') value
+    ! Asked first, because a comparison with NaN may trap.
+    if (ieee_is_nan(value)) then
+      field = 'NaN'
+      return
+    else if (.not. ieee_is_finite(value)) then
+      field = 'Infinity'
     else if (abs(value) >= 1.0e-3_dp .and. abs(value) < 1.0e5_dp) then
-      write (field, '(f14.6)') value
+      field = fixed_field(abs(value))
     else
-      write (field, '(es13.5e3)') value
+      field = exponent_field(abs(value))
     end if
-    field = adjustl(field)
+    if (sign(1.0_dp, value) < 0.0_dp) field = '-'//trim(field)
   end function real_field
+
+  !> Six digits after the decimal point, of a value below 1e5.
+  pure function fixed_field(value) result(field)
+    real(dp), intent(in) :: value
+    character(len=24) :: field
+    integer(int64) :: millionths
+
+    millionths = nint(real(value, xp)*1.0e6_xp, int64)
+    field = trim(integer_field(int(millionths/1000000_int64)))//'.'//last_digits(int(mod(millionths, 1000000_int64)), 6)
+  end function fixed_field
+
+  !> One digit, five digits after the decimal point, and the exponent.
+  pure function exponent_field(value) result(field)
+    real(dp), intent(in) :: value
+    character(len=24) :: field
+    integer :: digits, power
+
+    digits = 0
+    power = 0
+    if (value > 0.0_dp) then
+      power = floor(log10(value))
+      digits = six_digits(value, power)
+      ! The logarithm may be rounded to the next power of ten, and so may the digits.
+      if (digits < 100000) power = power - 1
+      if (digits >= 1000000) power = power + 1
+      digits = min(six_digits(value, power), 999999)
+    end if
+    field = trim(integer_field(digits/100000))//'.'//last_digits(mod(digits, 100000), 5)//'E' &
+            //merge('-', '+', power < 0)//last_digits(abs(power), 3)
+  end function exponent_field
+
+  !> value/10**(power - 5), rounded. In two factors, which stay in range.
+  pure function six_digits(value, power) result(digits)
+    real(dp), intent(in) :: value
+    integer, intent(in) :: power
+    integer :: digits
+    integer :: half
+
+    half = (5 - power)/2
+    digits = nint((real(value, xp)*10.0_xp**half)*10.0_xp**(5 - power - half))
+  end function six_digits
+
+  !> The last `count` decimal digits of a number that is not negative.
+  pure function last_digits(number, count) result(digits)
+    integer, intent(in) :: number, count
+    character(len=count) :: digits
+    integer :: k, rest
+
+    rest = number
+    do k = count, 1, -1
+      digits(k:k) = achar(iachar('0') + mod(rest, 10))
+      rest = rest/10
+    end do
+  end function last_digits
 
   pure function text_real(value) result(string)
     real(dp), intent(in) :: value

@@ -183,7 +183,10 @@ contains
     largest = maxval(abs(solution%force))
     upper = huge(upper)
     body_force = largest
-    if (allocated(problem%modes)) body_forces = largest_of_bodies(problem%modes, abs(solution%force))
+    ! Not by assignment, for which gfortran compares bounds that are not there yet.
+    if (allocated(problem%modes)) then
+      allocate (body_forces, source=largest_of_bodies(problem%modes, abs(solution%force)))
+    end if
     do k = 1, size(magnitude)
       if (allocated(body_forces)) body_force = body_forces(k)
       if (.not. body_force > 0.0_dp) body_force = largest
