@@ -91,7 +91,8 @@ contains
     character(len=24) :: field
     integer(int64) :: millionths
 
-    millionths = nint(real(value, xp)*1.0e6_xp, int64)
+    ! As a double, because flang cannot round wider numbers.
+    millionths = nint(real(real(value, xp)*1.0e6_xp, dp), int64)
     field = trim(integer_field(int(millionths/1000000_int64)))//'.'//last_digits(int(mod(millionths, 1000000_int64)), 6)
   end function fixed_field
 
@@ -123,7 +124,7 @@ contains
     integer :: half
 
     half = (5 - power)/2
-    digits = nint((real(value, xp)*10.0_xp**half)*10.0_xp**(5 - power - half))
+    digits = nint(real((real(value, xp)*10.0_xp**half)*10.0_xp**(5 - power - half), dp))
   end function six_digits
 
   !> The last `count` decimal digits of a number that is not negative.
