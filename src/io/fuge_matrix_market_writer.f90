@@ -2,6 +2,7 @@
 module fuge_matrix_market_writer
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
+  use fuge_locks, only: lock, unlock, LOCK_FILES
   use fuge_matrix_market_lines, only: banner_line
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE
@@ -45,7 +46,10 @@ contains
     do j = 1, size(matrix, 2)
       do i = merge(j, 1, lower), size(matrix, 1), BLOCK
         last = min(i + BLOCK - 1, size(matrix, 1))
+        ! gfortran's run-time library keeps internal units in the list through which `open` walks.
+        call lock(LOCK_FILES)
         write (lines(:last - i + 1), '(es24.16e3)') matrix(i:last, j)
+        call unlock(LOCK_FILES)
         do k = 1, last - i + 1
           call file%put(lines(k))
         end do
@@ -85,7 +89,9 @@ contains
     do j = 1, size(column) - 1
       do k = column(j), column(j + 1) - 1, BLOCK
         last = min(k + BLOCK, column(j + 1)) - 1
+        call lock(LOCK_FILES)
         write (lines(:last - k + 1), '(i0,1x,i0,es25.16e3)') (row(l), j, value(l), l=k, last)
+        call unlock(LOCK_FILES)
         do l = k, last
           if (row(l) >= j .or. .not. lower) call file%put(lines(l - k + 1))
         end do
