@@ -65,8 +65,8 @@ contains
     string = INDEX_MARK//integer_field(value)
   end function index_text
 
-  !> A real number to six digits or so. Not by an internal write: gfortran's run-time library keeps internal units in the
-  !> list through which `open` walks in another thread.
+  !> A real number to six digits or so. Not by an internal write: gfortran's run-time library keeps internal units in
+  !> the list through which `open` walks in another thread.
   pure function real_field(value) result(field)
     real(dp), intent(in) :: value
     character(len=24) :: field
