@@ -1,10 +1,10 @@
-!> Interfaces of the two routines of LAPACK and BLAS that the benchmark itself needs.
+!> Interfaces of the routines of LAPACK and BLAS that the benchmark itself needs.
 module bench_lapack
   use fuge, only: dp => fuge_dp
   implicit none
   private
 
-  public :: dposv, dsyrk
+  public :: dposv, dpotrf, dpotrs, dsyrk
 
   interface
     !> Solve a symmetric positive definite system by Cholesky; `a` becomes the factor.
@@ -15,6 +15,25 @@ module bench_lapack
       real(dp), intent(inout) :: a(lda, *), b(ldb, *)
       integer, intent(out) :: info
     end subroutine dposv
+
+    !> Cholesky factor of a symmetric positive definite matrix.
+    subroutine dpotrf(uplo, n, a, lda, info)
+      import :: dp
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, lda
+      real(dp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: info
+    end subroutine dpotrf
+
+    !> Solve with the factor of `dpotrf`.
+    subroutine dpotrs(uplo, n, nrhs, a, lda, b, ldb, info)
+      import :: dp
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(dp), intent(in) :: a(lda, *)
+      real(dp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dpotrs
 
     !> C := alpha A A^T + beta C (trans = 'N'), one triangle.
     subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
