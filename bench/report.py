@@ -15,6 +15,8 @@ import sys
 
 KNOWN = ("quartic", "cylinder", "wave", "flat", "tilted", "lifted")
 PEERS = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls", "tamaas")
+# Programs bound_*, each a part of one table.
+BOUNDS = ("dense", "path", "fft", "condensation")
 ENGINES = ("tableau", "active_set", "iterative_dense", "iterative_fft")
 # Errors that differ by less are rounding and the remaining residual of the solve.
 ROUNDING = 2e-12
@@ -320,6 +322,28 @@ def machine(directory):
         return words.read()
 
 
+def bound_table(directory):
+    """The rows that the programs bound_* have written, below one head."""
+    head, rows = "", []
+    for part in BOUNDS:
+        path = os.path.join(directory, f"bound_{part}.md")
+        if not os.path.exists(path):
+            continue
+        with open(path) as lines:
+            lines = lines.readlines()
+        head, rows = "".join(lines[:2]), rows + lines[2:]
+    return head + "".join(rows)
+
+
+def accuracy_table(directory):
+    """What `accuracy` has written."""
+    path = os.path.join(directory, "accuracy.md")
+    if not os.path.exists(path):
+        return ""
+    with open(path) as lines:
+        return lines.read()
+
+
 def main():
     directory = sys.argv[1]
     data = Table(os.path.join(directory, "results.csv"))
@@ -327,7 +351,7 @@ def main():
     write_growth(os.path.join(directory, "growth.csv"), data)
     parts = {"machine": machine(directory), "choice": choice_table(data), "orders": order_table(data),
              "dense": dense_table(data), "products": products_table(data), "growth": growth_table(data),
-             "crossings": crossing_list(data)}
+             "crossings": crossing_list(data), "bound": bound_table(directory), "accuracy": accuracy_table(directory)}
     with open(os.path.join(directory, "tables.md"), "w") as out:
         out.write("\n".join(parts.values()))
     for path in sys.argv[2:]:
