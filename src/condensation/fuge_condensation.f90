@@ -15,30 +15,32 @@
 !> out; the load must not drive it.
 module fuge_condensation
   use fuge_body_type, only: check_body, check_load_field, fuge_body
+  use fuge_condensed_influence, only: find_influence, touched_degrees
   use fuge_contact_modes, only: check_unresisted, find_contact_modes, load_resultant, split_rigid_modes, ROUNDING_ERROR
-  use fuge_contact_normals, only: add_contact_forces, add_point_force, check_free_points, displacement_scale, &
+  use fuge_contact_normals, only: add_contact_forces, check_free_points, displacement_scale, &
     pin_scale, point_displacement
-  use fuge_input_checks, only: check_finite, is_finite_everywhere
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_rigid_body_modes, only: check_rigid_modes, choose_pins, find_rigid_modes, normalise_at_pins
   use fuge_smallest_eigenvalue, only: find_smallest_eigenvalue, unscale
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
   private
 
   public :: fuge_condense, condense_to_recover
 
-  !> Number of right-hand sides that are solved together.
-  integer, parameter :: BLOCK = 64
   !> A pivot below this fraction of its diagonal term counts as zero.
   real(dp), parameter :: SMALLEST_PIVOT = 16.0_dp*epsilon(1.0_dp)
   !> With a smallest eigenvalue below this, alpha may have fewer than four correct digits; often it
   !> has two or three more.
   real(dp), parameter :: NEARLY_SINGULAR = 1.0e4_dp*epsilon(1.0_dp)
+  !> Above this smallest eigenvalue more than half of the digits are right in whatever order K is eliminated. Below it
+  !> the order that fills least is taken, which loses fewer digits on bodies in one row.
+  real(dp), parameter :: ANY_ORDER = 1.0e-7_dp
   !> Largest residual of K u = forces that counts as solved, relative to the largest force.
   real(dp), parameter :: RESIDUAL_TOLERANCE = 1.0e-10_dp
 
@@ -130,12 +132,17 @@ contains
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the stiffness')
     result%body = body
     if (.not. info%failed()) call constrain(result, pins, info)
+    if (with_alpha .and. .not. info%failed()) then
+      result%stiffness%last = touched_degrees(body, result%constrained)
+      result%stiffness%columns = size(body%dof, 2)
+    end if
     if (.not. info%failed()) call factorise(result, info)
     warning = info
     if (result%body%floats .and. .not. info%failed()) then
       call normalise_at_pins(result%stiffness, result%factor, result%constrained, pins, result%rigid_modes, info)
     end if
-    if (with_alpha .and. .not. info%failed()) call find_alpha(result, info)
+    if (with_alpha .and. .not. info%failed()) call find_influence(body, result%constrained, result%factor, result%alpha, &
+                                                                  info)
     if (.not. info%failed()) call keep_resisted_modes(result, info)
     if (.not. info%failed()) call apply_load(result, info)
     if (.not. info%failed()) then
@@ -357,13 +364,14 @@ contains
   subroutine factorise(self, info)
     type(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
-    real(dp) :: pivot, quotient
+    real(dp) :: quotient
     integer :: status, weakest
 
-    call self%stiffness%factorise(self%constrained, 0.0_dp, self%factor, pivot, weakest, status)
-    quotient = 0.0_dp
-    if (status == FUGE_DONE .and. pivot > SMALLEST_PIVOT) call find_smallest_eigenvalue( &
-      self%stiffness, self%factor, merge(0.0_dp, self%scale, self%constrained), quotient, weakest, status)
+    call factorise_measured(self, quotient, weakest, status)
+    if (allocated(self%stiffness%last) .and. .not. (status == FUGE_DONE .and. quotient > ANY_ORDER)) then
+      deallocate (self%stiffness%last)
+      call factorise_measured(self, quotient, weakest, status)
+    end if
     ! Rigid modes computed with the factor are as accurate as the factor.
     if (self%body%floats) self%mode_error = max(self%mode_error, epsilon(quotient)/max(quotient, epsilon(quotient)))
     if (status /= FUGE_DONE) then
@@ -380,50 +388,19 @@ contains
     end if
   end subroutine factorise
 
-  !> alpha = N^T G N, a block of columns at a time.
-  subroutine find_alpha(self, info)
+  !> The factor in the order that the stiffness asks for, and its smallest eigenvalue, `quotient`, with the degree of
+  !> freedom `weakest` that its mode moves most. `status` is FUGE_DONE or FUGE_ERR_MEMORY.
+  subroutine factorise_measured(self, quotient, weakest, status)
     type(fuge_condensed), intent(inout) :: self
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: columns(:, :)
-    integer :: first, i, j, last, n, stat
+    real(dp), intent(out) :: quotient
+    integer, intent(out) :: weakest, status
+    real(dp) :: pivot
 
-    n = size(self%body%dof, 2)
-    allocate (self%alpha(n, n), columns(size(self%constrained), min(BLOCK, n)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the influence matrix of '//text(n)//' contact points')
-      return
-    end if
-    do first = 1, n, BLOCK
-      last = min(first + BLOCK - 1, n)
-      columns = 0.0_dp
-      do j = first, last
-        call add_point_force(self%body%dof(:, j), self%body%normal(:, j), 1.0_dp, columns(:, j - first + 1))
-        where (self%constrained) columns(:, j - first + 1) = 0.0_dp
-      end do
-      call self%factor%solve(columns(:, :last - first + 1), stat)
-      if (stat /= FUGE_DONE) then
-        call report(info, stat, 'no memory to solve for '//text(last - first + 1)//' right-hand sides')
-        return
-      end if
-      do j = first, last
-        do i = 1, n
-          self%alpha(i, j) = point_displacement(self%body%dof(:, i), self%body%normal(:, i), columns(:, j - first + 1))
-        end do
-      end do
-    end do
-    do j = 1, n
-      if (is_finite_everywhere(self%alpha(:, j)) .and. self%alpha(j, j) < huge(1.0_dp)) cycle
-      call report(info, FUGE_ERR_OVERFLOW, 'the influence of contact point '//index_text(j) &
-                  //' overflows: choose other units, or normals of length one')
-      return
-    end do
-    do j = 2, n
-      do i = 1, j - 1
-        self%alpha(i, j) = 0.5_dp*(self%alpha(i, j) + self%alpha(j, i))
-        self%alpha(j, i) = self%alpha(i, j)
-      end do
-    end do
-  end subroutine find_alpha
+    call self%stiffness%factorise(self%constrained, 0.0_dp, self%factor, pivot, weakest, status)
+    quotient = 0.0_dp
+    if (status == FUGE_DONE .and. pivot > SMALLEST_PIVOT) call find_smallest_eigenvalue( &
+      self%stiffness, self%factor, merge(0.0_dp, self%scale, self%constrained), quotient, weakest, status)
+  end subroutine factorise_measured
 
   !> R = -N^T Z; keep the modes that the contact points resist.
   subroutine keep_resisted_modes(self, info)

@@ -3,6 +3,7 @@
 !> accumulate up to the last pivot, and a body eliminated from its free end has no small pivot.
 module fuge_smallest_eigenvalue
   use fuge_kinds, only: dp
+  use fuge_lapack, only: dtrsv
   use fuge_status, only: FUGE_DONE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
@@ -10,14 +11,16 @@ module fuge_smallest_eigenvalue
 
   public :: find_smallest_eigenvalue, unscale
 
-  !> Steps of the inverse iteration.
-  integer, parameter :: STEPS = 3
+  !> Steps of the inverse iteration, and of that on a Schur complement.
+  integer, parameter :: STEPS = 3, SCHUR_STEPS = 4
 
 contains
 
   !> `quotient`: Rayleigh quotient y^T K y of the softest mode y relative to the magnitude of its
   !> terms, |y|^T |K| |y|; `place`: the degree of freedom that y moves most.
   !>
+  !> If the factor ends with a Schur complement, one step from its softest mode is all: enough to see that K is not
+  !> nearly singular, while a small quotient may be several times too large.
   !> `scale` (degrees): square root of the diagonal of K, zero where constrained. `status` is not
   !> zero without memory.
   subroutine find_smallest_eigenvalue(stiffness, factor, scale, quotient, place, status)
@@ -37,10 +40,11 @@ contains
     do j = 1, size(scale)
       y(j, 1) = modulo(real(j, dp)*sqrt(2.0_dp), 1.0_dp) - 0.3_dp
     end do
-    do step = 1, STEPS
+    if (allocated(factor%last)) call add_softest_of_schur(factor, scale, y(:, 1), status)
+    do step = 1, merge(1, STEPS, allocated(factor%last))
       y(:, 1) = y(:, 1)*scale
       y = y/maxval(abs(y))
-      call factor%solve(y, status)
+      if (status == FUGE_DONE) call factor%solve(y, status)
       if (status /= FUGE_DONE) return
       y(:, 1) = y(:, 1)*scale
     end do
@@ -51,6 +55,30 @@ contains
     ! Both are sums over all degrees of freedom, but the constrained ones do not move.
     quotient = dot_product(y(:, 1), product)/dot_product(abs(y(:, 1)), magnitude)
   end subroutine find_smallest_eigenvalue
+
+  !> Add to y (degrees) the softest mode of the Schur complement of the last degrees of freedom, as large as y: its
+  !> extension to all others is close to the softest mode of K, unless that leaves those at rest.
+  subroutine add_softest_of_schur(factor, scale, y, status)
+    class(stiffness_factor), intent(in) :: factor
+    real(dp), intent(in) :: scale(:)
+    real(dp), intent(inout) :: y(:)
+    integer, intent(out) :: status
+    real(dp), allocatable :: root(:, :), t(:)
+    integer :: p, step
+
+    call factor%copy_schur_factor(root, status)
+    if (status /= FUGE_DONE) return
+    p = size(root, 1)
+    t = y(factor%last)
+    do step = 1, SCHUR_STEPS
+      t = t*scale(factor%last)
+      t = t/maxval(abs(t))
+      call dtrsv('L', 'N', 'N', p, root, p, t, 1)
+      call dtrsv('L', 'T', 'N', p, root, p, t, 1)
+      t = t*scale(factor%last)
+    end do
+    y(factor%last) = y(factor%last) + t*(norm2(y)/norm2(t))
+  end subroutine add_softest_of_schur
 
   !> Divide y (degrees) by the scale; y becomes zero where the scale is zero.
   pure subroutine unscale(y, scale)

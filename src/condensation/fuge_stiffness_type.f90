@@ -8,13 +8,21 @@ module fuge_stiffness_type
 
   !> Cholesky factor of a stiffness matrix without the constrained degrees of freedom.
   type, abstract, public :: stiffness_factor
+    !> The degrees of freedom that have been eliminated last, in that order. Not allocated: no such order.
+    integer, allocatable :: last(:)
   contains
     !> Replace loads by displacements.
     procedure(solve_for_block), deferred :: solve
+    procedure :: copy_schur_factor
   end type stiffness_factor
 
   !> A symmetric stiffness matrix, force per displacement.
   type, abstract, public :: fuge_stiffness
+    !> Degrees of freedom to eliminate last, not constrained, so that the factor ends with that of their Schur
+    !> complement. Not allocated: any order. A storage that cannot choose its order ignores them.
+    integer, allocatable :: last(:)
+    !> Number of solves that the order of `last` saves; it is taken if it costs less than them.
+    integer :: columns = 0
   contains
     !> Number of degrees of freedom, 0 before the matrix is set.
     procedure(count_degrees), deferred :: degrees
@@ -78,6 +86,19 @@ module fuge_stiffness_type
   end interface
 
 contains
+
+  !> Lower Cholesky factor of the Schur complement of `last`: `root` (size(last), size(last)), zero above the diagonal.
+  !> A storage that chooses its order overrides it; without `last` the root is empty.
+  subroutine copy_schur_factor(self, root, status)
+    class(stiffness_factor), intent(in) :: self
+    real(dp), allocatable, intent(out) :: root(:, :)
+    integer, intent(out) :: status
+
+    status = FUGE_ERR_MEMORY
+    if (allocated(self%last)) return
+    allocate (root(0, 0))
+    status = FUGE_DONE
+  end subroutine copy_schur_factor
 
   !> Cholesky factor of K without the `constrained` rows and columns (degrees), and its least
   !> pivot.
