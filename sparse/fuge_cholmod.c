@@ -21,6 +21,7 @@ typedef struct factor {
 int fuge_cholmod_factorise(int n, const int *column, const int *row, const double *value, int last, int *order,
                            int columns, void **destination, double *pivots, int *failed);
 void fuge_cholmod_copy_last(void *source, int last, double *root);
+void fuge_cholmod_replace_last(void *source, int last, const double *root, int count, const int *isolated);
 int fuge_cholmod_solve(void *source, int n, int columns, double *block);
 void fuge_cholmod_free(void *source);
 
@@ -256,6 +257,67 @@ void fuge_cholmod_copy_last(void *source, int last, double *root)
   } else {
     for (SuiteSparse_long k = first; k < n; k++)
       copy_column(l, k, first, root);
+  }
+}
+
+/* Is the row, counted from 0 among the last ones, isolated? The list counts from 1 and is short. */
+static int is_isolated(SuiteSparse_long row, int count, const int *isolated)
+{
+  for (int k = 0; k < count; k++)
+    if (isolated[k] - 1 == row)
+      return 1;
+  return 0;
+}
+
+/* New last columns, and zero in the isolated rows, of supernode s. */
+static void replace_supernode(cholmod_factor *l, size_t s, SuiteSparse_long first, const double *root, int count,
+                              const int *isolated)
+{
+  SuiteSparse_long begin = ((const SuiteSparse_long *)l->super)[s], end = ((const SuiteSparse_long *)l->super)[s + 1];
+  const SuiteSparse_long *place = (const SuiteSparse_long *)l->pi + s;
+  const SuiteSparse_long *rows = (const SuiteSparse_long *)l->s + place[0];
+  double *x = (double *)l->x + ((const SuiteSparse_long *)l->px)[s];
+  SuiteSparse_long height = place[1] - place[0], last = (SuiteSparse_long)l->n - first;
+  SuiteSparse_long middle = end < first ? end : begin > first ? begin : first;
+
+  for (SuiteSparse_long k = middle; k < end; k++)
+    for (SuiteSparse_long r = k - begin; r < height; r++)
+      x[r + height * (k - begin)] = root[rows[r] - first + last * (k - first)];
+  for (SuiteSparse_long r = height; r-- > 0 && rows[r] >= first;)
+    if (is_isolated(rows[r] - first, count, isolated))
+      for (SuiteSparse_long k = begin; k < middle; k++)
+        x[r + height * (k - begin)] = 0.0;
+}
+
+/* The same for column k of a simplicial factor. */
+static void replace_column(cholmod_factor *l, SuiteSparse_long k, SuiteSparse_long first, const double *root, int count,
+                           const int *isolated)
+{
+  SuiteSparse_long begin = ((const SuiteSparse_long *)l->p)[k], entries = ((const SuiteSparse_long *)l->nz)[k];
+  const SuiteSparse_long *rows = (const SuiteSparse_long *)l->i + begin;
+  double *x = (double *)l->x + begin;
+  const double *column = root + ((SuiteSparse_long)l->n - first) * (k - first);
+
+  for (SuiteSparse_long r = entries; r-- > 0 && rows[r] >= first;)
+    if (k >= first)
+      x[r] = l->is_ll ? column[rows[r] - first] : column[rows[r] - first] / column[k - first];
+    else if (is_isolated(rows[r] - first, count, isolated))
+      x[r] = 0.0;
+  if (k >= first && !l->is_ll)
+    x[0] = column[k - first] * column[k - first];
+}
+
+void fuge_cholmod_replace_last(void *source, int last, const double *root, int count, const int *isolated)
+{
+  cholmod_factor *l = ((factor *)source)->l;
+  SuiteSparse_long n = (SuiteSparse_long)l->n, first = n - last;
+
+  if (l->is_super) {
+    for (size_t s = 0; s < l->nsuper; s++)
+      replace_supernode(l, s, first, root, count, isolated);
+  } else {
+    for (SuiteSparse_long k = 0; k < n; k++)
+      replace_column(l, k, first, root, count, isolated);
   }
 }
 

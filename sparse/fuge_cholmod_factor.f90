@@ -17,6 +17,7 @@ module fuge_cholmod_factor
     procedure :: factorise
     procedure :: solve
     procedure :: copy_schur_factor
+    procedure :: replace_schur_factor
     final :: release
   end type cholmod_factor
 
@@ -52,6 +53,16 @@ module fuge_cholmod_factor
       integer(c_int), intent(in), value :: last
       real(c_double), intent(inout) :: root(last, *)
     end subroutine cholmod_copy_last
+
+    !> Replace the lower triangle of the last columns of the factor by that of `root`, and the rows `isolated`, counted
+    !> among the last ones, of all other columns by zero.
+    subroutine cholmod_replace_last(factor, last, root, count, isolated) bind(c, name='fuge_cholmod_replace_last')
+      import :: c_int, c_double, c_ptr
+      type(c_ptr), intent(in), value :: factor
+      integer(c_int), intent(in), value :: last, count
+      real(c_double), intent(in) :: root(last, *)
+      integer(c_int), intent(in) :: isolated(*)
+    end subroutine cholmod_replace_last
 
     subroutine cholmod_free(factor) bind(c, name='fuge_cholmod_free')
       import :: c_ptr
@@ -109,6 +120,16 @@ contains
     if (p > 0) call cholmod_copy_last(self%handle, int(p, c_int), root)
     status = FUGE_DONE
   end subroutine copy_schur_factor
+
+  !> Replace the factor of the Schur complement of `last`; arguments as in `fuge_stiffness_type`.
+  subroutine replace_schur_factor(self, root, isolated)
+    class(cholmod_factor), intent(inout) :: self
+    real(dp), intent(in), contiguous :: root(:, :)
+    integer, intent(in) :: isolated(:)
+
+    call cholmod_replace_last(self%handle, size(root, 2, kind=c_int), root, size(isolated, kind=c_int), &
+                              int(isolated, c_int))
+  end subroutine replace_schur_factor
 
   !> Free the factor of CHOLMOD.
   subroutine release(self)

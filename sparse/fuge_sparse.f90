@@ -21,7 +21,9 @@ module fuge_sparse
     procedure :: degrees
     procedure :: diagonal
     procedure :: multiply
+    procedure :: copy_columns
     procedure :: cholesky
+    procedure :: can_order
   end type fuge_sparse_stiffness
 
 contains
@@ -276,6 +278,34 @@ contains
     end do
   end subroutine multiply
 
+  !> Columns of K; arguments as in `fuge_stiffness_type`.
+  subroutine copy_columns(self, places, block)
+    class(fuge_sparse_stiffness), intent(in) :: self
+    integer, intent(in) :: places(:)
+    real(dp), intent(out), contiguous :: block(:, :)
+    integer, allocatable :: place(:)
+    integer :: i, j, k, p
+
+    block = 0.0_dp
+    allocate (place(size(block, 1)), source=0)
+    place(places) = [(k, k=1, size(places))]
+    do j = 1, size(place)
+      do p = self%upper%column(j), self%upper%column(j + 1) - 1
+        i = self%upper%row(p)
+        if (place(i) > 0) block(j, place(i)) = self%upper%value(p)
+        if (place(j) > 0) block(i, place(j)) = self%upper%value(p)
+      end do
+    end do
+  end subroutine copy_columns
+
+  !> CHOLMOD takes any order.
+  pure function can_order(self)
+    class(fuge_sparse_stiffness), intent(in) :: self
+    logical :: can_order
+
+    can_order = self%degrees() > 0
+  end function can_order
+
   !> Cholesky factor of the constrained matrix; arguments as in `fuge_stiffness_type`.
   subroutine cholesky(self, constrained, shift, factor, pivots, failed, status)
     class(fuge_sparse_stiffness), intent(in) :: self
@@ -295,6 +325,10 @@ contains
     if (stat == 0) allocate (own, stat=stat)
     if (stat /= 0) return
     if (allocated(self%last)) then
+      ! The diagonal is the last entry of a column.
+      associate (diagonal => matrix%column(self%last + 1) - 1)
+        matrix%value(diagonal) = matrix%value(diagonal)*(1.0_dp + self%stiffening)
+      end associate
       call own%factorise(matrix, self%last, self%columns, pivots, failed, status)
     else
       call own%factorise(matrix, [integer ::], 0, pivots, failed, status)

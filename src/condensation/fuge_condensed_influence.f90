@@ -59,7 +59,7 @@ contains
     n = size(body%dof, 2)
     allocate (alpha(n, n), stat=stat)
     if (stat == 0 .and. allocated(factor%last)) then
-      call multiply_by_schur_factor(body, factor, alpha, stat)
+      call multiply_by_schur_factor(body, constrained, factor, alpha, stat)
     else if (stat == 0) then
       call solve_for_points(body, constrained, factor, alpha, stat)
     end if
@@ -112,8 +112,9 @@ contains
   end subroutine solve_for_points
 
   !> alpha (n, n) = X^T X. `status` is not FUGE_DONE without memory.
-  subroutine multiply_by_schur_factor(body, factor, alpha, status)
+  subroutine multiply_by_schur_factor(body, constrained, factor, alpha, status)
     type(fuge_body), intent(in) :: body
+    logical, intent(in) :: constrained(:)
     class(stiffness_factor), intent(in) :: factor
     real(dp), intent(inout) :: alpha(:, :)
     integer, intent(out) :: status
@@ -123,7 +124,7 @@ contains
 
     n = size(alpha, 2)
     call factor%copy_schur_factor(root, status)
-    if (status == FUGE_DONE) call gather_normals(body, factor%last, x, points, first, status)
+    if (status == FUGE_DONE) call gather_normals(body, constrained, factor%last, x, points, first, status)
     if (status == FUGE_DONE) allocate (product(n, n), stat=status)
     if (status /= FUGE_DONE) return
     call solve_staircase(size(x, 1), n, root, first, x)
@@ -136,11 +137,12 @@ contains
     end do
   end subroutine multiply_by_schur_factor
 
-  !> C, `x` (size(last), n), its columns in the order in which their first entries descend, a staircase: column j belongs
-  !> to contact point points(j) and begins at row first(j), beyond the last one if the point cannot move. `stat` is not
-  !> zero without memory.
-  pure subroutine gather_normals(body, last, x, points, first, stat)
+  !> C, `x` (size(last), n), zero where constrained, its columns ordered by their first rows, a staircase: column j
+  !> belongs to contact point points(j) and begins at row first(j), beyond the last one if the point cannot move. `stat`
+  !> is not zero without memory.
+  pure subroutine gather_normals(body, constrained, last, x, points, first, stat)
     type(fuge_body), intent(in) :: body
+    logical, intent(in) :: constrained(:)
     integer, intent(in) :: last(:)
     real(dp), allocatable, intent(out) :: x(:, :)
     integer, allocatable, intent(out) :: points(:), first(:)
@@ -153,7 +155,8 @@ contains
               stat=stat)
     if (stat /= 0) return
     row = 0
-    row(last) = [(k, k=1, size(last))]
+    ! Pins may be among the last degrees of freedom.
+    row(last) = merge(0, [(k, k=1, size(last))], constrained(last))
     begun = 0
     do i = 1, n
       begin(i) = min(minval(row(body%dof(:, i)), row(body%dof(:, i)) > 0), size(last) + 1)

@@ -23,37 +23,44 @@ contains
   !> nearly singular, while a small quotient may be several times too large.
   !> `scale` (degrees): square root of the diagonal of K, zero where constrained. `status` is not
   !> zero without memory.
-  subroutine find_smallest_eigenvalue(stiffness, factor, scale, quotient, place, status)
+  !> `loads` (degrees, any number), zero where constrained, become displacements: with the first step they cost little.
+  subroutine find_smallest_eigenvalue(stiffness, factor, scale, loads, quotient, place, status)
     class(fuge_stiffness), intent(in) :: stiffness
     class(stiffness_factor), intent(in) :: factor
     real(dp), intent(in) :: scale(:)
+    real(dp), intent(inout) :: loads(:, :)
     real(dp), intent(out) :: quotient
     integer, intent(out) :: place, status
-    real(dp), allocatable :: y(:, :), product(:), magnitude(:)
+    real(dp), allocatable :: block(:, :), y(:), product(:), magnitude(:)
     integer :: j, step
 
     quotient = 1.0_dp
     place = 0
-    allocate (y(size(scale), 1), product(size(scale)), magnitude(size(scale)), stat=status)
-    if (status /= FUGE_DONE .or. .not. any(scale > 0.0_dp)) return
+    allocate (block(size(scale), 1 + size(loads, 2)), y(size(scale)), product(size(scale)), magnitude(size(scale)), &
+              stat=status)
+    if (status /= FUGE_DONE) return
     ! Any start that is not orthogonal to the softest mode.
     do j = 1, size(scale)
-      y(j, 1) = modulo(real(j, dp)*sqrt(2.0_dp), 1.0_dp) - 0.3_dp
+      y(j) = modulo(real(j, dp)*sqrt(2.0_dp), 1.0_dp) - 0.3_dp
     end do
-    if (allocated(factor%last)) call add_softest_of_schur(factor, scale, y(:, 1), status)
+    if (allocated(factor%last)) call add_softest_of_schur(factor, scale, y, status)
+    block(:, 2:) = loads
     do step = 1, merge(1, STEPS, allocated(factor%last))
-      y(:, 1) = y(:, 1)*scale
-      y = y/maxval(abs(y))
-      if (status == FUGE_DONE) call factor%solve(y, status)
+      y = y*scale
+      block(:, 1) = y/max(maxval(abs(y)), tiny(y))
+      if (status == FUGE_DONE .and. step == 1) call factor%solve(block, status)
+      if (status == FUGE_DONE .and. step > 1) call factor%solve(block(:, :1), status)
       if (status /= FUGE_DONE) return
-      y(:, 1) = y(:, 1)*scale
+      y = block(:, 1)*scale
     end do
+    loads = block(:, 2:)
+    if (.not. any(scale > 0.0_dp)) return
     y = y/maxval(abs(y))
-    place = maxloc(abs(y(:, 1)), 1)
-    call unscale(y(:, 1), scale)
-    call stiffness%multiply(y(:, 1), product, magnitude)
+    place = maxloc(abs(y), 1)
+    call unscale(y, scale)
+    call stiffness%multiply(y, product, magnitude)
     ! Both are sums over all degrees of freedom, but the constrained ones do not move.
-    quotient = dot_product(y(:, 1), product)/dot_product(abs(y(:, 1)), magnitude)
+    quotient = dot_product(y, product)/dot_product(abs(y), magnitude)
   end subroutine find_smallest_eigenvalue
 
   !> Add to y (degrees) the softest mode of the Schur complement of the last degrees of freedom, as large as y: its
