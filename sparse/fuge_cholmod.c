@@ -2,6 +2,7 @@
  * A factor has its own workspace, so that only one thread at a time may use it. */
 #include <cholmod.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +17,17 @@ static const double MUCH_WORK = 500.0, MUCH_FILL = 5.0;
 typedef struct factor {
   cholmod_common common;
   cholmod_factor *l;
+  /* The row at each place of the factor, if the order is not CHOLMOD's own; else NULL. */
+  SuiteSparse_long *order;
 } factor;
+
+/* A matrix in the order `order` and the analysis of its factor, or in CHOLMOD's order if that is NULL. */
+typedef struct analysis {
+  cholmod_sparse *a;
+  cholmod_factor *l;
+  SuiteSparse_long *order;
+  double operations, entries;
+} analysis;
 
 int fuge_cholmod_factorise(int n, const int *column, const int *row, const double *value, int last, int *order,
                            int columns, void **destination, double *pivots, int *failed);
@@ -34,9 +45,10 @@ static double simplicial_pivot(const cholmod_factor *l, SuiteSparse_long k)
 }
 
 /* The pivots in the order of the matrix. */
-static void copy_pivots(const cholmod_factor *l, double *pivots)
+static void copy_pivots(const factor *f, double *pivots)
 {
-  const SuiteSparse_long *place = l->Perm;
+  const cholmod_factor *l = f->l;
+  const SuiteSparse_long *place = f->order ? f->order : (const SuiteSparse_long *)l->Perm;
 
   if (l->is_super) {
     const SuiteSparse_long *first = l->super, *rows = l->pi, *values = l->px;
@@ -74,84 +86,193 @@ static cholmod_sparse *copy_matrix(int n, const int *column, const int *row, con
   return a;
 }
 
-/* Analysis in a given order, or in its postorder, which changes nothing but the storage; NULL without memory. */
-static cholmod_factor *analyse_order(cholmod_sparse *a, SuiteSparse_long *order, int postorder, cholmod_common *common)
+/* The lower triangle of a matrix in another order, its rows not sorted; NULL without memory. CHOLMOD would permute the
+ * matrix for the analysis and again for the factorisation. */
+static cholmod_sparse *permute(const cholmod_sparse *a, const SuiteSparse_long *order, cholmod_common *common)
 {
-  cholmod_factor *l;
+  SuiteSparse_long n = (SuiteSparse_long)a->nrow, *column, i, j;
+  const SuiteSparse_long *begin = (const SuiteSparse_long *)a->p, *row = (const SuiteSparse_long *)a->i;
+  SuiteSparse_long *place = malloc(a->nrow * sizeof *place);
+  cholmod_sparse *b = place ? cholmod_l_allocate_sparse(a->nrow, a->nrow, a->nzmax, 0, 1, -1, CHOLMOD_REAL, common)
+                            : NULL;
 
-  common->nmethods = 1;
-  common->method[0].ordering = CHOLMOD_GIVEN;
-  common->postorder = postorder;
-  l = cholmod_l_analyze_p(a, order, NULL, 0, common);
-  common->nmethods = 0;
-  common->postorder = 1;
-  return l;
-}
-
-/* Move the members of an order to its end; the order among them, and among the others, stays. */
-static void move_to_end(SuiteSparse_long n, const SuiteSparse_long *from, const SuiteSparse_long *member,
-                        SuiteSparse_long *order)
-{
-  SuiteSparse_long end = 0;
-
-  for (SuiteSparse_long wanted = 0; wanted < 2; wanted++)
+  if (b) {
     for (SuiteSparse_long k = 0; k < n; k++)
-      if (member[from[k]] == wanted)
-        order[end++] = from[k];
+      place[order[k]] = k;
+    column = (SuiteSparse_long *)b->p;
+    memset(column, 0, ((size_t)n + 1) * sizeof *column);
+    for (SuiteSparse_long c = 0; c < n; c++)
+      for (SuiteSparse_long p = begin[c]; p < begin[c + 1]; p++)
+        column[place[row[p]] < place[c] ? place[row[p]] : place[c]]++;
+    /* The end of each column, then, backwards, its beginning. */
+    for (SuiteSparse_long c = 1; c <= n; c++)
+      column[c] += column[c - 1];
+    for (SuiteSparse_long c = n; c-- > 0;)
+      for (SuiteSparse_long p = begin[c + 1]; p-- > begin[c];) {
+        i = place[row[p]];
+        j = place[c];
+        column[i < j ? i : j]--;
+        ((SuiteSparse_long *)b->i)[column[i < j ? i : j]] = i < j ? j : i;
+        ((double *)b->x)[column[i < j ? i : j]] = ((const double *)a->x)[p];
+      }
+  }
+  free(place);
+  return b;
 }
 
-/* As CHOLMOD does without constraints: nested dissection for a factor that fills much, as in three dimensions. */
-static cholmod_factor *dissect(cholmod_sparse *a, const SuiteSparse_long *member, SuiteSparse_long *work,
-                               cholmod_common *common)
+static void free_analysis(analysis *s, cholmod_common *common)
 {
-  SuiteSparse_long n = (SuiteSparse_long)a->nrow;
-  SuiteSparse_long *order = work + n;
-  cholmod_factor *l;
-
-  if (!cholmod_l_metis(a, NULL, 0, 1, work, common))
-    return NULL;
-  move_to_end(n, work, member, order);
-  l = analyse_order(a, order, 1, common);
-  if (!l)
-    return NULL;
-  /* The postorder keeps supernodes together; it may have moved the members. */
-  move_to_end(n, l->Perm, member, order);
-  cholmod_l_free_factor(&l, common);
-  return analyse_order(a, order, 0, common);
+  cholmod_l_free_sparse(&s->a, common);
+  cholmod_l_free_factor(&s->l, common);
+  free(s->order);
+  s->order = NULL;
 }
 
-/* Analysis in an order that fills little and has the rows `last`, counted from 1, at its end; NULL if there is none.
- * common->fl and lnz are those of the result. */
-static cholmod_factor *analyse_with_last(cholmod_sparse *a, int last, const int *rows, cholmod_common *common)
+/* Analysis in the given order, which it takes over; without memory the factor is NULL. */
+static analysis analyse_order(const cholmod_sparse *a, SuiteSparse_long *order, cholmod_common *common)
+{
+  analysis s = { permute(a, order, common), NULL, order, 0.0, 0.0 };
+
+  if (s.a) {
+    common->nmethods = 1;
+    common->method[0].ordering = CHOLMOD_NATURAL;
+    common->postorder = 0;
+    s.l = cholmod_l_analyze(s.a, common);
+    s.operations = common->fl;
+    s.entries = common->lnz;
+    common->nmethods = 0;
+    common->method[0].ordering = CHOLMOD_GIVEN;
+    common->postorder = 1;
+  }
+  return s;
+}
+
+/* A number that stands for row j in sums. */
+static uint64_t mixed(SuiteSparse_long j)
+{
+  uint64_t x = ((uint64_t)j + 1) * UINT64_C(0x9E3779B97F4A7C15);
+
+  x = (x ^ (x >> 31)) * UINT64_C(0xBF58476D1CE4E5B9);
+  return x ^ (x >> 29);
+}
+
+/* Groups of neighbouring rows with the same columns, as those of a node, not divided by `member`: begin (groups + 1).
+ * Equal sums of mixed columns count as the same columns; a mistake would cost fill only. Result: the number of groups,
+ * 0 without memory. */
+static SuiteSparse_long find_groups(const cholmod_sparse *a, const SuiteSparse_long *member, SuiteSparse_long *begin)
+{
+  SuiteSparse_long n = (SuiteSparse_long)a->nrow, groups = 0;
+  const SuiteSparse_long *column = (const SuiteSparse_long *)a->p, *row = (const SuiteSparse_long *)a->i;
+  uint64_t *sum = calloc((size_t)n, sizeof *sum);
+
+  if (!sum)
+    return 0;
+  for (SuiteSparse_long j = 0; j < n; j++)
+    for (SuiteSparse_long p = column[j]; p < column[j + 1]; p++) {
+      sum[row[p]] += mixed(j);
+      if (row[p] != j)
+        sum[j] += mixed(row[p]);
+    }
+  for (SuiteSparse_long j = 0; j < n; j++)
+    if (j == 0 || sum[j] != sum[j - 1] || member[j] != member[j - 1])
+      begin[groups++] = j;
+  begin[groups] = n;
+  free(sum);
+  return groups;
+}
+
+/* The graph of the groups, and which of them are members; NULL without memory. */
+static cholmod_sparse *quotient_graph(const cholmod_sparse *a, const SuiteSparse_long *member, SuiteSparse_long groups,
+                                      const SuiteSparse_long *begin, SuiteSparse_long *group_member,
+                                      cholmod_common *common)
+{
+  const SuiteSparse_long *column = (const SuiteSparse_long *)a->p, *row = (const SuiteSparse_long *)a->i;
+  SuiteSparse_long *group = malloc(a->nrow * sizeof *group), *p, *i, end = 0;
+  cholmod_sparse *q = group ? cholmod_l_allocate_sparse((size_t)groups, (size_t)groups, a->nzmax, 1, 1, 1,
+                                                        CHOLMOD_PATTERN, common) : NULL;
+
+  if (q) {
+    p = (SuiteSparse_long *)q->p;
+    i = (SuiteSparse_long *)q->i;
+    for (SuiteSparse_long g = 0; g < groups; g++)
+      for (SuiteSparse_long j = begin[g]; j < begin[g + 1]; j++)
+        group[j] = j == begin[g] ? g : -1;
+    for (SuiteSparse_long g = 0; g < groups; g++) {
+      p[g] = end;
+      for (SuiteSparse_long k = column[begin[g]]; k < column[begin[g] + 1]; k++)
+        if (group[row[k]] >= 0)
+          i[end++] = group[row[k]];
+      group_member[g] = member[begin[g]];
+    }
+    p[groups] = end;
+  }
+  free(group);
+  return q;
+}
+
+/* The order of rows that an order of their groups means, the members at its end; NULL without memory. */
+static SuiteSparse_long *expand(SuiteSparse_long n, SuiteSparse_long groups, const SuiteSparse_long *begin,
+                                const SuiteSparse_long *group_member, const SuiteSparse_long *group_order)
+{
+  SuiteSparse_long *order = malloc((size_t)n * sizeof *order), end = 0;
+
+  for (SuiteSparse_long wanted = 0; order && wanted < 2; wanted++)
+    for (SuiteSparse_long k = 0; k < groups; k++)
+      if (group_member[group_order[k]] == wanted)
+        for (SuiteSparse_long j = begin[group_order[k]]; j < begin[group_order[k] + 1]; j++)
+          order[end++] = j;
+  return order;
+}
+
+/* Analysis in an order that fills little and has the members at its end, found on the graph of the groups. As in
+ * CHOLMOD without such constraints it is nested dissection if the factor fills much, as in three dimensions. */
+static analysis analyse_graph(const cholmod_sparse *a, cholmod_sparse *graph, const SuiteSparse_long *begin,
+                              SuiteSparse_long *group_member, SuiteSparse_long *group_order, cholmod_common *common)
+{
+  SuiteSparse_long n = (SuiteSparse_long)a->nrow, groups = (SuiteSparse_long)graph->nrow, *order = NULL;
+  analysis s = { NULL, NULL, NULL, 0.0, 0.0 }, dissected;
+
+  if (cholmod_l_camd(graph, NULL, 0, group_member, group_order, common))
+    order = expand(n, groups, begin, group_member, group_order);
+  if (order)
+    s = analyse_order(a, order, common);
+  if (!s.l || s.operations < MUCH_WORK * s.entries || s.entries < MUCH_FILL * (double)a->nzmax)
+    return s;
+  order = NULL;
+  if (cholmod_l_metis(graph, NULL, 0, 1, group_order, common))
+    order = expand(n, groups, begin, group_member, group_order);
+  if (!order)
+    return s;
+  dissected = analyse_order(a, order, common);
+  if (dissected.l && dissected.operations < s.operations) {
+    free_analysis(&s, common);
+    return dissected;
+  }
+  free_analysis(&dissected, common);
+  return s;
+}
+
+/* The same for the `rows`, counted from 1. */
+static analysis analyse_with_last(const cholmod_sparse *a, int last, const int *rows, cholmod_common *common)
 {
   size_t n = a->nrow;
-  SuiteSparse_long *member = calloc(n, sizeof *member);
-  SuiteSparse_long *work = malloc(2 * n * sizeof *work);
-  cholmod_factor *l = NULL, *dissected;
-  double operations, entries;
+  SuiteSparse_long *member = calloc(2 * n, sizeof *member), *begin = malloc((2 * n + 1) * sizeof *begin), groups = 0;
+  cholmod_sparse *graph = NULL;
+  analysis s = { NULL, NULL, NULL, 0.0, 0.0 };
 
-  if (member && work) {
+  if (member && begin) {
     for (int k = 0; k < last; k++)
       member[rows[k] - 1] = 1;
-    if (cholmod_l_camd(a, NULL, 0, member, work, common))
-      l = analyse_order(a, work, 0, common);
-    operations = common->fl;
-    entries = common->lnz;
-    if (l && operations > MUCH_WORK * entries && entries > MUCH_FILL * common->anz) {
-      dissected = dissect(a, member, work, common);
-      if (dissected && common->fl < operations) {
-        cholmod_l_free_factor(&l, common);
-        l = dissected;
-      } else {
-        cholmod_l_free_factor(&dissected, common);
-        common->fl = operations;
-        common->lnz = entries;
-      }
-    }
+    groups = find_groups(a, member, begin);
   }
+  if (groups > 0)
+    graph = quotient_graph(a, member, groups, begin, member + n, common);
+  if (graph)
+    s = analyse_graph(a, graph, begin, member + n, begin + n + 1, common);
+  cholmod_l_free_sparse(&graph, common);
   free(member);
-  free(work);
-  return l;
+  free(begin);
+  return s;
 }
 
 /* Operations, in those of a factorisation, that alpha needs in addition if the rows are last, with p of them. */
@@ -160,27 +281,28 @@ static double operations_with_last(double p, double columns)
   return p * columns * (p + columns);
 }
 
-/* The cheaper analysis: the rows `order` last, or any order and `columns` solves. `order` becomes the order of
- * elimination, or zero. */
-static cholmod_factor *analyse(cholmod_sparse *a, int last, int *order, int columns, cholmod_common *common)
+/* The cheaper analysis: the rows `order` last, or any order and `columns` solves. The matrix is taken over; without
+ * memory there is no factor. `order` becomes the order of elimination, or zero. */
+static analysis analyse(cholmod_sparse *a, int last, int *order, int columns, cholmod_common *common)
 {
-  cholmod_factor *constrained = last > 0 ? analyse_with_last(a, last, order, common) : NULL;
-  cholmod_factor *free_order;
-  double p = last, cost = common->fl + operations_with_last(p, columns);
+  analysis any = { a, NULL, NULL, 0.0, 0.0 }, s = { NULL, NULL, NULL, 0.0, 0.0 };
+  double p = last, added = operations_with_last(p, columns);
 
+  if (last > 0)
+    s = analyse_with_last(a, last, order, common);
   /* Without doubt if most of the work is not in the last rows. */
-  if (!constrained || p * p * p / 3 + operations_with_last(p, columns) > common->fl / 2) {
-    free_order = cholmod_l_analyze(a, common);
-    if (!constrained || (free_order && common->fl + SOLVE_WEIGHT * 4 * common->lnz * columns < cost)) {
-      cholmod_l_free_factor(&constrained, common);
+  if (!s.l || p * p * p / 3 + added > s.operations / 2) {
+    any.l = cholmod_l_analyze(a, common);
+    if (!s.l || (any.l && common->fl + SOLVE_WEIGHT * 4 * common->lnz * columns < s.operations + added)) {
+      free_analysis(&s, common);
       memset(order, 0, (size_t)last * sizeof *order);
-      return free_order;
+      return any;
     }
-    cholmod_l_free_factor(&free_order, common);
   }
+  free_analysis(&any, common);
   for (int k = 0; k < last; k++)
-    order[k] = (int)((const SuiteSparse_long *)constrained->Perm)[constrained->n - (size_t)(last - k)] + 1;
-  return constrained;
+    order[k] = (int)s.order[s.l->n - (size_t)(last - k)] + 1;
+  return s;
 }
 
 int fuge_cholmod_factorise(int n, const int *column, const int *row, const double *value, int last, int *order,
@@ -188,6 +310,7 @@ int fuge_cholmod_factorise(int n, const int *column, const int *row, const doubl
 {
   factor *f = calloc(1, sizeof *f);
   cholmod_sparse *a;
+  analysis s;
   int status = NO_MEMORY;
 
   *destination = NULL;
@@ -198,17 +321,19 @@ int fuge_cholmod_factorise(int n, const int *column, const int *row, const doubl
   f->common.print = 0;
   a = copy_matrix(n, column, row, value, &f->common);
   if (a) {
-    f->l = analyse(a, last, order, columns, &f->common);
-    if (f->l && cholmod_l_factorize(a, f->l, &f->common))
+    s = analyse(a, last, order, columns, &f->common);
+    f->l = s.l;
+    f->order = s.order;
+    if (f->l && cholmod_l_factorize(s.a, f->l, &f->common))
       status = DONE;
-    cholmod_l_free_sparse(&a, &f->common);
+    cholmod_l_free_sparse(&s.a, &f->common);
   }
   if (status == DONE && f->l->minor < f->l->n) {
-    *failed = (int)((const SuiteSparse_long *)f->l->Perm)[f->l->minor] + 1;
+    *failed = (int)(f->order ? f->order : (const SuiteSparse_long *)f->l->Perm)[f->l->minor] + 1;
     status = NOT_DEFINITE;
   }
   if (status == DONE) {
-    copy_pivots(f->l, pivots);
+    copy_pivots(f, pivots);
     *destination = f;
   } else {
     fuge_cholmod_free(f);
@@ -321,16 +446,38 @@ void fuge_cholmod_replace_last(void *source, int last, const double *root, int c
   }
 }
 
+/* Copy the rows of a block between the order of the matrix and that of the factor. */
+static void reorder(const factor *f, int n, int columns, int to_factor, const double *from, double *to)
+{
+  for (size_t c = 0; c < (size_t)columns * (size_t)n; c += (size_t)n)
+    for (size_t k = 0; k < (size_t)n; k++)
+      if (to_factor)
+        to[c + k] = from[c + (size_t)f->order[k]];
+      else
+        to[c + (size_t)f->order[k]] = from[c + k];
+}
+
 int fuge_cholmod_solve(void *source, int n, int columns, double *block)
 {
   factor *f = source;
-  cholmod_dense right = { (size_t)n, (size_t)columns, (size_t)n * (size_t)columns, (size_t)n, block, NULL,
-                          CHOLMOD_REAL, CHOLMOD_DOUBLE };
-  cholmod_dense *x = cholmod_l_solve(CHOLMOD_A, f->l, &right, &f->common);
+  size_t size = (size_t)n * (size_t)columns;
+  double *ordered = f->order ? malloc(size * sizeof *ordered) : block;
+  cholmod_dense right = { (size_t)n, (size_t)columns, size, (size_t)n, ordered, NULL, CHOLMOD_REAL, CHOLMOD_DOUBLE };
+  cholmod_dense *x = NULL;
 
+  if (!ordered)
+    return NO_MEMORY;
+  if (f->order)
+    reorder(f, n, columns, 1, block, ordered);
+  x = cholmod_l_solve(CHOLMOD_A, f->l, &right, &f->common);
+  if (f->order)
+    free(ordered);
   if (!x)
     return NO_MEMORY;
-  memcpy(block, x->x, (size_t)n * (size_t)columns * sizeof *block);
+  if (f->order)
+    reorder(f, n, columns, 0, x->x, block);
+  else
+    memcpy(block, x->x, size * sizeof *block);
   cholmod_l_free_dense(&x, &f->common);
   return DONE;
 }
@@ -343,5 +490,6 @@ void fuge_cholmod_free(void *source)
     return;
   cholmod_l_free_factor(&f->l, &f->common);
   cholmod_l_finish(&f->common);
+  free(f->order);
   free(f);
 }

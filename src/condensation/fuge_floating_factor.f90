@@ -20,11 +20,9 @@ module fuge_floating_factor
   public :: factorise_floating
 
   !> Degrees of freedom scattered over the body, among which the pins are.
-  integer, parameter :: SCATTERED = 32
+  integer, parameter :: SCATTERED = 12
   !> D over the diagonal of K. As large as the diagonal, it is subtracted without a loss of digits.
   real(dp), parameter :: STIFFENING = 1.0_dp
-  !> Relative rounding error of S, which is a sum over all other degrees of freedom.
-  real(dp), parameter :: ROUNDING = 1.0e3_dp*epsilon(1.0_dp)
 
 contains
 
@@ -121,7 +119,8 @@ contains
     allocate (fixed(p))
     fixed = .false.
     call dense%set(schur, info)
-    if (.not. info%failed()) call find_rigid_modes(dense, fixed, scale(factor%last), modes, info, ROUNDING)
+    if (.not. info%failed()) call find_rigid_modes(dense, fixed, scale(factor%last), modes, info, &
+                                                   real(size(scale), dp)/real(p, dp))
     if (.not. info%failed()) call choose_pins(pin_scale(factor%last), modes, places, info)
     if (info%failed()) return
     call isolate(places, schur)

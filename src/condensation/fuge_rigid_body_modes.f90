@@ -42,26 +42,26 @@ contains
   !> elastic mode.
   !>
   !> `fixed` (degrees); `scale` is s, (degrees), zero where fixed; `rigid_modes` (degrees, number
-  !> of modes). `rounding`: a stiffness below this fraction of its terms counts as zero; by default that of a K
-  !> that is rounded once. Errors: FUGE_ERR_NOT_DEFINITE if K is indefinite, or if an elastic mode is too soft
+  !> of modes). `share`: the number of degrees of freedom for which each one stands, with their rounding errors, in a
+  !> Schur complement; 1 by default. Errors: FUGE_ERR_NOT_DEFINITE if K is indefinite, or if an elastic mode is too soft
   !> to be told from the rigid ones; FUGE_ERR_MEMORY.
-  subroutine find_rigid_modes(stiffness, fixed, scale, rigid_modes, info, rounding)
+  subroutine find_rigid_modes(stiffness, fixed, scale, rigid_modes, info, share)
     class(fuge_stiffness), intent(in) :: stiffness
     logical, intent(in) :: fixed(:)
     real(dp), intent(in) :: scale(:)
     real(dp), allocatable, intent(out) :: rigid_modes(:, :)
     type(fuge_info), intent(inout) :: info
-    real(dp), intent(in), optional :: rounding
+    real(dp), intent(in), optional :: share
     class(stiffness_factor), allocatable :: factor
     real(dp), allocatable :: y(:, :), quotient(:), magnitudes(:)
-    real(dp) :: error, none, pivot
+    real(dp) :: error, error_share, pivot
     integer :: rigid, free, status, width, weakest
 
     error = 0.0_dp
-    none = NO_STIFFNESS
-    if (present(rounding)) none = rounding
+    error_share = 1.0_dp
+    if (present(share)) error_share = share
     free = count(.not. fixed)
-    call stiffness%factorise(fixed, SHIFT, factor, pivot, weakest, status)
+    call stiffness%factorise(fixed, error_share*SHIFT, factor, pivot, weakest, status)
     if (status /= 0) then
       call report(info, status, 'no memory for the factor of the stiffness matrix')
     else if (pivot <= 0.0_dp) then
@@ -77,11 +77,11 @@ contains
         call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(width)//' modes of the body')
         return
       end if
-      rigid = count(quotient <= none*magnitudes)
+      rigid = count(quotient <= error_share*NO_STIFFNESS*magnitudes)
       if (rigid < width .or. width == free) exit
       width = min(2*width, free)
     end do
-    if (rigid < width .and. rigid > 0) error = none*magnitudes(1)/quotient(rigid + 1)
+    if (rigid < width .and. rigid > 0) error = error_share*NO_STIFFNESS*magnitudes(1)/quotient(rigid + 1)
     if (error > LARGEST_ERROR) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'the body floats, and an elastic mode is so soft (' &
                   //text(quotient(rigid + 1))//' of the diagonal) that the rigid modes cannot be told from it: ' &
