@@ -13,6 +13,9 @@ enum { DONE = 0, NOT_DEFINITE = 1, NO_MEMORY = 2 };
 static const double SOLVE_WEIGHT = 8.0;
 /* A factor for which CHOLMOD tries nested dissection: operations per entry, and entries per entry of the matrix. */
 static const double MUCH_WORK = 500.0, MUCH_FILL = 5.0;
+/* Half the neighbours of a node above which the mesh is surely in space, and nested dissection fills less than minimum
+ * degree: they are 4 of squares, 7 of tetrahedra, 13 of cubes. */
+static const double MANY_NEIGHBOURS = 10.0;
 
 typedef struct factor {
   cholmod_common common;
@@ -224,31 +227,40 @@ static SuiteSparse_long *expand(SuiteSparse_long n, SuiteSparse_long groups, con
   return order;
 }
 
-/* Analysis in an order that fills little and has the members at its end, found on the graph of the groups. As in
- * CHOLMOD without such constraints it is nested dissection if the factor fills much, as in three dimensions. */
-static analysis analyse_graph(const cholmod_sparse *a, cholmod_sparse *graph, const SuiteSparse_long *begin,
-                              SuiteSparse_long *group_member, SuiteSparse_long *group_order, cholmod_common *common)
+/* Analysis in an order that fills little and has the members at its end, found on the graph of the groups by nested
+ * dissection or by minimum degree; no factor if there is none. */
+static analysis analyse_groups(const cholmod_sparse *a, cholmod_sparse *graph, const SuiteSparse_long *begin,
+                               SuiteSparse_long *group_member, int dissect, cholmod_common *common)
 {
-  SuiteSparse_long n = (SuiteSparse_long)a->nrow, groups = (SuiteSparse_long)graph->nrow, *order = NULL;
-  analysis s = { NULL, NULL, NULL, 0.0, 0.0 }, dissected;
+  SuiteSparse_long groups = (SuiteSparse_long)graph->nrow, *order = NULL;
+  SuiteSparse_long *group_order = malloc(graph->nrow * sizeof *group_order);
+  analysis s = { NULL, NULL, NULL, 0.0, 0.0 };
 
-  if (cholmod_l_camd(graph, NULL, 0, group_member, group_order, common))
-    order = expand(n, groups, begin, group_member, group_order);
+  if (group_order && (dissect ? cholmod_l_metis(graph, NULL, 0, 1, group_order, common)
+                              : cholmod_l_camd(graph, NULL, 0, group_member, group_order, common)))
+    order = expand((SuiteSparse_long)a->nrow, groups, begin, group_member, group_order);
   if (order)
     s = analyse_order(a, order, common);
-  if (!s.l || s.operations < MUCH_WORK * s.entries || s.entries < MUCH_FILL * (double)a->nzmax)
+  free(group_order);
+  return s;
+}
+
+/* The better of both, the second only tried where CHOLMOD would try it too, or where it is known to be better. */
+static analysis analyse_graph(const cholmod_sparse *a, cholmod_sparse *graph, const SuiteSparse_long *begin,
+                              SuiteSparse_long *group_member, cholmod_common *common)
+{
+  double neighbours = (double)((const SuiteSparse_long *)graph->p)[graph->nrow] / (double)graph->nrow - 1.0;
+  analysis s = analyse_groups(a, graph, begin, group_member, neighbours > MANY_NEIGHBOURS, common), other;
+
+  if (s.l && (neighbours > MANY_NEIGHBOURS || s.operations < MUCH_WORK * s.entries ||
+              s.entries < MUCH_FILL * (double)a->nzmax))
     return s;
-  order = NULL;
-  if (cholmod_l_metis(graph, NULL, 0, 1, group_order, common))
-    order = expand(n, groups, begin, group_member, group_order);
-  if (!order)
-    return s;
-  dissected = analyse_order(a, order, common);
-  if (dissected.l && dissected.operations < s.operations) {
+  other = analyse_groups(a, graph, begin, group_member, neighbours <= MANY_NEIGHBOURS, common);
+  if (!s.l || (other.l && other.operations < s.operations)) {
     free_analysis(&s, common);
-    return dissected;
+    return other;
   }
-  free_analysis(&dissected, common);
+  free_analysis(&other, common);
   return s;
 }
 
@@ -256,7 +268,7 @@ static analysis analyse_graph(const cholmod_sparse *a, cholmod_sparse *graph, co
 static analysis analyse_with_last(const cholmod_sparse *a, int last, const int *rows, cholmod_common *common)
 {
   size_t n = a->nrow;
-  SuiteSparse_long *member = calloc(2 * n, sizeof *member), *begin = malloc((2 * n + 1) * sizeof *begin), groups = 0;
+  SuiteSparse_long *member = calloc(2 * n, sizeof *member), *begin = malloc((n + 1) * sizeof *begin), groups = 0;
   cholmod_sparse *graph = NULL;
   analysis s = { NULL, NULL, NULL, 0.0, 0.0 };
 
@@ -268,7 +280,7 @@ static analysis analyse_with_last(const cholmod_sparse *a, int last, const int *
   if (groups > 0)
     graph = quotient_graph(a, member, groups, begin, member + n, common);
   if (graph)
-    s = analyse_graph(a, graph, begin, member + n, begin + n + 1, common);
+    s = analyse_graph(a, graph, begin, member + n, common);
   cholmod_l_free_sparse(&graph, common);
   free(member);
   free(begin);
