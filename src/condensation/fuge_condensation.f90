@@ -82,8 +82,10 @@ contains
   !>
   !> `stiffness` is any extension of fuge_stiffness, set before; of a dense or band matrix
   !> only the reference is kept, for `recover`. Cost: one Cholesky factorisation, n solves in
-  !> blocks of 64, four solves for the smallest eigenvalue and the load, and another
-  !> factorisation if rigid modes are to be found. `condensed` is replaced on success or warning.
+  !> blocks of 64, three solves for the smallest eigenvalue, and another factorisation if rigid
+  !> modes are to be found. A sparse matrix takes little more than one factorisation in all, unless
+  !> it is near to singular: contact is eliminated last, and alpha follows from the end of the
+  !> factor. `condensed` is replaced on success or warning.
   !> Warning: FUGE_WARN_RESIDUAL if K is so near to singular that alpha may have few correct
   !> digits. Errors, which name the degree of freedom or the point:
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE,
