@@ -1,8 +1,8 @@
 !> A sparse stiffness matrix, factorised by CHOLMOD. It is a library of its own, so that programs
 !> that do not need it need not link it.
 module fuge_sparse
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_associated
   use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_cholmod_factor, only: cholmod_factor
   use fuge_compressed_columns, only: compress_columns, compressed_columns, matrix_triplets
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
@@ -11,9 +11,6 @@ module fuge_sparse
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
   private
-
-  !> What fuge_cholmod_factorise returns without memory.
-  integer(c_int), parameter :: NO_MEMORY = 2
 
   !> A sparse stiffness matrix in compressed columns: `set` it, then condense.
   type, extends(fuge_stiffness), public :: fuge_sparse_stiffness
@@ -24,44 +21,10 @@ module fuge_sparse
     procedure :: degrees
     procedure :: diagonal
     procedure :: multiply
+    procedure :: copy_columns
     procedure :: cholesky
+    procedure :: can_order
   end type fuge_sparse_stiffness
-
-  type, extends(stiffness_factor) :: sparse_factor
-    type(c_ptr) :: cholmod = c_null_ptr
-  contains
-    procedure :: solve
-    final :: release
-  end type sparse_factor
-
-  interface
-    !> Factor and pivots (n); `failed` is the row at which a factorisation stopped, else 0.
-    !> Result: 0 done, 1 not definite, 2 no memory.
-    function cholmod_factorise(n, column, row, value, factor, pivots, failed) &
-      bind(c, name='fuge_cholmod_factorise') result(status)
-      import :: c_int, c_double, c_ptr
-      integer(c_int), intent(in), value :: n
-      integer(c_int), intent(in) :: column(*), row(*)
-      real(c_double), intent(in) :: value(*)
-      type(c_ptr), intent(out) :: factor
-      real(c_double), intent(out) :: pivots(*)
-      integer(c_int), intent(out) :: failed
-      integer(c_int) :: status
-    end function cholmod_factorise
-
-    function cholmod_solve(factor, n, columns, block) bind(c, name='fuge_cholmod_solve') result(status)
-      import :: c_int, c_double, c_ptr
-      type(c_ptr), intent(in), value :: factor
-      integer(c_int), intent(in), value :: n, columns
-      real(c_double), intent(inout) :: block(n, *)
-      integer(c_int) :: status
-    end function cholmod_solve
-
-    subroutine cholmod_free(factor) bind(c, name='fuge_cholmod_free')
-      import :: c_ptr
-      type(c_ptr), intent(in), value :: factor
-    end subroutine cholmod_free
-  end interface
 
 contains
 
@@ -315,6 +278,34 @@ contains
     end do
   end subroutine multiply
 
+  !> Columns of K; arguments as in `fuge_stiffness_type`.
+  subroutine copy_columns(self, places, block)
+    class(fuge_sparse_stiffness), intent(in) :: self
+    integer, intent(in) :: places(:)
+    real(dp), intent(out), contiguous :: block(:, :)
+    integer, allocatable :: place(:)
+    integer :: i, j, k, p
+
+    block = 0.0_dp
+    allocate (place(size(block, 1)), source=0)
+    place(places) = [(k, k=1, size(places))]
+    do j = 1, size(place)
+      do p = self%upper%column(j), self%upper%column(j + 1) - 1
+        i = self%upper%row(p)
+        if (place(i) > 0) block(j, place(i)) = self%upper%value(p)
+        if (place(j) > 0) block(i, place(j)) = self%upper%value(p)
+      end do
+    end do
+  end subroutine copy_columns
+
+  !> CHOLMOD takes any order.
+  pure function can_order(self)
+    class(fuge_sparse_stiffness), intent(in) :: self
+    logical :: can_order
+
+    can_order = self%degrees() > 0
+  end function can_order
+
   !> Cholesky factor of the constrained matrix; arguments as in `fuge_stiffness_type`.
   subroutine cholesky(self, constrained, shift, factor, pivots, failed, status)
     class(fuge_sparse_stiffness), intent(in) :: self
@@ -323,9 +314,8 @@ contains
     class(stiffness_factor), allocatable, intent(out) :: factor
     real(dp), intent(out) :: pivots(:)
     integer, intent(out) :: failed, status
-    type(sparse_factor), allocatable :: own
+    type(cholmod_factor), allocatable :: own
     type(compressed_columns) :: matrix
-    integer(c_int) :: outcome, place
     integer :: stat
 
     pivots = 0.0_dp
@@ -334,12 +324,16 @@ contains
     call copy_constrained(self%upper, constrained, shift, matrix, stat)
     if (stat == 0) allocate (own, stat=stat)
     if (stat /= 0) return
-    outcome = cholmod_factorise(int(size(constrained), c_int), matrix%column, matrix%row, matrix%value, own%cholmod, &
-                                pivots, place)
-    failed = int(place)
-    if (outcome == NO_MEMORY) return
-    status = FUGE_DONE
-    if (outcome == 0) call move_alloc(own, factor)
+    if (allocated(self%last)) then
+      ! The diagonal is the last entry of a column.
+      associate (diagonal => matrix%column(self%last + 1) - 1)
+        matrix%value(diagonal) = matrix%value(diagonal)*(1.0_dp + self%stiffening)
+      end associate
+      call own%factorise(matrix, self%last, self%columns, pivots, failed, status)
+    else
+      call own%factorise(matrix, [integer ::], 0, pivots, failed, status)
+    end if
+    if (status == FUGE_DONE .and. failed == 0) call move_alloc(own, factor)
   end subroutine cholesky
 
   !> The upper triangle with the constrained rows and columns replaced by those of the
@@ -375,24 +369,5 @@ contains
       matrix%column(j + 1) = q + 1
     end do
   end subroutine copy_constrained
-
-  !> Replace loads by displacements; arguments as in `fuge_stiffness_type`.
-  subroutine solve(self, block, status)
-    class(sparse_factor), intent(in) :: self
-    real(dp), intent(inout), contiguous :: block(:, :)
-    integer, intent(out) :: status
-    integer(c_int) :: outcome
-
-    outcome = cholmod_solve(self%cholmod, int(size(block, 1), c_int), int(size(block, 2), c_int), block)
-    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, outcome == 0)
-  end subroutine solve
-
-  !> Free the factor of CHOLMOD.
-  subroutine release(self)
-    type(sparse_factor), intent(inout) :: self
-
-    if (c_associated(self%cholmod)) call cholmod_free(self%cholmod)
-    self%cholmod = c_null_ptr
-  end subroutine release
 
 end module fuge_sparse

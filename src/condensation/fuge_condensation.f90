@@ -15,30 +15,33 @@
 !> out; the load must not drive it.
 module fuge_condensation
   use fuge_body_type, only: check_body, check_load_field, fuge_body
+  use fuge_condensed_influence, only: find_influence, touched_degrees
   use fuge_contact_modes, only: check_unresisted, find_contact_modes, load_resultant, split_rigid_modes, ROUNDING_ERROR
-  use fuge_contact_normals, only: add_contact_forces, add_point_force, check_free_points, displacement_scale, &
+  use fuge_contact_normals, only: add_contact_forces, check_free_points, displacement_scale, &
     pin_scale, point_displacement
-  use fuge_input_checks, only: check_finite, is_finite_everywhere
+  use fuge_floating_factor, only: factorise_floating
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_rigid_body_modes, only: check_rigid_modes, choose_pins, find_rigid_modes, normalise_at_pins
+  use fuge_rigid_body_modes, only: check_rigid_modes, choose_pins, find_pin_loads, find_rigid_modes
   use fuge_smallest_eigenvalue, only: find_smallest_eigenvalue, unscale
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
   private
 
   public :: fuge_condense, condense_to_recover
 
-  !> Number of right-hand sides that are solved together.
-  integer, parameter :: BLOCK = 64
   !> A pivot below this fraction of its diagonal term counts as zero.
   real(dp), parameter :: SMALLEST_PIVOT = 16.0_dp*epsilon(1.0_dp)
   !> With a smallest eigenvalue below this, alpha may have fewer than four correct digits; often it
   !> has two or three more.
   real(dp), parameter :: NEARLY_SINGULAR = 1.0e4_dp*epsilon(1.0_dp)
+  !> Above this smallest eigenvalue more than half of the digits are right in whatever order K is eliminated. Below it
+  !> the order that fills least is taken, which loses fewer digits on bodies in one row.
+  real(dp), parameter :: ANY_ORDER = 1.0e-8_dp
   !> Largest residual of K u = forces that counts as solved, relative to the largest force.
   real(dp), parameter :: RESIDUAL_TOLERANCE = 1.0e-10_dp
 
@@ -79,8 +82,10 @@ contains
   !>
   !> `stiffness` is any extension of fuge_stiffness, set before; of a dense or band matrix
   !> only the reference is kept, for `recover`. Cost: one Cholesky factorisation, n solves in
-  !> blocks of 64, four solves for the smallest eigenvalue and the load, and another
-  !> factorisation if rigid modes are to be found. `condensed` is replaced on success or warning.
+  !> blocks of 64, three solves for the smallest eigenvalue, and another factorisation if rigid
+  !> modes are to be found. A sparse matrix takes little more than one factorisation in all, unless
+  !> it is near to singular: contact is eliminated last, and alpha follows from the end of the
+  !> factor. `condensed` is replaced on success or warning.
   !> Warning: FUGE_WARN_RESIDUAL if K is so near to singular that alpha may have few correct
   !> digits. Errors, which name the degree of freedom or the point:
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE,
@@ -117,7 +122,9 @@ contains
     type(fuge_info), intent(out) :: info
     type(fuge_condensed) :: result
     type(fuge_info) :: warning
+    real(dp), allocatable :: all_scale(:)
     integer, allocatable :: pins(:)
+    logical :: found
     integer :: stat
 
     if (stiffness%degrees() < 1) then
@@ -129,13 +136,19 @@ contains
     allocate (result%stiffness, source=stiffness, stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the stiffness')
     result%body = body
-    if (.not. info%failed()) call constrain(result, pins, info)
-    if (.not. info%failed()) call factorise(result, info)
-    warning = info
-    if (result%body%floats .and. .not. info%failed()) then
-      call normalise_at_pins(result%stiffness, result%factor, result%constrained, pins, result%rigid_modes, info)
+    if (.not. info%failed()) call mark_supports(result, all_scale, info)
+    found = .false.
+    if (.not. info%failed() .and. body%floats .and. with_alpha .and. result%stiffness%can_order()) &
+      call factorise_once(result, pins, found)
+    if (.not. (found .or. info%failed())) call constrain(result, all_scale, pins, info)
+    if (with_alpha .and. .not. (body%floats .or. info%failed()) .and. result%stiffness%can_order()) then
+      result%stiffness%last = touched_degrees(body, result%constrained)
+      result%stiffness%columns = size(body%dof, 2)
     end if
-    if (with_alpha .and. .not. info%failed()) call find_alpha(result, info)
+    if (.not. (found .or. info%failed())) call factorise(result, pins, info)
+    warning = info
+    if (with_alpha .and. .not. info%failed()) call find_influence(body, result%constrained, result%factor, result%alpha, &
+                                                                  info)
     if (.not. info%failed()) call keep_resisted_modes(result, info)
     if (.not. info%failed()) call apply_load(result, info)
     if (.not. info%failed()) then
@@ -153,7 +166,8 @@ contains
     class(fuge_condensed), intent(inout) :: self
     real(dp), intent(in) :: load(:)
     type(fuge_info), intent(out) :: info
-    real(dp), allocatable :: previous(:)
+    real(dp), allocatable :: field(:, :), previous(:), previous_displacement(:)
+    integer :: stat
 
     if (.not. allocated(self%factor)) then
       call report(info, FUGE_ERR_CALL_ORDER, 'no body has been condensed: call fuge_condense first')
@@ -162,9 +176,21 @@ contains
     call check_load_field(load, size(self%constrained), info)
     if (info%failed()) return
     call move_alloc(self%body%load, previous)
+    call move_alloc(self%load_displacement, previous_displacement)
     self%body%load = load
-    call apply_load(self, info)
-    if (info%failed()) call move_alloc(previous, self%body%load)
+    allocate (field(size(load), 1), stat=stat)
+    if (stat == 0) call set_load_field(self, field(:, 1), stat)
+    if (stat == 0) call self%factor%solve(field, stat)
+    if (stat == 0) then
+      call add_supports(self, field(:, 1))
+      self%load_displacement = field(:, 1)
+      call apply_load(self, info)
+    else
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements due to the load')
+    end if
+    if (.not. info%failed()) return
+    call move_alloc(previous, self%body%load)
+    call move_alloc(previous_displacement, self%load_displacement)
   end subroutine set_load
 
   !> Pose the contact problem: set the gaps to `gap` + b and, if the body floats, `modes` and
@@ -299,12 +325,11 @@ contains
       //text(info%residual)//' of the largest force')
   end subroutine find_residual
 
-  !> Mark the supports, find or check the rigid modes and choose their pins.
-  subroutine constrain(self, pins, info)
+  !> Mark the supports; `all_scale` (degrees) as in `find_scale`.
+  subroutine mark_supports(self, all_scale, info)
     type(fuge_condensed), intent(inout) :: self
-    integer, allocatable, intent(out) :: pins(:)
+    real(dp), allocatable, intent(out) :: all_scale(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: all_scale(:)
     integer :: degrees, stat
 
     degrees = self%stiffness%degrees()
@@ -317,14 +342,44 @@ contains
     if (allocated(self%body%fixed)) self%constrained(self%body%fixed) = .true.
     call find_scale(self, all_scale, info)
     if (.not. info%failed()) call check_free_points(self%body, self%constrained, info)
-    if (info%failed()) return
+  end subroutine mark_supports
+
+  !> Factorise a body that floats, pins included, in an order that gives its rigid modes as well. `found`: false if that
+  !> is not possible, or if K is so near to singular that order and modes matter.
+  subroutine factorise_once(self, pins, found)
+    type(fuge_condensed), intent(inout) :: self
+    integer, allocatable, intent(out) :: pins(:)
+    logical, intent(out) :: found
+    real(dp) :: quotient
+    integer :: status, weakest
+
+    call factorise_floating(self%stiffness, self%body, self%constrained, self%scale, self%factor, pins, found)
+    if (.not. found) return
+    self%constrained(pins) = .true.
+    call measure(self, pins, quotient, weakest, status)
+    found = status == FUGE_DONE .and. quotient > ANY_ORDER
+    if (found) then
+      self%mode_error = max(self%mode_error, epsilon(quotient)/quotient)
+    else
+      self%constrained(pins) = .false.
+    end if
+  end subroutine factorise_once
+
+  !> Find or check the rigid modes and choose their pins; `all_scale` (degrees) as in `find_scale`.
+  subroutine constrain(self, all_scale, pins, info)
+    type(fuge_condensed), intent(inout) :: self
+    real(dp), allocatable, intent(in) :: all_scale(:)
+    integer, allocatable, intent(out) :: pins(:)
+    type(fuge_info), intent(inout) :: info
+
+    if (allocated(self%stiffness%last)) deallocate (self%stiffness%last)
     if (self%body%floats) then
       call find_rigid_modes(self%stiffness, self%constrained, self%scale, self%rigid_modes, info)
     else if (allocated(self%body%rigid_modes)) then
       call check_rigid_modes(self%stiffness, self%constrained, all_scale, self%body%rigid_modes, info)
       if (.not. info%failed()) self%rigid_modes = self%body%rigid_modes
     else
-      allocate (self%rigid_modes(degrees, 0))
+      allocate (self%rigid_modes(size(all_scale), 0))
     end if
     if (.not. info%failed()) call choose_pins(pin_scale(self%body, self%scale), self%rigid_modes, pins, info)
     if (.not. info%failed()) self%constrained(pins) = .true.
@@ -354,16 +409,18 @@ contains
   end subroutine find_scale
 
   !> Factorise with supports and pins; refuse a body that still floats, warn if it nearly does.
-  subroutine factorise(self, info)
+  subroutine factorise(self, pins, info)
     type(fuge_condensed), intent(inout) :: self
+    integer, intent(in) :: pins(:)
     type(fuge_info), intent(inout) :: info
-    real(dp) :: pivot, quotient
+    real(dp) :: quotient
     integer :: status, weakest
 
-    call self%stiffness%factorise(self%constrained, 0.0_dp, self%factor, pivot, weakest, status)
-    quotient = 0.0_dp
-    if (status == FUGE_DONE .and. pivot > SMALLEST_PIVOT) call find_smallest_eigenvalue( &
-      self%stiffness, self%factor, merge(0.0_dp, self%scale, self%constrained), quotient, weakest, status)
+    call factorise_measured(self, pins, quotient, weakest, status)
+    if (allocated(self%stiffness%last) .and. .not. (status == FUGE_DONE .and. quotient > ANY_ORDER)) then
+      deallocate (self%stiffness%last)
+      call factorise_measured(self, pins, quotient, weakest, status)
+    end if
     ! Rigid modes computed with the factor are as accurate as the factor.
     if (self%body%floats) self%mode_error = max(self%mode_error, epsilon(quotient)/max(quotient, epsilon(quotient)))
     if (status /= FUGE_DONE) then
@@ -380,50 +437,76 @@ contains
     end if
   end subroutine factorise
 
-  !> alpha = N^T G N, a block of columns at a time.
-  subroutine find_alpha(self, info)
+  !> The factor in the order that the stiffness asks for, and its smallest eigenvalue; results as in `measure`.
+  subroutine factorise_measured(self, pins, quotient, weakest, status)
     type(fuge_condensed), intent(inout) :: self
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: columns(:, :)
-    integer :: first, i, j, last, n, stat
+    integer, intent(in) :: pins(:)
+    real(dp), intent(out) :: quotient
+    integer, intent(out) :: weakest, status
+    real(dp) :: pivot
 
-    n = size(self%body%dof, 2)
-    allocate (self%alpha(n, n), columns(size(self%constrained), min(BLOCK, n)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the influence matrix of '//text(n)//' contact points')
-      return
+    call self%stiffness%factorise(self%constrained, 0.0_dp, self%factor, pivot, weakest, status)
+    quotient = 0.0_dp
+    if (status == FUGE_DONE .and. pivot > SMALLEST_PIVOT) call measure(self, pins, quotient, weakest, status)
+  end subroutine factorise_measured
+
+  !> The smallest eigenvalue of the factored stiffness, `quotient`, the degree of freedom `weakest` that its mode moves
+  !> most, and, since all of them need solves, the displacements by load and supports, u_p, and the rigid modes if they
+  !> are to be found. `status` is FUGE_DONE or FUGE_ERR_MEMORY.
+  subroutine measure(self, pins, quotient, weakest, status)
+    type(fuge_condensed), intent(inout) :: self
+    integer, intent(in) :: pins(:)
+    real(dp), intent(out) :: quotient
+    integer, intent(out) :: weakest, status
+    real(dp), allocatable :: loads(:, :)
+    integer :: k, modes
+
+    modes = merge(size(pins), 0, self%body%floats)
+    allocate (loads(size(self%constrained), 1 + modes), stat=status)
+    if (status == FUGE_DONE) call set_load_field(self, loads(:, 1), status)
+    if (status /= FUGE_DONE) return
+    if (modes > 0) call find_pin_loads(self%stiffness, self%constrained, pins, loads(:, 2:))
+    call find_smallest_eigenvalue(self%stiffness, self%factor, merge(0.0_dp, self%scale, self%constrained), loads, &
+                                  quotient, weakest, status)
+    if (status /= FUGE_DONE) return
+    call add_supports(self, loads(:, 1))
+    self%load_displacement = loads(:, 1)
+    if (.not. self%body%floats) return
+    self%rigid_modes = loads(:, 2:)
+    do k = 1, modes
+      self%rigid_modes(pins(k), k) = 1.0_dp
+    end do
+  end subroutine measure
+
+  !> The load and the forces of the displaced supports, `field` (degrees), zero where constrained. `status` is not
+  !> FUGE_DONE without memory.
+  subroutine set_load_field(self, field, status)
+    type(fuge_condensed), intent(in) :: self
+    real(dp), intent(out) :: field(:)
+    integer, intent(out) :: status
+    real(dp), allocatable :: prescribed(:), product(:), magnitude(:)
+
+    status = FUGE_DONE
+    field = 0.0_dp
+    if (allocated(self%body%load)) field = self%body%load
+    if (allocated(self%body%displacement)) then
+      allocate (prescribed(size(field)), product(size(field)), magnitude(size(field)), stat=status)
+      if (status /= FUGE_DONE) return
+      prescribed = 0.0_dp
+      call add_supports(self, prescribed)
+      call self%stiffness%multiply(prescribed, product, magnitude)
+      field = field - product
     end if
-    do first = 1, n, BLOCK
-      last = min(first + BLOCK - 1, n)
-      columns = 0.0_dp
-      do j = first, last
-        call add_point_force(self%body%dof(:, j), self%body%normal(:, j), 1.0_dp, columns(:, j - first + 1))
-        where (self%constrained) columns(:, j - first + 1) = 0.0_dp
-      end do
-      call self%factor%solve(columns(:, :last - first + 1), stat)
-      if (stat /= FUGE_DONE) then
-        call report(info, stat, 'no memory to solve for '//text(last - first + 1)//' right-hand sides')
-        return
-      end if
-      do j = first, last
-        do i = 1, n
-          self%alpha(i, j) = point_displacement(self%body%dof(:, i), self%body%normal(:, i), columns(:, j - first + 1))
-        end do
-      end do
-    end do
-    do j = 1, n
-      if (is_finite_everywhere(self%alpha(:, j)) .and. self%alpha(j, j) < huge(1.0_dp)) cycle
-      call report(info, FUGE_ERR_OVERFLOW, 'the influence of contact point '//index_text(j) &
-                  //' overflows: choose other units, or normals of length one')
-      return
-    end do
-    do j = 2, n
-      do i = 1, j - 1
-        self%alpha(i, j) = 0.5_dp*(self%alpha(i, j) + self%alpha(j, i))
-        self%alpha(j, i) = self%alpha(i, j)
-      end do
-    end do
-  end subroutine find_alpha
+    where (self%constrained) field = 0.0_dp
+  end subroutine set_load_field
+
+  !> Add the displacements of the supports to `field` (degrees).
+  pure subroutine add_supports(self, field)
+    type(fuge_condensed), intent(in) :: self
+    real(dp), intent(inout) :: field(:)
+
+    if (allocated(self%body%displacement)) field(self%body%fixed) = field(self%body%fixed) + self%body%displacement
+  end subroutine add_supports
 
   !> R = -N^T Z; keep the modes that the contact points resist.
   subroutine keep_resisted_modes(self, info)
@@ -449,45 +532,27 @@ contains
     end if
   end subroutine keep_resisted_modes
 
-  !> u_p, b and w due to the external load and the displacements of the supports.
+  !> b and w by the external load and the displacements of the supports, from u_p.
   subroutine apply_load(self, info)
-    class(fuge_condensed), intent(inout) :: self
+    type(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: field(:, :), prescribed(:), product(:), magnitude(:)
-    real(dp), allocatable :: load_displacement(:), resultant(:), displacement(:)
-    integer :: i, m, n, degrees, stat
+    real(dp), allocatable :: load(:), resultant(:), displacement(:)
+    integer :: i, n, stat
 
-    degrees = size(self%constrained)
     n = size(self%body%dof, 2)
-    m = size(self%modes, 2)
-    allocate (field(degrees, 1), prescribed(degrees), product(degrees), magnitude(degrees), resultant(m), &
-              displacement(n), stat=stat)
+    allocate (load(size(self%constrained)), resultant(size(self%modes, 2)), displacement(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements due to the load')
       return
     end if
-    field = 0.0_dp
-    if (allocated(self%body%load)) field(:, 1) = self%body%load
-    call check_unresisted(self%unresisted_modes, field(:, 1), self%scale, self%mode_error, info)
+    load = 0.0_dp
+    if (allocated(self%body%load)) load = self%body%load
+    call check_unresisted(self%unresisted_modes, load, self%scale, self%mode_error, info)
     if (info%failed()) return
-    resultant = load_resultant(self%rigid_modes, field(:, 1), self%scale, self%mode_error)
-    prescribed = 0.0_dp
-    if (allocated(self%body%displacement)) then
-      prescribed(self%body%fixed) = self%body%displacement
-      call self%stiffness%multiply(prescribed, product, magnitude)
-      field(:, 1) = field(:, 1) - product
-    end if
-    where (self%constrained) field(:, 1) = 0.0_dp
-    call self%factor%solve(field, stat)
-    if (stat /= FUGE_DONE) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements due to the load')
-      return
-    end if
-    load_displacement = field(:, 1) + prescribed
+    resultant = load_resultant(self%rigid_modes, load, self%scale, self%mode_error)
     do i = 1, n
-      displacement(i) = point_displacement(self%body%dof(:, i), self%body%normal(:, i), load_displacement)
+      displacement(i) = point_displacement(self%body%dof(:, i), self%body%normal(:, i), self%load_displacement)
     end do
-    call move_alloc(load_displacement, self%load_displacement)
     call move_alloc(displacement, self%displacement)
     call move_alloc(resultant, self%resultant)
   end subroutine apply_load

@@ -15,7 +15,7 @@ module fuge_rigid_body_modes
   implicit none
   private
 
-  public :: check_rigid_modes, choose_pins, find_rigid_modes, normalise_at_pins
+  public :: check_rigid_modes, choose_pins, find_pin_loads, find_rigid_modes
 
   !> Makes K + SHIFT diag(K) of a floating body positive definite: far above rounding, far below
   !> the elastic modes of any mesh that can be solved in double precision.
@@ -42,22 +42,26 @@ contains
   !> elastic mode.
   !>
   !> `fixed` (degrees); `scale` is s, (degrees), zero where fixed; `rigid_modes` (degrees, number
-  !> of modes). Errors: FUGE_ERR_NOT_DEFINITE if K is indefinite, or if an elastic mode is too soft
+  !> of modes). `share`: the number of degrees of freedom for which each one stands, with their rounding errors, in a
+  !> Schur complement; 1 by default. Errors: FUGE_ERR_NOT_DEFINITE if K is indefinite, or if an elastic mode is too soft
   !> to be told from the rigid ones; FUGE_ERR_MEMORY.
-  subroutine find_rigid_modes(stiffness, fixed, scale, rigid_modes, info)
+  subroutine find_rigid_modes(stiffness, fixed, scale, rigid_modes, info, share)
     class(fuge_stiffness), intent(in) :: stiffness
     logical, intent(in) :: fixed(:)
     real(dp), intent(in) :: scale(:)
     real(dp), allocatable, intent(out) :: rigid_modes(:, :)
     type(fuge_info), intent(inout) :: info
+    real(dp), intent(in), optional :: share
     class(stiffness_factor), allocatable :: factor
     real(dp), allocatable :: y(:, :), quotient(:), magnitudes(:)
-    real(dp) :: error, pivot
+    real(dp) :: error, error_share, pivot
     integer :: rigid, free, status, width, weakest
 
     error = 0.0_dp
+    error_share = 1.0_dp
+    if (present(share)) error_share = share
     free = count(.not. fixed)
-    call stiffness%factorise(fixed, SHIFT, factor, pivot, weakest, status)
+    call stiffness%factorise(fixed, error_share*SHIFT, factor, pivot, weakest, status)
     if (status /= 0) then
       call report(info, status, 'no memory for the factor of the stiffness matrix')
     else if (pivot <= 0.0_dp) then
@@ -73,11 +77,11 @@ contains
         call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(width)//' modes of the body')
         return
       end if
-      rigid = count(quotient <= NO_STIFFNESS*magnitudes)
+      rigid = count(quotient <= error_share*NO_STIFFNESS*magnitudes)
       if (rigid < width .or. width == free) exit
       width = min(2*width, free)
     end do
-    if (rigid < width .and. rigid > 0) error = NO_STIFFNESS*magnitudes(1)/quotient(rigid + 1)
+    if (rigid < width .and. rigid > 0) error = error_share*NO_STIFFNESS*magnitudes(1)/quotient(rigid + 1)
     if (error > LARGEST_ERROR) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'the body floats, and an elastic mode is so soft (' &
                   //text(quotient(rigid + 1))//' of the diagonal) that the rigid modes cannot be told from it: ' &
@@ -240,36 +244,24 @@ contains
     pins = order(:m)
   end subroutine choose_pins
 
-  !> Recompute the rigid modes so that mode k displaces pin k by one and no other pin, from the
-  !> stiffness with the pins constrained, Z_f = -K_ff^-1 K_fp. Elastic modes that the subspace
-  !> iteration has left in them vanish.
-  !>
-  !> `factor` without the `constrained` degrees of freedom, supports and pins; `rigid_modes`
-  !> (degrees, size(pins)). Error: FUGE_ERR_MEMORY.
-  subroutine normalise_at_pins(stiffness, factor, constrained, pins, rigid_modes, info)
+  !> The loads -K_fp, `block` (degrees, size(pins)), under which the body with its pins held takes the shape of the rigid
+  !> modes that displace pin k by one and no other pin, Z_f = -K_ff^-1 K_fp. Elastic modes that the subspace iteration
+  !> has left in the rigid modes vanish. `constrained` (degrees): supports and pins.
+  subroutine find_pin_loads(stiffness, constrained, pins, block)
     class(fuge_stiffness), intent(in) :: stiffness
-    class(stiffness_factor), intent(in) :: factor
     logical, intent(in) :: constrained(:)
     integer, intent(in) :: pins(:)
-    real(dp), intent(inout), contiguous :: rigid_modes(:, :)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: unit(:), magnitude(:)
-    integer :: k, stat
+    real(dp), intent(out), contiguous :: block(:, :)
+    integer :: k
 
-    allocate (unit(size(constrained)), magnitude(size(constrained)), stat=stat)
-    if (stat == 0) then
-      do k = 1, size(pins)
-        unit = 0.0_dp
-        unit(pins(k)) = -1.0_dp
-        call stiffness%multiply(unit, rigid_modes(:, k), magnitude)
-        where (constrained) rigid_modes(:, k) = 0.0_dp
-      end do
-      call factor%solve(rigid_modes, stat)
-    end if
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid modes of the body')
+    call stiffness%copy_columns(pins, block)
     do k = 1, size(pins)
-      rigid_modes(pins(k), k) = 1.0_dp
+      where (constrained)
+        block(:, k) = 0.0_dp
+      else where
+        block(:, k) = -block(:, k)
+      end where
     end do
-  end subroutine normalise_at_pins
+  end subroutine find_pin_loads
 
 end module fuge_rigid_body_modes

@@ -8,13 +8,24 @@ module fuge_stiffness_type
 
   !> Cholesky factor of a stiffness matrix without the constrained degrees of freedom.
   type, abstract, public :: stiffness_factor
+    !> The degrees of freedom that have been eliminated last, in that order. Not allocated: no such order.
+    integer, allocatable :: last(:)
   contains
     !> Replace loads by displacements.
     procedure(solve_for_block), deferred :: solve
+    procedure :: copy_schur_factor
+    procedure :: replace_schur_factor
   end type stiffness_factor
 
   !> A symmetric stiffness matrix, force per displacement.
   type, abstract, public :: fuge_stiffness
+    !> Degrees of freedom to eliminate last, not constrained, so that the factor ends with that of their Schur
+    !> complement. Not allocated: any order. A storage that cannot choose its order ignores them.
+    integer, allocatable :: last(:)
+    !> Number of solves that the order of `last` saves; it is taken if it costs less than them.
+    integer :: columns = 0
+    !> The diagonal terms of `last` are multiplied by 1 + `stiffening` before the factorisation.
+    real(dp) :: stiffening = 0.0_dp
   contains
     !> Number of degrees of freedom, 0 before the matrix is set.
     procedure(count_degrees), deferred :: degrees
@@ -24,6 +35,8 @@ module fuge_stiffness_type
     procedure(multiply_vector), deferred :: multiply
     !> Cholesky factor and all its pivots, in the storage of the extension.
     procedure(factorise_storage), deferred :: cholesky
+    procedure :: can_order
+    procedure :: copy_columns
     procedure :: factorise
   end type fuge_stiffness
 
@@ -78,6 +91,55 @@ module fuge_stiffness_type
   end interface
 
 contains
+
+  !> Lower Cholesky factor of the Schur complement of `last`: `root` (size(last), size(last)), zero above the diagonal.
+  !> A storage that chooses its order overrides it; without `last` the root is empty.
+  subroutine copy_schur_factor(self, root, status)
+    class(stiffness_factor), intent(in) :: self
+    real(dp), allocatable, intent(out) :: root(:, :)
+    integer, intent(out) :: status
+
+    status = FUGE_ERR_MEMORY
+    if (allocated(self%last)) return
+    allocate (root(0, 0))
+    status = FUGE_DONE
+  end subroutine copy_schur_factor
+
+  !> Replace the factor of the Schur complement of `last` by `root` (size(last), size(last)), lower, of which the rows
+  !> and columns `isolated` (any number) are those of the identity: these degrees of freedom become constrained.
+  !> A storage that chooses its order overrides it.
+  subroutine replace_schur_factor(self, root, isolated)
+    class(stiffness_factor), intent(inout) :: self
+    real(dp), intent(in), contiguous :: root(:, :)
+    integer, intent(in) :: isolated(:)
+
+    if (allocated(self%last) .and. size(root) < size(isolated)) deallocate (self%last)
+  end subroutine replace_schur_factor
+
+  !> Does the storage choose its order of elimination, and so take `last` into account?
+  pure function can_order(self)
+    class(fuge_stiffness), intent(in) :: self
+    logical :: can_order
+
+    can_order = .false.
+    if (self%degrees() < 1) return
+  end function can_order
+
+  !> `block` (degrees, size(places)): the columns `places` of K.
+  subroutine copy_columns(self, places, block)
+    class(fuge_stiffness), intent(in) :: self
+    integer, intent(in) :: places(:)
+    real(dp), intent(out), contiguous :: block(:, :)
+    real(dp), allocatable :: unit(:), magnitude(:)
+    integer :: k
+
+    allocate (unit(size(block, 1)), magnitude(size(block, 1)))
+    do k = 1, size(places)
+      unit = 0.0_dp
+      unit(places(k)) = 1.0_dp
+      call self%multiply(unit, block(:, k), magnitude)
+    end do
+  end subroutine copy_columns
 
   !> Cholesky factor of K without the `constrained` rows and columns (degrees), and its least
   !> pivot.
