@@ -2,7 +2,8 @@
 !>
 !> With t = cosh(xi), distances from the middle of the contact in half widths, the gap beside the contact is a
 !> smooth function of xi, also at the end. It is expanded in Chebyshev series on panels, which are halved
-!> until a panel is clear of penetration or its series is as exact as the gap; then the series decides.
+!> until a panel is clear of penetration or its series is as exact as the gap; then the series decides. A tail
+!> that is the same on much shorter panels is noise of the profile, below which nothing can be decided.
 module fuge_smooth_exterior
   use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_points
   use fuge_kinds, only: dp
@@ -19,7 +20,7 @@ module fuge_smooth_exterior
   type, public :: exterior_violation
     !> The deepest one found, and its position, length.
     real(dp) :: penetration = 0.0_dp, position = 0.0_dp
-    !> A bound for what may have been overlooked where the profile is too rough for a series.
+    !> What may have been overlooked where the profile is too rough for a series.
     real(dp) :: undecided = 0.0_dp
   end type exterior_violation
 
@@ -35,8 +36,12 @@ module fuge_smooth_exterior
   real(dp), parameter :: MAX_ANGLE = 1.0_dp, MAX_LENGTH = 1.0_dp/32.0_dp
   !> Panels in all, and pending ones.
   integer, parameter :: MAX_PANELS = 4096, MAX_PENDING = 128
-  !> The sum of what a series neglects, in tails.
-  real(dp), parameter :: BEYOND_TAIL = 4.0_dp
+  !> The sum of what a series neglects, in sums of its tail; the amplitude of noise and its largest value, in
+  !> largest coefficients of the tail.
+  real(dp), parameter :: BEYOND_TAIL = 4.0_dp, NOISE_OF_TAIL = 2.0_dp, LARGEST_OF_TAIL = 10.0_dp
+  !> The tail is noise if parts of this length at both ends of a panel have this part of it. Waves shorter than that
+  !> and a detail at one place are not noise.
+  real(dp), parameter :: SHORT_PART = 1.0_dp/16.0_dp, NOISE_RATIO = 0.5_dp
   !> A gap is resolved to this fraction of its magnitude, or to its rounding.
   real(dp), parameter :: RESOLUTION = 1.0e-11_dp
   !> Rounding errors of a gap, in units of the last place of its terms.
@@ -113,8 +118,7 @@ contains
                > MAX_LENGTH*(profile%upper - profile%lower)
   end function is_too_long
 
-  !> Look for penetration in one panel; `decided` unless it has to be halved. The `last` one is decided by what
-  !> its samples show.
+  !> Look for penetration in one panel; `decided` unless it has to be halved. The `last` one is not.
   subroutine examine_panel(profile, contact, side, panel, last, decided, violation, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(fuge_smooth_contact), intent(in) :: contact
@@ -125,25 +129,55 @@ contains
     type(exterior_violation), intent(inout) :: violation
     type(fuge_info), intent(inout) :: info
     real(dp), dimension(0:DEGREE) :: x, gap, magnitude, rounding, a
-    real(dp) :: allowance, neglected, least, t
+    real(dp) :: allowance, neglected, noise, largest_noise, least, t
 
     x = positions(profile, contact, side, panel, chebyshev_points(DEGREE))
     call exterior_gaps(profile, contact, x, gap, magnitude, rounding, info)
     decided = .true.
     if (info%failed()) return
-    call note_penetration(x, gap, magnitude, rounding, violation)
     a = chebyshev_coefficients(gap)
+    noise = NOISE_OF_TAIL*maxval(abs(a(TAIL:)))
     neglected = BEYOND_TAIL*sum(abs(a(TAIL:)))
+    largest_noise = LARGEST_OF_TAIL*maxval(abs(a(TAIL:)))
+    call note_penetration(x, gap, magnitude, rounding + largest_noise, violation)
     allowance = max(RESOLUTION*minval(magnitude), maxval(rounding))
     if (a(0) - sum(abs(a(1:))) - neglected >= -allowance) return
-    decided = neglected <= allowance .or. last
-    if (.not. decided) return
-    if (neglected > allowance) violation%undecided = max(violation%undecided, neglected/minval(magnitude))
-    call find_minimum(a, 0.0_dp, allowance, least, t)
+    if (neglected > allowance .and. noise > maxval(rounding)) then
+      decided = last
+      if (.not. decided) call compare_noise(profile, contact, side, panel, NOISE_RATIO*noise, decided, info)
+      if (info%failed() .or. .not. decided) return
+      violation%undecided = max(violation%undecided, (noise - maxval(rounding))/minval(magnitude))
+    end if
+    call find_minimum(a, 0.0_dp, max(allowance, noise), least, t)
     x(:0) = positions(profile, contact, side, panel, [t])
     call exterior_gaps(profile, contact, x(:0), gap(:0), magnitude(:0), rounding(:0), info)
-    if (.not. info%failed()) call note_penetration(x(:0), gap(:0), magnitude(:0), rounding(:0), violation)
+    if (info%failed()) return
+    call note_penetration(x(:0), gap(:0), magnitude(:0), rounding(:0) + largest_noise, violation)
   end subroutine examine_panel
+
+  !> Does the tail exceed `level`, length, in short parts at both ends of a panel?
+  subroutine compare_noise(profile, contact, side, panel, level, exceeds, info)
+    class(fuge_smooth_profile), intent(in) :: profile
+    type(fuge_smooth_contact), intent(in) :: contact
+    type(exterior_side), intent(in) :: side
+    real(dp), intent(in) :: panel(2), level
+    logical, intent(out) :: exceeds
+    type(fuge_info), intent(inout) :: info
+    real(dp), dimension(0:DEGREE) :: gap, magnitude, rounding, a
+    real(dp) :: length, part(2)
+    integer :: k
+
+    length = SHORT_PART*(panel(2) - panel(1))
+    exceeds = .true.
+    do k = 1, 2
+      part = merge([panel(1), panel(1) + length], [panel(2) - length, panel(2)], k == 1)
+      call exterior_gaps(profile, contact, positions(profile, contact, side, part, chebyshev_points(DEGREE)), gap, &
+                         magnitude, rounding, info)
+      if (info%failed()) return
+      a = chebyshev_coefficients(gap)
+      exceeds = exceeds .and. NOISE_OF_TAIL*maxval(abs(a(TAIL:))) > level
+    end do
+  end subroutine compare_noise
 
   !> Positions at t, -1 to 1, on a panel; length.
   pure function positions(profile, contact, side, panel, t) result(x)

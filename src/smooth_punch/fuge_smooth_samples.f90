@@ -25,8 +25,8 @@ contains
     x(STEPS) = profile%upper
   end function sample_positions
 
-  !> The position of the smallest gap, and that gap: of all samples, and of the zeros of the slope between two
-  !> samples that may be lower. Errors: those of the profile.
+  !> The position of the smallest gap, and that gap: of all samples, the zero of the slope beside the lowest one, and
+  !> zeros of the slope between other samples that may be lower. Errors: those of the profile.
   subroutine lowest_position(profile, position, gap, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(out) :: position, gap
@@ -42,6 +42,12 @@ contains
     k = minloc(gaps, 1) - 1
     position = x(k)
     gap = gaps(k)
+    if (slopes(k) > 0.0_dp .and. k > 0) then
+      call bisect_slope(profile, x(k - 1), x(k), position, gap, info)
+    else if (slopes(k) < 0.0_dp .and. k < STEPS) then
+      call bisect_slope(profile, x(k), x(k + 1), position, gap, info)
+    end if
+    if (info%failed()) return
     do k = 1, STEPS
       if (slopes(k - 1) > 0.0_dp .or. slopes(k) < 0.0_dp) cycle
       ! The tangents at both samples bound a convex profile from below.

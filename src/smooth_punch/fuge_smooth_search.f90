@@ -66,11 +66,14 @@ contains
     type(interval_search), intent(out) :: search
     type(fuge_info), intent(inout) :: info
     type(anchored_interval) :: first
+    integer :: k
 
-    call guess_interval(profile, load, start, first, info)
-    if (info%failed()) return
-    call try_interval(profile, e_star, load, first, search, info)
-    if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
+    do k = 1, 2
+      call guess_interval(profile, load, start, k == 2, first, info)
+      if (info%failed()) return
+      call try_interval(profile, e_star, load, first, search, info)
+      if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
+    end do
     if (load%free_tilt) then
       call search_around_line(profile, e_star, load, search, info)
     else
@@ -79,11 +82,13 @@ contains
   end subroutine find_contact_interval
 
   !> The interval around `start` in which the profile is low; with a free tilt it is first turned to
-  !> have the slope 0 at `start`.
-  subroutine guess_interval(profile, load, start, first, info)
+  !> have the slope 0 at `start`. Its reach to either side is the whole one divided by a power of two, unless
+  !> `refined`: that is too coarse for a steep profile.
+  subroutine guess_interval(profile, load, start, refined, first, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(load_case), intent(in) :: load
     real(dp), intent(in) :: start
+    logical, intent(in) :: refined
     type(anchored_interval), intent(out) :: first
     type(fuge_info), intent(inout) :: info
     real(dp) :: distances(HALVINGS + 1), level(1), tilt(1), reach(2)
@@ -102,8 +107,8 @@ contains
       call farthest_below(profile, start, level(1), tilt(1), distances, k, info)
       if (info%failed()) return
       reach(side) = distances(k)
-      if (k == 1) cycle
-      ! A power of two is too coarse for a steep profile: look between this distance and the next one.
+      if (k == 1 .or. .not. refined) cycle
+      ! Between this distance and the next one.
       distances = distances(k)*[(2.0_dp - real(j, dp)/real(HALVINGS, dp), j=0, HALVINGS)]
       call farthest_below(profile, start, level(1), tilt(1), distances, k, info)
       if (info%failed()) return
