@@ -14,17 +14,16 @@ module fuge_chebyshev
   public :: chebyshev_points, chebyshev_coefficients, chebyshev_values, chebyshev_derivative, chebyshev_sum, &
     second_kind_sum, second_to_first
 
-  ! sin(pi j/(2 TABLE)): most transforms are short, and sines would take most of their time.
-  integer, parameter :: TABLE = 256
-  integer :: step
-  real(dp), parameter :: SINES(0:TABLE) = [(sin(0.5_dp*PI*real(step, dp)/real(TABLE, dp)), step=0, TABLE)]
-
 contains
 
-  !> sin(pi j/(2 n)), j = 0 .. n, n > 0.
+  !> sin(pi j/(2 n)), j = 0 .. n, n > 0. From a table for small powers of two: most transforms are short, and sines
+  !> would take most of their time.
   pure function quarter_sine(j, n) result(s)
     integer, intent(in) :: j, n
     real(dp) :: s
+    integer, parameter :: TABLE = 256
+    integer :: k
+    real(dp), parameter :: SINES(0:TABLE) = [(sin(0.5_dp*PI*real(k, dp)/real(TABLE, dp)), k=0, TABLE)]
 
     if (modulo(TABLE, n) == 0) then
       s = SINES(j*(TABLE/n))
