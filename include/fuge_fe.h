@@ -137,7 +137,8 @@ int fuge_read_sparse(const char *path, int column_capacity, int entry_capacity, 
 
 /* Write a dense matrix (lda >= rows) to a file in array format, with 17 digits; an existing
  * file is replaced.  symmetric: 1 for a square matrix of which only the lower triangle is
- * read, else 0.  FUGE_ERR_NOT_FINITE for NaN and infinity. */
+ * read, else 0.  FUGE_ERR_NOT_FINITE for NaN and infinity; FUGE_ERR_FILE if the disk is
+ * full, the file is empty then. */
 int fuge_write_matrix(const char *path, int rows, int columns, const double *matrix, int lda, int symmetric,
                       char *message, size_t len);
 

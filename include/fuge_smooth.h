@@ -41,10 +41,10 @@ typedef struct fuge_smooth fuge_smooth;
  * FUGE_WARN_RESIDUAL: certificate or estimated error above 1e-10, the message says why;
  * FUGE_WARN_NOT_UNIQUE: no force and a free tilt.
  * FUGE_ERR_UNSUPPORTED: the contact is not one interval, or reaches an end of the
- * profile; the message says where, and which engine to use.  That is found by sampling:
- * features narrower than (upper - lower)/512 may be overlooked.  FUGE_ERR_WIDTH,
- * FUGE_ERR_MODULUS, FUGE_ERR_NO_EQUILIBRIUM (force < 0, or its line of action outside the
- * profile), FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
+ * profile; the message says where, and which engine to use.  Bounds of series decide that;
+ * a feature of the profile narrower than (upper - lower)/512 may be overlooked.
+ * FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_NO_EQUILIBRIUM (force < 0, or its line of
+ * action outside the profile), FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
 int fuge_solve_smooth_punch(fuge_smooth_profile profile, void *user, double lower, double upper,
                             double e_star, double force, const double *moment,
                             fuge_smooth **contact, char *message, size_t len);

@@ -22,7 +22,7 @@ contains
   !> `matrix` (any shape); `symmetric` (default .false.): the matrix is square, and only its lower
   !> triangle is read and written.
   !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, an existing file unchanged; FUGE_ERR_FILE if
-  !> writing fails, the file is then not complete.
+  !> writing fails, the file is then empty.
   subroutine fuge_write_matrix(path, matrix, info, symmetric)
     character(len=*), intent(in) :: path
     real(dp), intent(in) :: matrix(:, :)
@@ -66,7 +66,7 @@ contains
   !> the diagonal are not written.
   !> Errors: FUGE_ERR_SIZE for columns that are not in order or a row outside 1 .. `rows`,
   !> FUGE_ERR_NOT_FINITE, an existing file unchanged; FUGE_ERR_FILE if writing fails, the file is
-  !> then not complete.
+  !> then empty.
   subroutine fuge_write_sparse(path, rows, column, row, value, info, symmetric)
     character(len=*), intent(in) :: path
     integer, intent(in) :: rows, column(:), row(:)

@@ -1,10 +1,9 @@
-!> A text file that is written through a buffer. Its size is checked at the end, because on a full
-!> disk a run-time library may report no error, and as its size the one it should have had.
+!> A text file that is written through a buffer, by the C library: Fortran's `close` does not release a file on a
+!> full disk.
 module fuge_text_writer
-  use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_locks, only: lock, unlock, LOCK_FILES
-  use fuge_status, only: fuge_info, report, FUGE_MESSAGE_LENGTH, FUGE_ERR_FILE
-  use fuge_text_reader, only: io_reason, quoted_path, REASON_LENGTH
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
+  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE
+  use fuge_text_reader, only: quoted_path, REASON_LENGTH
   implicit none
   private
 
@@ -15,12 +14,10 @@ module fuge_text_writer
   !> A new file. After the first error nothing more is written, and `finish` reports the error.
   type, public :: text_output
     private
-    integer :: unit = 0
-    integer :: failure = 0
+    type(c_ptr) :: file = c_null_ptr
+    integer(c_int) :: failure = 0_c_int
     integer :: used = 0
-    integer(int64) :: bytes = 0_int64
     character(len=:), allocatable :: path
-    character(len=FUGE_MESSAGE_LENGTH) :: reason = ''
     character(len=BUFFER_LENGTH) :: buffer
   contains
     procedure :: create
@@ -29,6 +26,42 @@ module fuge_text_writer
     procedure, private :: write_buffer
   end type text_output
 
+  ! The procedures of fuge_output_file.c.
+  interface
+    function output_create(path, error) bind(c, name='fuge_output_create') result(file)
+      import :: c_char, c_int, c_ptr
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int), intent(out) :: error
+      type(c_ptr) :: file
+    end function output_create
+
+    function output_write(file, bytes, count) bind(c, name='fuge_output_write') result(error)
+      import :: c_char, c_int, c_ptr, c_size_t
+      type(c_ptr), intent(in), value :: file
+      character(kind=c_char), intent(in) :: bytes(*)
+      integer(c_size_t), intent(in), value :: count
+      integer(c_int) :: error
+    end function output_write
+
+    function output_close(file) bind(c, name='fuge_output_close') result(error)
+      import :: c_int, c_ptr
+      type(c_ptr), intent(in), value :: file
+      integer(c_int) :: error
+    end function output_close
+
+    subroutine output_empty(path) bind(c, name='fuge_output_empty')
+      import :: c_char
+      character(kind=c_char), intent(in) :: path(*)
+    end subroutine output_empty
+
+    subroutine output_reason(error, text, length) bind(c, name='fuge_output_reason')
+      import :: c_char, c_int, c_size_t
+      integer(c_int), intent(in), value :: error
+      character(kind=c_char), intent(out) :: text(*)
+      integer(c_size_t), intent(in), value :: length
+    end subroutine output_reason
+  end interface
+
 contains
 
   !> Create a file at `path`, or replace it. Error: FUGE_ERR_FILE.
@@ -36,22 +69,24 @@ contains
     class(text_output), intent(out) :: self
     character(len=*), intent(in) :: path
     type(fuge_info), intent(inout) :: info
-    character(len=len(path) + REASON_LENGTH) :: reason
-    integer :: status
 
-    self%path = path
-    reason = ''
-    if (len_trim(path) == 0) then
+    self%path = trim(path)
+    if (len(self%path) == 0) then
       call report(info, FUGE_ERR_FILE, 'the path is blank: pass the path of a file')
       return
     end if
-    call lock(LOCK_FILES)
-    open (newunit=self%unit, file=path, status='replace', action='write', access='stream', form='unformatted', &
-          iostat=status, iomsg=reason)
-    call unlock(LOCK_FILES)
-    if (status /= 0) call report(info, FUGE_ERR_FILE, quoted_path(path)//' cannot be opened: ' &
-                                 //trim(io_reason(reason)))
+    self%file = output_create(self%path//c_null_char, self%failure)
+    if (self%failure /= 0_c_int) call report(info, FUGE_ERR_FILE, quoted_path(path)//' cannot be opened: ' &
+                                             //trim(reason(self%failure)))
   end subroutine create
+
+  !> The text of an error of the C library.
+  function reason(failure) result(text)
+    integer(c_int), intent(in) :: failure
+    character(len=REASON_LENGTH) :: text
+
+    call output_reason(failure, text, int(len(text), c_size_t))
+  end function reason
 
   !> Add a line, shorter than the buffer, without leading and trailing blanks.
   subroutine put(self, line)
@@ -70,58 +105,26 @@ contains
   !> Write and empty the buffer, unless an error has occurred.
   subroutine write_buffer(self)
     class(text_output), intent(inout) :: self
-    integer :: status
 
-    if (self%failure == 0) then
-      write (self%unit, iostat=status, iomsg=self%reason) self%buffer(:self%used)
-      if (status /= 0) self%failure = status
-    end if
-    self%bytes = self%bytes + int(self%used, int64)
+    if (self%failure == 0_c_int .and. self%used > 0) &
+      self%failure = output_write(self%file, self%buffer, int(self%used, c_size_t))
     self%used = 0
   end subroutine write_buffer
 
-  !> Write what is left and close the file. Error: FUGE_ERR_FILE if the file is not complete.
+  !> Write what is left and close the file. Error: FUGE_ERR_FILE if that fails; the file is then empty.
   subroutine finish(self, info)
     class(text_output), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
-    character(len=FUGE_MESSAGE_LENGTH) :: reason
-    integer(int64) :: actual
-    integer :: status
+    integer(c_int) :: closing
 
+    if (.not. c_associated(self%file)) return
     call self%write_buffer()
-    call lock(LOCK_FILES)
-    close (self%unit, iostat=status, iomsg=reason)
-    call unlock(LOCK_FILES)
-    if (self%failure == 0 .and. status /= 0) then
-      self%failure = status
-      self%reason = reason
-    end if
-    actual = self%bytes
-    if (self%failure == 0) actual = file_size(self%path)
-    if (actual /= self%bytes) then
-      self%failure = 1
-      self%reason = 'its size is not what was written; the disk may be full'
-    end if
-    if (self%failure /= 0) call report(info, FUGE_ERR_FILE, quoted_path(self%path)//' cannot be written: ' &
-                                       //trim(self%reason))
+    closing = output_close(self%file)
+    self%file = c_null_ptr
+    if (self%failure == 0_c_int) self%failure = closing
+    if (self%failure == 0_c_int) return
+    call output_empty(self%path//c_null_char)
+    call report(info, FUGE_ERR_FILE, quoted_path(self%path)//' cannot be written: '//trim(reason(self%failure)))
   end subroutine finish
-
-  !> Size of a file in bytes, 0 if it cannot be read. Inquires by unit, because flang 22 leaks
-  !> memory when it inquires by name.
-  function file_size(path) result(bytes)
-    character(len=*), intent(in) :: path
-    integer(int64) :: bytes
-    integer :: status, unit
-
-    bytes = 0_int64
-    call lock(LOCK_FILES)
-    open (newunit=unit, file=path, status='old', action='read', access='stream', form='unformatted', iostat=status)
-    if (status == 0) then
-      inquire (unit=unit, size=bytes)
-      close (unit, iostat=status)
-      if (status /= 0) bytes = 0_int64
-    end if
-    call unlock(LOCK_FILES)
-  end function file_size
 
 end module fuge_text_writer

@@ -16,6 +16,22 @@ module fuge_chebyshev
 
 contains
 
+  !> sin(pi j/(2 n)), j = 0 .. n, n > 0. From a table for small powers of two: most transforms are short, and sines
+  !> would take most of their time.
+  pure function quarter_sine(j, n) result(s)
+    integer, intent(in) :: j, n
+    real(dp) :: s
+    integer, parameter :: TABLE = 256
+    integer :: k
+    real(dp), parameter :: SINES(0:TABLE) = [(sin(0.5_dp*PI*real(k, dp)/real(TABLE, dp)), k=0, TABLE)]
+
+    if (modulo(TABLE, n) == 0) then
+      s = SINES(j*(TABLE/n))
+    else
+      s = sin(0.5_dp*PI*real(j, dp)/real(n, dp))
+    end if
+  end function quarter_sine
+
   !> The points cos(pi j/n), j = 0 .. n, exactly symmetric about 0.
   pure function chebyshev_points(n) result(t)
     integer, intent(in) :: n
@@ -25,7 +41,7 @@ contains
     t = 0.0_dp
     t(0) = 1.0_dp
     do j = 1, (n - 1)/2
-      t(j) = sin(0.5_dp*PI*real(n - 2*j, dp)/real(n, dp))
+      t(j) = quarter_sine(n - 2*j, n)
     end do
     do j = 0, (n - 1)/2
       t(n - j) = -t(j)
@@ -80,8 +96,11 @@ contains
     integer :: n, span, stride, first, k
 
     n = size(z)
-    do k = 0, n/2 - 1
-      twiddle(k) = cmplx(cos(2.0_dp*PI*real(k, dp)/real(n, dp)), -sin(2.0_dp*PI*real(k, dp)/real(n, dp)), dp)
+    do k = 0, n/4
+      ! cos and sin of 2 pi k/n, and of pi - 2 pi k/n.
+      odd = cmplx(quarter_sine(n - 4*k, n), -quarter_sine(4*k, n), dp)
+      twiddle(k) = odd
+      if (k > 0) twiddle(n/2 - k) = cmplx(-real(odd, dp), aimag(odd), dp)
     end do
     call reverse_bits(z)
     span = 1

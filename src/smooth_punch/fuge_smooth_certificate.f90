@@ -17,9 +17,11 @@ module fuge_smooth_certificate
 
   public :: certify_contact
 
-  !> Positions where the gap equation is evaluated, as angles over pi: x = centre +
-  !> half_width cos(angle). None of them is a node of a Chebyshev series.
-  real(dp), parameter :: ANGLES(7) = [0.0317_dp, 0.1731_dp, 0.3259_dp, 0.4873_dp, 0.6689_dp, 0.8123_dp, 0.9641_dp]
+  !> Positions where the gap equation is evaluated: x = centre + half_width cos(angle), so many for each point
+  !> of the quadrature rule, at equidistant angles. The offset of the angles, in steps, keeps them off the
+  !> nodes of a Chebyshev series and the points of the rule.
+  integer, parameter :: POSITIONS_PER_POINT = 2
+  real(dp), parameter :: ANGLE_OFFSET = 0.39_dp
   !> Points of the quadrature rule beyond the number of coefficients.
   integer, parameter :: MORE_POINTS = 13
   !> Rounding errors of the caller's own numbers that do not count, in units of the last place.
@@ -42,14 +44,16 @@ contains
     type(fuge_smooth_contact), intent(in) :: contact
     real(dp), intent(out) :: residual
     type(fuge_info), intent(inout) :: info
-    real(dp), dimension(size(ANGLES)) :: x, gap, slope, error, height, rounding
+    real(dp), dimension(POSITIONS_PER_POINT*(size(contact%coefficients) + MORE_POINTS)) :: s, x, gap, slope, error, &
+      height, rounding
     real(dp), dimension(size(contact%coefficients) + MORE_POINTS) :: t, force
     real(dp) :: centre, compliance, arm
     integer :: k, n
 
     residual = 0.0_dp
     centre = 0.5_dp*(contact%ends(1) + contact%ends(2))
-    x = max(contact%ends(1), min(contact%ends(2), centre + contact%half_width*cos(PI*ANGLES)))
+    s = [(cos(PI*((real(k, dp) - ANGLE_OFFSET)/real(size(s), dp))), k=1, size(s))]
+    x = max(contact%ends(1), min(contact%ends(2), centre + contact%half_width*s))
     call sample_profile(profile, x, gap, slope, info)
     if (info%failed()) return
 
@@ -58,11 +62,9 @@ contains
     force = PI/real(n, dp)*contact%half_width*sqrt((1.0_dp - t)*(1.0_dp + t)) &
             *contact%pressure(centre + contact%half_width*t)
     compliance = 2.0_dp/(PI*contact%e_star)
-    do k = 1, size(x)
-      error(k) = gap(k) - contact%approach - contact%tilt*x(k) &
-                 - compliance*log(contact%half_width/(2.0_dp*(profile%upper - profile%lower)))*contact%force &
-                 - compliance*dot_product(log_distance(PI*ANGLES(k), t), force)
-    end do
+    error = gap - contact%approach - contact%tilt*x &
+            - compliance*log(contact%half_width/(2.0_dp*(profile%upper - profile%lower)))*contact%force &
+            - compliance*chebyshev_sum(log_potential(t, force), s)
     height = abs((gap - minval(gap)) - contact%tilt*(x - x(minloc(gap, 1))))
     rounding = abs(gap) + abs(contact%approach) + (abs(contact%tilt) + abs(slope))*abs(x) &
                + compliance*contact%force*abs(centre)/contact%half_width
@@ -81,19 +83,23 @@ contains
     excess = max(0.0_dp, abs(error) - ROUNDINGS*epsilon(error)*rounded)
   end function excess
 
-  !> ln|cos(angle) - t| to the degree that the points t resolve: its Chebyshev series
-  !> -ln 2 - sum_m (2/m) cos(m angle) T_m(t), truncated at their number.
-  pure function log_distance(angle, t) result(logarithm)
-    real(dp), intent(in) :: angle, t(:)
-    real(dp) :: logarithm(size(t))
-    real(dp) :: series(0:size(t) - 1)
+  !> Chebyshev coefficients of sum_j force_j ln|s - t_j| as a function of s, to the degree that the points t
+  !> resolve: ln|s - t| is -ln 2 - sum_m (2/m) T_m(s) T_m(t), truncated at their number.
+  pure function log_potential(t, force) result(a)
+    real(dp), intent(in) :: t(:), force(:)
+    real(dp) :: a(0:size(t) - 1)
+    real(dp), dimension(size(t)) :: now, previous, next
     integer :: m
 
-    series(0) = -log(2.0_dp)
+    a(0) = -log(2.0_dp)*sum(force)
+    previous = 1.0_dp
+    now = t
     do m = 1, size(t) - 1
-      series(m) = -2.0_dp/real(m, dp)*cos(real(m, dp)*angle)
+      a(m) = -2.0_dp/real(m, dp)*dot_product(now, force)
+      next = 2.0_dp*t*now - previous
+      previous = now
+      now = next
     end do
-    logarithm = chebyshev_sum(series, t)
-  end function log_distance
+  end function log_potential
 
 end module fuge_smooth_certificate

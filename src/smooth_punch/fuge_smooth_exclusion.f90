@@ -2,6 +2,7 @@
 module fuge_smooth_exclusion
   use fuge_chebyshev, only: chebyshev_points, chebyshev_values
   use fuge_kinds, only: dp
+  use fuge_series_minimum, only: cells_for, positive_cells
   use fuge_smooth_newton, only: load_case
   use fuge_smooth_slope_series, only: slope_series
   implicit none
@@ -9,43 +10,42 @@ module fuge_smooth_exclusion
 
   public :: compressive_parts
 
-  !> Points at which the pressure is sampled, for each coefficient.
-  integer, parameter :: RESAMPLING = 4
+  !> A pressure is tensile unless it exceeds this fraction of the largest.
+  real(dp), parameter :: RESOLUTION = 1.0e-10_dp
 
 contains
 
   !> The compressive parts of the interval with these `ends`, (2, number of parts), length: left and
-  !> right end of each, from left to right, each part extended by one sampling point.
+  !> right end of each, from left to right. Each part is a run of cells in which the pressure is compressive
+  !> anywhere, which is decided and not sampled; a part may be compressive between two samples only.
   pure function compressive_parts(series, load, ends) result(parts)
     type(slope_series), intent(in) :: series
     type(load_case), intent(in) :: load
     real(dp), intent(in) :: ends(2)
     real(dp), allocatable :: parts(:, :)
-    real(dp), allocatable :: x(:), pressure(:)
+    real(dp), allocatable :: x(:)
     logical, allocatable :: compressive(:)
+    real(dp) :: pressure(0:size(series%coefficients))
     integer :: n, k, current
 
-    n = 64
-    do while (n < RESAMPLING*size(series%coefficients))
-      n = 2*n
-    end do
-    allocate (x(0:n), pressure(0:n), compressive(-1:n + 1))
+    pressure = closing_pressure(series, load)
+    n = cells_for(size(pressure))
+    allocate (x(0:n), compressive(0:n + 1))
     x = series%interval%anchor + (series%interval%offset + series%interval%half_width*chebyshev_points(n))
     x(0) = ends(2)
     x(n) = ends(1)
-    pressure = chebyshev_values(closing_pressure(series, load), n)
     compressive = .false.
-    compressive(0:n) = pressure > 0.0_dp
-    allocate (parts(2, count(compressive(0:n) .and. .not. compressive(-1:n - 1))))
+    compressive(1:n) = positive_cells(pressure, RESOLUTION*maxval(abs(chebyshev_values(pressure, n))))
+    allocate (parts(2, count(compressive(1:n) .and. .not. compressive(:n - 1))))
     current = size(parts, 2) + 1
-    do k = 0, n
+    do k = 1, n
       if (.not. compressive(k)) cycle
-      ! x decreases from point to point.
+      ! Cell k lies between x(k) and x(k - 1), which is greater.
       if (.not. compressive(k - 1)) then
         current = current - 1
-        parts(2, current) = x(max(0, k - 1))
+        parts(2, current) = x(k - 1)
       end if
-      if (.not. compressive(k + 1)) parts(1, current) = x(min(n, k + 1))
+      if (.not. compressive(k + 1)) parts(1, current) = x(k)
     end do
   end function compressive_parts
 

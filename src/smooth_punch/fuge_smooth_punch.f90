@@ -38,8 +38,9 @@ contains
   !> its distance from x = 0, the punch may tilt as well; without it the tilt is 0. With zero force
   !> the punch touches at its lowest point; if it may tilt, FUGE_WARN_NOT_UNIQUE.
   !>
-  !> The contact is one interval within the profile. The solution is checked for tension and
-  !> penetration, with samples at every 512th of the profile. info%iterations counts the series
+  !> The contact is one interval within the profile. Tension is excluded by bounds of the pressure's
+  !> series; so is penetration, by those of series of the gap beside the contact, for which a detail
+  !> narrower than a 512th of the profile may be overlooked. info%iterations counts the series
   !> formed; info%residual is the certificate, from quadratures of the pressure.
   !> FUGE_WARN_RESIDUAL: the residual or the estimated error is above the default tolerance of
   !> `fuge_options`, as for a profile that is not smooth.
@@ -154,7 +155,11 @@ contains
     if (info%failed()) return
     worst = max(search%contact%end_error, search%contact%pressure_error)
     info%residual = max(info%residual, search%violation%tension, search%violation%penetration)
-    if (info%residual > DEFAULTS%tolerance) then
+    if (info%residual <= DEFAULTS%tolerance .and. search%violation%undecided > DEFAULTS%tolerance) then
+      info%residual = search%violation%undecided
+      call report(info, FUGE_WARN_RESIDUAL, 'penetration beside the contact is excluded down to ' &
+                  //text(search%violation%undecided)//' only: the profile is not smooth there')
+    else if (info%residual > DEFAULTS%tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'the residual is '//text(info%residual)//', the estimated error ' &
                   //text(worst)//': the profile is not smooth in the contact, or its slope is not that of its gap')
     else if (worst > DEFAULTS%tolerance) then

@@ -6,13 +6,10 @@ module fuge_smooth_samples
   implicit none
   private
 
-  public :: lowest_position, sample_positions, graded_distances
+  public :: lowest_position, sample_positions
 
   !> Equal steps from end to end of a profile. Narrower details may be overlooked.
   integer, parameter, public :: STEPS = 512
-  !> Sampling beside an end of the contact: distance of the first position in half widths, and the ratio
-  !> of each distance to the one before.
-  real(dp), parameter :: NEAREST = 1.0e-2_dp, GROWTH = 1.15_dp
 
 contains
 
@@ -28,24 +25,8 @@ contains
     x(STEPS) = profile%upper
   end function sample_positions
 
-  !> Sampling distances from an end of the contact, growing geometrically up to `farthest`; length.
-  pure function graded_distances(half_width, farthest) result(distances)
-    real(dp), intent(in) :: half_width, farthest
-    real(dp), allocatable :: distances(:)
-    real(dp) :: ratio
-    integer :: k, number
-
-    ratio = farthest/(NEAREST*half_width)
-    number = 0
-    if (ratio > 1.0_dp) number = int(log(ratio)/log(GROWTH)) + 1
-    allocate (distances(number))
-    do k = 1, number
-      distances(k) = min(farthest, NEAREST*half_width*GROWTH**(k - 1))
-    end do
-  end function graded_distances
-
-  !> The position of the smallest gap, and that gap: the best sample, then the zero of the slope beside it.
-  !> Errors: those of the profile.
+  !> The position of the smallest gap, and that gap: of all samples, the zero of the slope beside the lowest one, and
+  !> zeros of the slope between other samples that may be lower. Errors: those of the profile.
   subroutine lowest_position(profile, position, gap, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(out) :: position, gap
@@ -66,6 +47,14 @@ contains
     else if (slopes(k) < 0.0_dp .and. k < STEPS) then
       call bisect_slope(profile, x(k), x(k + 1), position, gap, info)
     end if
+    if (info%failed()) return
+    do k = 1, STEPS
+      if (slopes(k - 1) > 0.0_dp .or. slopes(k) < 0.0_dp) cycle
+      ! The tangents at both samples bound a convex profile from below.
+      if (max(gaps(k - 1) + slopes(k - 1)*(x(k) - x(k - 1)), gaps(k) - slopes(k)*(x(k) - x(k - 1))) >= gap) cycle
+      call bisect_slope(profile, x(k - 1), x(k), position, gap, info)
+      if (info%failed()) return
+    end do
   end subroutine lowest_position
 
   !> Bisect for the change of sign of the slope between two positions; `position` is the lowest point met.

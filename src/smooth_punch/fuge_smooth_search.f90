@@ -50,9 +50,10 @@ module fuge_smooth_search
   !> Search by exclusion: limits of the number of series and of pending parts, highest degree and
   !> tolerance of a series, and the ratio of lengths above which shrinking stops.
   integer, parameter :: MAX_SERIES = 600, MAX_PARTS = 100, COARSE_MAX_DEGREE = 512
-  real(dp), parameter :: COARSE_TOLERANCE = 1.0e-6_dp, SHRINKING = 0.98_dp
-  !> Newton's method is tried again when the interval has shrunk by this ratio.
-  real(dp), parameter :: RETRY_RATIO = 0.4_dp
+  real(dp), parameter :: COARSE_TOLERANCE = 1.0e-6_dp, LAST_SHRINKING = 1.0_dp - 1.0e-6_dp
+  !> Newton's method is tried again when the interval has shrunk by this ratio: while each step shrinks it
+  !> much, and while each step shrinks it by less than the second ratio.
+  real(dp), parameter :: FAST_RETRY = 0.4_dp, SLOW_RETRY = 0.98_dp
 
 contains
 
@@ -65,11 +66,14 @@ contains
     type(interval_search), intent(out) :: search
     type(fuge_info), intent(inout) :: info
     type(anchored_interval) :: first
+    integer :: k
 
-    call guess_interval(profile, load, start, first, info)
-    if (info%failed()) return
-    call try_interval(profile, e_star, load, first, search, info)
-    if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
+    do k = 1, 2
+      call guess_interval(profile, load, start, k == 2, first, info)
+      if (info%failed()) return
+      call try_interval(profile, e_star, load, first, search, info)
+      if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
+    end do
     if (load%free_tilt) then
       call search_around_line(profile, e_star, load, search, info)
     else
@@ -78,38 +82,59 @@ contains
   end subroutine find_contact_interval
 
   !> The interval around `start` in which the profile is low; with a free tilt it is first turned to
-  !> have the slope 0 at `start`.
-  subroutine guess_interval(profile, load, start, first, info)
+  !> have the slope 0 at `start`. Its reach to either side is the whole one divided by a power of two, unless
+  !> `refined`: that is too coarse for a steep profile.
+  subroutine guess_interval(profile, load, start, refined, first, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(load_case), intent(in) :: load
     real(dp), intent(in) :: start
+    logical, intent(in) :: refined
     type(anchored_interval), intent(out) :: first
     type(fuge_info), intent(inout) :: info
-    real(dp) :: distances(HALVINGS + 1, 2), x(HALVINGS + 1), gap(HALVINGS + 1), slope(HALVINGS + 1), level(1), tilt(1)
-    real(dp) :: reach(2)
-    integer :: side, k
+    real(dp) :: distances(HALVINGS + 1), level(1), tilt(1), reach(2)
+    integer :: side, j, k
 
     first%anchor = start
     call sample_profile(profile, [start], level, tilt, info)
     if (info%failed()) return
     if (.not. load%free_tilt) tilt = 0.0_dp
-    distances(1, :) = [profile%lower - start, profile%upper - start]
-    do k = 2, HALVINGS + 1
-      distances(k, :) = 0.5_dp*distances(k - 1, :)
-    end do
+    level = level + 0.5_dp*load%reduced_force
     do side = 1, 2
-      x = max(profile%lower, min(profile%upper, start + distances(:, side)))
-      call sample_profile(profile, x, gap, slope, info)
-      if (info%failed()) return
-      gap = gap - tilt(1)*distances(:, side)
-      reach(side) = distances(HALVINGS + 1, side)
-      do k = HALVINGS, 1, -1
-        if (gap(k) - level(1) <= 0.5_dp*load%reduced_force) reach(side) = distances(k, side)
+      distances(1) = merge(profile%lower, profile%upper, side == 1) - start
+      do k = 2, HALVINGS + 1
+        distances(k) = 0.5_dp*distances(k - 1)
       end do
+      call farthest_below(profile, start, level(1), tilt(1), distances, k, info)
+      if (info%failed()) return
+      reach(side) = distances(k)
+      if (k == 1 .or. .not. refined) cycle
+      ! Between this distance and the next one.
+      distances = distances(k)*[(2.0_dp - real(j, dp)/real(HALVINGS, dp), j=0, HALVINGS)]
+      call farthest_below(profile, start, level(1), tilt(1), distances, k, info)
+      if (info%failed()) return
+      reach(side) = distances(k)
     end do
     first%offset = 0.5_dp*(reach(1) + reach(2))
     first%half_width = 0.5_dp*(reach(2) - reach(1))
   end subroutine guess_interval
+
+  !> The first of the `distances` from `start`, from far to near, at which the gap less the tilt is not above
+  !> `level`, or the last one: its number k.
+  subroutine farthest_below(profile, start, level, tilt, distances, k, info)
+    class(fuge_smooth_profile), intent(in) :: profile
+    real(dp), intent(in) :: start, level, tilt, distances(:)
+    integer, intent(out) :: k
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: x(size(distances)), gap(size(distances)), slope(size(distances))
+
+    k = size(distances)
+    x = max(profile%lower, min(profile%upper, start + distances))
+    call sample_profile(profile, x, gap, slope, info)
+    if (info%failed()) return
+    do k = 1, size(distances) - 1
+      if (gap(k) - tilt*distances(k) <= level) return
+    end do
+  end subroutine farthest_below
 
   !> Newton's method from an interval; where it converges is the contact if that is admissible.
   subroutine try_interval(profile, e_star, load, first, search, info)
@@ -225,7 +250,8 @@ contains
       call try_interval(profile, e_star, load, interval_between(part), search, info)
       if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
       ! An interval that compressive pressure closes up to an end of the profile is the contact.
-      if (unsplit .and. (part(1) <= profile%lower .or. part(2) >= profile%upper)) then
+      if (unsplit .and. is_closed(part, compressive) &
+          .and. (part(1) <= profile%lower .or. part(2) >= profile%upper)) then
         search%outcome = INTERVAL_AT_END
         search%refused_ends = part
       end if
@@ -233,7 +259,8 @@ contains
   end subroutine search_by_exclusion
 
   !> Shrink `part` to where the pressure that closes it is compressive, as long as that is one shorter
-  !> interval; `compressive` has these intervals at the end. On the way Newton's method is tried.
+  !> interval; `compressive` has these intervals at the end, and equals `part` if nothing of it is tensile.
+  !> On the way Newton's method is tried, once shrinking is slow too.
   subroutine shrink_part(profile, e_star, load, part, compressive, search, info)
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star
@@ -243,12 +270,13 @@ contains
     type(interval_search), intent(inout) :: search
     type(fuge_info), intent(inout) :: info
     type(slope_series) :: series
-    real(dp) :: last_tried
+    real(dp) :: last_tried, retry_ratio
 
     allocate (compressive(2, 0))
     last_tried = huge(last_tried)
+    retry_ratio = FAST_RETRY
     do while (search%steps < MAX_SERIES)
-      if (part(2) - part(1) <= RETRY_RATIO*last_tried) then
+      if (part(2) - part(1) <= retry_ratio*last_tried) then
         last_tried = part(2) - part(1)
         call try_interval(profile, e_star, load, interval_between(part), search, info)
         if (info%failed() .or. search%outcome == INTERVAL_FOUND) return
@@ -260,10 +288,21 @@ contains
       deallocate (compressive)
       allocate (compressive, source=compressive_parts(series, load, part))
       if (size(compressive, 2) /= 1) return
-      if (compressive(2, 1) - compressive(1, 1) > SHRINKING*(part(2) - part(1))) return
+      if (compressive(2, 1) - compressive(1, 1) > LAST_SHRINKING*(part(2) - part(1))) return
+      retry_ratio = FAST_RETRY
+      if (compressive(2, 1) - compressive(1, 1) > SLOW_RETRY*(part(2) - part(1))) retry_ratio = SLOW_RETRY
       part = compressive(:, 1)
     end do
   end subroutine shrink_part
+
+  !> Is a part compressive as a whole?
+  pure function is_closed(part, compressive)
+    real(dp), intent(in) :: part(2), compressive(:, :)
+    logical :: is_closed
+
+    is_closed = .false.
+    if (size(compressive, 2) == 1) is_closed = compressive(1, 1) <= part(1) .and. compressive(2, 1) >= part(2)
+  end function is_closed
 
   !> The interval with these ends.
   pure function interval_between(ends) result(interval)

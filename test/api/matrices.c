@@ -1,4 +1,10 @@
 /* Section "matrix files" of fuge_fe.h. */
+#if !defined(_WIN32)
+#define _XOPEN_SOURCE 600
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
 #include <limits.h>
 #include "check.h"
 
@@ -120,7 +126,8 @@ static void test_write(void) {
 
 static void test_write_refusals(void) {
   const double matrix[4] = {1.0, 2.0, HUGE_VAL, 4.0};
-  const int column[3] = {0, 1, 2}, falling[3] = {0, 2, 1}, negative[3] = {0, 1, -1}, row[2] = {0, 1}, far[2] = {0, 2};
+  const int column[3] = {0, 1, 2}, falling[3] = {0, 2, 1}, negative[3] = {0, 1, -1}, from_one[3] = {1, 2, 3};
+  const int row[2] = {0, 1}, far[2] = {0, 2};
   char message[256] = "";
   CHECK_STATUS(fuge_write_matrix(NAME, 2, 2, matrix, 2, 0, message, sizeof message), FUGE_ERR_NOT_FINITE);
   CHECK_CONTAINS(message, "entry (0, 1)");
@@ -144,6 +151,8 @@ static void test_write_refusals(void) {
   CHECK_STATUS(fuge_write_sparse(NAME, -2, 2, column, row, matrix, 0, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_sparse(NAME, 2, -2, column, row, matrix, 0, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_sparse(NAME, 2, 2, falling, row, matrix, 0, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_sparse(NAME, 2, 2, from_one, row, matrix, 0, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STRING(message, "column(0) = 1: it must be 0, where the first column begins");
   CHECK_STATUS(fuge_write_sparse(NAME, 2, 2, negative, row, matrix, 0, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_sparse(NAME, 2, 2, column, far, matrix, 0, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_CONTAINS(message, "row(1) = 2 is outside 0 .. 1");
@@ -152,11 +161,67 @@ static void test_write_refusals(void) {
   CHECK(file == NULL);
 }
 
+#if !defined(_WIN32)
+/* More bytes than the library writes at a time. */
+enum { LARGE = 28 };
+static double large[LARGE * LARGE];
+
+static void write_in_vain(const char *path) {
+  int column[LARGE + 1], row[LARGE * LARGE];
+  char message[256] = "";
+  for (int k = 0; k <= LARGE; k++) column[k] = LARGE * k;
+  for (int k = 0; k < LARGE * LARGE; k++) row[k] = k % LARGE;
+  CHECK_STATUS(fuge_write_matrix(path, 1, 1, large, 1, 0, message, sizeof message), FUGE_ERR_FILE);
+  CHECK_CONTAINS(message, "cannot be written: ");
+  CHECK_STATUS(fuge_write_matrix(path, LARGE, LARGE, large, LARGE, 0, NULL, 0), FUGE_ERR_FILE);
+  message[0] = '\0';
+  CHECK_STATUS(fuge_write_sparse(path, LARGE, LARGE, column, row, large, 0, message, sizeof message), FUGE_ERR_FILE);
+  CHECK_CONTAINS(message, "cannot be written: ");
+}
+
+/* The lowest free descriptor. */
+static int free_descriptor(void) {
+  int descriptor = dup(0);
+  close(descriptor);
+  return descriptor;
+}
+
+/* Neither a file that cannot grow beyond some bytes nor a full disk costs a descriptor, and the file is not taken
+ * for a whole one. */
+static void test_full_disk(void) {
+  const int descriptor = free_descriptor();
+  struct rlimit old, small;
+  int rows, columns;
+  char message[256] = "";
+  CHECK(signal(SIGXFSZ, SIG_IGN) != SIG_ERR);
+  CHECK(getrlimit(RLIMIT_FSIZE, &old) == 0);
+  small = old;
+  for (int k = 0; k < 100; k++) {
+    small.rlim_cur = k < 50 ? 20 : 60;
+    CHECK(setrlimit(RLIMIT_FSIZE, &small) == 0);
+    write_in_vain(NAME);
+    CHECK(setrlimit(RLIMIT_FSIZE, &old) == 0);
+  }
+  CHECK_STATUS(fuge_read_matrix(NAME, 0, 0, NULL, &rows, &columns, message, sizeof message), FUGE_ERR_FILE);
+  CHECK_CONTAINS(message, "is empty");
+  for (int k = 0; k < 100 && access("/dev/full", W_OK) == 0; k++) write_in_vain("/dev/full");
+  CHECK_INT(free_descriptor(), descriptor);
+  /* The next write is not disturbed. */
+  CHECK_STATUS(fuge_write_matrix(NAME, LARGE, LARGE, large, LARGE, 0, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_read_matrix(NAME, 0, 0, NULL, &rows, &columns, NULL, 0), FUGE_DONE);
+  CHECK_INT(rows, LARGE);
+  remove(NAME);
+}
+#endif
+
 int main(void) {
   test_read_matrix();
   test_read_refusals();
   test_sparse();
   test_write();
   test_write_refusals();
+#if !defined(_WIN32)
+  test_full_disk();
+#endif
   return check_summary();
 }
