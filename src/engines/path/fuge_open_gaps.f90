@@ -2,11 +2,11 @@
 module fuge_open_gaps
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_states, only: FUGE_OPEN
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, xp
   implicit none
   private
 
-  public :: add_open_displacement
+  public :: add_open_displacement, extended_open_gaps
 
 contains
 
@@ -42,6 +42,31 @@ contains
       call add_rows(canonical%alpha, canonical%datum, first, last, points, force, u)
     end do
   end subroutine add_open_displacement
+
+  !> Gaps of the open points, c = gap + (alpha - datum) f - R q, in extended precision; zero at the others. All (n) but
+  !> `motion` (m).
+  !>
+  !> Between two contact points of a beam a gap may be far smaller than the terms that it consists of.
+  pure function extended_open_gaps(canonical, state, gap, force, motion) result(open_gap)
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
+    real(dp), intent(in) :: gap(:), force(:), motion(:)
+    real(dp) :: open_gap(size(state))
+    real(xp) :: sums(count(state == FUGE_OPEN))
+    integer :: points(size(sums)), j, k
+
+    points = pack([(k, k=1, size(state))], state == FUGE_OPEN)
+    sums = real(gap(points), xp)
+    do j = 1, size(motion)
+      sums = sums - real(canonical%modes(points, j), xp)*real(motion(j), xp)
+    end do
+    do j = 1, size(state)
+      if (state(j) /= FUGE_OPEN) sums = sums + (real(canonical%alpha(points, j), xp) - real(canonical%datum, xp)) &
+                                        *real(force(j), xp)
+    end do
+    open_gap = 0.0_dp
+    open_gap(points) = real(sums, dp)
+  end function extended_open_gaps
 
   !> Runs of open points.
   pure function number_of_runs(state) result(runs)

@@ -49,25 +49,41 @@ contains
       before = position%state
       call move_until_resisted(canonical, line%load_rate, position, status)
       if (status == FUGE_DONE) call find_rates(canonical, line, factor, position, status)
-      if (status == FUGE_DONE .and. turn == 1) call append_position(canonical, line, position, 0, path, status)
-      if (status == FUGE_DONE) call append_changes(canonical, line, position, before, path, status)
       if (status /= FUGE_DONE) return
       where (position%state == FUGE_OPEN) position%force = 0.0_dp
       where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
+      if (is_renewal_due(turn, factor, position)) then
+        if (turn > 1) call certificate%add_end(position%parameter, position%force, path)
+        call renew_values(canonical, line, factor, position)
+      end if
+      if (turn == 1) call append_position(canonical, line, position, 0, path, status)
+      if (status == FUGE_DONE) call append_changes(canonical, line, position, before, path, status)
+      if (status /= FUGE_DONE) return
       call certificate%add(position%force, path)
-      call go_to_next_event(canonical, line, factor, modulo(turn, EVENTS_PER_RENEWAL) == 0, position, ended)
+      call go_to_next_event(canonical, line, factor, position, ended)
       if (ended) return
     end do
     status = FUGE_ERR_ITERATION_LIMIT
   end subroutine follow_line
 
+  !> Are the values to be solved for with the set of the piece that begins? They then belong to that set to the last
+  !> digit, and so does the place of the next event. Not without any force, which is exact.
+  pure function is_renewal_due(turn, factor, position) result(due)
+    integer, intent(in) :: turn
+    type(kkt_factor), intent(in) :: factor
+    type(path_position), intent(in) :: position
+    logical :: due
+
+    due = modulo(turn, EVENTS_PER_RENEWAL) == 0 .or. .not. is_well_conditioned(factor)
+    if (due) due = any(abs(position%force) > 0.0_dp)
+  end function is_renewal_due
+
   !> Advance to the next event, or to the end of the line, and mark the points that may change there. Values are solved
   !> for anew if `renew` or if rounding could decide otherwise.
-  subroutine go_to_next_event(canonical, line, factor, renew, position, ended)
+  subroutine go_to_next_event(canonical, line, factor, position, ended)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
     type(kkt_factor), intent(in) :: factor
-    logical, intent(in) :: renew
     type(path_position), intent(inout) :: position
     logical, intent(out) :: ended
     integer :: joining(size(position%state)), k
@@ -81,9 +97,7 @@ contains
     position%force = position%force + step*position%force_rate
     position%gap = position%gap + step*position%gap_rate
     position%motion = position%motion + step*position%motion_rate
-    if (renew .or. ended .or. .not. is_well_conditioned(factor)) then
-      call renew_values(canonical, line, factor, position)
-    end if
+    if (ended) call renew_values(canonical, line, factor, position)
     if (ended) return
     call position%mark_weakly_active(canonical, line)
     ! Those of the event itself, in spite of any rounding.

@@ -48,15 +48,16 @@ module fuge_path_certificate
     type(fuge_problem), private :: problem
     real(dp), allocatable, private :: first(:), rate(:)
     type(known_product), private :: product
-    !> Forces at the ends that wait, (n, ENDS), in use `waiting`, and the entry of the path that begins there.
+    !> Forces at the ends that wait, (n, ENDS), in use `waiting`, their parameters, and the entry of the path that
+    !> begins there; 0 where a piece ends only.
     real(dp), allocatable, private :: force(:, :)
+    real(dp), private :: parameter(ENDS) = 0.0_dp
     integer, private :: entry(ENDS) = 0, waiting = 0
   contains
     procedure :: start
     procedure :: add
+    procedure :: add_end
     procedure :: finish
-    procedure, private :: check
-    procedure, private :: check_end
   end type path_certificate
 
 contains
@@ -77,18 +78,24 @@ contains
     if (stat /= 0) self%info%status = FUGE_ERR_MEMORY
   end subroutine start
 
-  !> Take the forces (n) where the last entry of the path begins.
+  !> Take the forces (n) where the piece of the last entry of the path begins, and the piece before it ends unless
+  !> `add_end` has been called for that end.
   subroutine add(self, force, path)
     class(path_certificate), intent(inout) :: self
     real(dp), intent(in) :: force(:)
     type(fuge_path), intent(in) :: path
 
-    if (self%info%failed()) return
-    self%waiting = self%waiting + 1
-    self%force(:, self%waiting) = force
-    self%entry(self%waiting) = path%entries
-    if (self%waiting == ENDS) call self%check(path, path%parameter(path%entries))
+    call add_column(self, path%parameter(path%entries), force, path%entries, path)
   end subroutine add
+
+  !> Take the forces (n) where the piece of the last entry of the path ends, if the next one begins with others.
+  subroutine add_end(self, parameter, force, path)
+    class(path_certificate), intent(inout) :: self
+    real(dp), intent(in) :: parameter, force(:)
+    type(fuge_path), intent(in) :: path
+
+    call add_column(self, parameter, force, 0, path)
+  end subroutine add_end
 
   !> Take the forces (n) at the end of the path, at the parameter `last`, and check what waits.
   subroutine finish(self, force, last, path)
@@ -96,30 +103,39 @@ contains
     real(dp), intent(in) :: force(:), last
     type(fuge_path), intent(in) :: path
 
-    if (self%info%failed()) return
-    self%waiting = self%waiting + 1
-    self%force(:, self%waiting) = force
-    self%entry(self%waiting) = path%entries
-    call self%check(path, last)
+    call add_column(self, last, force, 0, path)
+    if (.not. self%info%failed()) call check(self, path)
   end subroutine finish
 
-  !> Check the pieces whose ends wait; the last end, at the parameter `last`, goes on waiting as the start of the next
-  !> piece.
-  subroutine check(self, path, last)
-    class(path_certificate), intent(inout) :: self
+  subroutine add_column(self, parameter, force, entry, path)
+    type(path_certificate), intent(inout) :: self
+    real(dp), intent(in) :: parameter, force(:)
+    integer, intent(in) :: entry
     type(fuge_path), intent(in) :: path
-    real(dp), intent(in) :: last
-    real(dp) :: displacement(size(self%force, 1), self%waiting), parameter
+
+    if (self%info%failed()) return
+    self%waiting = self%waiting + 1
+    self%parameter(self%waiting) = parameter
+    self%force(:, self%waiting) = force
+    self%entry(self%waiting) = entry
+    if (self%waiting == ENDS) call check(self, path)
+  end subroutine add_column
+
+  !> Check the pieces whose ends wait; the last end goes on waiting, because the next piece may begin there.
+  subroutine check(self, path)
+    type(path_certificate), intent(inout) :: self
+    type(fuge_path), intent(in) :: path
+    real(dp) :: displacement(size(self%force, 1), self%waiting)
     integer :: k
 
     call multiply_at_once(self%product%matrix, self%force(:, :self%waiting), displacement)
     self%products = self%products + self%waiting
     do k = 1, self%waiting - 1
-      parameter = last
-      if (k < self%waiting - 1) parameter = path%parameter(self%entry(k + 1))
-      call self%check_end(path, self%entry(k), path%parameter(self%entry(k)), self%force(:, k), displacement(:, k))
-      call self%check_end(path, self%entry(k), parameter, self%force(:, k + 1), displacement(:, k + 1))
+      if (self%entry(k) == 0) cycle
+      call check_end(self, path, self%entry(k), self%parameter(k), self%force(:, k), displacement(:, k))
+      call check_end(self, path, self%entry(k), self%parameter(k + 1), self%force(:, k + 1), displacement(:, k + 1))
     end do
+    self%parameter(1) = self%parameter(self%waiting)
     self%force(:, 1) = self%force(:, self%waiting)
     self%entry(1) = self%entry(self%waiting)
     self%waiting = 1
@@ -128,7 +144,7 @@ contains
   !> Hold the piece that begins with an entry against the conditions at a parameter, where it has `force` (n) and its
   !> elastic displacement is `displacement` (n).
   subroutine check_end(self, path, entry, parameter, force, displacement)
-    class(path_certificate), intent(inout) :: self
+    type(path_certificate), intent(inout) :: self
     type(fuge_path), intent(in) :: path
     integer, intent(in) :: entry
     real(dp), intent(in) :: parameter, force(:), displacement(:)

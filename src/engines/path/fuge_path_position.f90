@@ -12,7 +12,7 @@ module fuge_path_position
   public :: given_motions, gaps_to_close, largest_of_bodies, load_at, position_at
 
   !> Forces below this fraction of the largest one of the body, and lengths below this fraction of their terms, are zero.
-  real(dp), parameter, public :: ROUNDING = 1.0e-12_dp
+  real(dp), parameter, public :: ROUNDING = 1.0e-14_dp
 
   !> A line of loads: the reduced gaps grow by reduced_gap_rate (n) and the resultants by load_rate (m) per unit of the
   !> parameter, from those of the problem up to `last`. Parameters are as exact as parameter + origin.

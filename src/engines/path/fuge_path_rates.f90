@@ -14,7 +14,7 @@ module fuge_path_rates
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: solve_set
   use fuge_monitor_type, only: monitor_relay
-  use fuge_open_gaps, only: add_open_displacement
+  use fuge_open_gaps, only: add_open_displacement, extended_open_gaps
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_path_position, only: gaps_to_close, largest_of_bodies, load_at, load_line, path_position, ROUNDING
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
@@ -25,7 +25,7 @@ module fuge_path_rates
   public :: find_rates, is_well_conditioned, renew_values
 
   !> Ratio of the pivots below which a solution in double precision is exact enough.
-  real(dp), parameter :: WELL_CONDITIONED = 1.0e4_dp
+  real(dp), parameter :: WELL_CONDITIONED = 1.0e2_dp
   !> A correction above this fraction of the largest force calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
   integer, parameter :: REFINEMENTS = 10
@@ -60,8 +60,8 @@ contains
       end if
       where (wrong) position%state = merge(FUGE_OPEN, position%weakly_active, position%state /= FUGE_OPEN)
     end do
-    position%gap_rate = line%reduced_gap_rate - rigid_displacement(canonical%modes, position%motion_rate)
-    call add_open_displacement(canonical, position%state, position%force_rate, position%gap_rate)
+    call open_gaps(canonical, factor, position%state, line%reduced_gap_rate, position%force_rate, position%motion_rate, &
+                   position%gap_rate)
     where (position%state /= FUGE_OPEN .or. canonical%excluded) position%gap_rate = 0.0_dp
     position%has_rates = .true.
   end subroutine find_rates
@@ -132,10 +132,25 @@ contains
     gap = gaps_to_close(canonical, line, position)
     call correct(canonical, factor, gap, load_at(canonical, line, position%parameter), position%state /= FUGE_OPEN, &
                  position%unresisted, position%force, position%motion)
-    gap = gap - rigid_displacement(canonical%modes, position%motion)
-    call add_open_displacement(canonical, position%state, position%force, gap)
-    where (position%state == FUGE_OPEN) position%gap = gap
+    call open_gaps(canonical, factor, position%state, gap, position%force, position%motion, position%gap)
+    where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
   end subroutine renew_values
+
+  !> Gaps of the open points, `open_gap` (n), from `gap` without displacements, or rates of these.
+  subroutine open_gaps(canonical, factor, state, gap, force, motion, open_gap)
+    type(canonical_problem), intent(in) :: canonical
+    type(kkt_factor), intent(in) :: factor
+    integer, intent(in) :: state(:)
+    real(dp), intent(in) :: gap(:), force(:), motion(:)
+    real(dp), intent(inout) :: open_gap(:)
+
+    if (is_well_conditioned(factor)) then
+      open_gap = gap - rigid_displacement(canonical%modes, motion)
+      call add_open_displacement(canonical, state, force, open_gap)
+    else
+      open_gap = extended_open_gaps(canonical, state, gap, force, motion)
+    end if
+  end subroutine open_gaps
 
   !> Iterative refinement, with residuals in extended precision unless the factor is well conditioned: c = gap + A f -
   !> R q = 0 on the contact set, R^T f = load. Motions along the columns of `unresisted` stay.
@@ -239,22 +254,23 @@ contains
     type(path_position), intent(in) :: position
     integer, intent(in) :: point
     real(dp), intent(out) :: rate, magnitude
-    real(dp) :: term
+    real(xp) :: total, term
     integer :: j
 
-    rate = line%reduced_gap_rate(point)
-    magnitude = abs(rate)
+    total = real(line%reduced_gap_rate(point), xp)
+    magnitude = real(abs(total), dp)
     do j = 1, size(position%motion)
-      term = canonical%modes(point, j)*position%motion_rate(j)
-      rate = rate - term
-      magnitude = magnitude + abs(term)
+      term = real(canonical%modes(point, j), xp)*real(position%motion_rate(j), xp)
+      total = total - term
+      magnitude = magnitude + real(abs(term), dp)
     end do
     do j = 1, size(position%state)
       if (position%state(j) == FUGE_OPEN) cycle
-      term = (canonical%alpha(point, j) - canonical%datum)*position%force_rate(j)
-      rate = rate + term
-      magnitude = magnitude + abs(term)
+      term = (real(canonical%alpha(point, j), xp) - real(canonical%datum, xp))*real(position%force_rate(j), xp)
+      total = total + term
+      magnitude = magnitude + real(abs(term), dp)
     end do
+    rate = real(total, dp)
   end subroutine gap_rate_at
 
   !> The contact problem in the rates, by the active-set engine: points with force are tied, weakly active ones
