@@ -168,7 +168,7 @@ contains
     if (canonical%has_translation) line%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
     call find_start(line, canonical, position, info)
     if (info%failed()) return
-    call certificate%start(operator, problem, line%start, line%rate)
+    call certificate%start(operator, problem, line%start, line%rate, line%origin)
     call follow_line(canonical, line, position, followed, certificate, status)
     if (status == FUGE_DONE) call certificate%finish(position%force, line%last, followed)
     if (status == FUGE_DONE) call trim_path(followed, status)

@@ -99,7 +99,7 @@ contains
     position%motion = position%motion + step*position%motion_rate
     if (ended) call renew_values(canonical, line, factor, position)
     if (ended) return
-    call position%mark_weakly_active(canonical, line)
+    call position%mark_weakly_active(canonical, line, step)
     ! Those of the event itself, in spite of any rounding.
     do k = 1, size(joining)
       if (joining(k) /= FUGE_OPEN) position%weakly_active(k) = joining(k)

@@ -47,6 +47,8 @@ module fuge_path_certificate
     !> the parameter.
     type(fuge_problem), private :: problem
     real(dp), allocatable, private :: first(:), rate(:)
+    !> Parameters are as exact as parameter + origin.
+    real(dp), private :: origin = 0.0_dp
     type(known_product), private :: product
     !> Forces at the ends that wait, (n, ENDS), in use `waiting`, their parameters, and the entry of the path that
     !> begins there; 0 where a piece ends only.
@@ -62,18 +64,19 @@ module fuge_path_certificate
 
 contains
 
-  !> Begin with the caller's matrix and problem; `first` and `rate` (m) as in the type.
-  subroutine start(self, operator, problem, first, rate)
+  !> Begin with the caller's matrix and problem; `first` and `rate` (m) and `origin` as in the type.
+  subroutine start(self, operator, problem, first, rate, origin)
     class(path_certificate), intent(out) :: self
     type(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: first(:), rate(:)
+    real(dp), intent(in) :: first(:), rate(:), origin
     integer :: stat
 
     self%product%matrix = operator
     self%problem = problem
     self%first = first
     self%rate = rate
+    self%origin = origin
     allocate (self%force(problem%points(), ENDS), self%product%displacement(problem%points()), stat=stat)
     if (stat /= 0) self%info%status = FUGE_ERR_MEMORY
   end subroutine start
@@ -132,8 +135,7 @@ contains
     self%products = self%products + self%waiting
     do k = 1, self%waiting - 1
       if (self%entry(k) == 0) cycle
-      call check_end(self, path, self%entry(k), self%parameter(k), self%force(:, k), displacement(:, k))
-      call check_end(self, path, self%entry(k), self%parameter(k + 1), self%force(:, k + 1), displacement(:, k + 1))
+      call check_piece(self, path, k, displacement(:, k:k + 1))
     end do
     self%parameter(1) = self%parameter(self%waiting)
     self%force(:, 1) = self%force(:, self%waiting)
@@ -141,26 +143,51 @@ contains
     self%waiting = 1
   end subroutine check
 
-  !> Hold the piece that begins with an entry against the conditions at a parameter, where it has `force` (n) and its
-  !> elastic displacement is `displacement` (n).
-  subroutine check_end(self, path, entry, parameter, force, displacement)
+  !> Check the piece from the end that waits at `k` to the next one, with the displacements (n, 2) there; one shorter
+  !> than the parameter's rounding has no inside.
+  !>
+  !> Where the forces fall to zero at an end, they are rounding there, and nothing is left to compare them with: the
+  !> check then takes place a little inside.
+  subroutine check_piece(self, path, k, displacement)
     type(path_certificate), intent(inout) :: self
     type(fuge_path), intent(in) :: path
-    integer, intent(in) :: entry
-    real(dp), intent(in) :: parameter, force(:), displacement(:)
+    integer, intent(in) :: k
+    real(dp), intent(in) :: displacement(:, :)
+    real(dp), parameter :: INSIDE = 0.0625_dp, VANISHING = 1.0e-3_dp
+    real(dp) :: largest(2), place
+
+    associate (first => self%parameter(k), last => self%parameter(k + 1))
+      if (last - first <= 8.0_dp*epsilon(last)*(last + self%origin)) return
+      largest = maxval(abs(self%force(:, k:k + 1)), dim=1)
+      place = merge(INSIDE, 0.0_dp, largest(1) < VANISHING*largest(2))
+      call check_place(self, path, k, place, displacement)
+      place = merge(INSIDE, 0.0_dp, largest(2) < VANISHING*largest(1))
+      call check_place(self, path, k, 1.0_dp - place, displacement)
+    end associate
+  end subroutine check_piece
+
+  !> Hold a piece against the conditions at a `place` from 0, its begin, to 1, its end.
+  subroutine check_place(self, path, k, place, displacement)
+    type(path_certificate), intent(inout) :: self
+    type(fuge_path), intent(in) :: path
+    integer, intent(in) :: k
+    real(dp), intent(in) :: place, displacement(:, :)
     type(fuge_solution) :: solution
     type(fuge_violation) :: violation
-    real(dp) :: here(size(self%first))
+    real(dp) :: here(size(self%first)), parameter
+    integer :: entry
 
     if (self%info%failed()) return
+    entry = self%entry(k)
+    parameter = (1.0_dp - place)*self%parameter(k) + place*self%parameter(k + 1)
+    self%product%displacement = (1.0_dp - place)*displacement(:, 1) + place*displacement(:, 2)
     here = self%first + parameter*self%rate
     if (allocated(self%problem%resultant)) self%problem%resultant = here
     if (allocated(self%problem%prescribed)) where (self%problem%prescribed) self%problem%motion = here
-    allocate (solution%force, source=force)
+    allocate (solution%force, source=(1.0_dp - place)*self%force(:, k) + place*self%force(:, k + 1))
     allocate (solution%motion, source=path%motion(:, entry) + (parameter - path%parameter(entry))*path%rate(:, entry))
-    allocate (solution%gap(size(force)))
-    call find_gaps(self%problem, self%product%matrix%datum(), path%states(entry), displacement, solution)
-    self%product%displacement = displacement
+    allocate (solution%gap(size(solution%force)))
+    call find_gaps(self%problem, self%product%matrix%datum(), path%states(entry), self%product%displacement, solution)
     self%product%adds_terms = .false.
     call find_violation(self%product, self%problem, solution, violation, self%info)
     if (violation%worst() > warns_above() .and. .not. self%info%failed()) then
@@ -170,7 +197,7 @@ contains
     if (self%info%failed() .or. violation%worst() <= self%residual) return
     self%residual = violation%worst()
     self%worst_parameter = path%parameter(entry)
-  end subroutine check_end
+  end subroutine check_place
 
   pure function warns_above() result(tolerance)
     real(dp) :: tolerance

@@ -67,14 +67,17 @@ contains
     position%force_rate = 0.0_dp
     position%gap_rate = 0.0_dp
     position%motion_rate = 0.0_dp
-    call position%mark_weakly_active(canonical, line)
+    call position%mark_weakly_active(canonical, line, 0.0_dp)
   end subroutine position_at
 
-  !> Mark the points that are at a stop without force, by the values at the position.
-  pure subroutine mark_weakly_active(self, canonical, line)
+  !> Mark the points that are at a stop without force, by the values at the position, to which the last `step` with the
+  !> present rates has led.
+  pure subroutine mark_weakly_active(self, canonical, line, step)
     class(path_position), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
+    real(dp), intent(in) :: step
+    real(dp), parameter :: LAST_DIGITS = 8.0_dp*epsilon(1.0_dp)
     real(dp), dimension(size(self%state)) :: data_rounding, largest, magnitude
     integer :: j, k
 
@@ -90,8 +93,10 @@ contains
       if (canonical%excluded(k) .or. .not. canonical%upper(k) > 0.0_dp) cycle
       associate (state => self%state(k), gap => self%gap(k), upper => canonical%upper(k))
         if (state /= FUGE_OPEN) then
-          if (state*self%force(k) <= ROUNDING*largest(k)) self%weakly_active(k) = state
-        else if (min(gap, upper - gap) <= max(ROUNDING*magnitude(k), data_rounding(k))) then
+          if (state*self%force(k) <= max(ROUNDING*largest(k), LAST_DIGITS*step*abs(self%force_rate(k)))) &
+            self%weakly_active(k) = state
+        else if (min(gap, upper - gap) <= max(ROUNDING*magnitude(k), data_rounding(k), &
+                                           LAST_DIGITS*step*abs(self%gap_rate(k)))) then
           self%weakly_active(k) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, gap <= upper - gap)
         end if
       end associate
