@@ -166,6 +166,7 @@ contains
     no_change = 0.0_dp
     call canonical%transform_change(no_change, line%rate, line%reduced_gap_rate, line%load_rate)
     if (canonical%has_translation) line%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
+    line%flexibility = largest_coefficient(operator)
     call find_start(line, canonical, position, info)
     if (info%failed()) return
     call certificate%start(operator, problem, line%start, line%rate, line%origin)
@@ -234,6 +235,17 @@ contains
       call report(info, status, 'after '//text(max(entries - 1, 0))//' events: '//fuge_status_text(status))
     end if
   end subroutine explain_end
+
+  pure function largest_coefficient(operator) result(largest)
+    type(fuge_dense_operator), intent(in) :: operator
+    real(dp) :: largest
+    integer :: j
+
+    largest = 0.0_dp
+    do j = 1, operator%points()
+      largest = max(largest, maxval(abs(operator%alpha(:operator%points(), j))))
+    end do
+  end function largest_coefficient
 
   !> The largest violation of all pieces is the residual of the path; above the tolerance of a solve it is a warning.
   subroutine report_certificate(certificate, info)

@@ -13,7 +13,7 @@ module fuge_parametric_pivoting
   use fuge_path_certificate, only: path_certificate
   use fuge_path_jump, only: move_until_resisted
   use fuge_path_position, only: given_motions, load_line, path_position, ROUNDING
-  use fuge_path_rates, only: find_rates, is_well_conditioned, renew_values
+  use fuge_path_rates, only: find_rates, needs_refinement, renew_values
   use fuge_path_type, only: append_entry, fuge_path, start_path
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
   implicit none
@@ -52,14 +52,17 @@ contains
       if (status /= FUGE_DONE) return
       where (position%state == FUGE_OPEN) position%force = 0.0_dp
       where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
-      if (is_renewal_due(turn, factor, position)) then
+      if (is_renewal_due(canonical, factor, position, turn)) then
         if (turn > 1) call certificate%add_end(position%parameter, position%force, path)
         call renew_values(canonical, line, factor, position)
       end if
       if (turn == 1) call append_position(canonical, line, position, 0, path, status)
       if (status == FUGE_DONE) call append_changes(canonical, line, position, before, path, status)
+      if (status == FUGE_DONE .and. all(position%state == before)) then
+        call append_turn(canonical, line, position, path, status)
+      end if
       if (status /= FUGE_DONE) return
-      call certificate%add(position%force, path)
+      call certificate%add(position%parameter, position%force, path)
       call go_to_next_event(canonical, line, factor, position, ended)
       if (ended) return
     end do
@@ -68,13 +71,14 @@ contains
 
   !> Are the values to be solved for with the set of the piece that begins? They then belong to that set to the last
   !> digit, and so does the place of the next event. Not without any force, which is exact.
-  pure function is_renewal_due(turn, factor, position) result(due)
-    integer, intent(in) :: turn
+  pure function is_renewal_due(canonical, factor, position, turn) result(due)
+    type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
     type(path_position), intent(in) :: position
+    integer, intent(in) :: turn
     logical :: due
 
-    due = modulo(turn, EVENTS_PER_RENEWAL) == 0 .or. .not. is_well_conditioned(factor)
+    due = modulo(turn, EVENTS_PER_RENEWAL) == 0 .or. needs_refinement(canonical, factor)
     if (due) due = any(abs(position%force) > 0.0_dp)
   end function is_renewal_due
 
@@ -97,7 +101,7 @@ contains
     position%force = position%force + step*position%force_rate
     position%gap = position%gap + step*position%gap_rate
     position%motion = position%motion + step*position%motion_rate
-    if (ended) call renew_values(canonical, line, factor, position)
+    if (ended .and. any(abs(position%force) > 0.0_dp)) call renew_values(canonical, line, factor, position)
     if (ended) return
     call position%mark_weakly_active(canonical, line, step)
     ! Those of the event itself, in spite of any rounding.
@@ -167,6 +171,25 @@ contains
       if (status /= FUGE_DONE) return
     end do
   end subroutine append_changes
+
+  !> Append an entry for the first point that touches without force, if only its touching makes motions that nothing
+  !> resists turn.
+  subroutine append_turn(canonical, line, position, path, status)
+    type(canonical_problem), intent(in) :: canonical
+    type(load_line), intent(in) :: line
+    type(path_position), intent(in) :: position
+    type(fuge_path), intent(inout) :: path
+    integer, intent(out) :: status
+    real(dp), parameter :: NO_TURN = 1.0e-10_dp
+    real(dp), dimension(size(line%start)) :: motion, rate, last_rate
+
+    status = FUGE_DONE
+    if (.not. any(position%weakly_active /= FUGE_OPEN)) return
+    call given_motions(canonical, line, position, motion, rate)
+    last_rate = path%rate(:, path%entries)
+    if (all(abs(rate - last_rate) <= NO_TURN*max(abs(rate), abs(last_rate)))) return
+    call append_position(canonical, line, position, maxloc(abs(position%weakly_active), dim=1), path, status)
+  end subroutine append_turn
 
   subroutine append_position(canonical, line, position, point, path, status)
     type(canonical_problem), intent(in) :: canonical

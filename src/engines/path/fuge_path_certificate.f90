@@ -81,14 +81,14 @@ contains
     if (stat /= 0) self%info%status = FUGE_ERR_MEMORY
   end subroutine start
 
-  !> Take the forces (n) where the piece of the last entry of the path begins, and the piece before it ends unless
-  !> `add_end` has been called for that end.
-  subroutine add(self, force, path)
+  !> Take the forces (n) at a parameter where the piece of the last entry of the path begins or goes on, and the piece
+  !> before it ends unless `add_end` has been called for that end.
+  subroutine add(self, parameter, force, path)
     class(path_certificate), intent(inout) :: self
-    real(dp), intent(in) :: force(:)
+    real(dp), intent(in) :: parameter, force(:)
     type(fuge_path), intent(in) :: path
 
-    call add_column(self, path%parameter(path%entries), force, path%entries, path)
+    call add_column(self, parameter, force, path%entries, path)
   end subroutine add
 
   !> Take the forces (n) where the piece of the last entry of the path ends, if the next one begins with others.
@@ -144,7 +144,7 @@ contains
   end subroutine check
 
   !> Check the piece from the end that waits at `k` to the next one, with the displacements (n, 2) there; one shorter
-  !> than the parameter's rounding has no inside.
+  !> than the rounding of its parameter has no inside.
   !>
   !> Where the forces fall to zero at an end, they are rounding there, and nothing is left to compare them with: the
   !> check then takes place a little inside.
@@ -153,11 +153,11 @@ contains
     type(fuge_path), intent(in) :: path
     integer, intent(in) :: k
     real(dp), intent(in) :: displacement(:, :)
-    real(dp), parameter :: INSIDE = 0.0625_dp, VANISHING = 1.0e-3_dp
+    real(dp), parameter :: INSIDE = 0.0625_dp, SHORTEST = 1.0e-12_dp, VANISHING = 1.0e-3_dp
     real(dp) :: largest(2), place
 
     associate (first => self%parameter(k), last => self%parameter(k + 1))
-      if (last - first <= 8.0_dp*epsilon(last)*(last + self%origin)) return
+      if (last - first <= SHORTEST*(last + self%origin)) return
       largest = maxval(abs(self%force(:, k:k + 1)), dim=1)
       place = merge(INSIDE, 0.0_dp, largest(1) < VANISHING*largest(2))
       call check_place(self, path, k, place, displacement)

@@ -23,6 +23,8 @@ module fuge_path_position
     real(dp), allocatable :: start(:), rate(:)
     !> Taken out of the gaps of the problem, and so of its translation; length.
     real(dp) :: gap_datum = 0.0_dp
+    !> The largest coefficient of alpha, length per force.
+    real(dp) :: flexibility = 0.0_dp
   end type load_line
 
   !> Values at a parameter, and their rates from there on.

@@ -22,7 +22,7 @@ module fuge_path_rates
   implicit none
   private
 
-  public :: find_rates, is_well_conditioned, renew_values
+  public :: find_rates, needs_refinement, renew_values
 
   !> Ratio of the pivots below which a solution in double precision is exact enough.
   real(dp), parameter :: WELL_CONDITIONED = 1.0e2_dp
@@ -107,12 +107,37 @@ contains
     if (is_resisted(line%load_rate, position%unresisted)) then
       position%motion_rate = without_unresisted(position%motion_rate, position%unresisted)
     end if
-    if (is_well_conditioned(factor)) return
-    call correct(canonical, factor, line%reduced_gap_rate, line%load_rate, contact, position%unresisted, &
-                 position%force_rate, position%motion_rate)
+    if (needs_refinement(canonical, factor)) then
+      call correct(canonical, factor, line%reduced_gap_rate, line%load_rate, contact, position%unresisted, &
+                   position%force_rate, position%motion_rate)
+    end if
+    call remove_rounding(line, line%reduced_gap_rate, line%load_rate, position%force_rate)
   end subroutine solve_for_rates
 
-  !> Is a solution by the factor exact to nearly all digits without refinement?
+  !> Without a load all forces may be rounding: those that displace nothing by more than the rounding of the gaps are
+  !> zero.
+  pure subroutine remove_rounding(line, gap, load, force)
+    type(load_line), intent(in) :: line
+    real(dp), intent(in) :: gap(:), load(:)
+    real(dp), intent(inout) :: force(:)
+
+    if (any(abs(load) > 0.0_dp)) return
+    where (abs(force)*line%flexibility <= ROUNDING*maxval(abs(gap))) force = 0.0_dp
+  end subroutine remove_rounding
+
+  !> May a solution by the factor have lost more than the last digits? With other modes than one translation of all
+  !> points, the soft springs of the factor cost digits of the motions.
+  pure function needs_refinement(canonical, factor) result(needs)
+    type(canonical_problem), intent(in) :: canonical
+    type(kkt_factor), intent(in) :: factor
+    logical :: needs
+
+    needs = .not. is_well_conditioned(factor)
+    if (size(canonical%modes, 2) > 0) needs = needs .or. size(canonical%modes, 2) > 1 .or. &
+      .not. canonical%has_translation
+  end function needs_refinement
+
+  !> Is a residual in double precision exact enough?
   pure function is_well_conditioned(factor) result(well)
     type(kkt_factor), intent(in) :: factor
     logical :: well
@@ -132,6 +157,8 @@ contains
     gap = gaps_to_close(canonical, line, position)
     call correct(canonical, factor, gap, load_at(canonical, line, position%parameter), position%state /= FUGE_OPEN, &
                  position%unresisted, position%force, position%motion)
+    call remove_rounding(line, canonical%gap + position%parameter*line%reduced_gap_rate, &
+                         load_at(canonical, line, position%parameter), position%force)
     call open_gaps(canonical, factor, position%state, gap, position%force, position%motion, position%gap)
     where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
   end subroutine renew_values
