@@ -3,45 +3,79 @@ module fuge_open_gaps
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp, xp
+  use fuge_lapack, only: dgemv
   implicit none
   private
 
   public :: add_open_displacement, extended_open_gaps
 
+  !> Runs of neighbours up to which open points and contact points are taken run by run.
+  integer, parameter :: MOST_RUNS = 8
+
 contains
 
   !> u := u + (alpha - datum) f at the open points, and anything at the others.
   !>
-  !> `state`, `force` and `u` (n). The open points are taken in runs of neighbours, because alpha is read by columns.
-  pure subroutine add_open_displacement(canonical, state, force, u)
+  !> `flexibility` the largest coefficient of alpha; `state`, `force` and `u` (n). Where open and contact points form
+  !> few runs of neighbours, only the blocks of alpha that these have in common are read.
+  subroutine add_open_displacement(canonical, flexibility, state, force, u)
     type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: flexibility, force(:)
     integer, intent(in) :: state(:)
-    real(dp), intent(in) :: force(:)
     real(dp), intent(inout) :: u(:)
-    integer :: points(count(state /= FUGE_OPEN)), first, k, last, n
+    integer :: open_first, open_last, first, last, k, n
 
     n = size(state)
-    points = pack([(k, k=1, n)], state /= FUGE_OPEN)
-    if (2*size(points) < n .or. number_of_runs(state) > 8) then
-      call add_rows(canonical%alpha, canonical%datum, 1, n, points, force, u)
+    ! Taking a datum out of a sum, instead of each term, costs digits if the coefficients differ by little.
+    if (count(state(2:) /= state(:n - 1)) >= 2*MOST_RUNS .or. abs(canonical%datum) > 0.5_dp*flexibility) then
+      do k = 1, n
+        if (state(k) /= FUGE_OPEN) u = u + (canonical%alpha(:n, k) - canonical%datum)*force(k)
+      end do
       return
     end if
-    last = 0
+    open_last = 0
     do
-      first = last + 1
-      do while (first <= n)
-        if (state(first) == FUGE_OPEN) exit
-        first = first + 1
+      call next_run(state == FUGE_OPEN, open_last + 1, open_first, open_last)
+      if (open_first > n) return
+      last = 0
+      do
+        call next_run(state /= FUGE_OPEN, last + 1, first, last)
+        if (first > n) exit
+        call add_block(canonical%alpha, canonical%datum, open_first, open_last, first, last, force, u)
       end do
-      if (first > n) return
-      last = first
-      do while (last < n)
-        if (state(last + 1) /= FUGE_OPEN) exit
-        last = last + 1
-      end do
-      call add_rows(canonical%alpha, canonical%datum, first, last, points, force, u)
     end do
   end subroutine add_open_displacement
+
+  !> The next run of marked points from `start` on; `first` is beyond the last point if there is none.
+  pure subroutine next_run(marked, start, first, last)
+    logical, intent(in) :: marked(:)
+    integer, intent(in) :: start
+    integer, intent(out) :: first, last
+
+    first = start
+    do while (first <= size(marked))
+      if (marked(first)) exit
+      first = first + 1
+    end do
+    last = first
+    do while (last < size(marked))
+      if (.not. marked(last + 1)) exit
+      last = last + 1
+    end do
+  end subroutine next_run
+
+  !> The displacements of the rows from `top` to `bottom` by the forces from `first` to `last`.
+  subroutine add_block(alpha, datum, top, bottom, first, last, force, u)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum
+    integer, intent(in) :: top, bottom, first, last
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(inout) :: u(:)
+
+    call dgemv('N', bottom - top + 1, last - first + 1, 1.0_dp, alpha(top:, first), size(alpha, 1), force(first:), 1, &
+               1.0_dp, u(top:), 1)
+    u(top:bottom) = u(top:bottom) - datum*sum(force(first:last))
+  end subroutine add_block
 
   !> Gaps of the open points, c = gap + (alpha - datum) f - R q, in extended precision; zero at the others. All (n) but
   !> `motion` (m).
@@ -67,40 +101,5 @@ contains
     open_gap = 0.0_dp
     open_gap(points) = real(sums, dp)
   end function extended_open_gaps
-
-  !> Runs of open points.
-  pure function number_of_runs(state) result(runs)
-    integer, intent(in) :: state(:)
-    integer :: runs
-    integer :: k
-
-    runs = merge(1, 0, state(1) == FUGE_OPEN)
-    do k = 2, size(state)
-      if (state(k) == FUGE_OPEN .and. state(k - 1) /= FUGE_OPEN) runs = runs + 1
-    end do
-  end function number_of_runs
-
-  !> The contributions of the forces at `points` to the rows from `first` to `last`.
-  pure subroutine add_rows(alpha, datum, first, last, points, force, u)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, force(:)
-    integer, intent(in) :: first, last, points(:)
-    real(dp), intent(inout) :: u(:)
-    integer :: i, j
-
-    do j = 1, size(points) - 3, 4
-      associate (a => points(j), b => points(j + 1), c => points(j + 2), d => points(j + 3))
-        do i = first, last
-          u(i) = u(i) + (((alpha(i, a) - datum)*force(a) + (alpha(i, b) - datum)*force(b)) &
-                         + ((alpha(i, c) - datum)*force(c) + (alpha(i, d) - datum)*force(d)))
-        end do
-      end associate
-    end do
-    do j = size(points) - modulo(size(points), 4) + 1, size(points)
-      do i = first, last
-        u(i) = u(i) + (alpha(i, points(j)) - datum)*force(points(j))
-      end do
-    end do
-  end subroutine add_rows
 
 end module fuge_open_gaps

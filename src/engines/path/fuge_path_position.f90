@@ -13,6 +13,9 @@ module fuge_path_position
 
   !> Forces below this fraction of the largest one of the body, and lengths below this fraction of their terms, are zero.
   real(dp), parameter, public :: ROUNDING = 1.0e-14_dp
+  !> The same where the contact set is well conditioned, and values are not solved for anew at each event. Where it is
+  !> not, as between close points of a beam, gaps of this size may be real.
+  real(dp), parameter, public :: ROUNDING_OF_SUMS = 1.0e-12_dp
 
   !> A line of loads: the reduced gaps grow by reduced_gap_rate (n) and the resultants by load_rate (m) per unit of the
   !> parameter, from those of the problem up to `last`. Parameters are as exact as parameter + origin.
@@ -37,6 +40,8 @@ module fuge_path_position
     real(dp), allocatable :: force(:), gap(:), motion(:), force_rate(:), gap_rate(:), motion_rate(:)
     !> An orthonormal basis of the motions that the points at their stops do not resist, (m, any number).
     real(dp), allocatable :: unresisted(:, :)
+    !> What counts as zero: ROUNDING or ROUNDING_OF_SUMS.
+    real(dp) :: rounding = ROUNDING
     !> The rates are those with which the position was reached.
     logical :: has_rates = .false.
   contains
@@ -95,9 +100,9 @@ contains
       if (canonical%excluded(k) .or. .not. canonical%upper(k) > 0.0_dp) cycle
       associate (state => self%state(k), gap => self%gap(k), upper => canonical%upper(k))
         if (state /= FUGE_OPEN) then
-          if (state*self%force(k) <= max(ROUNDING*largest(k), LAST_DIGITS*step*abs(self%force_rate(k)))) &
+          if (state*self%force(k) <= max(self%rounding*largest(k), LAST_DIGITS*step*abs(self%force_rate(k)))) &
             self%weakly_active(k) = state
-        else if (min(gap, upper - gap) <= max(ROUNDING*magnitude(k), data_rounding(k), &
+        else if (min(gap, upper - gap) <= max(self%rounding*magnitude(k), data_rounding(k), &
                                            LAST_DIGITS*step*abs(self%gap_rate(k)))) then
           self%weakly_active(k) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, gap <= upper - gap)
         end if

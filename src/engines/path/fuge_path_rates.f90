@@ -16,7 +16,8 @@ module fuge_path_rates
   use fuge_monitor_type, only: monitor_relay
   use fuge_open_gaps, only: add_open_displacement, extended_open_gaps
   use fuge_options_type, only: ITERATIONS_PER_ROW
-  use fuge_path_position, only: gaps_to_close, largest_of_bodies, load_at, load_line, path_position, ROUNDING
+  use fuge_path_position, only: gaps_to_close, largest_of_bodies, load_at, load_line, path_position, ROUNDING, &
+    ROUNDING_OF_SUMS
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   use fuge_unresisted_motions, only: find_unresisted_basis, is_resisted, without_unresisted
   implicit none
@@ -60,10 +61,11 @@ contains
       end if
       where (wrong) position%state = merge(FUGE_OPEN, position%weakly_active, position%state /= FUGE_OPEN)
     end do
-    call open_gaps(canonical, factor, position%state, line%reduced_gap_rate, position%force_rate, position%motion_rate, &
-                   position%gap_rate)
+    call open_gaps(canonical, line%flexibility, factor, position%state, line%reduced_gap_rate, position%force_rate, &
+                   position%motion_rate, position%gap_rate)
     where (position%state /= FUGE_OPEN .or. canonical%excluded) position%gap_rate = 0.0_dp
     position%has_rates = .true.
+    position%rounding = merge(ROUNDING, ROUNDING_OF_SUMS, needs_refinement(canonical, factor))
   end subroutine find_rates
 
   !> A first guess: weakly active points go on as they came. Without rates yet all of them are in contact.
@@ -159,21 +161,23 @@ contains
                  position%unresisted, position%force, position%motion)
     call remove_rounding(line, canonical%gap + position%parameter*line%reduced_gap_rate, &
                          load_at(canonical, line, position%parameter), position%force)
-    call open_gaps(canonical, factor, position%state, gap, position%force, position%motion, position%gap)
+    call open_gaps(canonical, line%flexibility, factor, position%state, gap, position%force, position%motion, &
+                   position%gap)
     where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
   end subroutine renew_values
 
-  !> Gaps of the open points, `open_gap` (n), from `gap` without displacements, or rates of these.
-  subroutine open_gaps(canonical, factor, state, gap, force, motion, open_gap)
+  !> Gaps of the open points, `open_gap` (n), from `gap` without displacements, or rates of these;
+  !> `flexibility` is that of the line.
+  subroutine open_gaps(canonical, flexibility, factor, state, gap, force, motion, open_gap)
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
     integer, intent(in) :: state(:)
-    real(dp), intent(in) :: gap(:), force(:), motion(:)
+    real(dp), intent(in) :: flexibility, gap(:), force(:), motion(:)
     real(dp), intent(inout) :: open_gap(:)
 
     if (is_well_conditioned(factor)) then
       open_gap = gap - rigid_displacement(canonical%modes, motion)
-      call add_open_displacement(canonical, state, force, open_gap)
+      call add_open_displacement(canonical, flexibility, state, force, open_gap)
     else
       open_gap = extended_open_gaps(canonical, state, gap, force, motion)
     end if
