@@ -160,11 +160,30 @@ contains
       if (last - first <= SHORTEST*(last + self%origin)) return
       largest = maxval(abs(self%force(:, k:k + 1)), dim=1)
       place = merge(INSIDE, 0.0_dp, largest(1) < VANISHING*largest(2))
-      call check_place(self, path, k, place, displacement)
+      if (place > 0.0_dp .or. .not. goes_on(self, path, k)) call check_place(self, path, k, place, displacement)
       place = merge(INSIDE, 0.0_dp, largest(2) < VANISHING*largest(1))
       call check_place(self, path, k, 1.0_dp - place, displacement)
     end associate
   end subroutine check_piece
+
+  !> Does the piece begin with the forces and, but for the last digit, the motions with which the one before it ends?
+  !> Then the check of that end is one of this begin too.
+  pure function goes_on(self, path, k)
+    type(path_certificate), intent(in) :: self
+    type(fuge_path), intent(in) :: path
+    integer, intent(in) :: k
+    logical :: goes_on
+    integer :: before
+
+    goes_on = .false.
+    if (k < 2) return
+    before = self%entry(k - 1)
+    if (before == 0) return
+    associate (at_end => path%motion(:, before) + (self%parameter(k) - path%parameter(before))*path%rate(:, before), &
+               at_begin => path%motion(:, self%entry(k)))
+      goes_on = all(abs(at_end - at_begin) <= 4.0_dp*epsilon(at_end)*abs(at_begin))
+    end associate
+  end function goes_on
 
   !> Hold a piece against the conditions at a `place` from 0, its begin, to 1, its end.
   subroutine check_place(self, path, k, place, displacement)

@@ -14,10 +14,10 @@ module fuge_path_rates
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: solve_set
   use fuge_monitor_type, only: monitor_relay
-  use fuge_open_gaps, only: add_open_displacement, extended_open_gaps
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_path_position, only: gaps_to_close, largest_of_bodies, load_at, load_line, path_position, ROUNDING, &
     ROUNDING_OF_SUMS
+  use fuge_row_displacements, only: add_displacement, extended_gaps
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   use fuge_unresisted_motions, only: find_unresisted_basis, is_resisted, without_unresisted
   implicit none
@@ -110,8 +110,8 @@ contains
       position%motion_rate = without_unresisted(position%motion_rate, position%unresisted)
     end if
     if (needs_refinement(canonical, factor)) then
-      call correct(canonical, factor, line%reduced_gap_rate, line%load_rate, contact, position%unresisted, &
-                   position%force_rate, position%motion_rate)
+      call correct(canonical, line%flexibility, factor, line%reduced_gap_rate, line%load_rate, contact, &
+                   position%unresisted, position%force_rate, position%motion_rate)
     end if
     call remove_rounding(line, line%reduced_gap_rate, line%load_rate, position%force_rate)
   end subroutine solve_for_rates
@@ -157,8 +157,8 @@ contains
     real(dp) :: gap(size(position%state))
 
     gap = gaps_to_close(canonical, line, position)
-    call correct(canonical, factor, gap, load_at(canonical, line, position%parameter), position%state /= FUGE_OPEN, &
-                 position%unresisted, position%force, position%motion)
+    call correct(canonical, line%flexibility, factor, gap, load_at(canonical, line, position%parameter), &
+                 position%state /= FUGE_OPEN, position%unresisted, position%force, position%motion)
     call remove_rounding(line, canonical%gap + position%parameter*line%reduced_gap_rate, &
                          load_at(canonical, line, position%parameter), position%force)
     call open_gaps(canonical, line%flexibility, factor, position%state, gap, position%force, position%motion, &
@@ -177,18 +177,18 @@ contains
 
     if (is_well_conditioned(factor)) then
       open_gap = gap - rigid_displacement(canonical%modes, motion)
-      call add_open_displacement(canonical, flexibility, state, force, open_gap)
+      call add_displacement(canonical, flexibility, state == FUGE_OPEN, state /= FUGE_OPEN, force, open_gap)
     else
-      open_gap = extended_open_gaps(canonical, state, gap, force, motion)
+      open_gap = extended_gaps(canonical, state, gap, force, motion)
     end if
   end subroutine open_gaps
 
   !> Iterative refinement, with residuals in extended precision unless the factor is well conditioned: c = gap + A f -
   !> R q = 0 on the contact set, R^T f = load. Motions along the columns of `unresisted` stay.
-  subroutine correct(canonical, factor, gap, load, contact, unresisted, force, motion)
+  subroutine correct(canonical, flexibility, factor, gap, load, contact, unresisted, force, motion)
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
-    real(dp), intent(in) :: gap(:), load(:), unresisted(:, :)
+    real(dp), intent(in) :: flexibility, gap(:), load(:), unresisted(:, :)
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: force(:), motion(:)
     real(dp) :: residual(size(gap)), correction(size(gap)), missing(size(motion)), shift(size(motion)), change, last
@@ -199,7 +199,8 @@ contains
     last = huge(last)
     do step = 1, REFINEMENTS
       if (is_well_conditioned(factor)) then
-        residual(points) = double_residual(canonical, gap, points, force, motion)
+        residual = gap - rigid_displacement(canonical%modes, motion)
+        call add_displacement(canonical, flexibility, contact, contact, force, residual)
         missing = load - matmul(force, canonical%modes)
       else
         call extended_residual(canonical, gap, load, points, force, motion, residual, missing)
@@ -213,23 +214,6 @@ contains
       last = change
     end do
   end subroutine correct
-
-  !> Residual of the gaps at the contact points.
-  pure function double_residual(canonical, gap, points, force, motion) result(residual)
-    type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: gap(:), force(:), motion(:)
-    integer, intent(in) :: points(:)
-    real(dp) :: residual(size(points))
-    integer :: j
-
-    residual = gap(points)
-    do j = 1, size(motion)
-      residual = residual - canonical%modes(points, j)*motion(j)
-    end do
-    do j = 1, size(points)
-      residual = residual + (canonical%alpha(points, points(j)) - canonical%datum)*force(points(j))
-    end do
-  end function double_residual
 
   !> Residuals of the gaps (n), at the contact points, and of equilibrium (m), in extended precision.
   pure subroutine extended_residual(canonical, gap, load, points, force, motion, residual, missing)

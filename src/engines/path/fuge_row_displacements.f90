@@ -1,5 +1,6 @@
-!> Elastic displacements of the open points only, which is all that a path needs between two events.
-module fuge_open_gaps
+!> Elastic displacements of some of the points: of the open ones, which is all that a path needs between two events, or
+!> of those in contact.
+module fuge_row_displacements
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp, xp
@@ -7,44 +8,44 @@ module fuge_open_gaps
   implicit none
   private
 
-  public :: add_open_displacement, extended_open_gaps
+  public :: add_displacement, extended_gaps
 
   !> Runs of neighbours up to which open points and contact points are taken run by run.
   integer, parameter :: MOST_RUNS = 8
 
 contains
 
-  !> u := u + (alpha - datum) f at the open points, and anything at the others.
+  !> u := u + (alpha - datum) f at the points `wanted`, and anything at the others.
   !>
-  !> `flexibility` the largest coefficient of alpha; `state`, `force` and `u` (n). Where open and contact points form
-  !> few runs of neighbours, only the blocks of alpha that these have in common are read.
-  subroutine add_open_displacement(canonical, flexibility, state, force, u)
+  !> `flexibility` the largest coefficient of alpha; `contact` marks the points with force; all others (n). Where both
+  !> kinds of points form few runs of neighbours, only the blocks of alpha that these have in common are read.
+  subroutine add_displacement(canonical, flexibility, wanted, contact, force, u)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: flexibility, force(:)
-    integer, intent(in) :: state(:)
+    logical, intent(in) :: wanted(:), contact(:)
     real(dp), intent(inout) :: u(:)
-    integer :: open_first, open_last, first, last, k, n
+    integer :: top, bottom, first, last, k, n
 
-    n = size(state)
+    n = size(contact)
     ! Taking a datum out of a sum, instead of each term, costs digits if the coefficients differ by little.
-    if (count(state(2:) /= state(:n - 1)) >= 2*MOST_RUNS .or. abs(canonical%datum) > 0.5_dp*flexibility) then
+    if (count(contact(2:) .neqv. contact(:n - 1)) >= 2*MOST_RUNS .or. abs(canonical%datum) > 0.5_dp*flexibility) then
       do k = 1, n
-        if (state(k) /= FUGE_OPEN) u = u + (canonical%alpha(:n, k) - canonical%datum)*force(k)
+        if (contact(k)) u = u + (canonical%alpha(:n, k) - canonical%datum)*force(k)
       end do
       return
     end if
-    open_last = 0
+    bottom = 0
     do
-      call next_run(state == FUGE_OPEN, open_last + 1, open_first, open_last)
-      if (open_first > n) return
+      call next_run(wanted, bottom + 1, top, bottom)
+      if (top > n) return
       last = 0
       do
-        call next_run(state /= FUGE_OPEN, last + 1, first, last)
+        call next_run(contact, last + 1, first, last)
         if (first > n) exit
-        call add_block(canonical%alpha, canonical%datum, open_first, open_last, first, last, force, u)
+        call add_block(canonical%alpha, canonical%datum, top, bottom, first, last, force, u)
       end do
     end do
-  end subroutine add_open_displacement
+  end subroutine add_displacement
 
   !> The next run of marked points from `start` on; `first` is beyond the last point if there is none.
   pure subroutine next_run(marked, start, first, last)
@@ -81,7 +82,7 @@ contains
   !> `motion` (m).
   !>
   !> Between two contact points of a beam a gap may be far smaller than the terms that it consists of.
-  pure function extended_open_gaps(canonical, state, gap, force, motion) result(open_gap)
+  pure function extended_gaps(canonical, state, gap, force, motion) result(open_gap)
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: state(:)
     real(dp), intent(in) :: gap(:), force(:), motion(:)
@@ -100,6 +101,6 @@ contains
     end do
     open_gap = 0.0_dp
     open_gap(points) = real(sums, dp)
-  end function extended_open_gaps
+  end function extended_gaps
 
-end module fuge_open_gaps
+end module fuge_row_displacements
