@@ -21,7 +21,7 @@ module fuge_sensitivity
 
 contains
 
-  !> Changes of forces, gaps and motions at a fixed contact set, by two triangular solves.
+  !> Changes of forces, gaps and motions at a fixed contact set, by solves with its factor.
   !>
   !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of
   !> the resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. Errors,
@@ -52,7 +52,8 @@ contains
                   //'in: they would turn the body over, whatever the size of the change')
       return
     end if
-    call solve_set(factor, datum, reduced_gap, load, force, free_motion)
+    call solve_refined(canonical, operator%alpha, datum, factor, state /= FUGE_OPEN, reduced_gap, load, force, &
+                       free_motion)
     free_motion = without_unresisted(free_motion, unresisted)
     if (is_rigid(canonical%modes, reduced_gap, load, free_motion, state /= FUGE_OPEN)) force = 0.0_dp
     gap = reduced_gap - rigid_displacement(canonical%modes, free_motion)
@@ -65,6 +66,26 @@ contains
     call move_alloc(gap, change%gap)
     call move_alloc(motion, change%motion)
   end subroutine find_derivative
+
+  !> Forces (n) and free motions (m) of the set in `contact` (n), whose factor has lost digits where alpha is badly
+  !> conditioned or there are several modes: corrected once by the residuals.
+  subroutine solve_refined(canonical, alpha, datum, factor, contact, reduced_gap, load, force, motion)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, reduced_gap(:), load(:)
+    type(kkt_factor), intent(in) :: factor
+    logical, intent(in) :: contact(:)
+    real(dp), intent(out) :: force(:), motion(:)
+    real(dp) :: residual(size(force)), correction(size(force)), missing(size(motion)), shift(size(motion))
+
+    call solve_set(factor, datum, reduced_gap, load, force, motion)
+    residual = reduced_gap - rigid_displacement(canonical%modes, motion)
+    call add_elastic_displacement(alpha, datum, contact, force, residual)
+    missing = load - matmul(force, canonical%modes)
+    call solve_set(factor, datum, residual, missing, correction, shift)
+    force = force + correction
+    motion = motion + shift
+  end subroutine solve_refined
 
   !> Is a change of the gaps without one of the load the rigid displacement R q at all points in contact, but for
   !> rounding? Forces then stay as they are, and those computed are rounding.
