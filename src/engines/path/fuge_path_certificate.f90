@@ -193,7 +193,7 @@ contains
     real(dp), intent(in) :: place, displacement(:, :)
     type(fuge_solution) :: solution
     type(fuge_violation) :: violation
-    real(dp) :: here(size(self%first)), parameter
+    real(dp) :: here(size(self%first)), parameter, worst
     integer :: entry
 
     if (self%info%failed()) return
@@ -213,10 +213,23 @@ contains
       self%product%adds_terms = .true.
       call find_violation(self%product, self%problem, solution, violation, self%info)
     end if
-    if (self%info%failed() .or. violation%worst() <= self%residual) return
-    self%residual = violation%worst()
+    if (self%info%failed()) return
+    worst = max(violation%worst(), force_at_open_points(path%states(entry), solution%force))
+    if (worst <= self%residual) return
+    self%residual = worst
     self%worst_parameter = path%parameter(entry)
   end subroutine check_place
+
+  !> The largest force that the entries of the path deny, as a fraction of the largest force.
+  pure function force_at_open_points(state, force) result(fraction)
+    integer, intent(in) :: state(:)
+    real(dp), intent(in) :: force(:)
+    real(dp) :: fraction, largest
+
+    fraction = 0.0_dp
+    largest = maxval(abs(force))
+    if (largest > 0.0_dp) fraction = maxval(merge(abs(force)/largest, 0.0_dp, state == FUGE_OPEN))
+  end function force_at_open_points
 
   pure function warns_above() result(tolerance)
     real(dp) :: tolerance
