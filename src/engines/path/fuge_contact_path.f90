@@ -34,8 +34,10 @@ contains
   !> Follow the contact of the plain problem from zero load up to `load`; the parameter of the path is the load.
   !>
   !> `operator` a fuge_dense_operator with n points, `gap` (n) length, `load` >= 0 force; out: `path`, untouched on an
-  !> error; info%iterations counts its events. Without load all points are open; those that touch first have entries at
-  !> zero load. Errors: as for a solve, and FUGE_ERR_ITERATION_LIMIT after more events than 50 for each point.
+  !> error; info%iterations counts its events, info%residual is its certificate: the largest violation at the ends of
+  !> its pieces, see `fuge_residual`; above 1e-10 it is a warning, FUGE_WARN_RESIDUAL. Without load all points are open;
+  !> those that touch first have entries at zero load. Errors: as for a solve, and FUGE_ERR_ITERATION_LIMIT after more
+  !> events than 50 for each point.
   subroutine fuge_load_path(operator, gap, load, path, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap(:), load
@@ -65,7 +67,7 @@ contains
   !> t*(finish - w) for t from 0 to 1: every t < 1 at which a point comes to a stop or leaves it.
   !>
   !> `operator` a fuge_dense_operator with n points; `problem` the start, in equilibrium; `finish` (m) the resultants at
-  !> the end, where prescribed the motions; out: `path`, untouched on an error; info%iterations counts its events. A
+  !> the end, where prescribed the motions; out: `path`, untouched on an error; `info` as for `fuge_load_path`. A
   !> motion that nothing resists at the start starts at first touch if the load change closes the gap. Errors: as for a
   !> solve; FUGE_ERR_NO_EQUILIBRIUM also where equilibrium ends on the way: the message gives the parameter, and a path
   !> to a smaller one is possible; FUGE_ERR_ITERATION_LIMIT after more events than 50 for each point.
