@@ -8,12 +8,12 @@ module fuge_parametric_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_kkt_factor, only: kkt_factor
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_path_certificate, only: path_certificate
+  use fuge_path_factor, only: path_factor
   use fuge_path_jump, only: move_until_resisted
   use fuge_path_position, only: given_motions, load_line, path_position, ROUNDING
-  use fuge_path_rates, only: find_rates, needs_refinement, renew_values
+  use fuge_path_rates, only: find_rates, renew_values
   use fuge_path_type, only: append_entry, fuge_path, start_path
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
   implicit none
@@ -38,7 +38,7 @@ contains
     type(fuge_path), intent(inout) :: path
     type(path_certificate), intent(inout) :: certificate
     integer, intent(out) :: status
-    type(kkt_factor) :: factor
+    type(path_factor) :: factor
     integer :: before(size(position%state))
     integer :: turn
     logical :: ended
@@ -73,12 +73,12 @@ contains
   !> digit, and so does the place of the next event. Not without any force, which is exact.
   pure function is_renewal_due(canonical, factor, position, turn) result(due)
     type(canonical_problem), intent(in) :: canonical
-    type(kkt_factor), intent(in) :: factor
+    type(path_factor), intent(in) :: factor
     type(path_position), intent(in) :: position
     integer, intent(in) :: turn
     logical :: due
 
-    due = modulo(turn, EVENTS_PER_RENEWAL) == 0 .or. needs_refinement(canonical, factor)
+    due = modulo(turn, EVENTS_PER_RENEWAL) == 0 .or. factor%needs_refinement(canonical)
     if (due) due = any(abs(position%force) > 0.0_dp)
   end function is_renewal_due
 
@@ -87,7 +87,7 @@ contains
   subroutine go_to_next_event(canonical, line, factor, position, ended)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
-    type(kkt_factor), intent(in) :: factor
+    type(path_factor), intent(in) :: factor
     type(path_position), intent(inout) :: position
     logical, intent(out) :: ended
     integer :: joining(size(position%state)), k

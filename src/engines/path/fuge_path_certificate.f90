@@ -20,7 +20,7 @@ module fuge_path_certificate
   private
 
   !> Ends of pieces whose forces are multiplied at once.
-  integer, parameter :: ENDS = 24
+  integer, parameter :: ENDS = 48
   !> Columns of the matrix gathered at a time.
   integer, parameter :: COLUMNS = 64
 
@@ -276,15 +276,20 @@ contains
     real(dp), intent(out) :: displacement(:, :)
     real(dp), allocatable :: columns_of_matrix(:, :), factors(:, :)
     real(dp) :: datum
-    integer :: j, n, used
+    logical :: has_force(size(force, 1))
+    integer :: j, k, n, used
 
     n = size(force, 1)
     datum = operator%datum()
+    has_force = .false.
+    do k = 1, size(force, 2)
+      has_force = has_force .or. abs(force(:, k)) > 0.0_dp
+    end do
     allocate (columns_of_matrix(n, COLUMNS), factors(COLUMNS, size(force, 2)))
     displacement = 0.0_dp
     used = 0
     do j = 1, n
-      if (any(abs(force(j, :)) > 0.0_dp)) then
+      if (has_force(j)) then
         used = used + 1
         columns_of_matrix(:, used) = operator%alpha(:n, j) - datum
         factors(used, :) = force(j, :)

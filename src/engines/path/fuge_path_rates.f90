@@ -12,9 +12,9 @@ module fuge_path_rates
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp, xp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_kkt_solution, only: solve_set
   use fuge_monitor_type, only: monitor_relay
   use fuge_options_type, only: ITERATIONS_PER_ROW
+  use fuge_path_factor, only: path_factor
   use fuge_path_position, only: gaps_to_close, largest_of_bodies, load_at, load_line, path_position, ROUNDING, &
     ROUNDING_OF_SUMS
   use fuge_row_displacements, only: add_displacement, extended_gaps
@@ -23,10 +23,8 @@ module fuge_path_rates
   implicit none
   private
 
-  public :: find_rates, needs_refinement, renew_values
+  public :: find_rates, renew_values
 
-  !> Ratio of the pivots below which a solution in double precision is exact enough.
-  real(dp), parameter :: WELL_CONDITIONED = 1.0e2_dp
   !> A correction above this fraction of the largest force calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
   integer, parameter :: REFINEMENTS = 10
@@ -37,7 +35,7 @@ contains
   subroutine find_rates(canonical, line, factor, position, status)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
-    type(kkt_factor), intent(inout) :: factor
+    type(path_factor), intent(inout) :: factor
     type(path_position), intent(inout) :: position
     integer, intent(out) :: status
     logical :: wrong(size(position%state))
@@ -65,7 +63,7 @@ contains
                    position%motion_rate, position%gap_rate)
     where (position%state /= FUGE_OPEN .or. canonical%excluded) position%gap_rate = 0.0_dp
     position%has_rates = .true.
-    position%rounding = merge(ROUNDING, ROUNDING_OF_SUMS, needs_refinement(canonical, factor))
+    position%rounding = merge(ROUNDING, ROUNDING_OF_SUMS, factor%needs_refinement(canonical))
   end subroutine find_rates
 
   !> A first guess: weakly active points go on as they came. Without rates yet all of them are in contact.
@@ -90,7 +88,7 @@ contains
   subroutine solve_for_rates(canonical, line, factor, position, status)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
-    type(kkt_factor), intent(inout) :: factor
+    type(path_factor), intent(inout) :: factor
     type(path_position), intent(inout) :: position
     integer, intent(out) :: status
     logical :: contact(size(position%state))
@@ -98,8 +96,7 @@ contains
     contact = position%state /= FUGE_OPEN
     call factor%set(canonical, contact, status)
     if (status /= FUGE_DONE) return
-    call solve_set(factor, canonical%datum, line%reduced_gap_rate, line%load_rate, position%force_rate, &
-                   position%motion_rate)
+    call factor%solve(canonical, line%reduced_gap_rate, line%load_rate, position%force_rate, position%motion_rate)
     if (canonical%has_translation .and. size(position%motion) == 1 .and. any(contact)) then
       deallocate (position%unresisted)
       allocate (position%unresisted(1, 0))
@@ -109,7 +106,7 @@ contains
     if (is_resisted(line%load_rate, position%unresisted)) then
       position%motion_rate = without_unresisted(position%motion_rate, position%unresisted)
     end if
-    if (needs_refinement(canonical, factor)) then
+    if (factor%needs_refinement(canonical)) then
       call correct(canonical, line%flexibility, factor, line%reduced_gap_rate, line%load_rate, contact, &
                    position%unresisted, position%force_rate, position%motion_rate)
     end if
@@ -127,32 +124,12 @@ contains
     where (abs(force)*line%flexibility <= ROUNDING*maxval(abs(gap))) force = 0.0_dp
   end subroutine remove_rounding
 
-  !> May a solution by the factor have lost more than the last digits? With other modes than one translation of all
-  !> points, the soft springs of the factor cost digits of the motions.
-  pure function needs_refinement(canonical, factor) result(needs)
-    type(canonical_problem), intent(in) :: canonical
-    type(kkt_factor), intent(in) :: factor
-    logical :: needs
-
-    needs = .not. is_well_conditioned(factor)
-    if (size(canonical%modes, 2) > 0) needs = needs .or. size(canonical%modes, 2) > 1 .or. &
-      .not. canonical%has_translation
-  end function needs_refinement
-
-  !> Is a residual in double precision exact enough?
-  pure function is_well_conditioned(factor) result(well)
-    type(kkt_factor), intent(in) :: factor
-    logical :: well
-
-    well = factor%pivot_ratio < WELL_CONDITIONED .and. .not. factor%regularisation > 0.0_dp
-  end function is_well_conditioned
-
   !> Solve anew for the forces and motions of the set of the factor at the position, except for motions that nothing
   !> resists, and compute the gaps.
   subroutine renew_values(canonical, line, factor, position)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
-    type(kkt_factor), intent(in) :: factor
+    type(path_factor), intent(in) :: factor
     type(path_position), intent(inout) :: position
     real(dp) :: gap(size(position%state))
 
@@ -170,12 +147,12 @@ contains
   !> `flexibility` is that of the line.
   subroutine open_gaps(canonical, flexibility, factor, state, gap, force, motion, open_gap)
     type(canonical_problem), intent(in) :: canonical
-    type(kkt_factor), intent(in) :: factor
+    type(path_factor), intent(in) :: factor
     integer, intent(in) :: state(:)
     real(dp), intent(in) :: flexibility, gap(:), force(:), motion(:)
     real(dp), intent(inout) :: open_gap(:)
 
-    if (is_well_conditioned(factor)) then
+    if (factor%is_well_conditioned()) then
       open_gap = gap - rigid_displacement(canonical%modes, motion)
       call add_displacement(canonical, flexibility, state == FUGE_OPEN, state /= FUGE_OPEN, force, open_gap)
     else
@@ -187,7 +164,7 @@ contains
   !> R q = 0 on the contact set, R^T f = load. Motions along the columns of `unresisted` stay.
   subroutine correct(canonical, flexibility, factor, gap, load, contact, unresisted, force, motion)
     type(canonical_problem), intent(in) :: canonical
-    type(kkt_factor), intent(in) :: factor
+    type(path_factor), intent(in) :: factor
     real(dp), intent(in) :: flexibility, gap(:), load(:), unresisted(:, :)
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: force(:), motion(:)
@@ -198,19 +175,19 @@ contains
     residual = 0.0_dp
     last = huge(last)
     do step = 1, REFINEMENTS
-      if (is_well_conditioned(factor)) then
+      if (factor%is_well_conditioned()) then
         residual = gap - rigid_displacement(canonical%modes, motion)
         call add_displacement(canonical, flexibility, contact, contact, force, residual)
         missing = load - matmul(force, canonical%modes)
       else
         call extended_residual(canonical, gap, load, points, force, motion, residual, missing)
       end if
-      call solve_set(factor, canonical%datum, residual, missing, correction, shift)
+      call factor%solve(canonical, residual, missing, correction, shift)
       change = maxval(abs(correction))
       if (.not. change < 0.5_dp*last) exit
       force = force + correction
       motion = motion + without_unresisted(shift, unresisted)
-      if (is_well_conditioned(factor) .or. change <= EXACT_ENOUGH*maxval(abs(force))) exit
+      if (factor%is_well_conditioned() .or. change <= EXACT_ENOUGH*maxval(abs(force))) exit
       last = change
     end do
   end subroutine correct
@@ -293,7 +270,7 @@ contains
   subroutine solve_rate_problem(canonical, line, factor, position, status)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
-    type(kkt_factor), intent(inout) :: factor
+    type(path_factor), intent(inout) :: factor
     type(path_position), intent(inout) :: position
     integer, intent(out) :: status
     type(canonical_problem) :: rates
