@@ -22,7 +22,7 @@ module fuge_parametric_pivoting
   public :: follow_line
 
   !> Events between two renewals of the values where the factor is well conditioned; else every event renews them.
-  integer, parameter :: EVENTS_PER_RENEWAL = 16
+  integer, parameter :: EVENTS_PER_RENEWAL = 64
 
 contains
 
