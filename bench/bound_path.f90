@@ -4,8 +4,8 @@
 !>
 !> A path from zero load to that at which the contact is as wide as in the other benchmarks. The bound is two
 !> triangular solves with the Cholesky factor of the mean contact set, centred, of the same matrix. Both are measured
-!> alternately in processor time, and the fastest run of each counts; times are microseconds for one event. Writes rows of a Markdown
-!> table, with N that of quartic N only.
+!> alternately in processor time, and the fastest run of each counts; times are microseconds for one event. Writes
+!> rows of a Markdown table, with N that of quartic N only.
 program bound_path
   use, intrinsic :: iso_fortran_env, only: output_unit
   use bench_lapack, only: dposv, dtrsv

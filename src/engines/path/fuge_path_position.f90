@@ -11,7 +11,8 @@ module fuge_path_position
 
   public :: given_motions, gaps_to_close, largest_of_bodies, load_at, position_at
 
-  !> Forces below this fraction of the largest one of the body, and lengths below this fraction of their terms, are zero.
+  !> Forces below this fraction of the largest one of the body, and lengths below this fraction of their terms, are
+  !> zero.
   real(dp), parameter, public :: ROUNDING = 1.0e-14_dp
   !> The same where the contact set is well conditioned, and values are not solved for anew at each event. Where it is
   !> not, as between close points of a beam, gaps of this size may be real.

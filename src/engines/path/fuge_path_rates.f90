@@ -161,7 +161,8 @@ contains
   end subroutine open_gaps
 
   !> Iterative refinement, with residuals in extended precision unless the factor is well conditioned: c = gap + A f -
-  !> R q = 0 on the contact set, R^T f = load. Motions along the columns of `unresisted` stay.
+  !> R q = 0 on the contact set, R^T f = load. Motions along the columns of `unresisted` stay. Nine arguments, because
+  !> values and rates have the same equations.
   subroutine correct(canonical, flexibility, factor, gap, load, contact, unresisted, force, motion)
     type(canonical_problem), intent(in) :: canonical
     type(path_factor), intent(in) :: factor
@@ -280,7 +281,7 @@ contains
     real(dp), allocatable, target :: mirrored_alpha(:, :)
     real(dp) :: remainder(size(position%motion)), sense(size(position%state))
     logical :: pulls(size(position%state)), wrong(size(position%state))
-    integer :: j, n, sets, stat
+    integer :: n, sets, stat
 
     n = size(position%state)
     rates = canonical
@@ -297,16 +298,8 @@ contains
     rates%excluded = position%state == FUGE_OPEN .and. position%weakly_active == FUGE_OPEN
     solution%state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, position%state /= FUGE_OPEN)
     if (any(sense < 0.0_dp)) then
-      allocate (mirrored_alpha(n, n), stat=stat)
-      status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
-      if (stat /= 0) return
-      do j = 1, n
-        mirrored_alpha(:, j) = sense*canonical%alpha(:n, j)*sense(j)
-      end do
-      rates%alpha => mirrored_alpha
-      rates%datum = 0.0_dp
-      rates%has_translation = .false.
-      rates%modes = spread(sense, 2, size(position%motion))*canonical%modes
+      call mirror(canonical, sense, mirrored_alpha, rates, status)
+      if (status /= FUGE_DONE) return
     end if
     if (.not. allocated(rates%feasible_force)) allocate (rates%feasible_force(n))
     rates%feasible_force = 0.0_dp
@@ -328,5 +321,28 @@ contains
     position%force_rate = sense*solution%force
     position%motion_rate = solution%motion
   end subroutine solve_rate_problem
+
+  !> Turn the senses of force and gap round at the points where `sense` (n) is -1. `alpha` is the matrix then, which
+  !> `rates` points to. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
+  subroutine mirror(canonical, sense, alpha, rates, status)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: sense(:)
+    real(dp), allocatable, target, intent(out) :: alpha(:, :)
+    type(canonical_problem), intent(inout) :: rates
+    integer, intent(out) :: status
+    integer :: j, stat
+
+    allocate (alpha(size(sense), size(sense)), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+    if (stat /= 0) return
+    do j = 1, size(sense)
+      alpha(:, j) = sense*canonical%alpha(:size(sense), j)*sense(j)
+    end do
+    rates%alpha => alpha
+    ! The translation does not move these points alike any more.
+    rates%datum = 0.0_dp
+    rates%has_translation = .false.
+    rates%modes = spread(sense, 2, size(canonical%modes, 2))*canonical%modes
+  end subroutine mirror
 
 end module fuge_path_rates
