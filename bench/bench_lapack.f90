@@ -4,7 +4,7 @@ module bench_lapack
   implicit none
   private
 
-  public :: dposv, dpotrf, dpotrs, dsyrk
+  public :: dposv, dpotrf, dpotrs, dsyrk, dtrsv
 
   interface
     !> Solve a symmetric positive definite system by Cholesky; `a` becomes the factor.
@@ -43,6 +43,15 @@ module bench_lapack
       real(dp), intent(in) :: alpha, a(lda, *), beta
       real(dp), intent(inout) :: c(ldc, *)
     end subroutine dsyrk
+
+    !> x := inv(A) x for a triangular A.
+    subroutine dtrsv(uplo, trans, diag, n, a, lda, x, incx)
+      import :: dp
+      character(len=1), intent(in) :: uplo, trans, diag
+      integer, intent(in) :: n, lda, incx
+      real(dp), intent(in) :: a(lda, *)
+      real(dp), intent(inout) :: x(*)
+    end subroutine dtrsv
   end interface
 
 end module bench_lapack

@@ -453,8 +453,9 @@ enum {                          /* state of a contact point */
  *   contacts   out  points in contact from there on
  *   entries    out  number of entries, of which the first capacity are written
  * Points that change together have an entry each; motion, rate and contacts are then
- * those after all of them.  FUGE_ERR_UNSUPPORTED for another operator,
- * FUGE_ERR_NO_EQUILIBRIUM for a load < 0. */
+ * those after all of them.  Both ends of every piece are held against the conditions of
+ * contact: FUGE_WARN_RESIDUAL if they violate them by more than 1e-10.
+ * FUGE_ERR_UNSUPPORTED for another operator, FUGE_ERR_NO_EQUILIBRIUM for a load < 0. */
 int fuge_load_path(const fuge_operator *op, const double *gap, double load, int capacity,
                    double *parameter, double *motion, double *rate, int *point, int *state,
                    int *contacts, int *entries, char *message, size_t len);
@@ -490,7 +491,7 @@ int fuge_get_resultant(const fuge_solver *s, double *resultant);  /* m: R^T f; o
  * not change: the changes of force and gap (n each) and of v_0 (motion, 1) for a change of
  * the gaps (n; NULL for none) and of the load.  gap and motion may be NULL.  With gap_change
  * NULL and load_change 1 the contact stiffness is 1/motion; a unit gap_change at k gives
- * column k of the sensitivity to the gaps.  Each call costs two triangular solves.
+ * column k of the sensitivity to the gaps.  Each call costs four triangular solves.
  * FUGE_ERR_CALL_ORDER also after a solve with zero load; FUGE_ERR_SIZE unless m = 1;
  * FUGE_ERR_UNSUPPORTED unless the operator is dense. */
 int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double load_change,

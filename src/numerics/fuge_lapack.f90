@@ -4,7 +4,7 @@ module fuge_lapack
   implicit none
   private
 
-  public :: dgelsy, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsyrk, dsytrf, &
+  public :: dgelsy, dgemm, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsyrk, dsytrf, &
     dsytrs, dtrsm, dtrsv
 
   interface
@@ -17,6 +17,15 @@ module fuge_lapack
       integer, intent(inout) :: jpvt(*)
       integer, intent(out) :: rank, info
     end subroutine dgelsy
+
+    !> C := alpha A B + beta C.
+    subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
+      import :: dp
+      character(len=1), intent(in) :: transa, transb
+      integer, intent(in) :: m, n, k, lda, ldb, ldc
+      real(dp), intent(in) :: alpha, a(lda, *), b(ldb, *), beta
+      real(dp), intent(inout) :: c(ldc, *)
+    end subroutine dgemm
 
     !> QR factorisation with column pivoting, A P = Q R.
     subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)

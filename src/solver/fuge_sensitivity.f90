@@ -10,17 +10,18 @@ module fuge_sensitivity
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_unresisted_motions, only: find_unresisted_basis, is_resisted, without_unresisted
   implicit none
   private
 
   public :: find_derivative
 
-  !> Relative error of the equilibrium of changes above which the contact cannot carry them.
-  real(dp), parameter :: EQUILIBRIUM_TOLERANCE = 1.0e-6_dp
+  !> Changes of the gaps that differ from a rigid motion by this fraction of their terms are one.
+  real(dp), parameter :: RIGID_TOLERANCE = 1.0e-13_dp
 
 contains
 
-  !> Changes of forces, gaps and motions at a fixed contact set, by two triangular solves.
+  !> Changes of forces, gaps and motions at a fixed contact set, by solves with its factor.
   !>
   !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of
   !> the resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. Errors,
@@ -34,7 +35,7 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: force(:), gap(:), motion(:), reduced_gap(:), load(:)
+    real(dp), allocatable :: force(:), gap(:), motion(:), reduced_gap(:), load(:), unresisted(:, :)
     real(dp) :: datum, free_motion(size(canonical%load))
     integer :: stat
 
@@ -45,12 +46,16 @@ contains
     end if
     datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
     call canonical%transform_change(gap_change, load_change, reduced_gap, load)
-    call solve_set(factor, datum, reduced_gap, load, force, free_motion)
-    if (.not. is_in_equilibrium(canonical%modes, load, force)) then
+    call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
+    if (.not. is_resisted(load, unresisted)) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not resist the motions that these resultants act ' &
                   //'in: they would turn the body over, whatever the size of the change')
       return
     end if
+    call solve_refined(canonical, operator%alpha, datum, factor, state /= FUGE_OPEN, reduced_gap, load, force, &
+                       free_motion)
+    free_motion = without_unresisted(free_motion, unresisted)
+    if (is_rigid(canonical%modes, reduced_gap, load, free_motion, state /= FUGE_OPEN)) force = 0.0_dp
     gap = reduced_gap - rigid_displacement(canonical%modes, free_motion)
     call add_elastic_displacement(operator%alpha, datum, state /= FUGE_OPEN, force, gap)
     where (state /= FUGE_OPEN) gap = 0.0_dp
@@ -62,18 +67,41 @@ contains
     call move_alloc(motion, change%motion)
   end subroutine find_derivative
 
-  !> Is R^T f = load, but for rounding of the terms?
-  pure function is_in_equilibrium(modes, load, force) result(balanced)
-    real(dp), intent(in) :: modes(:, :), load(:), force(:)
-    logical :: balanced
-    real(dp) :: magnitude
-    integer :: j
+  !> Forces (n) and free motions (m) of the set in `contact` (n), whose factor has lost digits where alpha is badly
+  !> conditioned or there are several modes: corrected once by the residuals.
+  subroutine solve_refined(canonical, alpha, datum, factor, contact, reduced_gap, load, force, motion)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, reduced_gap(:), load(:)
+    type(kkt_factor), intent(in) :: factor
+    logical, intent(in) :: contact(:)
+    real(dp), intent(out) :: force(:), motion(:)
+    real(dp) :: residual(size(force)), correction(size(force)), missing(size(motion)), shift(size(motion))
 
-    balanced = .true.
-    do j = 1, size(load)
-      magnitude = max(abs(load(j)), dot_product(abs(force), abs(modes(:, j))))
-      balanced = balanced .and. abs(load(j) - dot_product(force, modes(:, j))) <= EQUILIBRIUM_TOLERANCE*magnitude
+    call solve_set(factor, datum, reduced_gap, load, force, motion)
+    residual = reduced_gap - rigid_displacement(canonical%modes, motion)
+    call add_elastic_displacement(alpha, datum, contact, force, residual)
+    missing = load - matmul(force, canonical%modes)
+    call solve_set(factor, datum, residual, missing, correction, shift)
+    force = force + correction
+    motion = motion + shift
+  end subroutine solve_refined
+
+  !> Is a change of the gaps without one of the load the rigid displacement R q at all points in contact, but for
+  !> rounding? Forces then stay as they are, and those computed are rounding.
+  pure function is_rigid(modes, gap_change, load_change, motion, contact) result(rigid)
+    real(dp), intent(in) :: modes(:, :), gap_change(:), load_change(:), motion(:)
+    logical, intent(in) :: contact(:)
+    logical :: rigid
+    integer :: k
+
+    rigid = .not. any(abs(load_change) > 0.0_dp)
+    do k = 1, size(contact)
+      if (.not. rigid) return
+      if (.not. contact(k)) cycle
+      rigid = abs(gap_change(k) - dot_product(modes(k, :), motion)) &
+              <= RIGID_TOLERANCE*(abs(gap_change(k)) + sum(abs(modes(k, :)*motion)))
     end do
-  end function is_in_equilibrium
+  end function is_rigid
 
 end module fuge_sensitivity

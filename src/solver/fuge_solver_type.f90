@@ -117,7 +117,7 @@ contains
   end subroutine reset
 
   !> How the last solution changes with gaps and load, to first order, and exactly as long as the contact set stays:
-  !> df, dc and dq, by two triangular solves.
+  !> df, dc and dq, by triangular solves with the last factor.
   !>
   !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force; `change` the changes in the
   !> order of `fuge_solution`. The contact stiffness dF_0/dv_0 is 1/change%motion(1) for gap_change 0 and load_change

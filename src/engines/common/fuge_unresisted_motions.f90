@@ -9,12 +9,14 @@ module fuge_unresisted_motions
   implicit none
   private
 
-  public :: find_unresisted_motion, find_unresisted_basis, without_unresisted
+  public :: find_unresisted_motion, find_unresisted_basis, is_resisted, without_unresisted
 
   !> Rows of the modes that differ by less than this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
   !> A force below this fraction of the loads that it may carry is rounding.
   real(dp), parameter :: NO_FORCE = 1.0e-14_dp
+  !> A resultant in an unresisted motion below this fraction of its terms is none.
+  real(dp), parameter :: NO_LOAD = 1.0e-10_dp
 
 contains
 
@@ -89,5 +91,24 @@ contains
       rest = rest - dot_product(basis(:, j), motion)*basis(:, j)
     end do
   end function without_unresisted
+
+  !> Do the resultants `load` (m) act in none of the unresisted motions, of which `basis` is an orthonormal basis?
+  !>
+  !> Each motion is judged by its own terms, because another body may carry far larger resultants, whose rounding does
+  !> not count.
+  pure function is_resisted(load, basis) result(resisted)
+    real(dp), intent(in) :: load(:), basis(:, :)
+    logical :: resisted
+    real(dp) :: rounding
+    integer :: j
+
+    resisted = .true.
+    if (size(basis, 2) < 1) return
+    rounding = 64.0_dp*epsilon(rounding)*maxval(abs(load))
+    do j = 1, size(basis, 2)
+      resisted = resisted .and. abs(dot_product(basis(:, j), load)) <= max(rounding, &
+                                                                           NO_LOAD*sum(abs(basis(:, j)*load)))
+    end do
+  end function is_resisted
 
 end module fuge_unresisted_motions

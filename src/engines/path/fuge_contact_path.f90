@@ -13,11 +13,13 @@ module fuge_contact_path
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
-  use fuge_parametric_pivoting, only: follow_line, load_line, path_position, position_at
+  use fuge_parametric_pivoting, only: follow_line
+  use fuge_path_certificate, only: path_certificate
+  use fuge_path_position, only: load_line, path_position, position_at
   use fuge_path_type, only: fuge_path, move_path, trim_path
   use fuge_problem_type, only: fuge_problem, check_problem, check_load, set_problem
-  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, &
-    FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, &
+    FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED, FUGE_WARN_RESIDUAL
   implicit none
   private
 
@@ -32,8 +34,10 @@ contains
   !> Follow the contact of the plain problem from zero load up to `load`; the parameter of the path is the load.
   !>
   !> `operator` a fuge_dense_operator with n points, `gap` (n) length, `load` >= 0 force; out: `path`, untouched on an
-  !> error; info%iterations counts its events. Without load all points are open; those that touch first have entries at
-  !> zero load. Errors: as for a solve, and FUGE_ERR_ITERATION_LIMIT after more events than 50 for each point.
+  !> error; info%iterations counts its events, info%residual is its certificate: the largest violation at the ends of
+  !> its pieces, see `fuge_residual`; above 1e-10 it is a warning, FUGE_WARN_RESIDUAL. Without load all points are open;
+  !> those that touch first have entries at zero load. Errors: as for a solve, and FUGE_ERR_ITERATION_LIMIT after more
+  !> events than 50 for each point.
   subroutine fuge_load_path(operator, gap, load, path, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap(:), load
@@ -50,7 +54,10 @@ contains
       if (.not. info%failed() .and. load > 0.0_dp) call check_matrix(operator%alpha, load, info)
       if (.not. info%failed()) call set_problem(gap, 0.0_dp, problem, info)
       line%last = load
-      if (.not. info%failed()) call follow(operator, problem, [1.0_dp], line, path, info)
+      if (info%failed()) return
+      line%start = [0.0_dp]
+      line%rate = [1.0_dp]
+      call follow(operator, problem, line, path, info)
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'the load path needs the coefficients of a dense operator')
     end select
@@ -60,7 +67,7 @@ contains
   !> t*(finish - w) for t from 0 to 1: every t < 1 at which a point comes to a stop or leaves it.
   !>
   !> `operator` a fuge_dense_operator with n points; `problem` the start, in equilibrium; `finish` (m) the resultants at
-  !> the end, where prescribed the motions; out: `path`, untouched on an error; info%iterations counts its events. A
+  !> the end, where prescribed the motions; out: `path`, untouched on an error; `info` as for `fuge_load_path`. A
   !> motion that nothing resists at the start starts at first touch if the load change closes the gap. Errors: as for a
   !> solve; FUGE_ERR_NO_EQUILIBRIUM also where equilibrium ends on the way: the message gives the parameter, and a path
   !> to a smaller one is possible; FUGE_ERR_ITERATION_LIMIT after more events than 50 for each point.
@@ -77,11 +84,11 @@ contains
       call check_start(operator, problem, info)
       if (.not. info%failed()) call check_finish(operator%alpha, problem, finish, info)
       if (info%failed()) return
-      associate (start => start_values(problem))
-        line%last = 1.0_dp
-        line%origin = 1.0_dp + min(ratio(start, finish - start), LARGEST_ORIGIN)
-        call follow(operator, problem, finish - start, line, path, info)
-      end associate
+      line%start = start_values(problem)
+      line%rate = finish - line%start
+      line%last = 1.0_dp
+      line%origin = 1.0_dp + min(ratio(line%start, line%rate), LARGEST_ORIGIN)
+      call follow(operator, problem, line, path, info)
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'the path needs the coefficients of a dense operator')
     end select
@@ -141,61 +148,45 @@ contains
     end if
   end function ratio
 
-  !> Follow a checked problem whose resultants, where prescribed the motions, change by `rate` (m) per unit of the
-  !> parameter. The rates of the canonical problem are added to `line`.
-  subroutine follow(operator, problem, rate, line, path, info)
+  !> Follow a checked problem along a line whose start, rate and end are set; the rest of `line` is set here.
+  subroutine follow(operator, problem, line, path, info)
     type(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: rate(:)
     type(load_line), intent(inout) :: line
     type(fuge_path), intent(inout) :: path
     type(fuge_info), intent(inout) :: info
     type(canonical_problem) :: canonical
+    type(path_certificate) :: certificate
+    type(path_position) :: position
     type(fuge_path) :: followed
     real(dp) :: no_change(problem%points())
+    integer :: status
 
     call make_canonical(problem, canonical, info)
     if (info%failed()) return
     call canonical%set_matrix(operator%alpha, operator%datum())
     no_change = 0.0_dp
-    call canonical%transform_change(no_change, rate, line%reduced_gap_rate, line%load_rate)
-    call follow_canonical(canonical, line, followed, info)
+    call canonical%transform_change(no_change, line%rate, line%reduced_gap_rate, line%load_rate)
+    if (canonical%has_translation) line%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
+    line%flexibility = largest_coefficient(operator)
+    call find_start(line, canonical, position, info)
+    if (info%failed()) return
+    call certificate%start(operator, problem, line%start, line%rate, line%origin)
+    call follow_line(canonical, line, position, followed, certificate, status)
+    if (status == FUGE_DONE) call certificate%finish(position%force, line%last, followed)
+    if (status == FUGE_DONE) call trim_path(followed, status)
+    call explain_end(status, followed%entries, position%parameter, info)
+    if (.not. info%failed()) call report_certificate(certificate, info)
     if (info%failed()) return
     info%iterations = followed%entries - 1
-    call transform_motions(canonical, start_values(problem), rate, followed)
+    info%contacts = followed%contacts(followed%entries)
     call move_path(followed, path)
   end subroutine follow
 
-  !> From the solution at the start of the line to its end, in the modes of the canonical problem.
-  subroutine follow_canonical(canonical, line, path, info)
-    type(canonical_problem), intent(inout) :: canonical
+  !> The solution at the start. The datum of the gaps is subtracted from those of the problem and, with the datum of
+  !> alpha, from its translation.
+  subroutine find_start(line, canonical, position, info)
     type(load_line), intent(in) :: line
-    type(fuge_path), intent(inout) :: path
-    type(fuge_info), intent(inout) :: info
-    type(path_position) :: position
-    real(dp) :: gap_datum
-    integer :: k, status
-
-    gap_datum = 0.0_dp
-    if (canonical%has_translation) gap_datum = minval(canonical%gap)
-    call find_start(gap_datum, canonical, position, info)
-    if (info%failed()) return
-    call follow_line(canonical, line, position, path, status)
-    if (status == FUGE_DONE) call trim_path(path, status)
-    call explain_end(status, path%entries, position%parameter, info)
-    if (info%failed() .or. .not. canonical%has_translation) return
-    associate (datum => canonical%datum, motion => path%motion, rate => path%rate)
-      do k = 1, path%entries
-        motion(1, k) = motion(1, k) + gap_datum + datum*(canonical%load(1) + path%parameter(k)*line%load_rate(1))
-        rate(1, k) = rate(1, k) + datum*line%load_rate(1)
-      end do
-    end associate
-  end subroutine follow_canonical
-
-  !> The solution at the start. `gap_datum` is subtracted from the gaps of the problem and, with the datum of alpha,
-  !> from its translation.
-  subroutine find_start(gap_datum, canonical, position, info)
-    real(dp), intent(in) :: gap_datum
     type(canonical_problem), intent(inout) :: canonical
     type(path_position), intent(out) :: position
     type(fuge_info), intent(inout) :: info
@@ -209,18 +200,18 @@ contains
     if (is_unloaded(canonical)) then
       solution%force = 0.0_dp
       solution%motion = 0.0_dp
-      canonical%gap = canonical%gap - gap_datum
+      canonical%gap = canonical%gap - line%gap_datum
       solution%gap = canonical%gap
     else
       call solve_by_active_set(canonical, fuge_options(), no_monitor, factor, solution, info)
       if (info%failed()) return
       ! The path itself chooses where unresisted motions begin; only the forces have to be unique.
       if (.not. factor%regularisation > 0.0_dp) call report(info, FUGE_DONE, '')
-      canonical%gap = canonical%gap - gap_datum
-      if (canonical%has_translation) solution%motion(1) = solution%motion(1) - (gap_datum &
+      canonical%gap = canonical%gap - line%gap_datum
+      if (canonical%has_translation) solution%motion(1) = solution%motion(1) - (line%gap_datum &
           + canonical%datum*canonical%load(1))
     end if
-    call position_at(canonical, solution, position, status)
+    call position_at(canonical, line, solution, position, status)
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine find_start
 
@@ -247,22 +238,34 @@ contains
     end if
   end subroutine explain_end
 
-  !> Motions and their rates in the caller's modes. `start` (m) and `rate` (m) are the caller's resultants and
-  !> prescribed motions at the start, and their rates.
-  subroutine transform_motions(canonical, start, rate, path)
-    type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: start(:), rate(:)
-    type(fuge_path), intent(inout) :: path
-    real(dp), allocatable :: motion(:, :), motion_rate(:, :)
-    integer :: k
+  pure function largest_coefficient(operator) result(largest)
+    type(fuge_dense_operator), intent(in) :: operator
+    real(dp) :: largest
+    integer :: j
 
-    allocate (motion(size(start), path%entries), motion_rate(size(start), path%entries))
-    do k = 1, path%entries
-      call canonical%to_given_modes(start + path%parameter(k)*rate, path%motion(:, k), motion(:, k))
-      call canonical%to_given_modes(rate, path%rate(:, k), motion_rate(:, k))
+    largest = 0.0_dp
+    do j = 1, operator%points()
+      largest = max(largest, maxval(abs(operator%alpha(:operator%points(), j))))
     end do
-    call move_alloc(motion, path%motion)
-    call move_alloc(motion_rate, path%rate)
-  end subroutine transform_motions
+  end function largest_coefficient
+
+  !> The largest violation of all pieces is the residual of the path; above the tolerance of a solve it is a warning.
+  subroutine report_certificate(certificate, info)
+    type(path_certificate), intent(in) :: certificate
+    type(fuge_info), intent(inout) :: info
+    type(fuge_options) :: defaults
+
+    if (certificate%info%failed()) then
+      call report(info, certificate%info%status, composed_message(certificate%info))
+      return
+    end if
+    info%products = info%products + certificate%products
+    info%residual = certificate%residual
+    if (info%residual > defaults%tolerance) then
+      call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' after parameter ' &
+                  //text(certificate%worst_parameter)//' of the path is above the tolerance ' &
+                  //text(defaults%tolerance)//': the operator may be too badly conditioned for double precision')
+    end if
+  end subroutine report_certificate
 
 end module fuge_contact_path

@@ -19,7 +19,8 @@ module fuge_path_type
     integer, allocatable :: start(:)
     !> Parameter of each entry, ascending, 0 at the start.
     real(dp), allocatable :: parameter(:)
-    !> The point that changes, 0 for the start, and its new state.
+    !> The point that changes, 0 for the start, and its new state; or a point that touches without force, and its state,
+    !> where only motions that nothing resists turn.
     integer, allocatable :: point(:), state(:)
     !> Points at a stop from there on.
     integer, allocatable :: contacts(:)

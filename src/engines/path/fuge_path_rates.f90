@@ -1,0 +1,348 @@
+!> The rates of a contact at a place on a line of loads, and its values solved for anew.
+!>
+!> Points with force stay at their stop, open ones stay open. Which of the weakly active points are in contact on the
+!> next piece is a contact problem in the rates. It is solved by block pivoting on them; if that stalls, the
+!> active-set engine solves it, which ends.
+module fuge_path_rates
+  use fuge_block_pivoting, only: MAX_STALLS, run_block_pivoting
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_contact_solution, only: contact_solution
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_displacements, only: rigid_displacement
+  use fuge_equilibrium, only: find_equilibrium
+  use fuge_kinds, only: dp, xp
+  use fuge_kkt_factor, only: kkt_factor
+  use fuge_monitor_type, only: monitor_relay
+  use fuge_options_type, only: ITERATIONS_PER_ROW
+  use fuge_path_factor, only: path_factor
+  use fuge_path_position, only: gaps_to_close, largest_of_bodies, load_at, load_line, path_position, ROUNDING, &
+    ROUNDING_OF_SUMS
+  use fuge_row_displacements, only: add_displacement, extended_gaps
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
+  use fuge_unresisted_motions, only: find_unresisted_basis, is_resisted, without_unresisted
+  implicit none
+  private
+
+  public :: find_rates, renew_values
+
+  !> A correction above this fraction of the largest force calls for another one.
+  real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
+  integer, parameter :: REFINEMENTS = 10
+
+contains
+
+  !> States and rates of the piece that begins at the position. `status`: that of a factor or of the active-set engine.
+  subroutine find_rates(canonical, line, factor, position, status)
+    type(canonical_problem), intent(in) :: canonical
+    type(load_line), intent(in) :: line
+    type(path_factor), intent(inout) :: factor
+    type(path_position), intent(inout) :: position
+    integer, intent(out) :: status
+    logical :: wrong(size(position%state))
+    integer :: fewest_wrong, stalls_left
+
+    call follow_last_rates(position)
+    fewest_wrong = huge(fewest_wrong)
+    stalls_left = MAX_STALLS
+    do
+      call solve_for_rates(canonical, line, factor, position, status)
+      if (status /= FUGE_DONE) return
+      call find_wrong(canonical, line, position, wrong)
+      if (.not. any(wrong)) exit
+      stalls_left = stalls_left - 1
+      if (count(wrong) < fewest_wrong) stalls_left = MAX_STALLS
+      fewest_wrong = min(fewest_wrong, count(wrong))
+      if (stalls_left < 0) then
+        call solve_rate_problem(canonical, line, factor, position, status)
+        if (status /= FUGE_DONE) return
+        exit
+      end if
+      where (wrong) position%state = merge(FUGE_OPEN, position%weakly_active, position%state /= FUGE_OPEN)
+    end do
+    call open_gaps(canonical, line%flexibility, factor, position%state, line%reduced_gap_rate, position%force_rate, &
+                   position%motion_rate, position%gap_rate)
+    where (position%state /= FUGE_OPEN .or. canonical%excluded) position%gap_rate = 0.0_dp
+    position%has_rates = .true.
+    position%rounding = merge(ROUNDING, ROUNDING_OF_SUMS, factor%needs_refinement(canonical))
+  end subroutine find_rates
+
+  !> A first guess: weakly active points go on as they came. Without rates yet all of them are in contact.
+  pure subroutine follow_last_rates(position)
+    type(path_position), intent(inout) :: position
+    integer :: k
+
+    do k = 1, size(position%state)
+      associate (state => position%state(k), stop_state => position%weakly_active(k))
+        if (stop_state == FUGE_OPEN) cycle
+        if (state == FUGE_OPEN) then
+          if (.not. position%has_rates .or. stop_state*position%gap_rate(k) < 0.0_dp) state = stop_state
+        else
+          if (position%has_rates .and. stop_state*position%force_rate(k) < 0.0_dp) state = FUGE_OPEN
+        end if
+      end associate
+    end do
+  end subroutine follow_last_rates
+
+  !> Rates of forces and motions with the present states, by a factor of the points at a stop. `status`: that of the
+  !> factor.
+  subroutine solve_for_rates(canonical, line, factor, position, status)
+    type(canonical_problem), intent(in) :: canonical
+    type(load_line), intent(in) :: line
+    type(path_factor), intent(inout) :: factor
+    type(path_position), intent(inout) :: position
+    integer, intent(out) :: status
+    logical :: contact(size(position%state))
+
+    contact = position%state /= FUGE_OPEN
+    call factor%set(canonical, contact, status)
+    if (status /= FUGE_DONE) return
+    call factor%solve(canonical, line%reduced_gap_rate, line%load_rate, position%force_rate, position%motion_rate)
+    if (canonical%has_translation .and. size(position%motion) == 1 .and. any(contact)) then
+      deallocate (position%unresisted)
+      allocate (position%unresisted(1, 0))
+    else
+      call find_unresisted_basis(canonical%modes, contact, position%unresisted)
+    end if
+    if (is_resisted(line%load_rate, position%unresisted)) then
+      position%motion_rate = without_unresisted(position%motion_rate, position%unresisted)
+    end if
+    if (factor%needs_refinement(canonical)) then
+      call correct(canonical, line%flexibility, factor, line%reduced_gap_rate, line%load_rate, contact, &
+                   position%unresisted, position%force_rate, position%motion_rate)
+    end if
+    call remove_rounding(line, line%reduced_gap_rate, line%load_rate, position%force_rate)
+  end subroutine solve_for_rates
+
+  !> Without a load all forces may be rounding: those that displace nothing by more than the rounding of the gaps are
+  !> zero.
+  pure subroutine remove_rounding(line, gap, load, force)
+    type(load_line), intent(in) :: line
+    real(dp), intent(in) :: gap(:), load(:)
+    real(dp), intent(inout) :: force(:)
+
+    if (any(abs(load) > 0.0_dp)) return
+    where (abs(force)*line%flexibility <= ROUNDING*maxval(abs(gap))) force = 0.0_dp
+  end subroutine remove_rounding
+
+  !> Solve anew for the forces and motions of the set of the factor at the position, except for motions that nothing
+  !> resists, and compute the gaps.
+  subroutine renew_values(canonical, line, factor, position)
+    type(canonical_problem), intent(in) :: canonical
+    type(load_line), intent(in) :: line
+    type(path_factor), intent(in) :: factor
+    type(path_position), intent(inout) :: position
+    real(dp) :: gap(size(position%state))
+
+    gap = gaps_to_close(canonical, line, position)
+    call correct(canonical, line%flexibility, factor, gap, load_at(canonical, line, position%parameter), &
+                 position%state /= FUGE_OPEN, position%unresisted, position%force, position%motion)
+    call remove_rounding(line, canonical%gap + position%parameter*line%reduced_gap_rate, &
+                         load_at(canonical, line, position%parameter), position%force)
+    call open_gaps(canonical, line%flexibility, factor, position%state, gap, position%force, position%motion, &
+                   position%gap)
+    where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
+  end subroutine renew_values
+
+  !> Gaps of the open points, `open_gap` (n), from `gap` without displacements, or rates of these;
+  !> `flexibility` is that of the line.
+  subroutine open_gaps(canonical, flexibility, factor, state, gap, force, motion, open_gap)
+    type(canonical_problem), intent(in) :: canonical
+    type(path_factor), intent(in) :: factor
+    integer, intent(in) :: state(:)
+    real(dp), intent(in) :: flexibility, gap(:), force(:), motion(:)
+    real(dp), intent(inout) :: open_gap(:)
+
+    if (factor%is_well_conditioned()) then
+      open_gap = gap - rigid_displacement(canonical%modes, motion)
+      call add_displacement(canonical, flexibility, state == FUGE_OPEN, state /= FUGE_OPEN, force, open_gap)
+    else
+      open_gap = extended_gaps(canonical, state, gap, force, motion)
+    end if
+  end subroutine open_gaps
+
+  !> Iterative refinement, with residuals in extended precision unless the factor is well conditioned: c = gap + A f -
+  !> R q = 0 on the contact set, R^T f = load. Motions along the columns of `unresisted` stay. Nine arguments, because
+  !> values and rates have the same equations.
+  subroutine correct(canonical, flexibility, factor, gap, load, contact, unresisted, force, motion)
+    type(canonical_problem), intent(in) :: canonical
+    type(path_factor), intent(in) :: factor
+    real(dp), intent(in) :: flexibility, gap(:), load(:), unresisted(:, :)
+    logical, intent(in) :: contact(:)
+    real(dp), intent(inout) :: force(:), motion(:)
+    real(dp) :: residual(size(gap)), correction(size(gap)), missing(size(motion)), shift(size(motion)), change, last
+    integer :: points(count(contact)), k, step
+
+    points = pack([(k, k=1, size(contact))], contact)
+    residual = 0.0_dp
+    last = huge(last)
+    do step = 1, REFINEMENTS
+      if (factor%is_well_conditioned()) then
+        residual = gap - rigid_displacement(canonical%modes, motion)
+        call add_displacement(canonical, flexibility, contact, contact, force, residual)
+        missing = load - matmul(force, canonical%modes)
+      else
+        call extended_residual(canonical, gap, load, points, force, motion, residual, missing)
+      end if
+      call factor%solve(canonical, residual, missing, correction, shift)
+      change = maxval(abs(correction))
+      if (.not. change < 0.5_dp*last) exit
+      force = force + correction
+      motion = motion + without_unresisted(shift, unresisted)
+      if (factor%is_well_conditioned() .or. change <= EXACT_ENOUGH*maxval(abs(force))) exit
+      last = change
+    end do
+  end subroutine correct
+
+  !> Residuals of the gaps (n), at the contact points, and of equilibrium (m), in extended precision.
+  pure subroutine extended_residual(canonical, gap, load, points, force, motion, residual, missing)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: gap(:), load(:), force(:), motion(:)
+    integer, intent(in) :: points(:)
+    real(dp), intent(inout) :: residual(:)
+    real(dp), intent(out) :: missing(:)
+    real(xp) :: sums(size(points))
+    integer :: j
+
+    sums = real(gap(points), xp)
+    do j = 1, size(motion)
+      sums = sums - real(canonical%modes(points, j), xp)*real(motion(j), xp)
+      missing(j) = real(real(load(j), xp) - sum(real(canonical%modes(points, j), xp)*real(force(points), xp)), dp)
+    end do
+    do j = 1, size(points)
+      sums = sums + (real(canonical%alpha(points, points(j)), xp) - real(canonical%datum, xp)) &
+             *real(force(points(j)), xp)
+    end do
+    residual(points) = real(sums, dp)
+  end subroutine extended_residual
+
+  !> Weakly active points whose force would pull, or whose gap would close beyond the stop.
+  pure subroutine find_wrong(canonical, line, position, wrong)
+    type(canonical_problem), intent(in) :: canonical
+    type(load_line), intent(in) :: line
+    type(path_position), intent(in) :: position
+    logical, intent(out) :: wrong(:)
+    real(dp) :: largest(size(wrong)), rate, magnitude
+    integer :: k
+
+    wrong = .false.
+    largest = 0.0_dp
+    if (any(position%weakly_active /= FUGE_OPEN .and. position%state /= FUGE_OPEN)) then
+      largest = largest_of_bodies(canonical, position%force_rate)
+    end if
+    do k = 1, size(wrong)
+      if (position%weakly_active(k) == FUGE_OPEN) cycle
+      if (position%state(k) /= FUGE_OPEN) then
+        wrong(k) = position%weakly_active(k)*position%force_rate(k) < -ROUNDING*largest(k)
+      else
+        call gap_rate_at(canonical, line, position, k, rate, magnitude)
+        wrong(k) = position%weakly_active(k)*rate < -ROUNDING*magnitude
+      end if
+    end do
+  end subroutine find_wrong
+
+  !> The rate of the gap at one point, and the size of its terms.
+  pure subroutine gap_rate_at(canonical, line, position, point, rate, magnitude)
+    type(canonical_problem), intent(in) :: canonical
+    type(load_line), intent(in) :: line
+    type(path_position), intent(in) :: position
+    integer, intent(in) :: point
+    real(dp), intent(out) :: rate, magnitude
+    real(xp) :: total, term
+    integer :: j
+
+    total = real(line%reduced_gap_rate(point), xp)
+    magnitude = real(abs(total), dp)
+    do j = 1, size(position%motion)
+      term = real(canonical%modes(point, j), xp)*real(position%motion_rate(j), xp)
+      total = total - term
+      magnitude = magnitude + real(abs(term), dp)
+    end do
+    do j = 1, size(position%state)
+      if (position%state(j) == FUGE_OPEN) cycle
+      term = (real(canonical%alpha(point, j), xp) - real(canonical%datum, xp))*real(position%force_rate(j), xp)
+      total = total + term
+      magnitude = magnitude + real(abs(term), dp)
+    end do
+    rate = real(total, dp)
+  end subroutine gap_rate_at
+
+  !> The contact problem in the rates, by the active-set engine: points with force are tied, weakly active ones
+  !> one-sided, all others excluded.
+  subroutine solve_rate_problem(canonical, line, factor, position, status)
+    type(canonical_problem), intent(in) :: canonical
+    type(load_line), intent(in) :: line
+    type(path_factor), intent(inout) :: factor
+    type(path_position), intent(inout) :: position
+    integer, intent(out) :: status
+    type(canonical_problem) :: rates
+    type(contact_solution) :: solution
+    type(kkt_factor) :: own_factor
+    type(monitor_relay) :: no_monitor
+    real(dp), allocatable, target :: mirrored_alpha(:, :)
+    real(dp) :: remainder(size(position%motion)), sense(size(position%state))
+    logical :: pulls(size(position%state)), wrong(size(position%state))
+    integer :: n, sets, stat
+
+    n = size(position%state)
+    rates = canonical
+    allocate (solution%force(n), solution%gap(n), solution%motion(size(position%motion)), solution%state(n), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+    if (stat /= 0) return
+    ! A point that may leave its upper stop becomes one at the lower stop in a mirror.
+    sense = merge(-1.0_dp, 1.0_dp, position%weakly_active == FUGE_AT_UPPER_STOP)
+    rates%plain = .false.
+    rates%gap = sense*line%reduced_gap_rate
+    rates%load = line%load_rate
+    pulls = position%state /= FUGE_OPEN .and. position%weakly_active == FUGE_OPEN
+    rates%upper = merge(0.0_dp, huge(1.0_dp), pulls)
+    rates%excluded = position%state == FUGE_OPEN .and. position%weakly_active == FUGE_OPEN
+    solution%state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, position%state /= FUGE_OPEN)
+    if (any(sense < 0.0_dp)) then
+      call mirror(canonical, sense, mirrored_alpha, rates, status)
+      if (status /= FUGE_DONE) return
+    end if
+    if (.not. allocated(rates%feasible_force)) allocate (rates%feasible_force(n))
+    rates%feasible_force = 0.0_dp
+    if (size(remainder) > 0) then
+      call find_equilibrium(rates%modes, rates%load, .not. rates%excluded, pulls, rates%feasible_force, remainder)
+    end if
+    call run_block_pivoting(rates, ITERATIONS_PER_ROW*(n + 1), no_monitor, own_factor, solution, sets, status)
+    if (status /= FUGE_DONE) return
+    where (position%weakly_active /= FUGE_OPEN) position%state = position%weakly_active*abs(solution%state)
+    call solve_for_rates(canonical, line, factor, position, status)
+    if (status /= FUGE_DONE) return
+    call find_wrong(canonical, line, position, wrong)
+    if (.not. any(wrong)) return
+    ! The motions that nothing resists must not stand still here, because points without force are in their way.
+    if (canonical%has_translation) then
+      solution%motion(1) = solution%motion(1) - rates%datum*line%load_rate(1)
+      if (.not. rates%has_translation) solution%motion(1) = solution%motion(1) - canonical%datum*line%load_rate(1)
+    end if
+    position%force_rate = sense*solution%force
+    position%motion_rate = solution%motion
+  end subroutine solve_rate_problem
+
+  !> Turn the senses of force and gap round at the points where `sense` (n) is -1. `alpha` is the matrix then, which
+  !> `rates` points to. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
+  subroutine mirror(canonical, sense, alpha, rates, status)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: sense(:)
+    real(dp), allocatable, target, intent(out) :: alpha(:, :)
+    type(canonical_problem), intent(inout) :: rates
+    integer, intent(out) :: status
+    integer :: j, stat
+
+    allocate (alpha(size(sense), size(sense)), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+    if (stat /= 0) return
+    do j = 1, size(sense)
+      alpha(:, j) = sense*canonical%alpha(:size(sense), j)*sense(j)
+    end do
+    rates%alpha => alpha
+    ! The translation does not move these points alike any more.
+    rates%datum = 0.0_dp
+    rates%has_translation = .false.
+    rates%modes = spread(sense, 2, size(canonical%modes, 2))*canonical%modes
+  end subroutine mirror
+
+end module fuge_path_rates
