@@ -169,7 +169,7 @@ contains
   end subroutine evaluate_iterate
 
   !> The least magnitude as the certificate forms it, over the contact points: |reduced gap +
-  !> offset| plus the magnitude of the displacement. Without contact, the largest gap.
+  !> offset| plus the magnitude of the displacement. Without contact 0, because nothing is rounded.
   pure function find_least_magnitude(iterate, offset, reduced_gap, magnitude) result(least)
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: offset
@@ -177,8 +177,7 @@ contains
     real(dp) :: least
     integer :: i, k
 
-    least = maxval(abs(reduced_gap))
-    if (iterate%segments%points > 0) least = huge(least)
+    least = merge(huge(least), 0.0_dp, iterate%segments%points > 0)
     do i = 1, size(iterate%segments%first)
       do k = iterate%segments%first(i), iterate%segments%last(i)
         least = min(least, abs(reduced_gap(k) + offset) + magnitude(k))
