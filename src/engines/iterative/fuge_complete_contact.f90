@@ -7,7 +7,7 @@ module fuge_complete_contact
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_projected_gradients, only: compute_displacement
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
 
@@ -22,7 +22,8 @@ contains
   !>
   !> Two products: their displacements are compared with their magnitude, and, because an operator may
   !> not know that, with those of the same resultant on the first point. Errors, with the result
-  !> .false.: FUGE_ERR_MEMORY, those of the operator.
+  !> .false.: FUGE_ERR_MEMORY, those of the operator, FUGE_ERR_NOT_DEFINITE if the displacements are
+  !> negative.
   function equal_forces_displace_nothing(operator, info) result(nothing)
     class(fuge_operator), intent(in) :: operator
     type(fuge_info), intent(inout) :: info
@@ -48,7 +49,10 @@ contains
     force(1) = 1.0_dp
     call compute_displacement(operator, .true., force, displacement, info)
     if (info%failed()) return
-    nothing = mean <= ROUNDING*max(measure, maxval(abs(displacement)))
+    measure = max(measure, maxval(abs(displacement)))
+    nothing = abs(mean) <= ROUNDING*measure
+    if (mean < 0.0_dp .and. .not. nothing) call report(info, FUGE_ERR_NOT_DEFINITE, 'equal forces with the sum 1 ' &
+      //'store the negative energy '//text(0.5_dp*mean)//': the operator is not positive definite')
   end function equal_forces_displace_nothing
 
 end module fuge_complete_contact

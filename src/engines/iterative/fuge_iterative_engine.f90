@@ -133,7 +133,7 @@ contains
 
   !> Refuse an approach at which the mean gap is closed, or open by no more than the rounding of the
   !> gaps, where equal forces displace nothing, as on a periodic surface: no forces resist it, or
-  !> any equal ones. Errors: FUGE_ERR_NO_EQUILIBRIUM, those of equal_forces_displace_nothing.
+  !> any equal ones do. Errors: FUGE_ERR_NO_EQUILIBRIUM, those of equal_forces_displace_nothing.
   subroutine check_approach(operator, approach, reduced_gap, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: approach
