@@ -7,6 +7,7 @@
 module fuge_halfplane_fft
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
+  use fuge_convolution, only: convolution_kernel, transform_padded
   use fuge_elastic_moduli, only: check_e_star
   use fuge_fft, only: fft_plan, good_length
   use fuge_halfplane_influence, only: check_element, mean_log, FUGE_CENTRE, FUGE_MEAN
@@ -42,13 +43,11 @@ module fuge_halfplane_fft
     real(dp) :: e_star = 0.0_dp
     !> Subtracted from all coefficients; length per force.
     real(dp) :: datum_value = 0.0_dp
-    !> Eigenvalues of the circulant matrix that holds A, over its order.
-    real(dp), allocatable :: spectrum(:)
+    !> Transforms of the cells, of a free surface with some more to a length that is fast.
     type(fft_plan) :: plan
-    !> Inverse eigenvalues of the preconditioner's circulant matrix, over its order, and its
-    !> transform, which is not set for a periodic surface: that one has one circulant matrix.
-    real(dp), allocatable :: inverse_spectrum(:)
-    type(fft_plan) :: preconditioner_plan
+    !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
+    !> of a periodic surface.
+    type(convolution_kernel) :: influence, inverse
   contains
     procedure :: set
     procedure :: points
@@ -92,7 +91,7 @@ contains
     if (present(element)) new%element = element
     if (present(boundary)) new%boundary = boundary
     call check_grid(new, info)
-    if (.not. info%failed()) call allocate_spectra(new, info, threads, measured)
+    if (.not. info%failed()) call plan_transforms(new, info, threads, measured)
     if (.not. info%failed()) call compute_spectra(new, info)
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
@@ -123,76 +122,58 @@ contains
     end if
   end subroutine check_grid
 
-  !> Plan the transforms, and allocate both spectra.
-  subroutine allocate_spectra(operator, info, threads, measured)
+  !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  subroutine plan_transforms(operator, info, threads, measured)
     type(fuge_halfplane_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
     integer, intent(in), optional :: threads
     logical, intent(in), optional :: measured
-    integer :: length, stat
+    integer :: length
 
-    length = circle_length(operator)
-    if (length < 1) then
-      call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//' needs a transform of ' &
-                  //text(2.0_dp*real(operator%cells, dp))//' values in ' &
-                  //text(32.0_dp*real(operator%cells, dp))//' bytes, but FFTW takes at most '//text(huge(length)) &
-                  //' values: use half as many cells')
+    length = operator%cells
+    if (operator%boundary == FUGE_FREE) length = good_length(length)
+    if (length < 1 .or. (operator%boundary == FUGE_FREE .and. length > (huge(length) - 1)/2)) then
+      call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//' needs a circle of ' &
+                  //text(2.0_dp*real(operator%cells, dp))//' cells in ' &
+                  //text(32.0_dp*real(operator%cells, dp))//' bytes, but it takes at most '//text(huge(length)) &
+                  //' cells: use half as many')
       return
     end if
     call operator%plan%set(length, info, threads, measured)
-    if (operator%boundary == FUGE_FREE .and. .not. info%failed()) then
-      call operator%preconditioner_plan%set(good_length(operator%cells), info, threads, measured)
-      length = operator%preconditioner_plan%length
-    end if
-    if (info%failed()) then
-      if (info%status == FUGE_ERR_MEMORY) call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//': ' &
-                                                      //composed_message(info))
-      return
-    end if
-    allocate (operator%spectrum(0:operator%plan%length/2), operator%inverse_spectrum(0:length/2), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'out of memory: n = '//text(operator%cells)//' needs ' &
-                               //text(16.0_dp*real(length/2 + 1, dp))//' bytes')
-  end subroutine allocate_spectra
+    if (info%status == FUGE_ERR_MEMORY) call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//': ' &
+                                                    //composed_message(info))
+  end subroutine plan_transforms
 
-  !> Order of the circulant matrix: n for a periodic surface. For a free one the cells lie on a
-  !> circle so long that the distance of any two of them is not shorter the other way round; 0
-  !> if that is too long.
-  pure function circle_length(operator) result(length)
-    type(fuge_halfplane_operator), intent(in) :: operator
-    integer :: length
-
-    length = 0
-    if (operator%boundary == FUGE_PERIODIC) then
-      length = operator%cells
-    else if (operator%cells - 1 <= (huge(length) - 1)/2) then
-      length = good_length(2*(operator%cells - 1) + 1)
-    end if
-  end function circle_length
-
-  !> The eigenvalues of A and of the preconditioner.
+  !> The eigenvalues of A and of the preconditioner. Error: FUGE_ERR_MEMORY.
   subroutine compute_spectra(operator, info)
     type(fuge_halfplane_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: inverse_spectrum(:)
     real(dp) :: weight
     integer :: k, length, status
 
-    length = 2*(size(operator%inverse_spectrum) - 1)
-    if (operator%boundary == FUGE_PERIODIC) length = operator%cells
-    weight = 1.0_dp/real(length, dp)
-    do k = 1, length/2
-      operator%inverse_spectrum(k) = weight*operator%e_star/periodic_eigenvalue(weight*real(k, dp), operator%element)
-    end do
-    ! Any positive number is valid; that of the longest wave has the right size.
-    operator%inverse_spectrum(0) = weight*operator%e_star &
-                                   /periodic_eigenvalue(1.0_dp/real(max(length, 2), dp), operator%element)
-    if (operator%boundary == FUGE_PERIODIC) then
-      operator%spectrum = weight**2/operator%inverse_spectrum
-      operator%spectrum(0) = 0.0_dp
-    else
-      call compute_free_spectrum(operator, status)
-      if (status /= FUGE_DONE) call report(info, status, 'out of memory: n = '//text(operator%cells)//' needs ' &
-                                           //text(32.0_dp*real(operator%cells, dp))//' bytes')
+    length = operator%plan%length
+    allocate (inverse_spectrum(0:length/2), stat=status)
+    if (status == 0) then
+      weight = 1.0_dp/real(length, dp)
+      do k = 1, length/2
+        inverse_spectrum(k) = weight*operator%e_star/periodic_eigenvalue(weight*real(k, dp), operator%element)
+      end do
+      ! Any positive number is valid; that of the longest wave has the right size.
+      inverse_spectrum(0) = weight*operator%e_star &
+                            /periodic_eigenvalue(1.0_dp/real(max(length, 2), dp), operator%element)
+      call operator%inverse%set_cyclic(length, inverse_spectrum, status)
     end if
+    if (status == FUGE_DONE .and. operator%boundary == FUGE_PERIODIC) then
+      inverse_spectrum = weight**2/inverse_spectrum
+      inverse_spectrum(0) = 0.0_dp
+      call operator%influence%set_cyclic(length, inverse_spectrum, status)
+    else if (status == FUGE_DONE) then
+      deallocate (inverse_spectrum)
+      call compute_free_spectrum(operator, status)
+    end if
+    if (status /= FUGE_DONE) call report(info, FUGE_ERR_MEMORY, 'out of memory: n = '//text(operator%cells)//' needs ' &
+                                         //text(48.0_dp*real(operator%cells, dp))//' bytes')
   end subroutine compute_spectra
 
   !> Eigenvalue of A on a periodic surface, times e_star.
@@ -219,31 +200,34 @@ contains
     eigenvalue = eigenvalue + cos(PI*fraction)/sine
   end function periodic_eigenvalue
 
-  !> The eigenvalues for a free surface: ln of the distance the shorter way round the circle.
+  !> The eigenvalues for a free surface, on a circle so long that the distance of any two cells is not
+  !> shorter the other way round: ln of the distance the shorter way.
   !>
   !> The datum is the mean over the circle. Without it the eigenvalue of the constant, the sum of
   !> all coefficients, would be the largest by far, and so would its rounding error.
   subroutine compute_free_spectrum(operator, status)
     type(fuge_halfplane_operator), intent(inout) :: operator
     integer, intent(out) :: status
+    real(dp), allocatable :: coefficient(:), even(:), odd(:)
     real(dp) :: factor, mean, observed
-    integer :: half, k, length
+    integer :: half, k
 
-    length = operator%plan%length
-    half = length/2
+    half = operator%plan%length
+    allocate (coefficient(0:half), even(0:half/2), odd(half/2), stat=status)
+    if (status /= 0) return
     observed = merge(0.0_dp, 1.0_dp, operator%element == FUGE_CENTRE)
     do k = 0, half
-      operator%spectrum(k) = mean_log(real(k, dp), observed, 1.0_dp)
+      coefficient(k) = mean_log(real(k, dp), observed, 1.0_dp)
     end do
-    mean = (operator%spectrum(0) + operator%spectrum(half) + 2.0_dp*sum(operator%spectrum(1:half - 1)))/real(length, dp)
+    mean = (coefficient(0) + coefficient(half) + 2.0_dp*sum(coefficient(1:half - 1)))/real(2*half, dp)
     factor = -2.0_dp/(PI*operator%e_star)
-    do k = 0, half
-      operator%spectrum(k) = factor*(operator%spectrum(k) - mean)
-    end do
+    coefficient = factor*(coefficient - mean)
     ! In units of h, as the coefficients: the D of the matrix is 2 n.
     operator%datum_value = factor*(mean - log(2.0_dp*real(operator%cells, dp)))
-    call operator%plan%transform_even(operator%spectrum, status)
-    operator%spectrum(0) = 0.0_dp
+    call transform_padded(operator%plan, coefficient, even, odd, status)
+    if (status /= FUGE_DONE) return
+    even(0) = 0.0_dp
+    call operator%influence%set_padded(half, even, odd, status)
   end subroutine compute_free_spectrum
 
   !> Move the contents of `new` to `self`.
@@ -257,39 +241,29 @@ contains
     self%spacing = new%spacing
     self%e_star = new%e_star
     self%datum_value = new%datum_value
-    call move_alloc(new%spectrum, self%spectrum)
-    call move_alloc(new%inverse_spectrum, self%inverse_spectrum)
+    call self%influence%move_from(new%influence)
+    call self%inverse%move_from(new%inverse)
     call self%plan%move_from(new%plan)
-    call self%preconditioner_plan%move_from(new%preconditioner_plan)
   end subroutine move_contents
 
   !> Assignment. If memory for the copy cannot be allocated, the copy is not set.
   subroutine copy(self, source)
     class(fuge_halfplane_operator), intent(inout) :: self
     class(fuge_halfplane_operator), intent(in) :: source
+    type(fuge_halfplane_operator) :: new
     integer :: stat
 
-    stat = 0
-    self%cells = 0
-    ! Arrays of the right size are kept, because the source may be a copy of self that shares them.
-    if (self%plan%length /= source%plan%length &
-        .or. self%preconditioner_plan%length /= source%preconditioner_plan%length) then
-      if (allocated(self%spectrum)) deallocate (self%spectrum, self%inverse_spectrum)
-      if (source%cells > 0) allocate (self%spectrum(0:ubound(source%spectrum, 1)), &
-                                      self%inverse_spectrum(0:ubound(source%inverse_spectrum, 1)), stat=stat)
-    end if
-    self%plan = source%plan
-    self%preconditioner_plan = source%preconditioner_plan
-    if (stat /= 0) call self%plan%free()
-    if (self%plan%length < 1 .or. self%preconditioner_plan%length /= source%preconditioner_plan%length) return
-    self%spectrum = source%spectrum
-    self%inverse_spectrum = source%inverse_spectrum
-    self%element = source%element
-    self%boundary = source%boundary
-    self%spacing = source%spacing
-    self%e_star = source%e_star
-    self%datum_value = source%datum_value
-    self%cells = source%cells
+    ! By way of a new one, because the source may be a bitwise copy of self that shares its arrays.
+    new%plan = source%plan
+    call new%influence%copy_from(source%influence, stat)
+    if (stat == 0) call new%inverse%copy_from(source%inverse, stat)
+    new%element = source%element
+    new%boundary = source%boundary
+    new%spacing = source%spacing
+    new%e_star = source%e_star
+    new%datum_value = source%datum_value
+    if (stat == 0 .and. new%plan%length > 0) new%cells = source%cells
+    call move_contents(self, new)
   end subroutine copy
 
   !> Number of cells n; 0 before `set`.
@@ -311,7 +285,7 @@ contains
     integer, intent(out) :: status
 
     call check_sizes(self, size(force), size(displacement), status)
-    if (status == FUGE_DONE) call self%plan%convolve(self%spectrum, force, displacement, status)
+    if (status == FUGE_DONE) call self%influence%convolve(self%plan, force, displacement, status)
   end subroutine apply
 
   pure subroutine check_sizes(self, first, second, status)
@@ -366,12 +340,7 @@ contains
     integer, intent(out) :: status
 
     call check_sizes(self, size(displacement), size(force), status)
-    if (status /= FUGE_DONE) return
-    if (self%preconditioner_plan%length > 0) then
-      call self%preconditioner_plan%convolve(self%inverse_spectrum, displacement, force, status)
-    else
-      call self%plan%convolve(self%inverse_spectrum, displacement, force, status)
-    end if
+    if (status == FUGE_DONE) call self%inverse%convolve(self%plan, displacement, force, status)
   end subroutine precondition
 
   !> True after `set`: the cells are side by side in the order of their numbers.
