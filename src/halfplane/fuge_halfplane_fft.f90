@@ -6,6 +6,7 @@
 !> coefficients are pure numbers over e_star.
 module fuge_halfplane_fft
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use, intrinsic :: iso_c_binding, only: c_associated, c_loc, c_null_ptr, c_ptr
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
   use fuge_convolution, only: convolution_kernel, transform_padded
   use fuge_elastic_moduli, only: check_e_star
@@ -13,6 +14,7 @@ module fuge_halfplane_fft
   use fuge_halfplane_influence, only: check_element, mean_log, FUGE_CENTRE, FUGE_MEAN
   use fuge_hurwitz_zeta, only: hurwitz_zeta
   use fuge_kinds, only: dp
+  use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
@@ -30,7 +32,26 @@ module fuge_halfplane_fft
   !> A grid of fewer cells is not made by `coarsen`.
   integer, parameter :: FEWEST_CELLS = 32
 
-  !> Equal cells side by side on a half-plane: call `set`, then solve.
+  !> The coarser grids of an operator: element k has cells 2**k times as wide. Made when they are first
+  !> asked for; a coarser grid refers to those of the finest one, which owns them.
+  type :: stored_grid
+    type(fuge_halfplane_operator), pointer :: operator => null()
+  end type stored_grid
+
+  type :: grid_store
+    type(stored_grid), pointer :: grid(:) => null()
+    !> Doublings of the width from the finest grid to this one.
+    integer :: level = 0
+    !> Address of the variable that owns the grids.
+    type(c_ptr) :: owner = c_null_ptr
+  contains
+    procedure :: create
+    procedure :: move_from
+    final :: destroy
+  end type grid_store
+
+  !> Equal cells side by side on a half-plane: call `set`, then solve. It keeps the coarser grids of its
+  !> solves, which takes as much memory again.
   !>
   !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
   type, extends(fuge_operator), public :: fuge_halfplane_operator
@@ -48,6 +69,7 @@ module fuge_halfplane_fft
     !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
     !> of a periodic surface.
     type(convolution_kernel) :: influence, inverse
+    type(grid_store) :: coarser
   contains
     procedure :: set
     procedure :: points
@@ -58,6 +80,7 @@ module fuge_halfplane_fft
     procedure :: precondition
     procedure :: in_row
     procedure :: coarsen
+    procedure :: kept_coarser
     procedure, private :: copy
     generic :: assignment(=) => copy
   end type fuge_halfplane_operator
@@ -93,6 +116,7 @@ contains
     call check_grid(new, info)
     if (.not. info%failed()) call plan_transforms(new, info, threads, measured)
     if (.not. info%failed()) call compute_spectra(new, info)
+    if (.not. info%failed()) call new%coarser%create(n)
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
 
@@ -244,26 +268,30 @@ contains
     call self%influence%move_from(new%influence)
     call self%inverse%move_from(new%inverse)
     call self%plan%move_from(new%plan)
+    call self%coarser%move_from(new%coarser)
   end subroutine move_contents
 
   !> Assignment. If memory for the copy cannot be allocated, the copy is not set.
   subroutine copy(self, source)
     class(fuge_halfplane_operator), intent(inout) :: self
     class(fuge_halfplane_operator), intent(in) :: source
-    type(fuge_halfplane_operator) :: new
-    integer :: stat
+    integer :: cells, stat
 
-    ! By way of a new one, because the source may be a bitwise copy of self that shares its arrays.
-    new%plan = source%plan
-    call new%influence%copy_from(source%influence, stat)
-    if (stat == 0) call new%inverse%copy_from(source%inverse, stat)
-    new%element = source%element
-    new%boundary = source%boundary
-    new%spacing = source%spacing
-    new%e_star = source%e_star
-    new%datum_value = source%datum_value
-    if (stat == 0 .and. new%plan%length > 0) new%cells = source%cells
-    call move_contents(self, new)
+    cells = source%cells
+    self%cells = 0
+    ! Arrays of the right size are kept, because the source may be a bitwise copy of self that shares them.
+    call self%influence%copy_from(source%influence, stat)
+    if (stat == 0) call self%inverse%copy_from(source%inverse, stat)
+    self%plan = source%plan
+    self%element = source%element
+    self%boundary = source%boundary
+    self%spacing = source%spacing
+    self%e_star = source%e_star
+    self%datum_value = source%datum_value
+    call destroy(self%coarser)
+    if (stat /= 0 .or. self%plan%length < 1) return
+    self%cells = cells
+    call self%coarser%create(cells)
   end subroutine copy
 
   !> Number of cells n; 0 before `set`.
@@ -373,5 +401,90 @@ contains
     call wider%set(coarse_cells, width, self%e_star, info, self%element, self%boundary)
     if (.not. info%failed()) call move_alloc(wider, coarse)
   end subroutine coarsen
+
+  !> As `coarsen`, but the wider cells are kept with those of the finest grid, for the next solve and for
+  !> solves in other threads.
+  subroutine kept_coarser(self, levels, coarse)
+    class(fuge_halfplane_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    class(fuge_operator), pointer, intent(out) :: coarse
+    integer :: k
+
+    nullify (coarse)
+    if (.not. associated(self%coarser%grid) .or. levels < 1) return
+    k = self%coarser%level + levels
+    if (k > size(self%coarser%grid)) return
+    call lock(LOCK_GRIDS)
+    if (.not. associated(self%coarser%grid(k)%operator)) call keep_coarser(self, levels, k)
+    if (associated(self%coarser%grid(k)%operator)) coarse => self%coarser%grid(k)%operator
+    call unlock(LOCK_GRIDS)
+  end subroutine kept_coarser
+
+  !> Make element k of the kept grids, unless it has too few cells or memory is short.
+  subroutine keep_coarser(self, levels, k)
+    class(fuge_halfplane_operator), intent(in) :: self
+    integer, intent(in) :: levels, k
+    class(fuge_operator), allocatable :: coarse
+    integer :: stat
+
+    call self%coarsen(levels, coarse)
+    if (.not. allocated(coarse)) return
+    associate (kept => self%coarser%grid(k))
+      allocate (kept%operator, stat=stat)
+      if (stat /= 0) return
+      select type (coarse)
+      type is (fuge_halfplane_operator)
+        call move_contents(kept%operator, coarse)
+      end select
+      call destroy(kept%operator%coarser)
+      kept%operator%coarser%grid => self%coarser%grid
+      kept%operator%coarser%level = k
+    end associate
+  end subroutine keep_coarser
+
+  !> Room for the coarser grids of `cells` cells; without memory none are kept.
+  subroutine create(self, cells)
+    class(grid_store), intent(inout), target :: self
+    integer, intent(in) :: cells
+    integer :: k, stat
+
+    k = 0
+    do while ((cells - 1)/2**(k + 1) + 1 >= FEWEST_CELLS)
+      k = k + 1
+    end do
+    allocate (self%grid(k), stat=stat)
+    if (stat == 0) self%owner = c_loc(self%level)
+  end subroutine create
+
+  !> Move the grids from `source`, which has none afterwards.
+  subroutine move_from(self, source)
+    class(grid_store), intent(inout), target :: self, source
+
+    call destroy(self)
+    if (.not. c_associated(source%owner, c_loc(source%level))) return
+    self%grid => source%grid
+    self%level = source%level
+    self%owner = c_loc(self%level)
+    source%owner = c_null_ptr
+    nullify (source%grid)
+  end subroutine move_from
+
+  !> Destroy the grids if this variable owns them; a bitwise copy, and a coarser grid, does not.
+  impure elemental subroutine destroy(self)
+    type(grid_store), intent(inout), target :: self
+    integer :: k
+
+    if (c_associated(self%owner)) then
+      if (c_associated(self%owner, c_loc(self%level))) then
+        do k = 1, size(self%grid)
+          if (associated(self%grid(k)%operator)) deallocate (self%grid(k)%operator)
+        end do
+        deallocate (self%grid)
+      end if
+    end if
+    nullify (self%grid)
+    self%owner = c_null_ptr
+    self%level = 0
+  end subroutine destroy
 
 end module fuge_halfplane_fft

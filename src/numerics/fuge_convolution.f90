@@ -53,8 +53,7 @@ contains
     integer :: half, k
 
     self%length = 0
-    if (allocated(self%factors)) deallocate (self%factors)
-    if (allocated(self%odd_factors)) deallocate (self%odd_factors, self%twist)
+    call clear(self)
     status = FUGE_ERR_SIZE
     if (length < 1 .or. size(spectrum) /= length/2 + 1) return
     half = length/2
@@ -107,6 +106,15 @@ contains
     call compute_twist(self%twist)
   end subroutine set_padded
 
+  !> Deallocate all arrays.
+  pure subroutine clear(self)
+    class(convolution_kernel), intent(inout) :: self
+
+    if (allocated(self%factors)) deallocate (self%factors)
+    if (allocated(self%odd_factors)) deallocate (self%odd_factors)
+    if (allocated(self%twist)) deallocate (self%twist)
+  end subroutine clear
+
   !> cos and sin of pi j/N, j from 0; `twist` (2, N/2).
   pure subroutine compute_twist(twist)
     real(dp), intent(out) :: twist(:, :)
@@ -120,7 +128,8 @@ contains
     end do
   end subroutine compute_twist
 
-  !> Copy a kernel; `status` is not 0 without memory, and the copy is not set then.
+  !> Copy a kernel; arrays of the right size are kept. `status` is not 0 without memory, and the copy is
+  !> not set then.
   pure subroutine copy_from(self, source, status)
     class(convolution_kernel), intent(inout) :: self
     class(convolution_kernel), intent(in) :: source
@@ -128,28 +137,40 @@ contains
 
     status = 0
     self%length = 0
-    if (allocated(self%factors)) deallocate (self%factors)
-    if (allocated(self%odd_factors)) deallocate (self%odd_factors, self%twist)
-    if (allocated(source%factors)) then
-      allocate (self%factors(size(source%factors, 1), 0:ubound(source%factors, 2)), stat=status)
-      if (status == 0) self%factors = source%factors
-    end if
-    if (allocated(source%odd_factors) .and. status == 0) then
-      allocate (self%odd_factors(size(source%odd_factors)), self%twist(2, size(source%odd_factors)), stat=status)
-      if (status == 0) then
-        self%odd_factors = source%odd_factors
-        self%twist = source%twist
+    if (.not. same_shapes(self, source)) then
+      call clear(self)
+      if (allocated(source%factors)) then
+        allocate (self%factors(size(source%factors, 1), 0:ubound(source%factors, 2)), stat=status)
       end if
+      if (allocated(source%odd_factors) .and. status == 0) then
+        allocate (self%odd_factors(size(source%odd_factors)), self%twist(2, size(source%odd_factors)), stat=status)
+      end if
+      if (status /= 0) return
     end if
-    if (status == 0) self%length = source%length
+    if (allocated(source%factors)) self%factors(:, :) = source%factors
+    if (allocated(source%odd_factors)) then
+      self%odd_factors(:) = source%odd_factors
+      self%twist(:, :) = source%twist
+    end if
+    self%length = source%length
   end subroutine copy_from
+
+  !> Do both kernels have arrays of the same shapes?
+  pure function same_shapes(self, source) result(same)
+    class(convolution_kernel), intent(in) :: self, source
+    logical :: same
+
+    same = (allocated(self%factors) .eqv. allocated(source%factors)) &
+           .and. (allocated(self%odd_factors) .eqv. allocated(source%odd_factors))
+    if (same .and. allocated(source%factors)) same = all(shape(self%factors) == shape(source%factors))
+    if (same .and. allocated(source%odd_factors)) same = size(self%odd_factors) == size(source%odd_factors)
+  end function same_shapes
 
   !> Move the kernel from `source`, which is not set afterwards.
   pure subroutine move_from(self, source)
     class(convolution_kernel), intent(inout) :: self, source
 
-    if (allocated(self%factors)) deallocate (self%factors)
-    if (allocated(self%odd_factors)) deallocate (self%odd_factors, self%twist)
+    call clear(self)
     self%length = source%length
     if (allocated(source%factors)) call move_alloc(source%factors, self%factors)
     if (allocated(source%odd_factors)) call move_alloc(source%odd_factors, self%odd_factors)
