@@ -31,6 +31,8 @@ module fuge_halfplane_fft
   real(dp), parameter :: MEAN_TERM = 0.41132_dp
   !> A grid of fewer cells is not made by `coarsen`.
   integer, parameter :: FEWEST_CELLS = 32
+  !> A coarser grid of fewer cells is transformed by one thread: starting more would take longer.
+  integer, parameter :: FEWEST_FOR_THREADS = 32768
 
   !> The coarser grids of an operator: element k has cells 2**k times as wide. Made when they are first
   !> asked for; a coarser grid refers to those of the finest one, which owns them.
@@ -72,6 +74,7 @@ module fuge_halfplane_fft
     type(grid_store) :: coarser
   contains
     procedure :: set
+    procedure :: set_threads
     procedure :: points
     procedure :: apply
     procedure :: datum
@@ -119,6 +122,24 @@ contains
     if (.not. info%failed()) call new%coarser%create(n)
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
+
+  !> Let `threads` >= 1 threads share each transform from now on; the products change by rounding only. Not
+  !> during a solve. Errors, which leave the operator as it was: FUGE_ERR_CALL_ORDER before `set`,
+  !> FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
+  subroutine set_threads(self, threads, info)
+    class(fuge_halfplane_operator), intent(inout) :: self
+    integer, intent(in) :: threads
+    type(fuge_info), intent(out) :: info
+
+    if (self%cells < 1) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it before its threads')
+      return
+    end if
+    call self%plan%set(self%plan%length, info, threads, self%plan%measured)
+    if (info%failed()) return
+    call destroy(self%coarser)
+    call self%coarser%create(self%cells)
+  end subroutine set_threads
 
   pure subroutine check_grid(operator, info)
     type(fuge_halfplane_operator), intent(in) :: operator
@@ -389,7 +410,7 @@ contains
     type(fuge_halfplane_operator), allocatable :: wider
     type(fuge_info) :: info
     real(dp) :: width
-    integer :: coarse_cells, stat
+    integer :: coarse_cells, stat, threads
 
     if (levels < 1 .or. levels > digits(self%cells)) return
     coarse_cells = (self%cells - 1)/2**levels + 1
@@ -398,7 +419,8 @@ contains
     if (self%boundary == FUGE_PERIODIC) width = self%spacing*(real(self%cells, dp)/real(coarse_cells, dp))
     allocate (wider, stat=stat)
     if (stat /= 0) return
-    call wider%set(coarse_cells, width, self%e_star, info, self%element, self%boundary)
+    threads = merge(self%plan%threads, 1, coarse_cells >= FEWEST_FOR_THREADS)
+    call wider%set(coarse_cells, width, self%e_star, info, self%element, self%boundary, threads)
     if (.not. info%failed()) call move_alloc(wider, coarse)
   end subroutine coarsen
 
