@@ -307,7 +307,7 @@ contains
   pure subroutine multiply_packed(factors, z)
     real(dp), intent(in), contiguous :: factors(:, 0:)
     real(dp), intent(inout), contiguous :: z(0:)
-    real(dp) :: a, b, c, d
+    real(dp) :: a, b, one(2), other(2)
     integer :: half, i, j, k
 
     half = (size(z) - 2)/2
@@ -318,14 +318,11 @@ contains
     do k = 1, (half - 1)/2
       i = 2*k
       j = 2*(half - k)
-      a = z(i)
-      b = z(i + 1)
-      c = z(j)
-      d = z(j + 1)
-      z(i) = factors(1, k)*a + factors(3, k)*d
-      z(i + 1) = factors(1, k)*b + factors(3, k)*c
-      z(j) = factors(2, k)*c + factors(3, k)*b
-      z(j + 1) = factors(2, k)*d + factors(3, k)*a
+      ! Two numbers at once, one of them with real and imaginary parts exchanged.
+      one = z(i:i + 1)
+      other = z(j:j + 1)
+      z(i:i + 1) = factors(1, k)*one + factors(3, k)*other(2:1:-1)
+      z(j:j + 1) = factors(2, k)*other + factors(3, k)*one(2:1:-1)
     end do
     if (mod(half, 2) == 0) z(half:half + 1) = factors(1, half/2)*z(half:half + 1)
   end subroutine multiply_packed
