@@ -292,18 +292,23 @@ contains
       call multiply_numbers(self%factors(1, :), work)
     end if
     call plan%transform_back(buffer)
-    y = work(:size(y))
+    if (plan%is_packed()) then
+      call copy_exchanged(work, y)
+    else
+      y = work(:size(y))
+    end if
     if (allocated(self%twist)) then
       call twist_values(self%twist, x, work)
       call plan%transform(buffer)
-      call multiply_numbers(self%odd_factors, work)
+      call multiply_exchanging(self%odd_factors, work)
       call plan%transform_back(buffer)
       call add_untwisted(self%twist, work, y)
     end if
     call release_buffer(buffer)
   end subroutine convolve
 
-  !> Multiply the transform of pairs of values, `z` (real and imaginary parts), by the spectrum.
+  !> Multiply the transform of pairs of values, `z` (real and imaginary parts), by the spectrum, and exchange
+  !> the parts, as transform_back takes them.
   pure subroutine multiply_packed(factors, z)
     real(dp), intent(in), contiguous :: factors(:, 0:)
     real(dp), intent(inout), contiguous :: z(0:)
@@ -313,19 +318,48 @@ contains
     half = (size(z) - 2)/2
     a = z(0)
     b = z(1)
-    z(0) = factors(1, 0)*a + factors(3, 0)*b
-    z(1) = factors(1, 0)*b + factors(3, 0)*a
+    z(0) = factors(1, 0)*b + factors(3, 0)*a
+    z(1) = factors(1, 0)*a + factors(3, 0)*b
     do k = 1, (half - 1)/2
       i = 2*k
       j = 2*(half - k)
-      ! Two numbers at once, one of them with real and imaginary parts exchanged.
       one = z(i:i + 1)
       other = z(j:j + 1)
-      z(i:i + 1) = factors(1, k)*one + factors(3, k)*other(2:1:-1)
-      z(j:j + 1) = factors(2, k)*other + factors(3, k)*one(2:1:-1)
+      z(i:i + 1) = factors(1, k)*one(2:1:-1) + factors(3, k)*other
+      z(j:j + 1) = factors(2, k)*other(2:1:-1) + factors(3, k)*one
     end do
-    if (mod(half, 2) == 0) z(half:half + 1) = factors(1, half/2)*z(half:half + 1)
+    if (mod(half, 2) == 0 .and. half > 0) then
+      one = z(half:half + 1)
+      z(half:half + 1) = factors(1, half/2)*one(2:1:-1)
+    end if
   end subroutine multiply_packed
+
+  !> Copy pairs of values whose two are exchanged.
+  pure subroutine copy_exchanged(pairs, values)
+    real(dp), intent(in), contiguous :: pairs(:)
+    real(dp), intent(inout), contiguous :: values(:)
+    integer :: k
+
+    do k = 1, size(values) - 1, 2
+      values(k) = pairs(k + 1)
+      values(k + 1) = pairs(k)
+    end do
+    if (mod(size(values), 2) == 1) values(size(values)) = pairs(size(values) + 1)
+  end subroutine copy_exchanged
+
+  !> Multiply complex numbers, `z` (real and imaginary parts), by real ones, and exchange their parts.
+  pure subroutine multiply_exchanging(factors, z)
+    real(dp), intent(in), contiguous :: factors(:)
+    real(dp), intent(inout), contiguous :: z(:)
+    real(dp) :: real_part
+    integer :: k
+
+    do k = 1, size(factors)
+      real_part = z(2*k - 1)
+      z(2*k - 1) = factors(k)*z(2*k)
+      z(2*k) = factors(k)*real_part
+    end do
+  end subroutine multiply_exchanging
 
   !> Multiply complex numbers, `z` (real and imaginary parts), by real ones.
   pure subroutine multiply_numbers(factors, z)
@@ -359,7 +393,7 @@ contains
     z(2*single + 1:) = 0.0_dp
   end subroutine twist_values
 
-  !> Add to y what z stands for: z_j exp(i pi j/N) = y_j - i y_(j+N/2); `twist` (2, N/2).
+  !> Add to y what z, its parts exchanged, stands for: z_j exp(i pi j/N) = y_j - i y_(j+N/2); `twist` (2, N/2).
   pure subroutine add_untwisted(twist, z, y)
     real(dp), intent(in), contiguous :: twist(:, :), z(:)
     real(dp), intent(inout), contiguous :: y(:)
@@ -368,11 +402,11 @@ contains
     half = size(twist, 2)
     both = max(size(y) - half, 0)
     do j = 1, both
-      y(j) = y(j) + (twist(1, j)*z(2*j - 1) - twist(2, j)*z(2*j))
-      y(j + half) = y(j + half) - (twist(2, j)*z(2*j - 1) + twist(1, j)*z(2*j))
+      y(j) = y(j) + (twist(1, j)*z(2*j) - twist(2, j)*z(2*j - 1))
+      y(j + half) = y(j + half) - (twist(2, j)*z(2*j) + twist(1, j)*z(2*j - 1))
     end do
     do j = both + 1, min(size(y), half)
-      y(j) = y(j) + (twist(1, j)*z(2*j - 1) - twist(2, j)*z(2*j))
+      y(j) = y(j) + (twist(1, j)*z(2*j) - twist(2, j)*z(2*j - 1))
     end do
   end subroutine add_untwisted
 

@@ -26,7 +26,7 @@ module fuge_fft
   integer(c_int), parameter :: FFTW_NO_BUFFERING = 2048
   !> Complex numbers from which on a transform is long.
   integer, parameter :: LONG = 4096
-  integer(c_int), parameter :: FORWARD = -1, BACKWARD = 1
+  integer(c_int), parameter :: FORWARD = -1
   integer, parameter :: int64 = selected_int_kind(18)
 
   !> Forward and backward transforms of one length.
@@ -41,6 +41,7 @@ module fuge_fft
     !> FFTW has chosen the plans by measurement.
     logical :: measured = .false.
     type(c_ptr), private :: forward = c_null_ptr
+    !> For values that are not packed.
     type(c_ptr), private :: backward = c_null_ptr
     !> Address of the variable that owns the plans.
     type(c_ptr), private :: owner = c_null_ptr
@@ -201,7 +202,7 @@ contains
     call unlock(LOCK_PLANNER)
     if (.not. initialised) then
       call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads here')
-    else if (c_associated(plan%forward) .and. c_associated(plan%backward)) then
+    else if (c_associated(plan%forward) .and. (c_associated(plan%backward) .or. plan%is_packed())) then
       call plan%own_plans()
     else
       call destroy(plan%forward, plan%backward)
@@ -228,7 +229,6 @@ contains
       if (plan%is_packed()) then
         if (plan%length/2 >= LONG .and. .not. plan%measured) flags = flags + FFTW_NO_BUFFERING
         plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, buffer, FORWARD, flags)
-        plan%backward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, buffer, BACKWARD, flags)
       else
         plan%forward = fftw_plan_r2c(int(plan%length, c_int), buffer, buffer, flags)
         plan%backward = fftw_plan_c2r(int(plan%length, c_int), buffer, buffer, flags)
@@ -339,13 +339,14 @@ contains
     end if
   end subroutine transform
 
-  !> The inverse of `transform` but for a factor: length/2 for packed values, else the length.
+  !> The inverse of `transform` but for a factor: length/2 for packed values, else the length. Packed values
+  !> have real and imaginary parts exchanged, before and after: then the same plan serves.
   subroutine transform_back(self, buffer)
     class(fft_plan), intent(in) :: self
     type(c_ptr), intent(in) :: buffer
 
     if (self%is_packed()) then
-      call fftw_execute_c2c(self%backward, buffer, buffer)
+      call fftw_execute_c2c(self%forward, buffer, buffer)
     else
       call fftw_execute_c2r(self%backward, buffer, buffer)
     end if
