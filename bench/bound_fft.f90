@@ -8,6 +8,7 @@
 !> one as its bound, of the same operator by a new solver.
 program bound_fft
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_ptr, c_size_t
+  use, intrinsic :: iso_fortran_env, only: output_unit
   use bench_problems, only: bench_problem, contact_problem, make_known, make_rough, uniform_edges
   use bench_watch, only: stopwatch
   use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver, &
@@ -241,6 +242,7 @@ contains
 
     print '(a, 2(f0.3, a), f0.2, a, f0.1, a)', '| '//trim(title)//' | ', 1.0e3_dp*bound, ' | ', 1.0e3_dp*time, ' | ', &
       time/bound, ' | ', wanted, ' |'
+    flush (output_unit)
   end subroutine print_row
 
 end program bound_fft
