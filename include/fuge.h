@@ -86,8 +86,8 @@ enum {
   FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */
   FUGE_ERR_NOT_FINITE = -3,        /* an input is NaN or infinite */
   FUGE_ERR_WIDTH = -4,             /* a width or a position is out of range: cell width <= 0;
-                                      x < 0 in a symmetric model; x of a profile does not
-                                      increase, or a point lies outside it */
+                                      cells overlap; x < 0 in a symmetric model; x of a profile
+                                      does not increase, or a point lies outside it */
   FUGE_ERR_MODULUS = -5,           /* an elastic modulus or Poisson's ratio is out of range */
   FUGE_ERR_ELEMENT = -6,           /* unknown element */
   FUGE_ERR_GRID = -7,              /* the grid is not uniform, as this element or call requires */
@@ -238,18 +238,21 @@ enum {                          /* element: what a force and a displacement stan
 };
 
 /* Influence matrix of cells on an elastic half-plane.
- *   x, width  in   n; centres and widths of the cells; length
+ *   x, width  in   n; centres and widths of the cells, in any order; length
  *   e_star    in   E/(1-nu^2) in plane strain, E in plane stress; force per length^2
  *   alpha     out  lda x n, lda >= n; displacement per force per unit depth
  * The displacement by a line load is zero at the distance D, twice the length that the
- * cells cover, so all coefficients are positive.  FUGE_CENTRE and FUGE_HAT need equal
- * widths (FUGE_ERR_GRID otherwise).  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
- * FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OVERFLOW. */
+ * cells cover, so all coefficients are positive.  Cells that overlap by more than 1e-4 of the
+ * narrower one are refused, FUGE_ERR_WIDTH: they would press on one place twice.
+ * FUGE_CENTRE and FUGE_HAT need equal widths (FUGE_ERR_GRID otherwise).  FUGE_ERR_SIZE,
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OVERFLOW,
+ * FUGE_ERR_MEMORY. */
 int fuge_halfplane_matrix(int n, const double *x, const double *width, double e_star,
                           int element, double *alpha, int lda, char *message, size_t len);
 
 /* The same for a model symmetric about x = 0, of which only the cells with x >= 0 are
- * passed: a force is the sum over a cell and its mirror image, the load is the whole load. */
+ * passed: a force is the sum over a cell and its mirror image, the load is the whole load.  The
+ * first cell lies at x = 0, its own image, or ends there. */
 int fuge_halfplane_symmetric_matrix(int n, const double *x, const double *width, double e_star,
                                     int element, double *alpha, int lda,
                                     char *message, size_t len);
@@ -335,12 +338,17 @@ enum {                          /* boundary: what lies beyond the cells */
  *   element   in   FUGE_CENTRE, FUGE_MEAN or FUGE_HAT (the last two are the same here)
  *   boundary  in   FUGE_FREE: the matrix of fuge_halfplane_matrix;
  *                  FUGE_PERIODIC: displacements count from the mean of the surface
- * *op is set on success only.  n is limited by memory (FUGE_FREE: 64 n bytes to create it,
- * 32 n for a product; FUGE_PERIODIC: half of that), and for FUGE_FREE to nearly 2^30 by
- * FFTW.  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS,
+ * *op is set on success only.  n is limited by memory (32 n to 64 n bytes, as much again for the
+ * coarser grids of its solves, which it keeps, and 8 n for a product), and for FUGE_FREE to
+ * nearly 2^30.  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS,
  * FUGE_ERR_ELEMENT, FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. */
 int fuge_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
                             fuge_operator **op, char *message, size_t len);
+
+/* Let threads >= 1 threads share each transform of a half-plane operator, which has one when it is
+ * created.  Worth while from about 10^5 cells on; not during a solve.  Results change by
+ * rounding only.  FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED for another operator, FUGE_ERR_MEMORY. */
+int fuge_operator_set_threads(fuge_operator *op, int threads, char *message, size_t len);
 
 /* Free and set *op to NULL; NULL and *op == NULL are fine.  Free its solvers first. */
 void fuge_operator_free(fuge_operator **op);

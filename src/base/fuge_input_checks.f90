@@ -22,19 +22,20 @@ module fuge_input_checks
 contains
 
   !> Are all values finite? Reads the bits of the exponents, in one pass without a
-  !> branch, because a comparison with NaN may trap.
+  !> branch, because a comparison with NaN may trap: adding 1 carries only where all of them are set.
   pure function is_finite_everywhere(values) result(finite)
     real(dp), intent(in), contiguous :: values(:)
     logical :: finite
-    integer(int64) :: exponent_bits, worst
+    integer(int64) :: carries
+    integer(int64), parameter :: ONE = ishft(1_int64, 51), EXPONENT_BITS = ishft(2047_int64, 51)
     integer :: k
 
-    exponent_bits = ishft(2047_int64, 52)
-    worst = 0
+    carries = 0
     do k = 1, size(values)
-      worst = max(worst, iand(transfer(values(k), worst), exponent_bits))
+      ! Shifted by one bit, so that the sign does not overflow.
+      carries = ior(carries, iand(ishft(transfer(values(k), carries), -1), EXPONENT_BITS) + ONE)
     end do
-    finite = worst < exponent_bits
+    finite = .not. btest(carries, 62)
   end function is_finite_everywhere
 
   pure subroutine check_value(value, name, info)

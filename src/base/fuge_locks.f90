@@ -12,6 +12,9 @@ module fuge_locks
   !> another thread, has open.
   integer(c_int), parameter, public :: LOCK_FILES = 1
 
+  !> The coarser grids that an operator keeps and its solvers share.
+  integer(c_int), parameter, public :: LOCK_GRIDS = 2
+
   interface
     !> Wait until no other thread holds the lock `which`, then acquire it.
     subroutine lock(which) bind(c, name='fuge_lock')

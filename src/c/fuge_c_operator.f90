@@ -6,7 +6,7 @@ module fuge_c_operator
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
@@ -52,6 +52,29 @@ contains
     if (.not. info%failed()) call new_operator(operator, destination, info)
     status = report_to_c(info, message, length)
   end function c_operator_halfplane
+
+  function c_operator_set_threads(operator, threads, message, length) &
+    bind(c, name='fuge_operator_set_threads') result(status)
+    type(c_ptr), intent(in), value :: operator, message
+    integer(c_int), intent(in), value :: threads
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(operator_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call require_pointer(operator, 'op', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(operator, handle)
+      select type (surface => handle%operator)
+      type is (fuge_halfplane_operator)
+        call surface%set_threads(int(threads), info)
+      class default
+        call report(info, FUGE_ERR_UNSUPPORTED, 'only an operator of fuge_operator_halfplane has transforms for ' &
+                    //'several threads: a matrix is multiplied by BLAS, which has threads of its own')
+      end select
+    end if
+    status = report_to_c(info, message, length)
+  end function c_operator_set_threads
 
   !> Put `operator` behind a handle at `destination`; FUGE_ERR_MEMORY.
   subroutine new_operator(operator, destination, info)

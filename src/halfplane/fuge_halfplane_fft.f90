@@ -6,12 +6,15 @@
 !> coefficients are pure numbers over e_star.
 module fuge_halfplane_fft
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use, intrinsic :: iso_c_binding, only: c_associated, c_loc, c_null_ptr, c_ptr
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
+  use fuge_convolution, only: convolution_kernel, transform_padded
   use fuge_elastic_moduli, only: check_e_star
   use fuge_fft, only: fft_plan, good_length
   use fuge_halfplane_influence, only: check_element, mean_log, FUGE_CENTRE, FUGE_MEAN
   use fuge_hurwitz_zeta, only: hurwitz_zeta
   use fuge_kinds, only: dp
+  use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
@@ -28,8 +31,29 @@ module fuge_halfplane_fft
   real(dp), parameter :: MEAN_TERM = 0.41132_dp
   !> A grid of fewer cells is not made by `coarsen`.
   integer, parameter :: FEWEST_CELLS = 32
+  !> A coarser grid of fewer cells is transformed by one thread: starting more would take longer.
+  integer, parameter :: FEWEST_FOR_THREADS = 32768
 
-  !> Equal cells side by side on a half-plane: call `set`, then solve.
+  !> The coarser grids of an operator: element k has cells 2**k times as wide. Made when they are first
+  !> asked for; a coarser grid refers to those of the finest one, which owns them.
+  type :: stored_grid
+    type(fuge_halfplane_operator), pointer :: operator => null()
+  end type stored_grid
+
+  type :: grid_store
+    type(stored_grid), pointer :: grid(:) => null()
+    !> Doublings of the width from the finest grid to this one.
+    integer :: level = 0
+    !> Address of the variable that owns the grids.
+    type(c_ptr) :: owner = c_null_ptr
+  contains
+    procedure :: create
+    procedure :: move_from
+    final :: destroy
+  end type grid_store
+
+  !> Equal cells side by side on a half-plane: call `set`, then solve. It keeps the coarser grids of its
+  !> solves, which takes as much memory again.
   !>
   !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
   type, extends(fuge_operator), public :: fuge_halfplane_operator
@@ -42,15 +66,15 @@ module fuge_halfplane_fft
     real(dp) :: e_star = 0.0_dp
     !> Subtracted from all coefficients; length per force.
     real(dp) :: datum_value = 0.0_dp
-    !> Eigenvalues of the circulant matrix that holds A, over its order.
-    real(dp), allocatable :: spectrum(:)
+    !> Transforms of the cells, of a free surface with some more to a length that is fast.
     type(fft_plan) :: plan
-    !> Inverse eigenvalues of the preconditioner's circulant matrix, over its order, and its
-    !> transform, which is not set for a periodic surface: that one has one circulant matrix.
-    real(dp), allocatable :: inverse_spectrum(:)
-    type(fft_plan) :: preconditioner_plan
+    !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
+    !> of a periodic surface.
+    type(convolution_kernel) :: influence, inverse
+    type(grid_store) :: coarser
   contains
     procedure :: set
+    procedure :: set_threads
     procedure :: points
     procedure :: apply
     procedure :: datum
@@ -59,6 +83,7 @@ module fuge_halfplane_fft
     procedure :: precondition
     procedure :: in_row
     procedure :: coarsen
+    procedure :: kept_coarser
     procedure, private :: copy
     generic :: assignment(=) => copy
   end type fuge_halfplane_operator
@@ -92,10 +117,29 @@ contains
     if (present(element)) new%element = element
     if (present(boundary)) new%boundary = boundary
     call check_grid(new, info)
-    if (.not. info%failed()) call allocate_spectra(new, info, threads, measured)
+    if (.not. info%failed()) call plan_transforms(new, info, threads, measured)
     if (.not. info%failed()) call compute_spectra(new, info)
+    if (.not. info%failed()) call new%coarser%create(n)
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
+
+  !> Let `threads` >= 1 threads share each transform from now on; the products change by rounding only. Not
+  !> during a solve. Errors, which leave the operator as it was: FUGE_ERR_CALL_ORDER before `set`,
+  !> FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
+  subroutine set_threads(self, threads, info)
+    class(fuge_halfplane_operator), intent(inout) :: self
+    integer, intent(in) :: threads
+    type(fuge_info), intent(out) :: info
+
+    if (self%cells < 1) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it before its threads')
+      return
+    end if
+    call self%plan%set(self%plan%length, info, threads, self%plan%measured)
+    if (info%failed()) return
+    call destroy(self%coarser)
+    call self%coarser%create(self%cells)
+  end subroutine set_threads
 
   pure subroutine check_grid(operator, info)
     type(fuge_halfplane_operator), intent(in) :: operator
@@ -123,76 +167,58 @@ contains
     end if
   end subroutine check_grid
 
-  !> Plan the transforms, and allocate both spectra.
-  subroutine allocate_spectra(operator, info, threads, measured)
+  !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  subroutine plan_transforms(operator, info, threads, measured)
     type(fuge_halfplane_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
     integer, intent(in), optional :: threads
     logical, intent(in), optional :: measured
-    integer :: length, stat
+    integer :: length
 
-    length = circle_length(operator)
-    if (length < 1) then
-      call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//' needs a transform of ' &
-                  //text(2.0_dp*real(operator%cells, dp))//' values in ' &
-                  //text(32.0_dp*real(operator%cells, dp))//' bytes, but FFTW takes at most '//text(huge(length)) &
-                  //' values: use half as many cells')
+    length = operator%cells
+    if (operator%boundary == FUGE_FREE) length = good_length(length)
+    if (length < 1 .or. (operator%boundary == FUGE_FREE .and. length > (huge(length) - 1)/2)) then
+      call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//' needs a circle of ' &
+                  //text(2.0_dp*real(operator%cells, dp))//' cells in ' &
+                  //text(32.0_dp*real(operator%cells, dp))//' bytes, but it takes at most '//text(huge(length)) &
+                  //' cells: use half as many')
       return
     end if
     call operator%plan%set(length, info, threads, measured)
-    if (operator%boundary == FUGE_FREE .and. .not. info%failed()) then
-      call operator%preconditioner_plan%set(good_length(operator%cells), info, threads, measured)
-      length = operator%preconditioner_plan%length
-    end if
-    if (info%failed()) then
-      if (info%status == FUGE_ERR_MEMORY) call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//': ' &
-                                                      //composed_message(info))
-      return
-    end if
-    allocate (operator%spectrum(0:operator%plan%length/2), operator%inverse_spectrum(0:length/2), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'out of memory: n = '//text(operator%cells)//' needs ' &
-                               //text(16.0_dp*real(length/2 + 1, dp))//' bytes')
-  end subroutine allocate_spectra
+    if (info%status == FUGE_ERR_MEMORY) call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%cells)//': ' &
+                                                    //composed_message(info))
+  end subroutine plan_transforms
 
-  !> Order of the circulant matrix: n for a periodic surface. For a free one the cells lie on a
-  !> circle so long that the distance of any two of them is not shorter the other way round; 0
-  !> if that is too long.
-  pure function circle_length(operator) result(length)
-    type(fuge_halfplane_operator), intent(in) :: operator
-    integer :: length
-
-    length = 0
-    if (operator%boundary == FUGE_PERIODIC) then
-      length = operator%cells
-    else if (operator%cells - 1 <= (huge(length) - 1)/2) then
-      length = good_length(2*(operator%cells - 1) + 1)
-    end if
-  end function circle_length
-
-  !> The eigenvalues of A and of the preconditioner.
+  !> The eigenvalues of A and of the preconditioner. Error: FUGE_ERR_MEMORY.
   subroutine compute_spectra(operator, info)
     type(fuge_halfplane_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: inverse_spectrum(:)
     real(dp) :: weight
     integer :: k, length, status
 
-    length = 2*(size(operator%inverse_spectrum) - 1)
-    if (operator%boundary == FUGE_PERIODIC) length = operator%cells
-    weight = 1.0_dp/real(length, dp)
-    do k = 1, length/2
-      operator%inverse_spectrum(k) = weight*operator%e_star/periodic_eigenvalue(weight*real(k, dp), operator%element)
-    end do
-    ! Any positive number is valid; that of the longest wave has the right size.
-    operator%inverse_spectrum(0) = weight*operator%e_star &
-                                   /periodic_eigenvalue(1.0_dp/real(max(length, 2), dp), operator%element)
-    if (operator%boundary == FUGE_PERIODIC) then
-      operator%spectrum = weight**2/operator%inverse_spectrum
-      operator%spectrum(0) = 0.0_dp
-    else
-      call compute_free_spectrum(operator, status)
-      if (status /= FUGE_DONE) call report(info, status, 'out of memory: n = '//text(operator%cells)//' needs ' &
-                                           //text(32.0_dp*real(operator%cells, dp))//' bytes')
+    length = operator%plan%length
+    allocate (inverse_spectrum(0:length/2), stat=status)
+    if (status == 0) then
+      weight = 1.0_dp/real(length, dp)
+      do k = 1, length/2
+        inverse_spectrum(k) = weight*operator%e_star/periodic_eigenvalue(weight*real(k, dp), operator%element)
+      end do
+      ! Any positive number is valid; that of the longest wave has the right size.
+      inverse_spectrum(0) = weight*operator%e_star &
+                            /periodic_eigenvalue(1.0_dp/real(max(length, 2), dp), operator%element)
+      call operator%inverse%set_cyclic(length, inverse_spectrum, status)
     end if
+    if (status == FUGE_DONE .and. operator%boundary == FUGE_PERIODIC) then
+      inverse_spectrum = weight**2/inverse_spectrum
+      inverse_spectrum(0) = 0.0_dp
+      call operator%influence%set_cyclic(length, inverse_spectrum, status)
+    else if (status == FUGE_DONE) then
+      deallocate (inverse_spectrum)
+      call compute_free_spectrum(operator, status)
+    end if
+    if (status /= FUGE_DONE) call report(info, FUGE_ERR_MEMORY, 'out of memory: n = '//text(operator%cells)//' needs ' &
+                                         //text(48.0_dp*real(operator%cells, dp))//' bytes')
   end subroutine compute_spectra
 
   !> Eigenvalue of A on a periodic surface, times e_star.
@@ -219,31 +245,34 @@ contains
     eigenvalue = eigenvalue + cos(PI*fraction)/sine
   end function periodic_eigenvalue
 
-  !> The eigenvalues for a free surface: ln of the distance the shorter way round the circle.
+  !> The eigenvalues for a free surface, on a circle so long that the distance of any two cells is not
+  !> shorter the other way round: ln of the distance the shorter way.
   !>
   !> The datum is the mean over the circle. Without it the eigenvalue of the constant, the sum of
   !> all coefficients, would be the largest by far, and so would its rounding error.
   subroutine compute_free_spectrum(operator, status)
     type(fuge_halfplane_operator), intent(inout) :: operator
     integer, intent(out) :: status
+    real(dp), allocatable :: coefficient(:), even(:), odd(:)
     real(dp) :: factor, mean, observed
-    integer :: half, k, length
+    integer :: half, k
 
-    length = operator%plan%length
-    half = length/2
+    half = operator%plan%length
+    allocate (coefficient(0:half), even(0:half/2), odd(half/2), stat=status)
+    if (status /= 0) return
     observed = merge(0.0_dp, 1.0_dp, operator%element == FUGE_CENTRE)
     do k = 0, half
-      operator%spectrum(k) = mean_log(real(k, dp), observed, 1.0_dp)
+      coefficient(k) = mean_log(real(k, dp), observed, 1.0_dp)
     end do
-    mean = (operator%spectrum(0) + operator%spectrum(half) + 2.0_dp*sum(operator%spectrum(1:half - 1)))/real(length, dp)
+    mean = (coefficient(0) + coefficient(half) + 2.0_dp*sum(coefficient(1:half - 1)))/real(2*half, dp)
     factor = -2.0_dp/(PI*operator%e_star)
-    do k = 0, half
-      operator%spectrum(k) = factor*(operator%spectrum(k) - mean)
-    end do
+    coefficient = factor*(coefficient - mean)
     ! In units of h, as the coefficients: the D of the matrix is 2 n.
     operator%datum_value = factor*(mean - log(2.0_dp*real(operator%cells, dp)))
-    call operator%plan%transform_even(operator%spectrum, status)
-    operator%spectrum(0) = 0.0_dp
+    call transform_padded(operator%plan, coefficient, even, odd, status)
+    if (status /= FUGE_DONE) return
+    even(0) = 0.0_dp
+    call operator%influence%set_padded(half, even, odd, status)
   end subroutine compute_free_spectrum
 
   !> Move the contents of `new` to `self`.
@@ -257,39 +286,33 @@ contains
     self%spacing = new%spacing
     self%e_star = new%e_star
     self%datum_value = new%datum_value
-    call move_alloc(new%spectrum, self%spectrum)
-    call move_alloc(new%inverse_spectrum, self%inverse_spectrum)
+    call self%influence%move_from(new%influence)
+    call self%inverse%move_from(new%inverse)
     call self%plan%move_from(new%plan)
-    call self%preconditioner_plan%move_from(new%preconditioner_plan)
+    call self%coarser%move_from(new%coarser)
   end subroutine move_contents
 
   !> Assignment. If memory for the copy cannot be allocated, the copy is not set.
   subroutine copy(self, source)
     class(fuge_halfplane_operator), intent(inout) :: self
     class(fuge_halfplane_operator), intent(in) :: source
-    integer :: stat
+    integer :: cells, stat
 
-    stat = 0
+    cells = source%cells
     self%cells = 0
-    ! Arrays of the right size are kept, because the source may be a copy of self that shares them.
-    if (self%plan%length /= source%plan%length &
-        .or. self%preconditioner_plan%length /= source%preconditioner_plan%length) then
-      if (allocated(self%spectrum)) deallocate (self%spectrum, self%inverse_spectrum)
-      if (source%cells > 0) allocate (self%spectrum(0:ubound(source%spectrum, 1)), &
-                                      self%inverse_spectrum(0:ubound(source%inverse_spectrum, 1)), stat=stat)
-    end if
+    ! Arrays of the right size are kept, because the source may be a bitwise copy of self that shares them.
+    call self%influence%copy_from(source%influence, stat)
+    if (stat == 0) call self%inverse%copy_from(source%inverse, stat)
     self%plan = source%plan
-    self%preconditioner_plan = source%preconditioner_plan
-    if (stat /= 0) call self%plan%free()
-    if (self%plan%length < 1 .or. self%preconditioner_plan%length /= source%preconditioner_plan%length) return
-    self%spectrum = source%spectrum
-    self%inverse_spectrum = source%inverse_spectrum
     self%element = source%element
     self%boundary = source%boundary
     self%spacing = source%spacing
     self%e_star = source%e_star
     self%datum_value = source%datum_value
-    self%cells = source%cells
+    call destroy(self%coarser)
+    if (stat /= 0 .or. self%plan%length < 1) return
+    self%cells = cells
+    call self%coarser%create(cells)
   end subroutine copy
 
   !> Number of cells n; 0 before `set`.
@@ -311,7 +334,7 @@ contains
     integer, intent(out) :: status
 
     call check_sizes(self, size(force), size(displacement), status)
-    if (status == FUGE_DONE) call self%plan%convolve(self%spectrum, force, displacement, status)
+    if (status == FUGE_DONE) call self%influence%convolve(self%plan, force, displacement, status)
   end subroutine apply
 
   pure subroutine check_sizes(self, first, second, status)
@@ -366,12 +389,7 @@ contains
     integer, intent(out) :: status
 
     call check_sizes(self, size(displacement), size(force), status)
-    if (status /= FUGE_DONE) return
-    if (self%preconditioner_plan%length > 0) then
-      call self%preconditioner_plan%convolve(self%inverse_spectrum, displacement, force, status)
-    else
-      call self%plan%convolve(self%inverse_spectrum, displacement, force, status)
-    end if
+    if (status == FUGE_DONE) call self%inverse%convolve(self%plan, displacement, force, status)
   end subroutine precondition
 
   !> True after `set`: the cells are side by side in the order of their numbers.
@@ -392,7 +410,7 @@ contains
     type(fuge_halfplane_operator), allocatable :: wider
     type(fuge_info) :: info
     real(dp) :: width
-    integer :: coarse_cells, stat
+    integer :: coarse_cells, stat, threads
 
     if (levels < 1 .or. levels > digits(self%cells)) return
     coarse_cells = (self%cells - 1)/2**levels + 1
@@ -401,8 +419,94 @@ contains
     if (self%boundary == FUGE_PERIODIC) width = self%spacing*(real(self%cells, dp)/real(coarse_cells, dp))
     allocate (wider, stat=stat)
     if (stat /= 0) return
-    call wider%set(coarse_cells, width, self%e_star, info, self%element, self%boundary)
+    threads = merge(self%plan%threads, 1, coarse_cells >= FEWEST_FOR_THREADS)
+    call wider%set(coarse_cells, width, self%e_star, info, self%element, self%boundary, threads)
     if (.not. info%failed()) call move_alloc(wider, coarse)
   end subroutine coarsen
+
+  !> As `coarsen`, but the wider cells are kept with those of the finest grid, for the next solve and for
+  !> solves in other threads.
+  subroutine kept_coarser(self, levels, coarse)
+    class(fuge_halfplane_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    class(fuge_operator), pointer, intent(out) :: coarse
+    integer :: k
+
+    nullify (coarse)
+    if (.not. associated(self%coarser%grid) .or. levels < 1) return
+    k = self%coarser%level + levels
+    if (k > size(self%coarser%grid)) return
+    call lock(LOCK_GRIDS)
+    if (.not. associated(self%coarser%grid(k)%operator)) call keep_coarser(self, levels, k)
+    if (associated(self%coarser%grid(k)%operator)) coarse => self%coarser%grid(k)%operator
+    call unlock(LOCK_GRIDS)
+  end subroutine kept_coarser
+
+  !> Make element k of the kept grids, unless it has too few cells or memory is short.
+  subroutine keep_coarser(self, levels, k)
+    class(fuge_halfplane_operator), intent(in) :: self
+    integer, intent(in) :: levels, k
+    class(fuge_operator), allocatable :: coarse
+    integer :: stat
+
+    call self%coarsen(levels, coarse)
+    if (.not. allocated(coarse)) return
+    associate (kept => self%coarser%grid(k))
+      allocate (kept%operator, stat=stat)
+      if (stat /= 0) return
+      select type (coarse)
+      type is (fuge_halfplane_operator)
+        call move_contents(kept%operator, coarse)
+      end select
+      call destroy(kept%operator%coarser)
+      kept%operator%coarser%grid => self%coarser%grid
+      kept%operator%coarser%level = k
+    end associate
+  end subroutine keep_coarser
+
+  !> Room for the coarser grids of `cells` cells; without memory none are kept.
+  subroutine create(self, cells)
+    class(grid_store), intent(inout), target :: self
+    integer, intent(in) :: cells
+    integer :: k, stat
+
+    k = 0
+    do while ((cells - 1)/2**(k + 1) + 1 >= FEWEST_CELLS)
+      k = k + 1
+    end do
+    allocate (self%grid(k), stat=stat)
+    if (stat == 0) self%owner = c_loc(self%level)
+  end subroutine create
+
+  !> Move the grids from `source`, which has none afterwards.
+  subroutine move_from(self, source)
+    class(grid_store), intent(inout), target :: self, source
+
+    call destroy(self)
+    if (.not. c_associated(source%owner, c_loc(source%level))) return
+    self%grid => source%grid
+    self%level = source%level
+    self%owner = c_loc(self%level)
+    source%owner = c_null_ptr
+    nullify (source%grid)
+  end subroutine move_from
+
+  !> Destroy the grids if this variable owns them; a bitwise copy, and a coarser grid, does not.
+  impure elemental subroutine destroy(self)
+    type(grid_store), intent(inout), target :: self
+    integer :: k
+
+    if (c_associated(self%owner)) then
+      if (c_associated(self%owner, c_loc(self%level))) then
+        do k = 1, size(self%grid)
+          if (associated(self%grid(k)%operator)) deallocate (self%grid(k)%operator)
+        end do
+        deallocate (self%grid)
+      end if
+    end if
+    nullify (self%grid)
+    self%owner = c_null_ptr
+    self%level = 0
+  end subroutine destroy
 
 end module fuge_halfplane_fft

@@ -15,6 +15,7 @@
 !> - FUGE_HAT: displacement at a point by a hat of half-base w, widths w and w, because the hat
 !>   is the convolution of two uniform strips.
 module fuge_halfplane_influence
+  use fuge_cell_overlaps, only: check_overlaps
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
   use fuge_elastic_moduli, only: check_e_star
   use fuge_input_checks, only: check_finite
@@ -42,13 +43,14 @@ contains
 
   !> The influence matrix of cells on the surface of a half-plane.
   !>
-  !> `x` (n) centres and `width` (n) widths of the cells, length; `e_star` force per
-  !> length squared; `element` as above; out: `alpha` (n, n), displacement into the
+  !> `x` (n) centres and `width` (n) widths of the cells, length, in any order; cells may not
+  !> overlap; `e_star` force per length squared; `element` as above; out: `alpha` (n, n), displacement into the
   !> body per force of a cell per unit depth. `symmetric` (default .false.) folds
   !> a problem symmetric about x = 0: pass only the cells with x >= 0; each force is
   !> then the sum over a cell and its mirror image (a cell at 0 is its own image).
-  !> Errors, alpha untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
-  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, FUGE_ERR_OVERFLOW.
+  !> Errors, alpha untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, also for cells
+  !> that overlap by more than 1e-4 of the narrower one, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT,
+  !> FUGE_ERR_GRID, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   pure subroutine fuge_halfplane_matrix(x, width, e_star, element, alpha, info, symmetric)
     real(dp), intent(in) :: x(:), width(:), e_star
     integer, intent(in) :: element
@@ -64,6 +66,7 @@ contains
     folded = .false.
     if (present(symmetric)) folded = symmetric
     call check_halfplane(x, width, e_star, element, folded, info)
+    if (.not. info%failed()) call check_overlaps(x, width, folded, info)
     if (info%failed()) return
     if (size(alpha, 1) < n .or. size(alpha, 2) /= n) then
       call report(info, FUGE_ERR_SIZE, 'alpha is '//text(size(alpha, 1))//' by '//text(size(alpha, 2)) &

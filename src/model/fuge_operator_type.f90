@@ -28,6 +28,8 @@ module fuge_operator_type
     procedure :: in_row => in_no_order
     !> The same body on wider cells, for nested iteration; none by default.
     procedure :: coarsen => no_coarser
+    !> What `coarsen` gives, kept and owned by this operator; none by default.
+    procedure :: kept_coarser => none_kept
   end type fuge_operator
 
   abstract interface
@@ -91,6 +93,17 @@ contains
 
     if (self%points() < 0 .and. levels < 0) allocate (coarse, source=self)
   end subroutine no_coarser
+
+  !> `coarse` as by `coarsen`, but owned by this operator and valid as long as it is; to be asked for
+  !> before `coarsen`. Not associated if none is kept, as in this default. Several threads may ask at once.
+  subroutine none_kept(self, levels, coarse)
+    class(fuge_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    class(fuge_operator), pointer, intent(out) :: coarse
+
+    nullify (coarse)
+    if (self%points() < 0 .and. levels < 0) allocate (coarse, source=self)
+  end subroutine none_kept
 
   !> 0: `apply` subtracts nothing.
   function no_datum(self) result(datum)

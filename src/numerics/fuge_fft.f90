@@ -1,4 +1,8 @@
-!> Convolution with a real, even kernel by FFTW; the only module that calls FFTW.
+!> Fourier transforms of real values by FFTW; the only module that calls FFTW.
+!>
+!> An even number of values is transformed as half as many complex numbers, in place: value 2j + 1 is the
+!> imaginary part that belongs to value 2j, and the caller separates the two (fuge_convolution). FFTW plans
+!> that in a small fraction of the time that it takes for real values.
 !>
 !> The whole process shares one planner of FFTW. FFTW's own lock, which the first plan switches
 !> on, covers neither its initialisation nor its number of threads, so this module has a lock for
@@ -14,10 +18,15 @@ module fuge_fft
   implicit none
   private
 
-  public :: good_length
+  public :: good_length, release_buffer
 
   integer(c_int), parameter :: FFTW_MEASURE = 0
   integer(c_int), parameter :: FFTW_ESTIMATE = 64
+  !> FFTW may not copy parts of long transforms to buffers: in place, copying only costs time.
+  integer(c_int), parameter :: FFTW_NO_BUFFERING = 2048
+  !> Complex numbers from which on a transform is long.
+  integer, parameter :: LONG = 4096
+  integer(c_int), parameter :: FORWARD = -1
   integer, parameter :: int64 = selected_int_kind(18)
 
   !> Forward and backward transforms of one length.
@@ -32,6 +41,7 @@ module fuge_fft
     !> FFTW has chosen the plans by measurement.
     logical :: measured = .false.
     type(c_ptr), private :: forward = c_null_ptr
+    !> For values that are not packed.
     type(c_ptr), private :: backward = c_null_ptr
     !> Address of the variable that owns the plans.
     type(c_ptr), private :: owner = c_null_ptr
@@ -39,8 +49,10 @@ module fuge_fft
     procedure :: set
     procedure :: free
     procedure :: move_from
-    procedure :: transform_even
-    procedure :: convolve
+    procedure :: is_packed
+    procedure :: allocate_buffer
+    procedure :: transform
+    procedure :: transform_back
     procedure, private :: owns_plans
     procedure, private :: own_plans
     procedure, private :: copy
@@ -79,6 +91,13 @@ module fuge_fft
       integer(c_int) :: threads
     end function fftw_planner_nthreads
 
+    function fftw_plan_c2c(n, in, out, sign, flags) bind(c, name='fftw_plan_dft_1d') result(plan)
+      import :: c_int, c_ptr
+      integer(c_int), intent(in), value :: n, sign, flags
+      type(c_ptr), intent(in), value :: in, out
+      type(c_ptr) :: plan
+    end function fftw_plan_c2c
+
     function fftw_plan_r2c(n, in, out, flags) bind(c, name='fftw_plan_dft_r2c_1d') result(plan)
       import :: c_int, c_ptr
       integer(c_int), intent(in), value :: n, flags
@@ -92,6 +111,11 @@ module fuge_fft
       type(c_ptr), intent(in), value :: in, out
       type(c_ptr) :: plan
     end function fftw_plan_c2r
+
+    subroutine fftw_execute_c2c(plan, in, out) bind(c, name='fftw_execute_dft')
+      import :: c_ptr
+      type(c_ptr), intent(in), value :: plan, in, out
+    end subroutine fftw_execute_c2c
 
     subroutine fftw_execute_r2c(plan, in, out) bind(c, name='fftw_execute_dft_r2c')
       import :: c_ptr
@@ -178,7 +202,7 @@ contains
     call unlock(LOCK_PLANNER)
     if (.not. initialised) then
       call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads here')
-    else if (c_associated(plan%forward) .and. c_associated(plan%backward)) then
+    else if (c_associated(plan%forward) .and. (c_associated(plan%backward) .or. plan%is_packed())) then
       call plan%own_plans()
     else
       call destroy(plan%forward, plan%backward)
@@ -202,14 +226,27 @@ contains
     buffer = fftw_malloc(3*buffer_bytes(plan%length))
     if (c_associated(buffer)) then
       flags = merge(FFTW_MEASURE, FFTW_ESTIMATE, plan%measured)
-      plan%forward = fftw_plan_r2c(int(plan%length, c_int), buffer, buffer, flags)
-      plan%backward = fftw_plan_c2r(int(plan%length, c_int), buffer, buffer, flags)
+      if (plan%is_packed()) then
+        if (plan%length/2 >= LONG .and. .not. plan%measured) flags = flags + FFTW_NO_BUFFERING
+        plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, buffer, FORWARD, flags)
+      else
+        plan%forward = fftw_plan_r2c(int(plan%length, c_int), buffer, buffer, flags)
+        plan%backward = fftw_plan_c2r(int(plan%length, c_int), buffer, buffer, flags)
+      end if
       call fftw_free(buffer)
     end if
     if (before /= plan%threads) call fftw_plan_with_nthreads(before)
   end subroutine plan_both_directions
 
-  !> Bytes of a buffer for the values, which the complex numbers 0 .. length/2 overwrite.
+  !> Are the values, an even number, transformed as half as many complex numbers?
+  pure function is_packed(self) result(packed)
+    class(fft_plan), intent(in) :: self
+    logical :: packed
+
+    packed = mod(self%length, 2) == 0
+  end function is_packed
+
+  !> Bytes of a buffer for the values, which the complex numbers 0 .. length/2 may overwrite.
   pure function buffer_bytes(length) result(bytes)
     integer, intent(in) :: length
     integer(c_size_t) :: bytes
@@ -288,82 +325,58 @@ contains
     call self%move_from(new_plan)
   end subroutine copy
 
-  !> The spectrum of an even kernel, divided by the length so that `convolve` needs no scaling.
+  !> Transform the values in `buffer`, in place. Packed values are pairs of real and imaginary parts, before
+  !> and after; otherwise the complex numbers 0 .. length/2 replace them. Several threads may use a plan
+  !> at once.
+  subroutine transform(self, buffer)
+    class(fft_plan), intent(in) :: self
+    type(c_ptr), intent(in) :: buffer
+
+    if (self%is_packed()) then
+      call fftw_execute_c2c(self%forward, buffer, buffer)
+    else
+      call fftw_execute_r2c(self%forward, buffer, buffer)
+    end if
+  end subroutine transform
+
+  !> The inverse of `transform` but for a factor: length/2 for packed values, else the length. Packed values
+  !> have real and imaginary parts exchanged, before and after: then the same plan serves.
+  subroutine transform_back(self, buffer)
+    class(fft_plan), intent(in) :: self
+    type(c_ptr), intent(in) :: buffer
+
+    if (self%is_packed()) then
+      call fftw_execute_c2c(self%forward, buffer, buffer)
+    else
+      call fftw_execute_c2r(self%backward, buffer, buffer)
+    end if
+  end subroutine transform_back
+
+  !> Allocate a buffer for one transform, to be released with `release_buffer` if `status` is 0.
   !>
-  !> `kernel` (length/2 + 1): on entry the values at the distances 0 .. length/2, on return their
-  !> spectrum. `status`: 0, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
-  subroutine transform_even(self, kernel, status)
+  !> `values`: its contents, 2 (length/2 + 1) real numbers. `status`: 0, FUGE_ERR_CALL_ORDER or
+  !> FUGE_ERR_MEMORY.
+  subroutine allocate_buffer(self, buffer, values, status)
     class(fft_plan), intent(in) :: self
-    real(dp), intent(inout) :: kernel(0:)
-    integer, intent(out) :: status
-    real(c_double), pointer, contiguous :: work(:)
-    type(c_ptr) :: buffer
-    integer :: k, half
-
-    half = self%length/2
-    call allocate_buffer(self, size(kernel) == half + 1, buffer, work, status)
-    if (status /= FUGE_DONE) return
-    work(:half + 1) = kernel
-    do k = half + 1, self%length - 1
-      work(k + 1) = kernel(self%length - k)
-    end do
-    call fftw_execute_r2c(self%forward, buffer, buffer)
-    do k = 0, half
-      kernel(k) = work(2*k + 1)/real(self%length, dp)
-    end do
-    call fftw_free(buffer)
-  end subroutine transform_even
-
-  !> y = inverse transform of `spectrum` times the transform of x: cyclic convolution.
-  !>
-  !> `spectrum` (length/2 + 1) as `transform_even` returns it; `x` (at most length), continued by
-  !> zeros; `y` (at most length): the first values of the convolution. Several threads may use a
-  !> plan at once.
-  !> `status`: 0, or with y unchanged FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
-  subroutine convolve(self, spectrum, x, y, status)
-    class(fft_plan), intent(in) :: self
-    real(dp), intent(in) :: spectrum(:), x(:)
-    real(dp), intent(inout) :: y(:)
-    integer, intent(out) :: status
-    real(c_double), pointer, contiguous :: work(:)
-    type(c_ptr) :: buffer
-    integer :: k
-
-    call allocate_buffer(self, size(spectrum) == self%length/2 + 1 .and. max(size(x), size(y)) <= self%length, &
-                     buffer, work, status)
-    if (status /= FUGE_DONE) return
-    work(:size(x)) = x
-    work(size(x) + 1:) = 0.0_c_double
-    call fftw_execute_r2c(self%forward, buffer, buffer)
-    do k = 1, size(spectrum)
-      work(2*k - 1) = work(2*k - 1)*spectrum(k)
-      work(2*k) = work(2*k)*spectrum(k)
-    end do
-    call fftw_execute_c2r(self%backward, buffer, buffer)
-    y = work(:size(y))
-    call fftw_free(buffer)
-  end subroutine convolve
-
-  !> Allocate a buffer for one transform and check the call; to be freed with fftw_free if `status`
-  !> is 0.
-  subroutine allocate_buffer(self, sizes_match, buffer, work, status)
-    class(fft_plan), intent(in) :: self
-    logical, intent(in) :: sizes_match
     type(c_ptr), intent(out) :: buffer
-    real(c_double), pointer, contiguous, intent(out) :: work(:)
+    real(c_double), pointer, contiguous, intent(out) :: values(:)
     integer, intent(out) :: status
 
-    nullify (work)
+    nullify (values)
     buffer = c_null_ptr
     if (.not. self%owns_plans()) then
       status = FUGE_ERR_CALL_ORDER
-    else if (.not. sizes_match) then
-      status = FUGE_ERR_SIZE
     else
       buffer = fftw_malloc(buffer_bytes(self%length))
       status = merge(FUGE_DONE, FUGE_ERR_MEMORY, c_associated(buffer))
-      if (status == FUGE_DONE) call c_f_pointer(buffer, work, [2*(int(self%length/2, c_size_t) + 1)])
+      if (status == FUGE_DONE) call c_f_pointer(buffer, values, [2*(int(self%length/2, c_size_t) + 1)])
     end if
   end subroutine allocate_buffer
+
+  subroutine release_buffer(buffer)
+    type(c_ptr), intent(in) :: buffer
+
+    call fftw_free(buffer)
+  end subroutine release_buffer
 
 end module fuge_fft

@@ -130,7 +130,11 @@ static const bad_input BAD_INPUT[] = {
   {N, 0, 0.125, 0.25, 3, -1, 2, FUGE_ERR_ELEMENT, "element = -1"},
   {N, 3, 0.875, 0.5, 3, FUGE_CENTRE, 2, FUGE_ERR_GRID, "width(3) = 0.5"},
   {N, 3, 0.875, 0.5, 3, FUGE_HAT, 2, FUGE_ERR_GRID, "FUGE_MEAN"},
-  {N, 3, 0.875, 0.5, 3, FUGE_MEAN, 2, FUGE_DONE, ""},
+  {N, 3, 0.875, 0.125, 3, FUGE_MEAN, 2, FUGE_DONE, ""},
+  {N, 3, 0.875, 0.5, 3, FUGE_MEAN, 2, FUGE_ERR_WIDTH, "cells 2 and 3"},
+  {N, 4, 0.375, 0.25, 3, FUGE_CENTRE, 2, FUGE_ERR_WIDTH, "cells 1 and 4"},
+  {N, 4, 0.375, 0.25, 3, FUGE_HAT, 2, FUGE_ERR_WIDTH, "cells 1 and 4"},
+  {N, 0, 0.0625, 0.25, 3, FUGE_MEAN, 1, FUGE_ERR_WIDTH, "cell 0"},
   {N, 0, 0.125, 0.25, 1e-200, FUGE_MEAN, 2, FUGE_ERR_OVERFLOW, "units"},
   {N, 0, 0.125, 0.25, 1e200, FUGE_MEAN, 2, FUGE_ERR_OVERFLOW, "units"},
   {N, 4, 1e200, 0.25, 3, FUGE_MEAN, 2, FUGE_ERR_OVERFLOW, "cell 4"}

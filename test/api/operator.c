@@ -200,6 +200,43 @@ static void test_halfplane_solves(void) {
     }
 }
 
+/* Two threads for the transforms change the forces by rounding only; so do one again. */
+static void test_halfplane_threads(void) {
+  for (int boundary = FUGE_FREE; boundary <= FUGE_PERIODIC; boundary++) {
+    double one[CELLS], again[CELLS];
+    fuge_operator *op = NULL;
+    fuge_solver *solver = halfplane_solver(FUGE_MEAN, boundary, FUGE_AUTO, &op);
+    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+    CHECK_STATUS(fuge_get_force(solver, one), FUGE_DONE);
+    for (int threads = 2; threads >= 1; threads--) {
+      char message[64] = "not written";
+      CHECK_STATUS(fuge_operator_set_threads(op, threads, message, sizeof message), FUGE_DONE);
+      CHECK_STRING(message, "");
+      CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
+      CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+      CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
+      for (int k = 0; k < CELLS; k++) CHECK_NEAR(again[k], one[k], 1e-7 * LOAD);
+    }
+    free_both(&solver, &op);
+  }
+}
+
+static void test_thread_refusals(void) {
+  char message[256] = "";
+  fuge_operator *op = NULL;
+  CHECK_STATUS(fuge_operator_set_threads(NULL, 2, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_CONTAINS(message, "op is NULL");
+  CHECK_STATUS(fuge_operator_halfplane(9, 0.25, 3, FUGE_MEAN, FUGE_FREE, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_threads(op, 0, message, sizeof message), FUGE_ERR_OPTION);
+  CHECK_CONTAINS(message, "threads = 0");
+  CHECK_STATUS(fuge_operator_set_threads(op, -3, NULL, 0), FUGE_ERR_OPTION);
+  fuge_operator_free(&op);
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_threads(op, 2, message, sizeof message), FUGE_ERR_UNSUPPORTED);
+  CHECK_CONTAINS(message, "fuge_operator_halfplane");
+  fuge_operator_free(&op);
+}
+
 /* Nothing but the engine of products works without coefficients. */
 static void test_halfplane_unsupported(void) {
   for (int method = FUGE_TABLEAU; method <= FUGE_ACTIVE_SET; method++) {
@@ -279,6 +316,8 @@ int main(void) {
   test_halfplane_life_cycle();
   test_halfplane_refusals();
   test_halfplane_solves();
+  test_halfplane_threads();
+  test_thread_refusals();
   test_halfplane_unsupported();
   test_halfplane_steps();
   test_halfplane_cancelled();

@@ -2,11 +2,12 @@
 module hard_matrices
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp => fuge_dp, fuge_halfplane_matrix, fuge_info, FUGE_MEAN
+  use fuge_halfplane_influence, only: mean_log
   use general_reference, only: integers
   implicit none
   private
 
-  public :: halfplane, integer_bed, cell_middles, ring_of_springs, string, tridiagonal
+  public :: halfplane, integer_bed, cell_middles, overlapping_halfplane, ring_of_springs, string, tridiagonal
 
 contains
 
@@ -18,6 +19,17 @@ contains
 
     call fuge_halfplane_matrix(x, spread(width, 1, size(x)), 1.0_dp, FUGE_MEAN, alpha, info)
   end function halfplane
+
+  !> The same for cells that overlap, which fuge_halfplane_matrix refuses; `x` ascending.
+  pure function overlapping_halfplane(x, width) result(alpha)
+    real(dp), intent(in) :: x(:), width
+    real(dp) :: alpha(size(x), size(x))
+    integer :: j
+
+    do j = 1, size(x)
+      alpha(:, j) = -2.0_dp/acos(-1.0_dp)*(mean_log(x - x(j), width, width) - log(2.0_dp*(x(size(x)) - x(1) + width)))
+    end do
+  end function overlapping_halfplane
 
   !> The middles of n cells around 0.
   pure function cell_middles(n, spacing) result(x)

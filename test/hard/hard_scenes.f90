@@ -9,7 +9,8 @@ module hard_scenes
     FUGE_ERR_NOT_DEFINITE, FUGE_MEAN, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
   use fuge_number_text, only: text
   use general_reference, only: draw, integers
-  use hard_matrices, only: cell_middles, halfplane, integer_bed, ring_of_springs, string, tridiagonal
+  use hard_matrices, only: cell_middles, halfplane, integer_bed, overlapping_halfplane, ring_of_springs, string, &
+    tridiagonal
   use hard_scene_type, only: hard_scene, from_answer, from_data, set_answer
   implicit none
   private
@@ -143,7 +144,7 @@ contains
     case (5)
       place = [(0.5_dp*real(k + mod(k, 2), dp) + 1.0e-6_dp*real(mod(k + 1, 2), dp), k=1, 40)]
       scene = from_data('pairs 1e-6 apart, half-plane', 'overlapping cells, condition 1e13', &
-                        halfplane(place, 1.0_dp), 1.0e-2_dp*(place - 9.7_dp)**2, 3.0_dp)
+                        overlapping_halfplane(place, 1.0_dp), 1.0e-2_dp*(place - 9.7_dp)**2, 3.0_dp)
       scene%hedged = .true.
       scene%tolerance = 1.0e-3_dp
       scene%most_pivots = 4

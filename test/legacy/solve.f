@@ -7,6 +7,7 @@ C     without any interface. Answers by hand.
       CALL EXPERT
       CALL REFUSE
       CALL HPLANE
+      CALL BYFFT
       CALL WORDS
       CALL VERDCT
       END
@@ -285,6 +286,46 @@ C     Folded: one cell stands for both.
       CALL FUGEHP(2, X, WIDTH, 100.D0, 0, 1, ALPHA, 3, INFO)
       CALL STATUS('FUGEHP folded, X < 0', INFO, -4)
       CALL NUMBER('FUGEHP untouched', ALPHA(1,1), 7.D0, 0.D0)
+      END
+
+C     Two cells by FFT, on one thread and two, and by their matrix.
+      SUBROUTINE BYFFT
+      DOUBLE PRECISION X(2), WIDTH(2), GAP(2), ALPHA(2,2), F(2), C(2),
+     $                 V0, FM(2), CM(2), VM, EPS
+      PARAMETER (EPS=1.D-12)
+      INTEGER INFO, NTHR
+      DATA X /-0.5D0, 0.5D0/
+      DATA WIDTH /1.D0, 1.D0/
+      DATA GAP /0.D0, 1.D-2/
+      CALL FUGEHP(2, X, WIDTH, 100.D0, 1, 0, ALPHA, 2, INFO)
+      CALL FUGESV(2, ALPHA, 2, GAP, 3.D0, FM, CM, VM, INFO)
+      CALL STATUS('FUGESV of the cells', INFO, 0)
+      DO 10 NTHR = 1, 2
+        CALL FUGEFT(2, 1.D0, 100.D0, 1, 0, NTHR, GAP, 3.D0, F, C, V0,
+     $              INFO)
+        CALL STATUS('FUGEFT', INFO, 0)
+        CALL NUMBER('FUGEFT F(1)', F(1), FM(1), EPS)
+        CALL NUMBER('FUGEFT F(2)', F(2), FM(2), EPS)
+        CALL NUMBER('FUGEFT C(1)', C(1), CM(1), EPS)
+        CALL NUMBER('FUGEFT C(2)', C(2), CM(2), EPS)
+        CALL NUMBER('FUGEFT V0', V0, VM, EPS)
+   10 CONTINUE
+C     Equal forces displace nothing on a periodic surface.
+      CALL FUGEFT(2, 1.D0, 100.D0, 1, 1, 1, WIDTH, 4.D0, F, C, V0, INFO)
+      CALL STATUS('FUGEFT, periodic', INFO, 0)
+      CALL NUMBER('FUGEFT V0, periodic', V0, 1.D0, EPS)
+      F(1) = 7.D0
+      CALL FUGEFT(0, 1.D0, 100.D0, 1, 0, 1, GAP, 3.D0, F, C, V0, INFO)
+      CALL STATUS('FUGEFT, N = 0', INFO, -1)
+      CALL FUGEFT(2, 0.D0, 100.D0, 1, 0, 1, GAP, 3.D0, F, C, V0, INFO)
+      CALL STATUS('FUGEFT, H = 0', INFO, -4)
+      CALL FUGEFT(2, 1.D0, 100.D0, 1, 2, 1, GAP, 3.D0, F, C, V0, INFO)
+      CALL STATUS('FUGEFT, NBOUND = 2', INFO, -14)
+      CALL FUGEFT(2, 1.D0, 100.D0, 1, 0, 0, GAP, 3.D0, F, C, V0, INFO)
+      CALL STATUS('FUGEFT, NTHR = 0', INFO, -14)
+      CALL FUGEFT(2, 1.D0, 100.D0, 1, 0, 1, GAP, -1.D0, F, C, V0, INFO)
+      CALL STATUS('FUGEFT, F0 < 0', INFO, -10)
+      CALL NUMBER('FUGEFT untouched', F(1), 7.D0, 0.D0)
       END
 
       SUBROUTINE WORDS

@@ -29,9 +29,10 @@ module fuge_contact_preconditioner
   integer, parameter :: MAX_LEVELS = 8
 
   type :: preconditioner_level
-    !> The operator on the cells of this level; unallocated on the finest level, where the caller
-    !> passes it.
-    class(fuge_operator), allocatable :: operator
+    !> The operator on the cells of this level, either kept by that of the finest level or owned by this
+    !> one; neither on the finest level, where the caller passes it.
+    class(fuge_operator), pointer :: kept => null()
+    class(fuge_operator), allocatable :: owned
     !> Number of points in contact in each cell: the weight of the cell in means.
     real(dp), allocatable :: weight(:)
     !> 1 for cells with points in contact, else 0; unallocated on the finest level, where `weight`
@@ -168,7 +169,7 @@ contains
       end if
       do l = 2, MAX_LEVELS
         if (stat == 0) call create_level(operator, l, self%levels(l), self%forces(l), stat)
-        if (stat /= 0 .or. .not. allocated(self%levels(l)%operator)) exit
+        if (stat /= 0 .or. .not. exists(self%levels(l))) exit
         self%depth = l
       end do
       if (self%depth > 1 .and. stat == 0) call count_contacts(self%levels(:self%depth), contact)
@@ -184,17 +185,34 @@ contains
     type(preconditioner_level), intent(inout) :: level
     type(level_force), intent(inout) :: force
     integer, intent(out) :: stat
+    class(fuge_operator), pointer :: kept
     class(fuge_operator), allocatable :: coarse
+    integer :: cells
 
     stat = 0
-    if (allocated(level%operator)) return
-    call operator%coarsen(DOUBLINGS_PER_LEVEL*(number - 1), coarse)
-    if (.not. is_usable(coarse, (operator%points() - 1)/GROUP**(number - 1) + 1)) return
-    call move_alloc(coarse, level%operator)
-    allocate (level%weight(level%operator%points()), level%indicator(level%operator%points()), &
-              level%residual(level%operator%points()), force%values(level%operator%points()), stat=stat)
-    if (stat /= 0) deallocate (level%operator)
+    if (exists(level)) return
+    cells = (operator%points() - 1)/GROUP**(number - 1) + 1
+    call operator%kept_coarser(DOUBLINGS_PER_LEVEL*(number - 1), kept)
+    if (associated(kept)) then
+      if (.not. is_usable(kept, cells)) return
+    else
+      call operator%coarsen(DOUBLINGS_PER_LEVEL*(number - 1), coarse)
+      if (.not. allocated(coarse)) return
+      if (.not. is_usable(coarse, cells)) return
+    end if
+    allocate (level%weight(cells), level%indicator(cells), level%residual(cells), force%values(cells), stat=stat)
+    if (stat /= 0) return
+    level%kept => kept
+    if (allocated(coarse)) call move_alloc(coarse, level%owned)
   end subroutine create_level
+
+  !> Does the level exist, and is it not the finest one?
+  pure function exists(level)
+    type(preconditioner_level), intent(in) :: level
+    logical :: exists
+
+    exists = associated(level%kept) .or. allocated(level%owned)
+  end function exists
 
   !> The operator's preconditioner applied to 1 on the contact set and 0 elsewhere.
   subroutine precondition_unit(operator, contact, force, info)
@@ -214,14 +232,13 @@ contains
     end if
   end subroutine precondition_unit
 
-  !> Does the coarser operator exist, with `cells` points and a preconditioner?
+  !> Does the coarser operator have `cells` points and a preconditioner?
   function is_usable(coarse, cells) result(usable)
-    class(fuge_operator), intent(in), allocatable :: coarse
+    class(fuge_operator), intent(in) :: coarse
     integer, intent(in) :: cells
     logical :: usable
 
-    usable = allocated(coarse)
-    if (usable) usable = coarse%points() == cells
+    usable = coarse%points() == cells
     if (usable) usable = coarse%has_preconditioner()
   end function is_usable
 
@@ -260,7 +277,7 @@ contains
         call subtract_from_groups(levels(2)%residual, levels(1)%weight, levels(1)%residual)
       end if
     end if
-    if (allocated(levels(1)%operator)) then
+    if (exists(levels(1))) then
       call precondition_coarse(levels(1), operator%points(), force, coarse_share, info)
     else
       call precondition(operator, levels(1)%residual, force, info)
@@ -282,7 +299,11 @@ contains
     type(fuge_info), intent(inout) :: info
     type(fuge_info) :: coarse
 
-    call precondition(level%operator, level%residual, force, coarse)
+    if (associated(level%kept)) then
+      call precondition(level%kept, level%residual, force, coarse)
+    else
+      call precondition(level%owned, level%residual, force, coarse)
+    end if
     coarse_share = coarse_share + real(size(force), dp)/real(points, dp)
     if (coarse%failed()) call report(info, coarse%status, 'on the grid of '//text(size(force))//' cells: ' &
                                      //composed_message(coarse))

@@ -7,7 +7,7 @@ module fuge_contact_segments
   implicit none
   private
 
-  public :: sum_over, dot_over, max_abs_over
+  public :: center_over, dot_and_sum_over, dot_over, max_abs_over, sum_over
 
   !> Number of partial sums: several are faster, and more exact, than one.
   integer, parameter :: LANES = 8
@@ -97,6 +97,58 @@ contains
     end do
     inner = inner + sum(partial)
   end function dot_over
+
+  !> `inner` = the inner product of `x` and `y` over the segments, `total` = the sum of `y`; both (n).
+  pure subroutine dot_and_sum_over(segments, x, y, inner, total)
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in), contiguous :: x(:), y(:)
+    real(dp), intent(out) :: inner, total
+    real(dp) :: products(LANES), values(LANES)
+    integer :: i, k
+
+    inner = 0.0_dp
+    total = 0.0_dp
+    products = 0.0_dp
+    values = 0.0_dp
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
+        products = products + x(k:k + LANES - 1)*y(k:k + LANES - 1)
+        values = values + y(k:k + LANES - 1)
+      end do
+      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
+        inner = inner + x(k)*y(k)
+        total = total + y(k)
+      end do
+    end do
+    inner = inner + sum(products)
+    total = total + sum(values)
+  end subroutine dot_and_sum_over
+
+  !> Subtract `mean` from `x` (n) over the segments; `largest` is the largest |x| then, 0 if there is none.
+  pure subroutine center_over(segments, mean, x, largest)
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in) :: mean
+    real(dp), intent(inout), contiguous :: x(:)
+    real(dp), intent(out) :: largest
+    real(dp) :: partial(LANES), values(LANES)
+    integer :: i, k
+
+    largest = 0.0_dp
+    partial = 0.0_dp
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
+        values = x(k:k + LANES - 1) - mean
+        x(k:k + LANES - 1) = values
+        values = abs(values)
+        partial = merge(values, partial, values > partial)
+      end do
+      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
+        x(k) = x(k) - mean
+        largest = max(largest, abs(x(k)))
+      end do
+    end do
+    largest = max(largest, maxval(partial))
+  end subroutine center_over
 
   !> Largest |x| over the segments, 0 if there is none; `x` (n).
   pure function max_abs_over(segments, x) result(largest)

@@ -6,6 +6,7 @@
 !> energy in each step and so terminates.
 module fuge_contact_set_search
   use fuge_blocking_step, only: step_to_blocking
+  use fuge_complete_contact, only: equal_forces_displace_nothing
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
@@ -62,7 +63,7 @@ contains
     type(contact_preconditioner) :: preconditioner
     real(dp) :: previous_residual
     integer :: wrong, fewest_wrong, stalls_left
-    logical :: to_tolerance, confirmed, in_row
+    logical :: to_tolerance, confirmed, in_row, undetermined
 
     in_row = operator%in_row()
     fewest_wrong = huge(fewest_wrong)
@@ -72,6 +73,14 @@ contains
     iterate%contact = iterate%force > 0.0_dp
     call make_feasible(operator, iterate, info)
     do while (.not. info%failed())
+      undetermined = has_undetermined_forces(operator, iterate, info)
+      if (undetermined .and. .not. info%failed()) then
+        call solve_complete_contact(operator, settings, preconditioner, reduced_gap, monitor, iterate, info)
+        if (info%failed() .or. all(iterate%contact)) exit
+        stalls_left = stalls_left - 1
+        cycle
+      end if
+      if (info%failed()) exit
       call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, to_tolerance, monitor, iterate, info)
       if (info%failed()) exit
       wrong = count_wrong_points(reduced_gap, penetration_noise(settings, iterate), iterate)
@@ -99,6 +108,47 @@ contains
     end do
     info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
   end subroutine find_contact_set
+
+  !> Is the contact complete and its forces undetermined, because the motion is prescribed and equal
+  !> forces displace nothing? Errors: those of equal_forces_displace_nothing.
+  function has_undetermined_forces(operator, iterate, info) result(undetermined)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_iterate), intent(in) :: iterate
+    type(fuge_info), intent(inout) :: info
+    logical :: undetermined
+
+    undetermined = .false.
+    if (.not. iterate%prescribed) return
+    if (all(iterate%contact)) undetermined = equal_forces_displace_nothing(operator, info)
+  end function has_undetermined_forces
+
+  !> Leave a complete contact whose forces are undetermined: its equations fix the differences of
+  !> the forces only, and no forces close a mean gap that the approach leaves open.
+  !>
+  !> The points whose forces are above the mean stay: those in contact under the least load. If the
+  !> grid is a coarser one whose mean gap is closed, the contact stays complete, under the least load
+  !> that closes it.
+  subroutine solve_complete_contact(operator, settings, preconditioner, reduced_gap, monitor, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_preconditioner), intent(inout) :: preconditioner
+    real(dp), intent(in), contiguous :: reduced_gap(:)
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    iterate%prescribed = .false.
+    call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, .false., monitor, iterate, info)
+    iterate%prescribed = .true.
+    if (info%failed()) return
+    if (settings%coarse_grid .and. .not. sum(reduced_gap) > 0.0_dp) then
+      iterate%force = iterate%force - minval(iterate%force)
+    else
+      iterate%force = iterate%force - sum(iterate%force)/real(size(iterate%force), dp)
+      iterate%contact = iterate%force > 0.0_dp
+      call make_feasible(operator, iterate, info)
+    end if
+  end subroutine solve_complete_contact
 
   !> Solve for the forces of the present contact set, which counts as one iteration: to the
   !> tolerance if `to_tolerance`, else until the set can be judged.
@@ -269,8 +319,13 @@ contains
         newest = deepest_open_point(reduced_gap, iterate, penetration_noise(settings, iterate), locked)
         if (newest == 0 .or. .not. iterate%converged) exit
         iterate%contact(newest) = .true.
+        ! What penetrates a contact complete but for one point is rounding.
+        if (has_undetermined_forces(operator, iterate, info)) then
+          iterate%contact(newest) = .false.
+          exit
+        end if
       end if
-      call make_feasible(operator, iterate, info)
+      if (.not. info%failed()) call make_feasible(operator, iterate, info)
     end do
     if (.not. info%failed()) call make_feasible(operator, iterate, info)
     if (.not. info%failed()) call evaluate_iterate(operator, reduced_gap, iterate, info)

@@ -4,6 +4,7 @@
 !> to start from (fuge_nested_grids); the contact set search on the finest grid improves them to
 !> the tolerance (fuge_contact_set_search).
 module fuge_iterative_engine
+  use fuge_complete_contact, only: equal_forces_displace_nothing
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_contact_set_search, only: find_contact_set, make_feasible, search_settings
   use fuge_kinds, only: dp
@@ -13,8 +14,7 @@ module fuge_iterative_engine
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_projected_gradients, only: compute_displacement, contact_iterate, deformed_gap, evaluate_iterate, &
-    start_iterate
+  use fuge_projected_gradients, only: contact_iterate, deformed_gap, evaluate_iterate, start_iterate
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW
   implicit none
   private
@@ -24,9 +24,8 @@ module fuge_iterative_engine
   !> The forces of the last solve are a good start if residual and penetration are below this
   !> fraction of the least magnitude.
   real(dp), parameter :: GOOD_START = 0.2_dp
-  !> Displacements by equal forces are rounding below this fraction of their magnitude.
-  real(dp), parameter :: SINGULAR = 1.0e-12_dp
-  !> Forces up to this many units in the last place of the largest force are rounding.
+  !> Forces up to this many units in the last place of the largest force are rounding, and so is a mean
+  !> gap up to as many of the largest gap.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
 
 contains
@@ -132,31 +131,20 @@ contains
     call move_alloc(motion, solution%motion)
   end subroutine assemble_solution
 
-  !> Refuse an approach at which the mean gap is closed where equal forces displace nothing, as on
-  !> a periodic surface: no forces resist it. Errors: FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY, those
-  !> of the operator.
+  !> Refuse an approach at which the mean gap is closed, or open by no more than the rounding of the
+  !> gaps, where equal forces displace nothing, as on a periodic surface: no forces resist it, or
+  !> any equal ones do. Errors: FUGE_ERR_NO_EQUILIBRIUM, those of equal_forces_displace_nothing.
   subroutine check_approach(operator, approach, reduced_gap, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: approach
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    real(dp), intent(in) :: reduced_gap(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: force(:), displacement(:), magnitude(:)
     real(dp) :: mean
-    integer :: n, stat
 
-    n = size(reduced_gap)
-    mean = sum(reduced_gap)/real(n, dp)
-    if (mean > 0.0_dp) return
-    allocate (force(n), displacement(n), magnitude(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to check the approach of '//text(n)//' points')
-      return
-    end if
-    force = 1.0_dp
-    call compute_displacement(operator, .true., force, displacement, info)
+    mean = sum(reduced_gap)/real(size(reduced_gap), dp)
+    if (mean > ROUNDINGS*epsilon(mean)*max(abs(approach), maxval(abs(reduced_gap)))) return
+    if (.not. equal_forces_displace_nothing(operator, info)) return
     if (info%failed()) return
-    call operator%magnitude(force, displacement, magnitude)
-    if (sum(displacement) > SINGULAR*sum(magnitude)) return
     call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
                 //'hold the approach '//text(approach)//', at which the mean gap is closed: prescribe less than ' &
                 //text(approach + mean)//', or a load')

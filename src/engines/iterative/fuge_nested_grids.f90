@@ -32,26 +32,32 @@ contains
     real(dp), allocatable, intent(inout) :: start(:)
     type(fuge_info), intent(inout) :: info
     class(fuge_operator), allocatable :: coarse
-    real(dp), allocatable :: coarse_gap(:)
+    class(fuge_operator), pointer :: kept
     type(fuge_info) :: coarse_info
     real(dp) :: products, preconditionings, share
-    integer :: k
+    integer :: cells, k
 
     products = 0.0_dp
     preconditionings = 0.0_dp
     do k = digits(operator%points()) - 1, 1, -1
-      call operator%coarsen(k, coarse)
-      if (.not. allocated(coarse)) cycle
-      if (coarse%points() /= (operator%points() - 1)/2**k + 1) cycle
+      cells = (operator%points() - 1)/2**k + 1
       coarse_info = fuge_info(iterations=info%iterations)
-      call restrict_gap(reduced_gap, 2**k, coarse%points(), coarse_gap, coarse_info)
-      if (.not. coarse_info%failed()) call solve_on_grid(coarse, settings, coarse_gap, monitor, start, coarse_info)
+      call operator%kept_coarser(k, kept)
+      if (associated(kept)) then
+        if (kept%points() /= cells) cycle
+        call solve_on_grid(kept, settings, reduced_gap, 2**k, monitor, start, coarse_info)
+      else
+        call operator%coarsen(k, coarse)
+        if (.not. allocated(coarse)) cycle
+        if (coarse%points() /= cells) cycle
+        call solve_on_grid(coarse, settings, reduced_gap, 2**k, monitor, start, coarse_info)
+      end if
       info%iterations = coarse_info%iterations
-      share = real(coarse%points(), dp)/real(size(reduced_gap), dp)
+      share = real(cells, dp)/real(size(reduced_gap), dp)
       products = products + share*real(coarse_info%products, dp)
       preconditionings = preconditionings + share*real(coarse_info%preconditionings, dp)
       if (coarse_info%failed()) then
-        call report(info, coarse_info%status, 'on the grid of '//text(coarse%points())//' points: ' &
+        call report(info, coarse_info%status, 'on the grid of '//text(cells)//' points: ' &
                     //composed_message(coarse_info))
         exit
       end if
@@ -61,17 +67,21 @@ contains
     info%preconditionings = info%preconditionings + ceiling(preconditionings)
   end subroutine nested_iteration
 
-  !> Solve on one grid. `start` in: the forces of the next coarser grid, if there is one; out:
-  !> those of this grid.
-  subroutine solve_on_grid(operator, settings, reduced_gap, monitor, start, info)
+  !> Solve on one grid, each of whose cells is `width` cells of the finest one wide, with the gaps
+  !> `finest_gap`. `start` in: the forces of the next coarser grid, if there is one; out: those of this grid.
+  subroutine solve_on_grid(operator, settings, finest_gap, width, monitor, start, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    real(dp), intent(in), contiguous :: finest_gap(:)
+    integer, intent(in) :: width
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: start(:)
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
+    real(dp), allocatable :: reduced_gap(:)
 
+    call restrict_gap(finest_gap, width, operator%points(), reduced_gap, info)
+    if (info%failed()) return
     if (allocated(start)) call prolong(size(reduced_gap), start, info)
     if (.not. info%failed()) call start_iterate(iterate, size(reduced_gap), settings%prescribed, start, info)
     if (.not. info%failed()) call find_contact_set(operator, settings, reduced_gap, monitor, iterate, info)

@@ -1,0 +1,413 @@
+!> Products with symmetric circulant and Toeplitz matrices by Fourier transforms.
+!>
+!> A cyclic convolution of N values multiplies their transform by the spectrum of an even kernel, which is
+!> real. N even values are transformed as N/2 complex numbers z_j = x_2j + i x_(2j+1). With
+!> theta = 2 pi k/N and the spectrum s, its transform Z becomes
+!>
+!>     Z'_k = (a - b sin(theta)) Z_k + i b cos(theta) conj(Z_(N/2-k)),   a, b = (s_k +- s_(N/2-k))/2.
+!>
+!> A convolution on a circle of 2N cells, of N values followed by N zeros, of which the first N results are
+!> wanted, is half the sum of two on N: a cyclic one with the even numbers of the spectrum, and one with the
+!> odd ones, where whatever goes once round the circle changes its sign. The second needs the numbers
+!> 1, 5, 9, .. only, the transform of the N/2 complex numbers (x_j - i x_(j+N/2)) exp(-i pi j/N). Two
+!> transforms of N values take less time than one of 2N.
+module fuge_convolution
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr
+  use fuge_constants, only: PI
+  use fuge_fft, only: fft_plan, release_buffer
+  use fuge_kinds, only: dp
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  implicit none
+  private
+
+  public :: transform_even, transform_padded
+
+  !> The spectrum of an even kernel, prepared for `convolve`.
+  type, public :: convolution_kernel
+    !> Number of values N of the plan; 0 before it is set.
+    integer :: length = 0
+    !> For even N the factors a -+ b sin and b cos of the numbers k and N/2-k, (3, 0:N/4); for odd N the
+    !> spectrum, (1, 0:N/2).
+    real(dp), allocatable, private :: factors(:, :)
+    !> On a circle of 2N cells: the numbers 1, 5, .. of the spectrum, and cos and sin of pi j/N, (2, N/2).
+    real(dp), allocatable, private :: odd_factors(:), twist(:, :)
+  contains
+    procedure :: set_cyclic
+    procedure :: set_padded
+    procedure :: copy_from
+    procedure :: move_from
+    procedure :: convolve
+  end type convolution_kernel
+
+contains
+
+  !> Set the spectrum of a cyclic convolution of `length` values.
+  !>
+  !> `spectrum` (0:length/2), divided by the length. `status`: 0, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
+  pure subroutine set_cyclic(self, length, spectrum, status)
+    class(convolution_kernel), intent(inout) :: self
+    integer, intent(in) :: length
+    real(dp), intent(in) :: spectrum(0:)
+    integer, intent(out) :: status
+    real(dp) :: half_difference, mean, theta
+    integer :: half, k
+
+    self%length = 0
+    call clear(self)
+    status = FUGE_ERR_SIZE
+    if (length < 1 .or. size(spectrum) /= length/2 + 1) return
+    half = length/2
+    if (mod(length, 2) == 0) then
+      allocate (self%factors(3, 0:half/2), stat=status)
+    else
+      allocate (self%factors(1, 0:half), stat=status)
+    end if
+    if (status /= 0) then
+      status = FUGE_ERR_MEMORY
+      return
+    end if
+    self%length = length
+    if (mod(length, 2) == 1) then
+      self%factors(1, :) = spectrum
+      return
+    end if
+    do k = 0, half/2
+      ! Twice, because it is divided by the number of real values, not of complex ones.
+      mean = spectrum(k) + spectrum(half - k)
+      half_difference = spectrum(k) - spectrum(half - k)
+      theta = 2.0_dp*PI*(real(k, dp)/real(length, dp))
+      self%factors(:, k) = [mean - half_difference*sin(theta), mean + half_difference*sin(theta), &
+                            half_difference*cos(theta)]
+    end do
+  end subroutine set_cyclic
+
+  !> Set the spectrum of a convolution on a circle of 2*length cells, `length` even.
+  !>
+  !> `even` (0:length/2) the numbers 0, 2, .. of the spectrum, `odd` (length/2) the numbers 1, 5, 9, ..;
+  !> both divided by 2*length. `status`: 0, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
+  pure subroutine set_padded(self, length, even, odd, status)
+    class(convolution_kernel), intent(inout) :: self
+    integer, intent(in) :: length
+    real(dp), intent(in) :: even(:), odd(:)
+    integer, intent(out) :: status
+
+    call self%set_cyclic(length, even, status)
+    if (status /= FUGE_DONE) return
+    status = FUGE_ERR_SIZE
+    if (mod(length, 2) /= 0 .or. size(odd) /= length/2) self%length = 0
+    if (self%length == 0) return
+    allocate (self%odd_factors(length/2), self%twist(2, length/2), stat=status)
+    if (status /= 0) then
+      status = FUGE_ERR_MEMORY
+      self%length = 0
+      return
+    end if
+    self%odd_factors = 2.0_dp*odd
+    call compute_twist(self%twist)
+  end subroutine set_padded
+
+  !> Deallocate all arrays.
+  pure subroutine clear(self)
+    class(convolution_kernel), intent(inout) :: self
+
+    if (allocated(self%factors)) deallocate (self%factors)
+    if (allocated(self%odd_factors)) deallocate (self%odd_factors)
+    if (allocated(self%twist)) deallocate (self%twist)
+  end subroutine clear
+
+  !> cos and sin of pi j/N, j from 0; `twist` (2, N/2).
+  pure subroutine compute_twist(twist)
+    real(dp), intent(out) :: twist(:, :)
+    real(dp) :: angle
+    integer :: j
+
+    do j = 1, size(twist, 2)
+      angle = 0.5_dp*PI*(real(j - 1, dp)/real(size(twist, 2), dp))
+      twist(1, j) = cos(angle)
+      twist(2, j) = sin(angle)
+    end do
+  end subroutine compute_twist
+
+  !> Copy a kernel; arrays of the right size are kept. `status` is not 0 without memory, and the copy is
+  !> not set then.
+  pure subroutine copy_from(self, source, status)
+    class(convolution_kernel), intent(inout) :: self
+    class(convolution_kernel), intent(in) :: source
+    integer, intent(out) :: status
+
+    status = 0
+    self%length = 0
+    if (.not. same_shapes(self, source)) then
+      call clear(self)
+      if (allocated(source%factors)) then
+        allocate (self%factors(size(source%factors, 1), 0:ubound(source%factors, 2)), stat=status)
+      end if
+      if (allocated(source%odd_factors) .and. status == 0) then
+        allocate (self%odd_factors(size(source%odd_factors)), self%twist(2, size(source%odd_factors)), stat=status)
+      end if
+      if (status /= 0) return
+    end if
+    if (allocated(source%factors)) self%factors(:, :) = source%factors
+    if (allocated(source%odd_factors)) then
+      self%odd_factors(:) = source%odd_factors
+      self%twist(:, :) = source%twist
+    end if
+    self%length = source%length
+  end subroutine copy_from
+
+  !> Do both kernels have arrays of the same shapes?
+  pure function same_shapes(self, source) result(same)
+    class(convolution_kernel), intent(in) :: self, source
+    logical :: same
+
+    same = (allocated(self%factors) .eqv. allocated(source%factors)) &
+           .and. (allocated(self%odd_factors) .eqv. allocated(source%odd_factors))
+    if (same .and. allocated(source%factors)) same = all(shape(self%factors) == shape(source%factors))
+    if (same .and. allocated(source%odd_factors)) same = size(self%odd_factors) == size(source%odd_factors)
+  end function same_shapes
+
+  !> Move the kernel from `source`, which is not set afterwards.
+  pure subroutine move_from(self, source)
+    class(convolution_kernel), intent(inout) :: self, source
+
+    call clear(self)
+    self%length = source%length
+    if (allocated(source%factors)) call move_alloc(source%factors, self%factors)
+    if (allocated(source%odd_factors)) call move_alloc(source%odd_factors, self%odd_factors)
+    if (allocated(source%twist)) call move_alloc(source%twist, self%twist)
+    source%length = 0
+  end subroutine move_from
+
+  !> The spectrum of an even kernel, divided by the length of `plan`.
+  !>
+  !> `kernel` (0:length/2): on entry the values at these distances, on return their spectrum. `status`: 0,
+  !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
+  subroutine transform_even(plan, kernel, status)
+    type(fft_plan), intent(in) :: plan
+    real(dp), intent(inout) :: kernel(0:)
+    integer, intent(out) :: status
+    real(c_double), pointer, contiguous :: work(:)
+    type(c_ptr) :: buffer
+    real(dp) :: theta
+    integer :: half, k, other
+
+    half = plan%length/2
+    status = merge(FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, plan%length > 0)
+    if (plan%length < 1 .or. size(kernel) /= half + 1) return
+    call plan%allocate_buffer(buffer, work, status)
+    if (status /= FUGE_DONE) return
+    work(:half + 1) = kernel
+    do k = half + 1, plan%length - 1
+      work(k + 1) = kernel(plan%length - k)
+    end do
+    call plan%transform(buffer)
+    do k = 0, half
+      if (.not. plan%is_packed()) then
+        kernel(k) = work(2*k + 1)
+        cycle
+      end if
+      ! The number k of the even places and that of the odd ones, of which only the real part is not zero.
+      other = modulo(half - k, half)
+      theta = 2.0_dp*PI*(real(k, dp)/real(plan%length, dp))
+      associate (a => work(2*modulo(k, half) + 1), b => work(2*modulo(k, half) + 2), c => work(2*other + 1), &
+                 d => work(2*other + 2))
+        kernel(k) = 0.5_dp*((a + c) + (cos(theta)*(b + d) - sin(theta)*(a - c)))
+      end associate
+    end do
+    kernel = kernel/real(plan%length, dp)
+    call release_buffer(buffer)
+  end subroutine transform_even
+
+  !> The spectrum of an even kernel on a circle of 2N cells, divided by 2N, as `set_padded` takes it; N is
+  !> the length of `plan`, even.
+  !>
+  !> `kernel` (0:N): the values at these distances, undefined on return; `even` (0:N/2), `odd` (N/2). `status`
+  !> as for `transform_even`.
+  subroutine transform_padded(plan, kernel, even, odd, status)
+    type(fft_plan), intent(in) :: plan
+    real(dp), intent(inout) :: kernel(0:)
+    real(dp), intent(out) :: even(0:), odd(:)
+    integer, intent(out) :: status
+    real(c_double), pointer, contiguous :: work(:)
+    real(dp), allocatable :: twist(:, :)
+    type(c_ptr) :: buffer
+    integer :: j, n
+
+    n = plan%length
+    status = FUGE_ERR_SIZE
+    if (size(kernel) /= n + 1 .or. size(even) /= n/2 + 1 .or. size(odd) /= n/2 .or. .not. plan%is_packed()) return
+    do j = 0, n/2
+      even(j) = kernel(j) + kernel(n - j)
+    end do
+    call transform_even(plan, even, status)
+    if (status /= FUGE_DONE) return
+    even = 0.5_dp*even
+    allocate (twist(2, n/2), stat=status)
+    if (status == 0) then
+      call plan%allocate_buffer(buffer, work, status)
+    else
+      status = FUGE_ERR_MEMORY
+    end if
+    if (status /= FUGE_DONE) return
+    call compute_twist(twist)
+    do j = 0, n/2
+      ! Odd about N/2: kernel(j) becomes the value at j, kernel(n - j) that at n - j.
+      kernel(j) = kernel(j) - kernel(n - j)
+    end do
+    do j = n/2 + 1, n - 1
+      kernel(j) = -kernel(n - j)
+    end do
+    call twist_values(twist, kernel(:n - 1), work)
+    call plan%transform(buffer)
+    do j = 1, n/2
+      odd(j) = work(2*j - 1)/(2.0_dp*real(n, dp))
+    end do
+    call release_buffer(buffer)
+  end subroutine transform_padded
+
+  !> y = the first values of the convolution of x with the kernel.
+  !>
+  !> `plan` of the kernel's length N; `x` and `y` (at most N), x continued by zeros. Several threads may use
+  !> kernel and plan at once. `status`: 0, or with y unchanged FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE,
+  !> FUGE_ERR_MEMORY.
+  subroutine convolve(self, plan, x, y, status)
+    class(convolution_kernel), intent(in) :: self
+    type(fft_plan), intent(in) :: plan
+    real(dp), intent(in), contiguous :: x(:)
+    real(dp), intent(inout), contiguous :: y(:)
+    integer, intent(out) :: status
+    real(c_double), pointer, contiguous :: work(:)
+    type(c_ptr) :: buffer
+
+    status = merge(FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, self%length == 0 .or. plan%length == 0)
+    if (self%length /= plan%length .or. self%length == 0 .or. max(size(x), size(y)) > self%length) return
+    call plan%allocate_buffer(buffer, work, status)
+    if (status /= FUGE_DONE) return
+    work(:size(x)) = x
+    work(size(x) + 1:) = 0.0_c_double
+    call plan%transform(buffer)
+    if (plan%is_packed()) then
+      call multiply_packed(self%factors, work)
+    else
+      call multiply_numbers(self%factors(1, :), work)
+    end if
+    call plan%transform_back(buffer)
+    if (plan%is_packed()) then
+      call copy_exchanged(work, y)
+    else
+      y = work(:size(y))
+    end if
+    if (allocated(self%twist)) then
+      call twist_values(self%twist, x, work)
+      call plan%transform(buffer)
+      call multiply_exchanging(self%odd_factors, work)
+      call plan%transform_back(buffer)
+      call add_untwisted(self%twist, work, y)
+    end if
+    call release_buffer(buffer)
+  end subroutine convolve
+
+  !> Multiply the transform of pairs of values, `z` (real and imaginary parts), by the spectrum, and exchange
+  !> the parts, as transform_back takes them.
+  pure subroutine multiply_packed(factors, z)
+    real(dp), intent(in), contiguous :: factors(:, 0:)
+    real(dp), intent(inout), contiguous :: z(0:)
+    real(dp) :: a, b, one(2), other(2)
+    integer :: half, i, j, k
+
+    half = (size(z) - 2)/2
+    a = z(0)
+    b = z(1)
+    z(0) = factors(1, 0)*b + factors(3, 0)*a
+    z(1) = factors(1, 0)*a + factors(3, 0)*b
+    do k = 1, (half - 1)/2
+      i = 2*k
+      j = 2*(half - k)
+      one = z(i:i + 1)
+      other = z(j:j + 1)
+      z(i:i + 1) = factors(1, k)*one(2:1:-1) + factors(3, k)*other
+      z(j:j + 1) = factors(2, k)*other(2:1:-1) + factors(3, k)*one
+    end do
+    if (mod(half, 2) == 0 .and. half > 0) then
+      one = z(half:half + 1)
+      z(half:half + 1) = factors(1, half/2)*one(2:1:-1)
+    end if
+  end subroutine multiply_packed
+
+  !> Copy pairs of values whose two are exchanged.
+  pure subroutine copy_exchanged(pairs, values)
+    real(dp), intent(in), contiguous :: pairs(:)
+    real(dp), intent(inout), contiguous :: values(:)
+    integer :: k
+
+    do k = 1, size(values) - 1, 2
+      values(k) = pairs(k + 1)
+      values(k + 1) = pairs(k)
+    end do
+    if (mod(size(values), 2) == 1) values(size(values)) = pairs(size(values) + 1)
+  end subroutine copy_exchanged
+
+  !> Multiply complex numbers, `z` (real and imaginary parts), by real ones, and exchange their parts.
+  pure subroutine multiply_exchanging(factors, z)
+    real(dp), intent(in), contiguous :: factors(:)
+    real(dp), intent(inout), contiguous :: z(:)
+    real(dp) :: real_part
+    integer :: k
+
+    do k = 1, size(factors)
+      real_part = z(2*k - 1)
+      z(2*k - 1) = factors(k)*z(2*k)
+      z(2*k) = factors(k)*real_part
+    end do
+  end subroutine multiply_exchanging
+
+  !> Multiply complex numbers, `z` (real and imaginary parts), by real ones.
+  pure subroutine multiply_numbers(factors, z)
+    real(dp), intent(in), contiguous :: factors(:)
+    real(dp), intent(inout), contiguous :: z(:)
+    integer :: k
+
+    do k = 1, size(factors)
+      z(2*k - 1) = factors(k)*z(2*k - 1)
+      z(2*k) = factors(k)*z(2*k)
+    end do
+  end subroutine multiply_numbers
+
+  !> z_j = (x_j - i x_(j+N/2)) exp(-i pi j/N), x continued by zeros; `twist` (2, N/2).
+  pure subroutine twist_values(twist, x, z)
+    real(dp), intent(in), contiguous :: twist(:, :), x(:)
+    real(dp), intent(inout), contiguous :: z(:)
+    integer :: both, half, j, single
+
+    half = size(twist, 2)
+    both = max(size(x) - half, 0)
+    single = min(size(x), half)
+    do j = 1, both
+      z(2*j - 1) = twist(1, j)*x(j) - twist(2, j)*x(j + half)
+      z(2*j) = -(twist(2, j)*x(j) + twist(1, j)*x(j + half))
+    end do
+    do j = both + 1, single
+      z(2*j - 1) = twist(1, j)*x(j)
+      z(2*j) = -twist(2, j)*x(j)
+    end do
+    z(2*single + 1:) = 0.0_dp
+  end subroutine twist_values
+
+  !> Add to y what z, its parts exchanged, stands for: z_j exp(i pi j/N) = y_j - i y_(j+N/2); `twist` (2, N/2).
+  pure subroutine add_untwisted(twist, z, y)
+    real(dp), intent(in), contiguous :: twist(:, :), z(:)
+    real(dp), intent(inout), contiguous :: y(:)
+    integer :: both, half, j
+
+    half = size(twist, 2)
+    both = max(size(y) - half, 0)
+    do j = 1, both
+      y(j) = y(j) + (twist(1, j)*z(2*j) - twist(2, j)*z(2*j - 1))
+      y(j + half) = y(j + half) - (twist(2, j)*z(2*j) + twist(1, j)*z(2*j - 1))
+    end do
+    do j = both + 1, min(size(y), half)
+      y(j) = y(j) + (twist(1, j)*z(2*j) - twist(2, j)*z(2*j - 1))
+    end do
+  end subroutine add_untwisted
+
+end module fuge_convolution
