@@ -36,7 +36,7 @@ contains
     type(contact_solution), intent(inout) :: solution
     integer, intent(inout) :: iterations
     integer, intent(out) :: status
-    real(dp) :: force(size(solution%state)), previous(size(solution%state)), rounding
+    real(dp) :: force(size(solution%state)), previous(size(solution%state)), rounding(size(solution%state))
     logical :: locked(size(solution%state)), tied(size(solution%state)), lenient
     integer :: newest, stalls
 
@@ -90,7 +90,7 @@ contains
     state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, gap < 0.5_dp*upper)
   end function joined_stop
 
-  !> Tension that counts as rounding at a point that may alone resist a rigid mode; without that point the
+  !> Tension (n) that counts as rounding at a point that may alone resist a rigid mode; without that point the
   !> set would be wrong. Zero for one translation, which any point resists. Larger if `lenient`, where rounding has led
   !> nowhere or may lead in a circle.
   pure function tension_by_rounding(canonical, set, solution, lenient) result(rounding)
@@ -98,12 +98,11 @@ contains
     type(working_set), intent(in) :: set
     type(contact_solution), intent(in) :: solution
     logical, intent(in) :: lenient
-    real(dp) :: rounding
+    real(dp) :: rounding(size(solution%force))
 
     rounding = 0.0_dp
     if (canonical%plain) return
-    rounding = merge(NOISE, SIGN_TOLERANCE, lenient)
-    rounding = max(rounding*maxval(abs(solution%force)), set%zero_force)
+    rounding = max(merge(NOISE, SIGN_TOLERANCE, lenient)*canonical%force_scale(solution%force), set%zero_force)
   end function tension_by_rounding
 
   !> The open point furthest beyond a stop, 0 if there is none. After many stalls the one of the least index, which

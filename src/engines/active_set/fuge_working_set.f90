@@ -80,7 +80,9 @@ contains
         length = max(length, -reduced_gap(k), reduced_gap(k) - canonical%upper(k))
       end if
     end do
-    if (largest > 0.0_dp) zero_force = SIGN_TOLERANCE*(length/largest)
+    ! Where alpha is zero, only a load makes forces.
+    zero_force = merge(SIGN_TOLERANCE*length, huge(zero_force), largest > 0.0_dp)
+    if (largest > 0.0_dp) zero_force = zero_force/largest
   end function rounding_force
 
   !> Count gaps from where the bodies meet under `motion` (m): one point far below the others would cost
@@ -151,7 +153,7 @@ contains
     self%violation = violations(canonical, solution, rigid_gap, magnitude, self%zero_force)
   end subroutine measure
 
-  !> Forces of the wrong sign as fractions of the largest force, and gaps beyond a stop as fractions of a length.
+  !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a length.
   !>
   !> `rigid_gap` (n) is the gap less the rigid displacement, which the elastic displacement has to make up
   !> for at a point in contact; `magnitude` (n) the size of the terms of that displacement. Tied and
@@ -160,17 +162,17 @@ contains
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     real(dp), intent(in) :: rigid_gap(:), magnitude(:), zero_force
-    real(dp) :: violation(size(rigid_gap))
-    real(dp) :: largest, beyond
+    real(dp) :: violation(size(rigid_gap)), scale(size(rigid_gap))
+    real(dp) :: beyond
     integer :: j
 
-    largest = maxval(abs(solution%force))
+    scale = canonical%force_scale(solution%force)
     violation = 0.0_dp
     do j = 1, size(violation)
       if (canonical%excluded(j) .or. .not. canonical%upper(j) > 0.0_dp) cycle
       associate (state => solution%state(j), force => solution%force(j), gap => solution%gap(j))
         if (state /= FUGE_OPEN) then
-          if (force*state < -zero_force) violation(j) = abs(force)/largest
+          if (force*state < -zero_force) violation(j) = abs(force)/scale(j)
         else
           beyond = max(-gap, gap - canonical%upper(j))
           if (beyond > 0.0_dp) violation(j) = beyond/max(abs(rigid_gap(j)) + magnitude(j), beyond)
