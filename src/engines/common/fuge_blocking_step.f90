@@ -51,8 +51,8 @@ contains
 
     k = 0
     if (newest > 0) then
-      if (is_tensile(target(newest), noise(newest), state(newest), tied(newest)) .and. .not. abs(force(newest)) > 0.0_dp) then
-        k = newest
+      if (is_tensile(target(newest), noise(newest), state(newest), tied(newest))) then
+        if (.not. abs(force(newest)) > 0.0_dp) k = newest
       end if
     end if
     if (k > 0) then

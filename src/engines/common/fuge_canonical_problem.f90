@@ -17,6 +17,8 @@ module fuge_canonical_problem
 
   !> A load may miss the edge of what the contact can carry by so many units in its last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
+  !> A force below this fraction of the largest may be due to such rounding.
+  real(dp), parameter :: NO_FORCE = 1.0e-10_dp
 
   !> c = gap + alpha f - modes q with R^T f = load; see `fuge_problem` for the conditions on f and c.
   type, public :: canonical_problem
@@ -327,24 +329,25 @@ contains
       remainder(columns) = rest
       return
     end if
-    if (count(abs(force) > 0.0_dp) < size(columns)) call move_to_edge(modes, noise, canonical%load, columns, force)
+    call move_to_edge(modes, noise, canonical%load, columns, force)
     canonical%feasible_force = canonical%feasible_force + force
   end subroutine balance_body
 
   !> Fewer points than modes carry a load at the edge of what the contact can carry. Rounding may take it beyond the
   !> edge, where motions without resistance would grow: the load is then moved to the edge.
   !>
-  !> `modes` (n, p) those in `columns` (p) with the `noise` (p) of their loads; `force` (n) carries them but for rounding.
+  !> `modes` (n, p) those in `columns` (p) with the `noise` (p) of their loads; `force` (n) carries them.
   subroutine move_to_edge(modes, noise, load, columns, force)
     real(dp), intent(in) :: modes(:, :), noise(:)
     integer, intent(in) :: columns(:)
     real(dp), intent(inout) :: load(:), force(:)
-    real(dp) :: nearest(size(force)), carried(size(noise)), weight(size(noise)), rest(size(noise))
+    real(dp) :: nearest(size(force)), carried(size(noise)), weight(size(noise)), rest(size(noise)), least
 
-    if (.not. all(noise > 0.0_dp)) return
+    least = NO_FORCE*maxval(abs(force))
+    if (count(abs(force) > least) >= size(columns) .or. .not. all(noise > 0.0_dp)) return
     ! Loads with little rounding are met best.
     weight = minval(noise)/noise
-    call find_equilibrium(modes*spread(weight, 1, size(force)), load(columns)*weight, force > 0.0_dp, force < 0.0_dp, &
+    call find_equilibrium(modes*spread(weight, 1, size(force)), load(columns)*weight, force > least, force < -least, &
                           nearest, rest, noise*weight)
     carried = matmul(nearest, modes)
     if (.not. all(abs(load(columns) - carried) <= ROUNDINGS*noise)) return

@@ -70,8 +70,8 @@ contains
 
     balanced = .true.
     do j = 1, size(resultant)
-      balanced = balanced .and. abs(remainder(j)) <= max(NEGLIGIBLE*max(abs(resultant(j)), sum(abs(modes(:, j)*force))), &
-                                               ROUNDINGS*noise(j))
+      balanced = balanced .and. abs(remainder(j)) <= max(ROUNDINGS*noise(j), &
+                                               NEGLIGIBLE*max(abs(resultant(j)), sum(abs(modes(:, j)*force))))
     end do
   end function is_in_equilibrium
 
