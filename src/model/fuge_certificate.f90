@@ -16,6 +16,8 @@ module fuge_certificate
 
   !> A resultant may differ by the rounding of the largest force: so many units in its last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
+  !> Lengths left open count as resolved up to this fraction of the data.
+  real(dp), parameter :: RESOLVED = 1.0e-3_dp
 
   !> Violations, each relative to the data; no unit. Huge until they are known.
   type, public :: fuge_violation
@@ -28,6 +30,9 @@ module fuge_certificate
     real(dp) :: complementarity = huge(1.0_dp)
     !> Equilibrium, equation (11): R^T f - w; prescribed motions that q does not have.
     real(dp) :: equilibrium = huge(1.0_dp)
+    !> Forces that dwarf the data: lengths that they leave open, or that are their rounding, relative to gaps, plays and
+    !> the displacement by the load. 0 where that is no more than a thousandth.
+    real(dp) :: unresolved = huge(1.0_dp)
   contains
     procedure :: worst
   end type fuge_violation
@@ -39,7 +44,7 @@ contains
     class(fuge_violation), intent(in) :: self
     real(dp) :: worst
 
-    associate (parts => [self%gap_equation, self%sign, self%complementarity, self%equilibrium])
+    associate (parts => [self%gap_equation, self%sign, self%complementarity, self%equilibrium, self%unresolved])
       worst = maxval(parts)
       ! maxval may ignore a NaN, which must not pass for small.
       if (.not. all(parts <= huge(worst))) worst = huge(worst)
@@ -58,7 +63,8 @@ contains
   !> at the contact point of the least magnitude shows how exact v_0 is, and is compared with v_0
   !> and its terms; elsewhere the error less that one is compared with the magnitude. For several
   !> modes the whole error is. The rounding of the caller's own numbers, and that of R q, is not
-  !> counted. Forces are compared with the largest force of their body.
+  !> counted. Forces are compared with the largest force of their body. Because the magnitudes grow with the forces,
+  !> `unresolved` compares the same errors with the data alone.
   !>
   !> Errors: FUGE_ERR_SIZE if an array is missing or of the wrong length; FUGE_ERR_MEMORY; those of
   !> the product, FUGE_ERR_CALLBACK also for one that is not finite.
@@ -80,7 +86,7 @@ contains
     type(fuge_solution), intent(in) :: solution
     type(fuge_violation), intent(out) :: violation
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:)
+    real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:), elastic(:)
     logical, allocatable :: included(:)
     integer :: n, stat
 
@@ -91,7 +97,7 @@ contains
     ! Violations stay huge: a product with NaN would show nothing.
     if (.not. all(ieee_is_finite(solution%force))) return
     n = operator%points()
-    allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), included(n), stat=stat)
+    allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), elastic(n), included(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
       return
@@ -101,11 +107,10 @@ contains
 
     included = .true.
     if (allocated(problem%excluded)) included = .not. problem%excluded
-    call find_rigid_displacement(problem, solution, operator%datum()*sum(solution%force), rigid_displacement, &
-                                 rigid_magnitude)
-    call operator%magnitude(solution%force, error, magnitude)
+    call find_rigid_displacement(problem, solution, operator%datum(), rigid_displacement, rigid_magnitude)
+    call operator%magnitude(solution%force, error, elastic)
     error = (problem%gap - rigid_displacement) + error - solution%gap
-    magnitude = abs(problem%gap - rigid_displacement) + magnitude
+    magnitude = abs(problem%gap - rigid_displacement) + elastic
     if (allocated(problem%modes)) then
       ! Motions are solved for together: each is rounded like the largest magnitude of its body.
       rigid_magnitude = rigid_magnitude &
@@ -115,17 +120,21 @@ contains
                                            .not. allocated(problem%modes))
     call contact_violations(problem, solution, magnitude, included, violation)
     violation%equilibrium = equilibrium_violation(problem, solution)
+    violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included)
   end subroutine find_violation
 
-  !> R q - shift (n), and the magnitude of its terms. `shift` is the displacement by the datum.
-  pure subroutine find_rigid_displacement(problem, solution, shift, rigid_displacement, rigid_magnitude)
+  !> R q less the displacement by the `datum`, (n), and the magnitude of its terms.
+  pure subroutine find_rigid_displacement(problem, solution, datum, rigid_displacement, rigid_magnitude)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
-    real(dp), intent(in) :: shift
+    real(dp), intent(in) :: datum
     real(dp), intent(out) :: rigid_displacement(:), rigid_magnitude(:)
+    real(dp) :: shift
     integer :: j
 
-    rigid_magnitude = abs(shift)
+    shift = datum*sum(solution%force)
+    ! Forces of both signs may cancel in the sum, but not their rounding.
+    rigid_magnitude = abs(datum)*sum(abs(solution%force))
     if (allocated(problem%modes)) then
       rigid_displacement = -shift
       do j = 1, size(solution%motion)
@@ -175,6 +184,7 @@ contains
     logical, intent(in) :: included(:)
     type(fuge_violation), intent(inout) :: violation
     real(dp), allocatable :: body_forces(:)
+    logical, allocatable :: loaded(:)
     real(dp) :: largest, body_force, rounding, upper, stop_distance
     integer :: k
 
@@ -186,12 +196,14 @@ contains
     ! Not by assignment, for which gfortran compares bounds that are not there yet.
     if (allocated(problem%modes)) then
       allocate (body_forces, source=largest_of_bodies(problem%modes, abs(solution%force)))
+      allocate (loaded, source=is_loaded(problem))
     end if
     do k = 1, size(magnitude)
       if (allocated(body_forces)) body_force = body_forces(k)
       if (.not. body_force > 0.0_dp) body_force = largest
-      ! Beside the largest force, smaller ones of other bodies may be rounding.
+      ! Beside the largest force, smaller ones of other bodies may be rounding, but for those that carry a load.
       rounding = merge(ROUNDINGS*epsilon(rounding)*largest, 0.0_dp, body_force < largest)
+      if (allocated(loaded)) rounding = merge(0.0_dp, rounding, loaded(k))
       associate (f => solution%force(k), c => solution%gap(k))
         if (.not. included(k)) then
           violation%sign = max(violation%sign, relative(abs(f), largest))
@@ -226,31 +238,138 @@ contains
     end do
   end function largest_of_bodies
 
-  !> Equation (11) in the free modes; in the others q must be as prescribed. Forces are judged by
-  !> the largest one here too, because a resultant of zero may consist of rounding alone.
+  !> Does a resultant other than zero act on the point, (n), in some free mode that moves it?
+  pure function is_loaded(problem) result(loaded)
+    type(fuge_problem), intent(in) :: problem
+    logical :: loaded(size(problem%modes, 1))
+    integer :: j
+
+    loaded = .false.
+    do j = 1, size(problem%modes, 2)
+      if (is_prescribed(problem, j)) cycle
+      if (abs(problem%resultant(j)) > 0.0_dp) loaded = loaded .or. abs(problem%modes(:, j)) > 0.0_dp
+    end do
+  end function is_loaded
+
+  !> Equation (11) in the free modes; in the others q must be as prescribed. A resultant of zero may consist of rounding
+  !> alone: of the forces of its body, or of all forces if no load acts on the body.
   pure function equilibrium_violation(problem, solution) result(violation)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
-    real(dp) :: violation, largest, imbalance
+    real(dp) :: violation
     integer :: j
 
     violation = 0.0_dp
-    largest = maxval(abs(solution%force))
     do j = 1, problem%mode_count()
-      if (is_prescribed(problem, j)) then
-        violation = max(violation, relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
+      if (is_prescribed(problem, j)) violation = max(violation, &
+        relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
+    end do
+    if (allocated(problem%modes)) then
+      violation = max(violation, imbalance_in_modes(problem, solution%force))
+    else if (.not. is_prescribed(problem, 1)) then
+      violation = max(violation, relative(abs(sum(solution%force) - problem%resultant(1)), &
+                                          max(sum(abs(solution%force)), abs(problem%resultant(1)))))
+    end if
+  end function equilibrium_violation
+
+  !> Equation (11) in the free modes of a problem that has modes.
+  pure function imbalance_in_modes(problem, force) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:)
+    real(dp) :: violation
+    real(dp) :: body_forces(size(force)), largest, imbalance
+    logical :: loaded(size(force))
+    integer :: j
+
+    violation = 0.0_dp
+    body_forces = largest_of_bodies(problem%modes, abs(force))
+    loaded = is_loaded(problem)
+    do j = 1, size(problem%modes, 2)
+      if (is_prescribed(problem, j)) cycle
+      associate (mode => problem%modes(:, j), resultant => problem%resultant(j))
+        largest = maxval(abs(force))
+        if (any(loaded .and. abs(mode) > 0.0_dp)) largest = maxval(body_forces, mask=abs(mode) > 0.0_dp)
+        largest = ROUNDINGS*epsilon(largest)*maxval(abs(mode))*largest
+        imbalance = max(abs(sum(mode*force) - resultant) - largest, 0.0_dp)
+        violation = max(violation, relative(imbalance, max(sum(abs(mode*force)), abs(resultant))))
+      end associate
+    end do
+  end function imbalance_in_modes
+
+  !> The largest length that the forces leave open, as a fraction of the lengths in the data; 0 up to RESOLVED.
+  !>
+  !> `error` (n) of equation (9), `elastic` (n) the terms of A f, `rigid_magnitude` (n) those of the motions.
+  pure function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: error(:), elastic(:), rigid_magnitude(:)
+    logical, intent(in) :: included(:)
+    real(dp) :: violation
+    real(dp) :: open(size(error)), largest
+    integer :: k
+
+    violation = 0.0_dp
+    ! Forces that push with one load between them do not dwarf it.
+    if (problem%is_plain()) return
+    largest = maxval(abs(solution%force), mask=included)
+    if (.not. (any(included) .and. largest > 0.0_dp)) return
+    ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
+    open = max(abs(error) - 2.0_dp*epsilon(open)*(abs(problem%gap) + rigid_magnitude), epsilon(open)*elastic)
+    do k = 1, size(open)
+      open(k) = max(open(k), -solution%gap(k))
+      if (abs(solution%force(k)) <= sqrt(epsilon(open))*largest) cycle
+      open(k) = max(open(k), stop_distance_at(problem, solution, k))
+    end do
+    violation = relative(maxval(open, mask=included), data_length(problem, solution, elastic, included))
+    if (violation <= RESOLVED) violation = 0.0_dp
+  end function unresolved_lengths
+
+  !> How far a point with a force is from the stop that the force belongs to.
+  pure function stop_distance_at(problem, solution, k) result(distance)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    integer, intent(in) :: k
+    real(dp) :: distance
+
+    distance = abs(solution%gap(k))
+    if (.not. allocated(problem%gap_upper)) return
+    if (solution%force(k) < 0.0_dp) distance = abs(solution%gap(k) - min(problem%gap_upper(k), huge(distance)))
+  end function stop_distance_at
+
+  !> The lengths that the data have: the range of the gaps (their size, but for one translation) under the prescribed
+  !> motions, the plays, and what the loads displace.
+  !>
+  !> For the last, forces of the size of the loads displace `elastic` (n), the terms of A f, reduced accordingly.
+  pure function data_length(problem, solution, elastic, included) result(length)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: elastic(:)
+    logical, intent(in) :: included(:)
+    real(dp) :: length
+    real(dp) :: gap(size(elastic)), load, arm
+    integer :: j
+
+    gap = problem%gap
+    load = 0.0_dp
+    do j = 1, problem%mode_count()
+      arm = 1.0_dp
+      if (allocated(problem%modes)) arm = maxval(abs(problem%modes(:, j)), mask=included)
+      if (.not. is_prescribed(problem, j)) then
+        if (arm > 0.0_dp) load = max(load, abs(problem%resultant(j))/arm)
       else if (allocated(problem%modes)) then
-        imbalance = abs(sum(problem%modes(:, j)*solution%force) - problem%resultant(j))
-        ! The forces of other bodies may be so much larger that those of this one are their rounding.
-        imbalance = max(imbalance - ROUNDINGS*epsilon(imbalance)*maxval(abs(problem%modes(:, j)))*largest, 0.0_dp)
-        violation = max(violation, relative(imbalance, max(sum(abs(problem%modes(:, j)*solution%force)), &
-                                                         abs(problem%resultant(j)))))
+        gap = gap - problem%modes(:, j)*problem%motion(j)
       else
-        violation = max(violation, relative(abs(sum(solution%force) - problem%resultant(1)), &
-                                            max(sum(abs(solution%force)), abs(problem%resultant(1)))))
+        gap = gap - problem%motion(j)
       end if
     end do
-  end function equilibrium_violation
+    length = maxval(abs(gap), mask=included)
+    if (.not. allocated(problem%modes)) then
+      if (.not. is_prescribed(problem, 1)) length = maxval(gap, mask=included) - minval(gap, mask=included)
+    end if
+    if (allocated(problem%gap_upper)) length = max(length, &
+      maxval(problem%gap_upper, mask=included .and. problem%gap_upper < huge(length)))
+    length = length + min(load/sum(abs(solution%force)), 1.0_dp)*maxval(elastic, mask=included)
+  end function data_length
 
   pure function is_prescribed(problem, mode) result(prescribed)
     type(fuge_problem), intent(in) :: problem
