@@ -16,6 +16,8 @@ module fuge_certificate
 
   !> A resultant may differ by the rounding of the largest force: so many units in its last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
+  !> Forces dwarf the data if the terms of their displacements exceed the lengths of the data by one over this factor.
+  real(dp), parameter :: DWARFED = 1.0e-6_dp
   !> Lengths left open count as resolved up to this fraction of the data.
   real(dp), parameter :: RESOLVED = 1.0e-3_dp
 
@@ -305,7 +307,7 @@ contains
     real(dp), intent(in) :: error(:), elastic(:), rigid_magnitude(:)
     logical, intent(in) :: included(:)
     real(dp) :: violation
-    real(dp) :: open(size(error)), largest
+    real(dp) :: open(size(error)), largest, length
     integer :: k
 
     violation = 0.0_dp
@@ -320,7 +322,9 @@ contains
       if (abs(solution%force(k)) <= sqrt(epsilon(open))*largest) cycle
       open(k) = max(open(k), stop_distance_at(problem, solution, k))
     end do
-    violation = relative(maxval(open, mask=included), data_length(problem, solution, elastic, included))
+    length = data_length(problem, solution, elastic, included)
+    if (DWARFED*maxval(elastic, mask=included) <= length) return
+    violation = relative(maxval(open, mask=included), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
 

@@ -35,7 +35,7 @@ contains
     logical, intent(in) :: pushes(:), pulls(:)
     real(dp), intent(out) :: force(:), remainder(:)
     real(dp), intent(in), optional :: rounding(:)
-    real(dp) :: work(size(force)), noise(size(resultant))
+    real(dp) :: work(size(force)), noise(size(resultant)), rest(size(resultant)), least
     integer :: state(size(force)), newest, iteration
 
     noise = epsilon(noise)*maxval(abs(resultant))
@@ -45,13 +45,17 @@ contains
     remainder = resultant
     do iteration = 1, 20*(size(modes, 2) + 1) + size(force)
       if (is_in_equilibrium(modes, resultant, noise, force, remainder)) exit
+      ! The remainder is a difference, and so are these works.
+      rest = noise + epsilon(noise)*matmul(abs(force), abs(modes))
       work = matmul(modes, remainder)
+      least = max(NEGLIGIBLE*maxval(abs(remainder)), ROUNDINGS*maxval(rest))
+      where (abs(work) <= least*sum(abs(modes), dim=2)) work = 0.0_dp
       where (.not. pulls) work = max(work, 0.0_dp)
       where (.not. pushes) work = min(work, 0.0_dp)
       where (state /= FUGE_OPEN) work = 0.0_dp
       newest = maxloc(abs(work), dim=1)
-      if (abs(work(newest)) <= NEGLIGIBLE*maxval(abs(remainder))*sum(abs(modes(newest, :)))) then
-        if (proves_no_equilibrium(modes, resultant, noise, pushes, pulls, remainder)) return
+      if (abs(work(newest)) <= 0.0_dp) then
+        if (proves_no_equilibrium(modes, rest, pushes, pulls, remainder)) return
         exit
       end if
       state(newest) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, work(newest) > 0.0_dp)
@@ -75,9 +79,9 @@ contains
     end do
   end function is_in_equilibrium
 
-  !> Does no point close along the motion while the resultants do work?
-  pure function proves_no_equilibrium(modes, resultant, noise, pushes, pulls, motion) result(proves)
-    real(dp), intent(in) :: modes(:, :), resultant(:), noise(:), motion(:)
+  !> Does no point close along the motion, which is the remainder of the resultants, while these do work?
+  pure function proves_no_equilibrium(modes, noise, pushes, pulls, motion) result(proves)
+    real(dp), intent(in) :: modes(:, :), noise(:), motion(:)
     logical, intent(in) :: pushes(:), pulls(:)
     logical :: proves
     real(dp) :: closing, smallest
@@ -85,7 +89,8 @@ contains
 
     ! The motion is a difference of resultants and carries their rounding.
     smallest = max(PROOF*maxval(abs(motion)), ROUNDINGS*maxval(noise))
-    proves = dot_product(motion, resultant) > 0.0_dp
+    ! The resultants do the work |motion|**2, of which a sum of terms as large as these would leave rounding.
+    proves = any(abs(motion) > ROUNDINGS*noise)
     do k = 1, size(modes, 1)
       closing = dot_product(modes(k, :), motion)
       if (abs(closing) <= smallest*sum(abs(modes(k, :)))) cycle
