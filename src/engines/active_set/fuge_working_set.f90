@@ -182,23 +182,26 @@ contains
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     real(dp), intent(in) :: rigid_gap(:), magnitude(:), zero_force
-    real(dp) :: violation(size(rigid_gap)), scale(size(rigid_gap))
-    real(dp) :: beyond
+    real(dp) :: violation(size(rigid_gap))
+    real(dp) :: largest, beyond
     integer :: j
 
-    scale = canonical%force_scale(solution%force)
+    largest = maxval(abs(solution%force))
     violation = 0.0_dp
     do j = 1, size(violation)
       if (canonical%excluded(j) .or. .not. canonical%upper(j) > 0.0_dp) cycle
       associate (state => solution%state(j), force => solution%force(j), gap => solution%gap(j))
         if (state /= FUGE_OPEN) then
-          if (force*state < -zero_force) violation(j) = abs(force)/scale(j)
+          if (force*state < -zero_force) violation(j) = abs(force)/largest
         else
           beyond = max(-gap, gap - canonical%upper(j))
           if (beyond > 0.0_dp) violation(j) = beyond/max(abs(rigid_gap(j)) + magnitude(j), beyond)
         end if
       end associate
     end do
+    if (canonical%has_bodies() .and. largest > 0.0_dp) then
+      where (solution%state /= FUGE_OPEN) violation = violation*(largest/canonical%force_scale(solution%force))
+    end if
   end function violations
 
 end module fuge_working_set

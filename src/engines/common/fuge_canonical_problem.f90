@@ -59,6 +59,7 @@ module fuge_canonical_problem
     procedure :: to_given_modes
     procedure :: largest_load
     procedure :: force_scale
+    procedure :: has_bodies
     procedure :: transform_change
     procedure :: set_excluded_gaps
     procedure :: dominant_mode
@@ -191,6 +192,14 @@ contains
     load = 0.0_dp
     if (size(self%load) > 0) load = maxval(abs(self%load))
   end function largest_load
+
+  !> Are there several bodies, of which each may have a load of its own?
+  pure function has_bodies(self)
+    class(canonical_problem), intent(in) :: self
+    logical :: has_bodies
+
+    has_bodies = allocated(self%body)
+  end function has_bodies
 
   !> What forces (n) are compared with, (n): the largest force of the body if there is a load on it, else the largest of
   !> all, beside which they may be rounding.
