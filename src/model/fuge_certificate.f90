@@ -298,7 +298,9 @@ contains
     end do
   end function imbalance_in_modes
 
-  !> The largest length that the forces leave open, as a fraction of the lengths in the data; 0 up to RESOLVED.
+  !> The lengths that forces leave open where they dwarf the data, as a fraction of the lengths in the data; 0 up to
+  !> RESOLVED. Each point counts with its share of the forces, as in the work that they do: the terms of displacements may
+  !> be as large at a soft point beside a stiff one, but not where the forces are.
   !>
   !> `error` (n) of equation (9), `elastic` (n) the terms of A f, `rigid_magnitude` (n) those of the motions.
   pure function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included) result(violation)
@@ -307,24 +309,24 @@ contains
     real(dp), intent(in) :: error(:), elastic(:), rigid_magnitude(:)
     logical, intent(in) :: included(:)
     real(dp) :: violation
-    real(dp) :: open(size(error)), largest, length
+    real(dp) :: open(size(error)), share(size(error)), length
     integer :: k
 
     violation = 0.0_dp
     ! Forces that push with one load between them do not dwarf it.
     if (problem%is_plain()) return
-    largest = maxval(abs(solution%force), mask=included)
-    if (.not. (any(included) .and. largest > 0.0_dp)) return
+    share = merge(abs(solution%force), 0.0_dp, included)
+    if (.not. maxval(share) > 0.0_dp) return
+    share = share/maxval(share)
+    share = share/sum(share)
+    length = data_length(problem, solution, elastic, included)
+    if (DWARFED*sum(share*elastic) <= length) return
     ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
     open = max(abs(error) - 2.0_dp*epsilon(open)*(abs(problem%gap) + rigid_magnitude), epsilon(open)*elastic)
     do k = 1, size(open)
-      open(k) = max(open(k), -solution%gap(k))
-      if (abs(solution%force(k)) <= sqrt(epsilon(open))*largest) cycle
       open(k) = max(open(k), stop_distance_at(problem, solution, k))
     end do
-    length = data_length(problem, solution, elastic, included)
-    if (DWARFED*maxval(elastic, mask=included) <= length) return
-    violation = relative(maxval(open, mask=included), length)
+    violation = relative(sum(share*open), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
 
