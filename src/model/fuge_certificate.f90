@@ -3,6 +3,7 @@
 !> It shares no code with any engine but the call of the operator, and sees only the caller's data.
 module fuge_certificate
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_data_scales, only: data_length, is_loaded, is_prescribed, largest_of_bodies
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
@@ -227,32 +228,6 @@ contains
     end do
   end subroutine contact_violations
 
-  !> At each point, the largest of `values` (>= 0) among the points that some mode moves together
-  !> with it; 0 for a point that no mode moves.
-  pure function largest_of_bodies(modes, values) result(largest)
-    real(dp), intent(in) :: modes(:, :), values(:)
-    real(dp) :: largest(size(values))
-    integer :: j
-
-    largest = 0.0_dp
-    do j = 1, size(modes, 2)
-      where (abs(modes(:, j)) > 0.0_dp) largest = max(largest, maxval(values, mask=abs(modes(:, j)) > 0.0_dp))
-    end do
-  end function largest_of_bodies
-
-  !> Does a resultant other than zero act on the point, (n), in some free mode that moves it?
-  pure function is_loaded(problem) result(loaded)
-    type(fuge_problem), intent(in) :: problem
-    logical :: loaded(size(problem%modes, 1))
-    integer :: j
-
-    loaded = .false.
-    do j = 1, size(problem%modes, 2)
-      if (is_prescribed(problem, j)) cycle
-      if (abs(problem%resultant(j)) > 0.0_dp) loaded = loaded .or. abs(problem%modes(:, j)) > 0.0_dp
-    end do
-  end function is_loaded
-
   !> Equation (11) in the free modes; in the others q must be as prescribed. A resultant of zero may consist of rounding
   !> alone: of the forces of its body, or of all forces if no load acts on the body.
   pure function equilibrium_violation(problem, solution) result(violation)
@@ -299,8 +274,8 @@ contains
   end function imbalance_in_modes
 
   !> The lengths that forces leave open where they dwarf the data, as a fraction of the lengths in the data; 0 up to
-  !> RESOLVED. Each point counts with its share of the forces, as in the work that they do: the terms of displacements may
-  !> be as large at a soft point beside a stiff one, but not where the forces are.
+  !> RESOLVED. Each point counts with its share of the forces, as in the work that they do: the terms of displacements
+  !> may be as large at a soft point beside a stiff one, but not where the forces are.
   !>
   !> `error` (n) of equation (9), `elastic` (n) the terms of A f, `rigid_magnitude` (n) those of the motions.
   pure function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included) result(violation)
@@ -319,7 +294,7 @@ contains
     if (.not. maxval(share) > 0.0_dp) return
     share = share/maxval(share)
     share = share/sum(share)
-    length = data_length(problem, solution, elastic, included)
+    length = data_length(problem, solution%force, elastic, included)
     if (DWARFED*sum(share*elastic) <= length) return
     ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
     open = max(abs(error) - 2.0_dp*epsilon(open)*(abs(problem%gap) + rigid_magnitude), epsilon(open)*elastic)
@@ -341,50 +316,6 @@ contains
     if (.not. allocated(problem%gap_upper)) return
     if (solution%force(k) < 0.0_dp) distance = abs(solution%gap(k) - min(problem%gap_upper(k), huge(distance)))
   end function stop_distance_at
-
-  !> The lengths that the data have: the range of the gaps (their size, but for one translation) under the prescribed
-  !> motions, the plays, and what the loads displace.
-  !>
-  !> For the last, forces of the size of the loads displace `elastic` (n), the terms of A f, reduced accordingly.
-  pure function data_length(problem, solution, elastic, included) result(length)
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(in) :: solution
-    real(dp), intent(in) :: elastic(:)
-    logical, intent(in) :: included(:)
-    real(dp) :: length
-    real(dp) :: gap(size(elastic)), load, arm
-    integer :: j
-
-    gap = problem%gap
-    load = 0.0_dp
-    do j = 1, problem%mode_count()
-      arm = 1.0_dp
-      if (allocated(problem%modes)) arm = maxval(abs(problem%modes(:, j)), mask=included)
-      if (.not. is_prescribed(problem, j)) then
-        if (arm > 0.0_dp) load = max(load, abs(problem%resultant(j))/arm)
-      else if (allocated(problem%modes)) then
-        gap = gap - problem%modes(:, j)*problem%motion(j)
-      else
-        gap = gap - problem%motion(j)
-      end if
-    end do
-    length = maxval(abs(gap), mask=included)
-    if (.not. allocated(problem%modes)) then
-      if (.not. is_prescribed(problem, 1)) length = maxval(gap, mask=included) - minval(gap, mask=included)
-    end if
-    if (allocated(problem%gap_upper)) length = max(length, &
-      maxval(problem%gap_upper, mask=included .and. problem%gap_upper < huge(length)))
-    length = length + min(load/sum(abs(solution%force)), 1.0_dp)*maxval(elastic, mask=included)
-  end function data_length
-
-  pure function is_prescribed(problem, mode) result(prescribed)
-    type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: mode
-    logical :: prescribed
-
-    prescribed = .false.
-    if (allocated(problem%prescribed)) prescribed = problem%prescribed(mode)
-  end function is_prescribed
 
   !> Is every array allocated, and as long as the operator has points?
   pure function sizes_agree(operator, problem, solution)
