@@ -3,6 +3,7 @@
 !> It shares no code with any engine but the call of the operator, and sees only the caller's data.
 module fuge_certificate
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_data_scales, only: data_length, is_loaded, is_prescribed, largest_of_bodies
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
@@ -16,6 +17,10 @@ module fuge_certificate
 
   !> A resultant may differ by the rounding of the largest force: so many units in its last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
+  !> Forces dwarf the data if the terms of their displacements exceed the lengths of the data by one over this factor.
+  real(dp), parameter :: DWARFED = 1.0e-6_dp
+  !> Lengths left open count as resolved up to this fraction of the data.
+  real(dp), parameter :: RESOLVED = 1.0e-3_dp
 
   !> Violations, each relative to the data; no unit. Huge until they are known.
   type, public :: fuge_violation
@@ -28,6 +33,9 @@ module fuge_certificate
     real(dp) :: complementarity = huge(1.0_dp)
     !> Equilibrium, equation (11): R^T f - w; prescribed motions that q does not have.
     real(dp) :: equilibrium = huge(1.0_dp)
+    !> Forces that dwarf the data: lengths that they leave open, or that are their rounding, relative to gaps, plays and
+    !> the displacement by the load. 0 where that is no more than a thousandth.
+    real(dp) :: unresolved = huge(1.0_dp)
   contains
     procedure :: worst
   end type fuge_violation
@@ -39,7 +47,7 @@ contains
     class(fuge_violation), intent(in) :: self
     real(dp) :: worst
 
-    associate (parts => [self%gap_equation, self%sign, self%complementarity, self%equilibrium])
+    associate (parts => [self%gap_equation, self%sign, self%complementarity, self%equilibrium, self%unresolved])
       worst = maxval(parts)
       ! maxval may ignore a NaN, which must not pass for small.
       if (.not. all(parts <= huge(worst))) worst = huge(worst)
@@ -58,7 +66,8 @@ contains
   !> at the contact point of the least magnitude shows how exact v_0 is, and is compared with v_0
   !> and its terms; elsewhere the error less that one is compared with the magnitude. For several
   !> modes the whole error is. The rounding of the caller's own numbers, and that of R q, is not
-  !> counted. Forces are compared with the largest force of their body.
+  !> counted. Forces are compared with the largest force of their body. Because the magnitudes grow with the forces,
+  !> `unresolved` compares the same errors with the data alone.
   !>
   !> Errors: FUGE_ERR_SIZE if an array is missing or of the wrong length; FUGE_ERR_MEMORY; those of
   !> the product, FUGE_ERR_CALLBACK also for one that is not finite.
@@ -80,7 +89,7 @@ contains
     type(fuge_solution), intent(in) :: solution
     type(fuge_violation), intent(out) :: violation
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:)
+    real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:), elastic(:)
     logical, allocatable :: included(:)
     integer :: n, stat
 
@@ -91,7 +100,7 @@ contains
     ! Violations stay huge: a product with NaN would show nothing.
     if (.not. all(ieee_is_finite(solution%force))) return
     n = operator%points()
-    allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), included(n), stat=stat)
+    allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), elastic(n), included(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
       return
@@ -101,11 +110,10 @@ contains
 
     included = .true.
     if (allocated(problem%excluded)) included = .not. problem%excluded
-    call find_rigid_displacement(problem, solution, operator%datum()*sum(solution%force), rigid_displacement, &
-                                 rigid_magnitude)
-    call operator%magnitude(solution%force, error, magnitude)
+    call find_rigid_displacement(problem, solution, operator%datum(), rigid_displacement, rigid_magnitude)
+    call operator%magnitude(solution%force, error, elastic)
     error = (problem%gap - rigid_displacement) + error - solution%gap
-    magnitude = abs(problem%gap - rigid_displacement) + magnitude
+    magnitude = abs(problem%gap - rigid_displacement) + elastic
     if (allocated(problem%modes)) then
       ! Motions are solved for together: each is rounded like the largest magnitude of its body.
       rigid_magnitude = rigid_magnitude &
@@ -115,17 +123,21 @@ contains
                                            .not. allocated(problem%modes))
     call contact_violations(problem, solution, magnitude, included, violation)
     violation%equilibrium = equilibrium_violation(problem, solution)
+    violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included)
   end subroutine find_violation
 
-  !> R q - shift (n), and the magnitude of its terms. `shift` is the displacement by the datum.
-  pure subroutine find_rigid_displacement(problem, solution, shift, rigid_displacement, rigid_magnitude)
+  !> R q less the displacement by the `datum`, (n), and the magnitude of its terms.
+  pure subroutine find_rigid_displacement(problem, solution, datum, rigid_displacement, rigid_magnitude)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
-    real(dp), intent(in) :: shift
+    real(dp), intent(in) :: datum
     real(dp), intent(out) :: rigid_displacement(:), rigid_magnitude(:)
+    real(dp) :: shift
     integer :: j
 
-    rigid_magnitude = abs(shift)
+    shift = datum*sum(solution%force)
+    ! Forces of both signs may cancel in the sum, but not their rounding.
+    rigid_magnitude = abs(datum)*sum(abs(solution%force))
     if (allocated(problem%modes)) then
       rigid_displacement = -shift
       do j = 1, size(solution%motion)
@@ -175,6 +187,7 @@ contains
     logical, intent(in) :: included(:)
     type(fuge_violation), intent(inout) :: violation
     real(dp), allocatable :: body_forces(:)
+    logical, allocatable :: loaded(:)
     real(dp) :: largest, body_force, rounding, upper, stop_distance
     integer :: k
 
@@ -186,12 +199,14 @@ contains
     ! Not by assignment, for which gfortran compares bounds that are not there yet.
     if (allocated(problem%modes)) then
       allocate (body_forces, source=largest_of_bodies(problem%modes, abs(solution%force)))
+      allocate (loaded, source=is_loaded(problem))
     end if
     do k = 1, size(magnitude)
       if (allocated(body_forces)) body_force = body_forces(k)
       if (.not. body_force > 0.0_dp) body_force = largest
-      ! Beside the largest force, smaller ones of other bodies may be rounding.
+      ! Beside the largest force, smaller ones of other bodies may be rounding, but for those that carry a load.
       rounding = merge(ROUNDINGS*epsilon(rounding)*largest, 0.0_dp, body_force < largest)
+      if (allocated(loaded)) rounding = merge(0.0_dp, rounding, loaded(k))
       associate (f => solution%force(k), c => solution%gap(k))
         if (.not. included(k)) then
           violation%sign = max(violation%sign, relative(abs(f), largest))
@@ -213,53 +228,94 @@ contains
     end do
   end subroutine contact_violations
 
-  !> At each point, the largest of `values` (>= 0) among the points that some mode moves together
-  !> with it; 0 for a point that no mode moves.
-  pure function largest_of_bodies(modes, values) result(largest)
-    real(dp), intent(in) :: modes(:, :), values(:)
-    real(dp) :: largest(size(values))
-    integer :: j
-
-    largest = 0.0_dp
-    do j = 1, size(modes, 2)
-      where (abs(modes(:, j)) > 0.0_dp) largest = max(largest, maxval(values, mask=abs(modes(:, j)) > 0.0_dp))
-    end do
-  end function largest_of_bodies
-
-  !> Equation (11) in the free modes; in the others q must be as prescribed. Forces are judged by
-  !> the largest one here too, because a resultant of zero may consist of rounding alone.
+  !> Equation (11) in the free modes; in the others q must be as prescribed. A resultant of zero may consist of rounding
+  !> alone: of the forces of its body, or of all forces if no load acts on the body.
   pure function equilibrium_violation(problem, solution) result(violation)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
-    real(dp) :: violation, largest, imbalance
+    real(dp) :: violation
     integer :: j
 
     violation = 0.0_dp
-    largest = maxval(abs(solution%force))
     do j = 1, problem%mode_count()
-      if (is_prescribed(problem, j)) then
-        violation = max(violation, relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
-      else if (allocated(problem%modes)) then
-        imbalance = abs(sum(problem%modes(:, j)*solution%force) - problem%resultant(j))
-        ! The forces of other bodies may be so much larger that those of this one are their rounding.
-        imbalance = max(imbalance - ROUNDINGS*epsilon(imbalance)*maxval(abs(problem%modes(:, j)))*largest, 0.0_dp)
-        violation = max(violation, relative(imbalance, max(sum(abs(problem%modes(:, j)*solution%force)), &
-                                                         abs(problem%resultant(j)))))
-      else
-        violation = max(violation, relative(abs(sum(solution%force) - problem%resultant(1)), &
-                                            max(sum(abs(solution%force)), abs(problem%resultant(1)))))
-      end if
+      if (is_prescribed(problem, j)) violation = max(violation, &
+        relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
     end do
+    if (allocated(problem%modes)) then
+      violation = max(violation, imbalance_in_modes(problem, solution%force))
+    else if (.not. is_prescribed(problem, 1)) then
+      violation = max(violation, relative(abs(sum(solution%force) - problem%resultant(1)), &
+                                          max(sum(abs(solution%force)), abs(problem%resultant(1)))))
+    end if
   end function equilibrium_violation
 
-  pure function is_prescribed(problem, mode) result(prescribed)
+  !> Equation (11) in the free modes of a problem that has modes.
+  pure function imbalance_in_modes(problem, force) result(violation)
     type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: mode
-    logical :: prescribed
+    real(dp), intent(in) :: force(:)
+    real(dp) :: violation
+    real(dp) :: body_forces(size(force)), largest, imbalance
+    logical :: loaded(size(force))
+    integer :: j
 
-    prescribed = .false.
-    if (allocated(problem%prescribed)) prescribed = problem%prescribed(mode)
-  end function is_prescribed
+    violation = 0.0_dp
+    body_forces = largest_of_bodies(problem%modes, abs(force))
+    loaded = is_loaded(problem)
+    do j = 1, size(problem%modes, 2)
+      if (is_prescribed(problem, j)) cycle
+      associate (mode => problem%modes(:, j), resultant => problem%resultant(j))
+        largest = maxval(abs(force))
+        if (any(loaded .and. abs(mode) > 0.0_dp)) largest = maxval(body_forces, mask=abs(mode) > 0.0_dp)
+        largest = ROUNDINGS*epsilon(largest)*maxval(abs(mode))*largest
+        imbalance = max(abs(sum(mode*force) - resultant) - largest, 0.0_dp)
+        violation = max(violation, relative(imbalance, max(sum(abs(mode*force)), abs(resultant))))
+      end associate
+    end do
+  end function imbalance_in_modes
+
+  !> The lengths that forces leave open where they dwarf the data, as a fraction of the lengths in the data; 0 up to
+  !> RESOLVED. Each point counts with its share of the forces, as in the work that they do: the terms of displacements
+  !> may be as large at a soft point beside a stiff one, but not where the forces are.
+  !>
+  !> `error` (n) of equation (9), `elastic` (n) the terms of A f, `rigid_magnitude` (n) those of the motions.
+  pure function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: error(:), elastic(:), rigid_magnitude(:)
+    logical, intent(in) :: included(:)
+    real(dp) :: violation
+    real(dp) :: open(size(error)), share(size(error)), length
+    integer :: k
+
+    violation = 0.0_dp
+    ! Forces that push with one load between them do not dwarf it.
+    if (problem%is_plain()) return
+    share = merge(abs(solution%force), 0.0_dp, included)
+    if (.not. maxval(share) > 0.0_dp) return
+    share = share/maxval(share)
+    share = share/sum(share)
+    length = data_length(problem, solution%force, elastic, included)
+    if (DWARFED*sum(share*elastic) <= length) return
+    ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
+    open = max(abs(error) - 2.0_dp*epsilon(open)*(abs(problem%gap) + rigid_magnitude), epsilon(open)*elastic)
+    do k = 1, size(open)
+      open(k) = max(open(k), stop_distance_at(problem, solution, k))
+    end do
+    violation = relative(sum(share*open), length)
+    if (violation <= RESOLVED) violation = 0.0_dp
+  end function unresolved_lengths
+
+  !> How far a point with a force is from the stop that the force belongs to.
+  pure function stop_distance_at(problem, solution, k) result(distance)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    integer, intent(in) :: k
+    real(dp) :: distance
+
+    distance = abs(solution%gap(k))
+    if (.not. allocated(problem%gap_upper)) return
+    if (solution%force(k) < 0.0_dp) distance = abs(solution%gap(k) - min(problem%gap_upper(k), huge(distance)))
+  end function stop_distance_at
 
   !> Is every array allocated, and as long as the operator has points?
   pure function sizes_agree(operator, problem, solution)

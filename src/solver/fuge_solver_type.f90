@@ -366,7 +366,11 @@ contains
     if (info%failed()) return
     info%contacts = count(abs(solution%force) > 0.0_dp)
     info%residual = violation%worst()
-    if (info%residual > tolerance) then
+    if (violation%unresolved > tolerance) then
+      call report(info, FUGE_WARN_RESIDUAL, 'the forces reach '//text(maxval(abs(solution%force)))//' and dwarf the ' &
+                  //'data: lengths are off by '//text(violation%unresolved)//' of the gaps; look for missing ' &
+                  //'rigid motions, or for gaps that no forces can close or open')
+    else if (info%residual > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the tolerance ' &
                   //text(tolerance)//': the operator may be too badly conditioned for double precision')
     end if

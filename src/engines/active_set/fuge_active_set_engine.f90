@@ -13,12 +13,16 @@ module fuge_active_set_engine
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NOT_DEFINITE
+  use fuge_unbounded_forces, only: forces_are_unbounded
   use fuge_unresisted_motions, only: find_unresisted_motion
   implicit none
   private
 
   public :: solve_by_active_set, solve_from_set
+
+  !> Ratio of the pivots above which forces are checked for energy.
+  real(dp), parameter :: NEARLY_SINGULAR = 1.0e8_dp
 
 contains
 
@@ -82,6 +86,10 @@ contains
       sets = sets + more
     end if
     call explain_status(status, limit, count(solution%state /= FUGE_OPEN), info)
+    if (status == FUGE_DONE .and. (factor%pivot_ratio > NEARLY_SINGULAR .or. factor%regularisation > 0.0_dp)) then
+      call refuse_unbounded(canonical, solution, info)
+      if (info%failed()) return
+    end if
     if (status == FUGE_DONE .and. factor%regularisation > 0.0_dp) then
       call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
                   //'the forces are not; those given are near the least squares')
@@ -89,6 +97,18 @@ contains
       call report_unresisted_motion(canonical, solution, info)
     end if
   end subroutine solve_from_set
+
+  !> Refuse forces that would have to grow without bound (FUGE_ERR_NOT_DEFINITE).
+  pure subroutine refuse_unbounded(canonical, solution, info)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_solution), intent(in) :: solution
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. forces_are_unbounded(canonical, solution)) return
+    call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is singular, and there is no solution: forces that store no ' &
+                //'energy, the largest at point '//index_text(maxloc(abs(solution%force), dim=1)) &
+                //', cannot move the points to their stops; free the rigid motion that can, or change the gaps')
+  end subroutine refuse_unbounded
 
   !> Warn of a motion that the contact does not resist, by the mode that dominates it.
   subroutine report_unresisted_motion(canonical, solution, info)

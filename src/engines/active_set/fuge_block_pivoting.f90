@@ -162,6 +162,8 @@ contains
       if (canonical%plain) then
         motion(1) = translation_at_shallowest(alpha, datum, set%reduced_gap, state /= FUGE_OPEN, force, motion(1))
       end if
+      ! A motion is rounding then.
+      if (set%has_no_length(canonical)) motion = 0.0_dp
       gap = set%reduced_gap - rigid_displacement(canonical%modes, motion)
       call add_elastic_displacement(alpha, datum, state /= FUGE_OPEN, force, gap)
       where (.not. canonical%excluded) gap = min(max(gap, 0.0_dp), upper)

@@ -353,18 +353,46 @@ contains
     singular = .false.
     if (p < 1) return
     if (m > 0) call dsyrk('L', 'T', p, m, -1.0_dp, self%border, m, 1.0_dp, self%schur, limit)
+    call check_added(self, diagonal, singular)
     call add_soft_springs(self, alpha)
-    do j = 1, p
-      if (self%keys(j) < 0 .or. is_mode(self, self%keys(j))) cycle
-      singular = singular .or. self%schur(j, j) <= PIVOT_TOLERANCE*real(m, dp)*diagonal(j)
-      if (.not. singular) self%pivot_ratio = max(self%pivot_ratio, diagonal(j)/self%schur(j, j))
-    end do
     if (singular) return
     call dsytrf('L', p, self%schur, limit, self%pivots, work, size(work), info)
     singular = info /= 0
     if (.not. singular) singular = negative_eigenvalues(self) /= count(self%keys(:p) < 0 .or. &
                                                                  is_mode(self, self%keys(:p)))
   end subroutine factor_schur
+
+  !> Are the points added singular beyond the base set, one by one or together? Their block of the Schur complement has
+  !> a Cholesky factor with pivots beyond rounding if not. `diagonal` (borders) is that of alpha.
+  subroutine check_added(self, diagonal, singular)
+    class(kkt_factor), intent(inout) :: self
+    real(dp), intent(in) :: diagonal(:)
+    logical, intent(out) :: singular
+    real(dp), allocatable :: block(:, :)
+    integer :: added(count(self%keys(:self%borders) > 0 .and. .not. is_mode(self, self%keys(:self%borders))))
+    integer :: i, j, points, info
+
+    singular = .false.
+    if (size(added) < 1) return
+    added = pack([(j, j=1, self%borders)], &
+                 self%keys(:self%borders) > 0 .and. .not. is_mode(self, self%keys(:self%borders)))
+    allocate (block(size(added), size(added)), stat=info)
+    singular = info /= 0
+    if (singular) return
+    do j = 1, size(added)
+      do i = j, size(added)
+        block(i, j) = self%schur(max(added(i), added(j)), min(added(i), added(j)))
+      end do
+    end do
+    call dpotrf('L', size(added), block, size(added), info)
+    singular = info /= 0
+    points = size(self%base_set) + size(added)
+    do j = 1, size(added)
+      if (singular) return
+      singular = block(j, j)**2 <= PIVOT_TOLERANCE*real(points, dp)*diagonal(added(j))
+      if (.not. singular) self%pivot_ratio = max(self%pivot_ratio, diagonal(added(j))/block(j, j)**2)
+    end do
+  end subroutine check_added
 
   !> Several modes may be more than a contact set can resist; soft springs resist those left. One translation is always
   !> resisted.
@@ -384,7 +412,9 @@ contains
       do j = 1, size(self%position)
         largest = max(largest, abs(alpha(j, j)))
       end do
-      if (largest > 0.0_dp) largest = 1.0_dp/largest
+      ! Where alpha is zero, no spring is too stiff.
+      if (.not. largest > 0.0_dp) largest = 1.0_dp
+      largest = 1.0_dp/largest
     end if
     do j = 1, self%borders
       if (.not. is_mode(self, self%keys(j))) cycle

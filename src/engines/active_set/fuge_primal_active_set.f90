@@ -36,8 +36,8 @@ contains
     type(contact_solution), intent(inout) :: solution
     integer, intent(inout) :: iterations
     integer, intent(out) :: status
-    real(dp) :: force(size(solution%state)), previous(size(solution%state)), rounding
-    logical :: locked(size(solution%state)), tied(size(solution%state))
+    real(dp) :: force(size(solution%state)), previous(size(solution%state)), rounding(size(solution%state))
+    logical :: locked(size(solution%state)), tied(size(solution%state)), lenient
     integer :: newest, stalls
 
     tied = canonical%is_tied()
@@ -45,6 +45,7 @@ contains
     locked = .false.
     newest = 0
     stalls = 0
+    lenient = .false.
     do
       call factor%set(canonical, solution%state /= FUGE_OPEN, status)
       if (status /= FUGE_DONE) return
@@ -54,7 +55,7 @@ contains
       call set%measure(canonical, .true., solution)
       call tell_monitor(monitor, iterations, maxval(set%violation), count(solution%state /= FUGE_OPEN), status)
       if (status /= FUGE_DONE .or. all(set%violation <= SIGN_TOLERANCE)) return
-      rounding = tension_by_rounding(canonical, set, solution, stalls)
+      rounding = tension_by_rounding(canonical, set, solution, lenient .or. stalls > size(force))
       previous = force
       if (any(is_tensile(solution%force, rounding, solution%state, tied))) then
         call step_to_blocking(solution%force, rounding, tied, solution%state, force, newest, locked)
@@ -62,8 +63,16 @@ contains
         force = solution%force
         if (newest > 0) locked = locked .and. locked(newest)
         newest = entering_point(canonical, set, solution, locked, stalls)
-        if (newest == 0) return
-        solution%state(newest) = joined_stop(solution%gap(newest), canonical%upper(newest))
+        if (newest > 0) then
+          solution%state(newest) = joined_stop(solution%gap(newest), canonical%upper(newest))
+        else if (lenient .or. .not. any(locked)) then
+          return
+        else
+          ! What locked the points out was more than SIGN_TOLERANCE, yet rounding: of resultants near the edge of those
+          ! that the contact can carry.
+          lenient = .true.
+          locked = .false.
+        end if
       end if
       stalls = merge(stalls + 1, 0, maxval(abs(force - previous)) <= NOISE*maxval(abs(force)))
       if (iterations >= limit) then
@@ -81,20 +90,19 @@ contains
     state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, gap < 0.5_dp*upper)
   end function joined_stop
 
-  !> Tension that counts as rounding at a point that may alone resist a rigid mode; without that point the
-  !> set would be wrong. Zero for one translation, which any point resists. Larger where forces have not changed for
-  !> long, because rounding may then lead in a circle.
-  pure function tension_by_rounding(canonical, set, solution, stalls) result(rounding)
+  !> Tension (n) that counts as rounding at a point that may alone resist a rigid mode; without that point the
+  !> set would be wrong. Zero for one translation, which any point resists. Larger if `lenient`, where rounding has led
+  !> nowhere or may lead in a circle.
+  pure function tension_by_rounding(canonical, set, solution, lenient) result(rounding)
     type(canonical_problem), intent(in) :: canonical
     type(working_set), intent(in) :: set
     type(contact_solution), intent(in) :: solution
-    integer, intent(in) :: stalls
-    real(dp) :: rounding
+    logical, intent(in) :: lenient
+    real(dp) :: rounding(size(solution%force))
 
     rounding = 0.0_dp
     if (canonical%plain) return
-    rounding = merge(NOISE, SIGN_TOLERANCE, stalls > size(solution%state))
-    rounding = max(rounding*maxval(abs(solution%force)), set%zero_force)
+    rounding = max(merge(NOISE, SIGN_TOLERANCE, lenient)*canonical%force_scale(solution%force), set%zero_force)
   end function tension_by_rounding
 
   !> The open point furthest beyond a stop, 0 if there is none. After many stalls the one of the least index, which

@@ -33,6 +33,7 @@ module fuge_working_set
     procedure :: solve
     procedure :: refine
     procedure :: measure
+    procedure :: has_no_length
     procedure, private :: gap_at_stops
   end type working_set
 
@@ -80,7 +81,9 @@ contains
         length = max(length, -reduced_gap(k), reduced_gap(k) - canonical%upper(k))
       end if
     end do
-    if (largest > 0.0_dp) zero_force = SIGN_TOLERANCE*(length/largest)
+    ! Where alpha is zero, the factor regularises it by such a coefficient.
+    if (.not. largest > 0.0_dp) largest = 1.0e-12_dp
+    zero_force = SIGN_TOLERANCE*(length/largest)
   end function rounding_force
 
   !> Count gaps from where the bodies meet under `motion` (m): one point far below the others would cost
@@ -129,6 +132,24 @@ contains
                          solution%state /= FUGE_OPEN, solution%force, solution%motion)
   end subroutine refine
 
+  !> Does the problem have no length at all, neither gaps nor plays nor displacements?
+  pure function has_no_length(self, canonical)
+    class(working_set), intent(in) :: self
+    type(canonical_problem), intent(in) :: canonical
+    logical :: has_no_length
+    integer :: k, n
+
+    n = size(self%reduced_gap)
+    has_no_length = .true.
+    do k = 1, n
+      if (canonical%excluded(k)) cycle
+      has_no_length = abs(self%reduced_gap(k)) <= 0.0_dp
+      if (canonical%upper(k) < huge(1.0_dp)) has_no_length = has_no_length .and. canonical%upper(k) <= 0.0_dp
+      if (has_no_length) has_no_length = all(abs(canonical%alpha(:n, k) - canonical%datum) <= 0.0_dp)
+      if (.not. has_no_length) return
+    end do
+  end function has_no_length
+
   !> Gaps that follow from forces and motion, and the violations. Lengths are compared with all
   !> that displaces the point if `exact`, else with the contribution of the largest force, which costs one column.
   pure subroutine measure(self, canonical, exact, solution)
@@ -151,7 +172,8 @@ contains
     self%violation = violations(canonical, solution, rigid_gap, magnitude, self%zero_force)
   end subroutine measure
 
-  !> Forces of the wrong sign as fractions of the largest force, and gaps beyond a stop as fractions of a length.
+  !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a
+  !> length.
   !>
   !> `rigid_gap` (n) is the gap less the rigid displacement, which the elastic displacement has to make up
   !> for at a point in contact; `magnitude` (n) the size of the terms of that displacement. Tied and
@@ -177,6 +199,9 @@ contains
         end if
       end associate
     end do
+    if (canonical%has_bodies() .and. largest > 0.0_dp) then
+      where (solution%state /= FUGE_OPEN) violation = violation*(largest/canonical%force_scale(solution%force))
+    end if
   end function violations
 
 end module fuge_working_set

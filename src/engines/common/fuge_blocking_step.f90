@@ -37,10 +37,10 @@ contains
   !> Go towards the target forces until the first becomes zero; that point opens. A point that has just joined and
   !> whose target is tensile joined by rounding: it is locked out until the forces have changed.
   !>
-  !> All (n). `noise` >= 0 is a force that is rounding; `tied` points may pull; `state` and `force` of the working
+  !> All (n). Forces up to `noise` >= 0 are rounding; `tied` points may pull; `state` and `force` of the working
   !> set; `newest` the point that has just joined, or 0; `locked` points must not join again.
   pure subroutine step_to_blocking(target, noise, tied, state, force, newest, locked)
-    real(dp), intent(in) :: target(:), noise
+    real(dp), intent(in) :: target(:), noise(:)
     logical, intent(in) :: tied(:)
     integer, intent(inout) :: state(:)
     logical, intent(inout) :: locked(:)
@@ -51,8 +51,8 @@ contains
 
     k = 0
     if (newest > 0) then
-      if (is_tensile(target(newest), noise, state(newest), tied(newest)) .and. .not. abs(force(newest)) > 0.0_dp) then
-        k = newest
+      if (is_tensile(target(newest), noise(newest), state(newest), tied(newest))) then
+        if (.not. abs(force(newest)) > 0.0_dp) k = newest
       end if
     end if
     if (k > 0) then

@@ -6,9 +6,8 @@
 module fuge_canonical_problem
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgesv
   use fuge_number_text, only: index_text, text
-  use fuge_pivoted_qr, only: orthonormalise, orthonormalise_in_order
+  use fuge_orthogonal_modes, only: bodies_of_modes, make_orthogonal, mode_change, mode_fault
   use fuge_problem_type, only: fuge_problem
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
@@ -16,10 +15,10 @@ module fuge_canonical_problem
 
   public :: make_canonical
 
-  !> A mode is linearly dependent on the others if its remainder after projection is below this fraction.
-  real(dp), parameter :: DEPENDENT = 1.0e-12_dp
-  !> The constant vector lies in the span of the modes if its remainder is below this fraction.
-  real(dp), parameter :: CONSTANT_TOLERANCE = 1.0e-13_dp
+  !> A load may miss the edge of what the contact can carry by so many units in its last place.
+  real(dp), parameter :: ROUNDINGS = 16.0_dp
+  !> A force below this fraction of the largest may be due to such rounding.
+  real(dp), parameter :: NO_FORCE = 1.0e-10_dp
 
   !> c = gap + alpha f - modes q with R^T f = load; see `fuge_problem` for the conditions on f and c.
   type, public :: canonical_problem
@@ -42,9 +41,11 @@ module fuge_canonical_problem
     real(dp), allocatable :: feasible_force(:)
     !> The paper's problem: one translation, one-sided, all points.
     logical :: plain = .false.
-    !> Positions of the free modes among all, and their columns of R as modes*basis_change.
+    !> Number of the body of each point, (n), 0 for a point that no mode moves; not allocated for one body.
+    integer, allocatable, private :: body(:)
+    !> Positions of the free modes among all, and how to get from `modes` to those given.
     integer, allocatable, private :: free(:)
-    real(dp), allocatable, private :: basis_change(:, :)
+    type(mode_change), private :: change
     !> Columns of R whose motion is prescribed, (n, m), zero where free; not allocated if there are none.
     real(dp), allocatable, private :: prescribed_modes(:, :)
     logical, allocatable, private :: prescribed(:)
@@ -57,6 +58,8 @@ module fuge_canonical_problem
     procedure :: is_tied
     procedure :: to_given_modes
     procedure :: largest_load
+    procedure :: force_scale
+    procedure :: has_bodies
     procedure :: transform_change
     procedure :: set_excluded_gaps
     procedure :: dominant_mode
@@ -84,7 +87,7 @@ contains
       canonical%free = [(j, j=1, problem%mode_count())]
       if (allocated(problem%prescribed)) canonical%free = pack(canonical%free, .not. problem%prescribed)
       m = size(canonical%free)
-      allocate (canonical%modes(n, m), canonical%load(m), canonical%basis_change(m, m), stat=stat)
+      allocate (canonical%modes(n, m), canonical%load(m), stat=stat)
     end if
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
@@ -95,10 +98,9 @@ contains
     if (.not. allocated(problem%modes)) then
       canonical%has_translation = m == 1
       canonical%modes = 1.0_dp
-      canonical%basis_change = 1.0_dp
       if (m == 1) canonical%load = problem%resultant
     else if (m > 0) then
-      call orthogonalise(problem%modes(:, canonical%free), problem%resultant(canonical%free), canonical, info)
+      call orthogonalise(problem%modes(:, canonical%free), canonical, info)
     end if
     if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info)
   end subroutine make_canonical
@@ -135,134 +137,24 @@ contains
     if (allocated(problem%modes)) canonical%excluded_rows = problem%modes(canonical%excluded_points, :)
   end subroutine collect_excluded
 
-  !> Replace the free modes `columns` (n, m) by modes of equal size that are orthogonal at the points that take part;
-  !> the first is the constant 1 if that lies in their span.
-  subroutine orthogonalise(columns, resultant, canonical, info)
-    real(dp), intent(in) :: columns(:, :), resultant(:)
+  !> Replace the free modes `columns` (n, m) by orthogonal ones.
+  subroutine orthogonalise(columns, canonical, info)
+    real(dp), intent(in) :: columns(:, :)
     type(canonical_problem), intent(inout) :: canonical
     type(fuge_info), intent(inout) :: info
-    real(dp) :: scales(size(columns, 2)), basis(size(columns, 1), size(columns, 2))
-    integer :: order(size(columns, 2)), m, rank, replaced, stat
+    type(mode_fault) :: fault
 
-    m = size(columns, 2)
-    basis = columns
-    where (spread(canonical%excluded, 2, m)) basis = 0.0_dp
-    scales = maxval(abs(basis), dim=1)
-    if (any(.not. scales > 0.0_dp)) then
-      call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(minloc(scales, dim=1)))//' moves no point')
-      return
-    end if
-    basis = basis/spread(scales, 1, size(basis, 1))
-    if (is_orthogonal(basis)) then
-      ! With several bodies, combining the modes would cost the smallest resultant its digits.
-      call keep_modes(basis, scales, resultant, canonical)
-      return
-    end if
-    call orthonormalise(basis, DEPENDENT, order, rank, stat)
-    if (stat /= 0) then
+    call make_orthogonal(columns, canonical%excluded, canonical%modes, canonical%change, canonical%has_translation, &
+                         fault)
+    if (fault%stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
-      return
-    else if (rank < m) then
-      call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(order(rank + 1))) &
+    else if (fault%idle > 0) then
+      call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(fault%idle))//' moves no point')
+    else if (fault%dependent > 0) then
+      call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(fault%dependent)) &
                   //' is a combination of the other modes: leave it out')
-      return
     end if
-    call replace_by_constant(basis, canonical%excluded, replaced)
-    canonical%has_translation = replaced > 0
-    if (canonical%has_translation) then
-      basis = cshift(basis, replaced - 1, dim=2)
-      call orthonormalise_in_order(basis, stat)
-      if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
-        return
-      end if
-    end if
-    ! A point that no mode moves must stay so in spite of rounding: its force contributes to no resultant.
-    where (spread(all(abs(columns) <= 0.0_dp, dim=2), 2, m)) basis = 0.0_dp
-    basis = basis*sqrt(real(count(.not. canonical%excluded), dp))
-    if (canonical%has_translation) basis(:, 1) = merge(0.0_dp, 1.0_dp, canonical%excluded)
-    canonical%modes = basis
-    canonical%basis_change = matmul(transpose(basis), columns)/real(count(.not. canonical%excluded), dp)
-    call solve_small(transpose(canonical%basis_change), resultant, canonical%load)
   end subroutine orthogonalise
-
-  !> Are the columns orthogonal to each other?
-  pure function is_orthogonal(matrix) result(orthogonal)
-    real(dp), intent(in) :: matrix(:, :)
-    logical :: orthogonal
-    integer :: i, j
-
-    orthogonal = .true.
-    do j = 2, size(matrix, 2)
-      do i = 1, j - 1
-        orthogonal = orthogonal .and. abs(dot_product(matrix(:, i), matrix(:, j))) &
-                     <= DEPENDENT*norm2(matrix(:, i))*norm2(matrix(:, j))
-      end do
-    end do
-  end function is_orthogonal
-
-  !> Keep orthogonal modes, `columns` (n, m) divided by `scales` (m), but for their size; a constant one becomes the
-  !> first.
-  pure subroutine keep_modes(columns, scales, resultant, canonical)
-    real(dp), intent(in) :: columns(:, :), scales(:), resultant(:)
-    type(canonical_problem), intent(inout) :: canonical
-    real(dp) :: unit
-    integer :: first, j, m, position
-
-    m = size(scales)
-    first = 0
-    do j = m, 1, -1
-      if (is_constant(columns(:, j), canonical%excluded)) first = j
-    end do
-    canonical%has_translation = first > 0
-    canonical%basis_change = 0.0_dp
-    do j = 1, m
-      ! A cyclic shift brings the constant mode to the front.
-      position = modulo(j - max(first, 1), m) + 1
-      unit = norm2(columns(:, j))/sqrt(real(count(.not. canonical%excluded), dp))
-      ! The constant is 1, not -1.
-      if (j == first .and. any(columns(:, j) < 0.0_dp)) unit = -unit
-      canonical%modes(:, position) = columns(:, j)/unit
-      if (j == first) canonical%modes(:, position) = merge(0.0_dp, 1.0_dp, canonical%excluded)
-      canonical%basis_change(position, j) = scales(j)*unit
-      canonical%load(position) = resultant(j)/(scales(j)*unit)
-    end do
-  end subroutine keep_modes
-
-  pure function is_constant(values, excluded)
-    real(dp), intent(in) :: values(:)
-    logical, intent(in) :: excluded(:)
-    logical :: is_constant
-
-    is_constant = minval(values, mask=.not. excluded) >= maxval(values, mask=.not. excluded)
-  end function is_constant
-
-  !> Replace a column of an orthonormal basis by the constant vector if that lies in its span; `column` is 0 if it does
-  !> not.
-  pure subroutine replace_by_constant(basis, excluded, column)
-    real(dp), intent(inout) :: basis(:, :)
-    logical, intent(in) :: excluded(:)
-    integer, intent(out) :: column
-    real(dp) :: ones(size(basis, 1)), components(size(basis, 2))
-
-    ones = merge(0.0_dp, 1.0_dp, excluded)
-    components = matmul(ones, basis)
-    column = 0
-    if (maxval(abs(ones - matmul(basis, components))) > CONSTANT_TOLERANCE*real(size(basis, 1), dp)) return
-    column = maxloc(abs(components), dim=1)
-    basis(:, column) = ones/sqrt(sum(ones))
-  end subroutine replace_by_constant
-
-  subroutine solve_small(matrix, right, solution)
-    real(dp), intent(in) :: matrix(:, :), right(:)
-    real(dp), intent(out) :: solution(:)
-    real(dp) :: copy(size(matrix, 1), size(matrix, 2))
-    integer :: pivots(size(right)), info
-
-    copy = matrix
-    solution = right
-    call dgesv(size(right), 1, copy, size(right), pivots, solution, size(right), info)
-  end subroutine solve_small
 
   !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero.
   subroutine set_matrix(self, alpha, datum)
@@ -301,18 +193,42 @@ contains
     if (size(self%load) > 0) load = maxval(abs(self%load))
   end function largest_load
 
+  !> Are there several bodies, of which each may have a load of its own?
+  pure function has_bodies(self)
+    class(canonical_problem), intent(in) :: self
+    logical :: has_bodies
+
+    has_bodies = allocated(self%body)
+  end function has_bodies
+
+  !> What forces (n) are compared with, (n): the largest force of the body if there is a load on it, else the largest of
+  !> all, beside which they may be rounding.
+  pure function force_scale(self, force) result(scale)
+    class(canonical_problem), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    real(dp) :: scale(size(force))
+    integer :: j
+
+    scale = maxval(abs(force))
+    if (.not. allocated(self%body)) return
+    do j = 1, size(self%load)
+      if (.not. abs(self%load(j)) > 0.0_dp) cycle
+      associate (own => self%body == maxval(self%body, mask=abs(self%modes(:, j)) > 0.0_dp))
+        where (own) scale = maxval(abs(force), mask=own)
+      end associate
+    end do
+    where (.not. scale > 0.0_dp) scale = maxval(abs(force))
+  end function force_scale
+
   !> All motions in the caller's modes and order, `motion` (m): the free ones from `free_motion` in the orthogonal
   !> modes, the prescribed ones from `prescribed_motion` (m).
   subroutine to_given_modes(self, prescribed_motion, free_motion, motion)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: prescribed_motion(:), free_motion(:)
     real(dp), intent(out) :: motion(:)
-    real(dp) :: free(size(free_motion))
 
     motion = merge(prescribed_motion, 0.0_dp, self%prescribed)
-    if (size(free_motion) < 1) return
-    call solve_small(self%basis_change, free_motion, free)
-    motion(self%free) = free
+    motion(self%free) = self%change%given_motion(free_motion)
   end subroutine to_given_modes
 
   !> The number, among the caller's modes, of the one that contributes most to a motion in the orthogonal modes.
@@ -320,10 +236,8 @@ contains
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: free_motion(:)
     integer :: mode
-    real(dp) :: free(size(free_motion))
 
-    call solve_small(self%basis_change, free_motion, free)
-    mode = self%free(maxloc(abs(free)*sqrt(sum(self%basis_change**2, dim=1)), dim=1))
+    mode = self%free(maxloc(self%change%contributions(free_motion), dim=1))
   end function dominant_mode
 
   !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the gaps and loads of the canonical
@@ -338,7 +252,7 @@ contains
       reduced_gap = reduced_gap - matmul(self%prescribed_modes, merge(load_change, 0.0_dp, self%prescribed))
     end if
     allocate (load(size(self%free)))
-    if (size(load) > 0) call solve_small(transpose(self%basis_change), load_change(self%free), load)
+    call self%change%orthogonal_load(load_change(self%free), load)
   end subroutine transform_change
 
   !> Set the gaps c = g + A f - R q at the excluded points, of `gap` g (n), `force` (n) and all motions (m), or of
@@ -361,8 +275,8 @@ contains
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
     type(fuge_info), intent(inout) :: info
-    real(dp) :: remainder(size(canonical%load))
-    integer :: stat
+    real(dp) :: remainder(size(canonical%load)), rounding(size(canonical%load))
+    integer :: body(size(canonical%load)), j, stat
 
     allocate (canonical%feasible_force(size(canonical%gap)), stat=stat)
     if (stat /= 0) then
@@ -377,11 +291,78 @@ contains
                   //'prescribe them, or let points take part')
       return
     end if
-    call find_equilibrium(canonical%modes, canonical%load, .not. canonical%excluded, &
-                          canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded, &
-                          canonical%feasible_force, remainder)
+    call canonical%change%orthogonal_load(problem%resultant(canonical%free), canonical%load, rounding)
+    body = bodies_of_modes(canonical%modes)
+    if (any(body > 1)) call number_points(body, canonical)
+    remainder = 0.0_dp
+    do j = 1, size(body)
+      if (body(j) == j) call balance_body(body == j, rounding, canonical, remainder)
+    end do
     if (any(abs(remainder) > 0.0_dp)) call report_no_equilibrium(problem, canonical, remainder, info)
   end subroutine require_equilibrium
+
+  !> The body of each point is that of the modes that move it. `body` (m).
+  pure subroutine number_points(body, canonical)
+    integer, intent(in) :: body(:)
+    type(canonical_problem), intent(inout) :: canonical
+    integer :: j
+
+    allocate (canonical%body(size(canonical%gap)))
+    canonical%body = 0
+    do j = 1, size(body)
+      where (abs(canonical%modes(:, j)) > 0.0_dp) canonical%body = body(j)
+    end do
+  end subroutine number_points
+
+  !> Find forces in equilibrium with the loads on one body, whose modes are marked in `member` (m).
+  !>
+  !> `rounding` (m) is that of the loads; `remainder` (m) gets the proof that there are no such forces.
+  subroutine balance_body(member, rounding, canonical, remainder)
+    logical, intent(in) :: member(:)
+    real(dp), intent(in) :: rounding(:)
+    type(canonical_problem), intent(inout) :: canonical
+    real(dp), intent(inout) :: remainder(:)
+    real(dp) :: modes(size(canonical%gap), count(member)), force(size(canonical%gap))
+    real(dp), dimension(count(member)) :: rest, noise
+    logical :: pushes(size(force))
+    integer :: columns(count(member)), j
+
+    columns = pack([(j, j=1, size(member))], member)
+    modes = canonical%modes(:, columns)
+    pushes = any(abs(modes) > 0.0_dp, dim=2) .and. .not. canonical%excluded
+    ! The orthogonal modes of a body share their rounding.
+    noise = max(rounding(columns), epsilon(noise)*maxval(abs(canonical%load(columns))))
+    call find_equilibrium(modes, canonical%load(columns), pushes, pushes .and. canonical%upper < huge(1.0_dp), &
+                          force, rest, noise)
+    if (any(abs(rest) > 0.0_dp)) then
+      remainder(columns) = rest
+      return
+    end if
+    call move_to_edge(modes, noise, canonical%load, columns, force)
+    canonical%feasible_force = canonical%feasible_force + force
+  end subroutine balance_body
+
+  !> Fewer points than modes carry a load at the edge of what the contact can carry. Rounding may take it beyond the
+  !> edge, where motions without resistance would grow: the load is then moved to the edge.
+  !>
+  !> `modes` (n, p) those in `columns` (p) with the `noise` (p) of their loads; `force` (n) carries them.
+  subroutine move_to_edge(modes, noise, load, columns, force)
+    real(dp), intent(in) :: modes(:, :), noise(:)
+    integer, intent(in) :: columns(:)
+    real(dp), intent(inout) :: load(:), force(:)
+    real(dp) :: nearest(size(force)), carried(size(noise)), weight(size(noise)), rest(size(noise)), least
+
+    least = NO_FORCE*maxval(abs(force))
+    if (count(abs(force) > least) >= size(columns) .or. .not. all(noise > 0.0_dp)) return
+    ! Loads with little rounding are met best.
+    weight = minval(noise)/noise
+    call find_equilibrium(modes*spread(weight, 1, size(force)), load(columns)*weight, force > least, force < -least, &
+                          nearest, rest, noise*weight)
+    carried = matmul(nearest, modes)
+    if (.not. all(abs(load(columns) - carried) <= ROUNDINGS*noise)) return
+    load(columns) = carried
+    force = nearest
+  end subroutine move_to_edge
 
   !> Name the resultant that no contact forces can carry.
   subroutine report_no_equilibrium(problem, canonical, remainder, info)
@@ -399,9 +380,9 @@ contains
       call report_line_of_action(problem, canonical, 1, 2, info)
       if (.not. info%failed()) call report_line_of_action(problem, canonical, 2, 1, info)
       if (info%failed()) return
-      associate (w => problem%resultant(canonical%free), r => problem%modes(:, canonical%free))
-        call solve_small(canonical%basis_change, remainder, motion)
-        worst = maxloc(abs(motion*maxval(abs(r), dim=1)), dim=1)
+      associate (w => problem%resultant(canonical%free))
+        motion = canonical%change%given_motion(remainder)
+        worst = maxloc(canonical%change%contributions(remainder), dim=1)
         call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
                     //' in motion '//index_text(canonical%free(worst)) &
                     //' together with the others: moving along it by ' &

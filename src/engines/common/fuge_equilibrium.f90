@@ -15,7 +15,9 @@ module fuge_equilibrium
   public :: find_equilibrium
 
   !> A remainder below this fraction of the resultant is rounding.
-  real(dp), parameter :: ROUNDING = 1.0e-11_dp
+  real(dp), parameter :: NEGLIGIBLE = 1.0e-11_dp
+  !> So many units in the last place of the resultant, too.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
   !> A closing displacement below this fraction of its terms counts as zero.
   real(dp), parameter :: PROOF = 1.0e-10_dp
   !> Points whose rows of the modes agree to this fraction count as one.
@@ -27,26 +29,33 @@ contains
   !>
   !> `modes` (n, m) with columns of about the same size, `resultant` (m), `pushes` (n) marks points whose force may be
   !> positive, `pulls` (n) negative. Out: `force` (n); `remainder` (m), zero if there are such forces, otherwise the
-  !> motion that proves there are none.
-  subroutine find_equilibrium(modes, resultant, pushes, pulls, force, remainder)
+  !> motion that proves there are none. `rounding` (m) of the resultant, by default that of the largest.
+  subroutine find_equilibrium(modes, resultant, pushes, pulls, force, remainder, rounding)
     real(dp), intent(in) :: modes(:, :), resultant(:)
     logical, intent(in) :: pushes(:), pulls(:)
     real(dp), intent(out) :: force(:), remainder(:)
-    real(dp) :: work(size(force))
+    real(dp), intent(in), optional :: rounding(:)
+    real(dp) :: work(size(force)), noise(size(resultant)), rest(size(resultant)), least
     integer :: state(size(force)), newest, iteration
 
+    noise = epsilon(noise)*maxval(abs(resultant))
+    if (present(rounding)) noise = rounding
     force = 0.0_dp
     state = FUGE_OPEN
     remainder = resultant
     do iteration = 1, 20*(size(modes, 2) + 1) + size(force)
-      if (is_in_equilibrium(modes, resultant, force, remainder)) exit
+      if (is_in_equilibrium(modes, resultant, noise, force, remainder)) exit
+      ! The remainder is a difference, and so are these works.
+      rest = noise + epsilon(noise)*matmul(abs(force), abs(modes))
       work = matmul(modes, remainder)
+      least = max(NEGLIGIBLE*maxval(abs(remainder)), ROUNDINGS*maxval(rest))
+      where (abs(work) <= least*sum(abs(modes), dim=2)) work = 0.0_dp
       where (.not. pulls) work = max(work, 0.0_dp)
       where (.not. pushes) work = min(work, 0.0_dp)
       where (state /= FUGE_OPEN) work = 0.0_dp
       newest = maxloc(abs(work), dim=1)
-      if (abs(work(newest)) <= ROUNDING*maxval(abs(remainder))*sum(abs(modes(newest, :)))) then
-        if (proves_no_equilibrium(modes, resultant, pushes, pulls, remainder)) return
+      if (abs(work(newest)) <= 0.0_dp) then
+        if (proves_no_equilibrium(modes, rest, pushes, pulls, remainder)) return
         exit
       end if
       state(newest) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, work(newest) > 0.0_dp)
@@ -58,32 +67,33 @@ contains
   end subroutine find_equilibrium
 
   !> Is the remainder of each resultant no more than rounding of it and of its terms?
-  pure function is_in_equilibrium(modes, resultant, force, remainder) result(balanced)
-    real(dp), intent(in) :: modes(:, :), resultant(:), force(:), remainder(:)
+  pure function is_in_equilibrium(modes, resultant, noise, force, remainder) result(balanced)
+    real(dp), intent(in) :: modes(:, :), resultant(:), noise(:), force(:), remainder(:)
     logical :: balanced
     integer :: j
 
     balanced = .true.
     do j = 1, size(resultant)
-      balanced = balanced .and. abs(remainder(j)) <= max(ROUNDING*max(abs(resultant(j)), sum(abs(modes(:, j)*force))), &
-                                               64.0_dp*epsilon(1.0_dp)*maxval(abs(resultant)))
+      balanced = balanced .and. abs(remainder(j)) <= max(ROUNDINGS*noise(j), &
+                                               NEGLIGIBLE*max(abs(resultant(j)), sum(abs(modes(:, j)*force))))
     end do
   end function is_in_equilibrium
 
-  !> Does no point close along the motion while the resultants do work?
-  pure function proves_no_equilibrium(modes, resultant, pushes, pulls, motion) result(proves)
-    real(dp), intent(in) :: modes(:, :), resultant(:), motion(:)
+  !> Does no point close along the motion, which is the remainder of the resultants, while these do work?
+  pure function proves_no_equilibrium(modes, noise, pushes, pulls, motion) result(proves)
+    real(dp), intent(in) :: modes(:, :), noise(:), motion(:)
     logical, intent(in) :: pushes(:), pulls(:)
     logical :: proves
-    real(dp) :: closing, noise
+    real(dp) :: closing, smallest
     integer :: k
 
     ! The motion is a difference of resultants and carries their rounding.
-    noise = max(PROOF*maxval(abs(motion)), 64.0_dp*epsilon(noise)*maxval(abs(resultant)))
-    proves = dot_product(motion, resultant) > 0.0_dp
+    smallest = max(PROOF*maxval(abs(motion)), ROUNDINGS*maxval(noise))
+    ! The resultants do the work |motion|**2, of which a sum of terms as large as these would leave rounding.
+    proves = any(abs(motion) > ROUNDINGS*noise)
     do k = 1, size(modes, 1)
       closing = dot_product(modes(k, :), motion)
-      if (abs(closing) <= noise*sum(abs(modes(k, :)))) cycle
+      if (abs(closing) <= smallest*sum(abs(modes(k, :)))) cycle
       if (pushes(k) .and. closing > 0.0_dp) proves = .false.
       if (pulls(k) .and. closing < 0.0_dp) proves = .false.
     end do
@@ -110,8 +120,20 @@ contains
     force = target
   end subroutine solve_least_squares
 
-  !> Least-squares forces at the active points.
+  !> Least-squares forces at the active points, refined once.
   subroutine solve_on_active(modes, resultant, state, force)
+    real(dp), intent(in) :: modes(:, :), resultant(:)
+    integer, intent(in) :: state(:)
+    real(dp), intent(out) :: force(:)
+    real(dp) :: correction(size(force))
+
+    call find_least_squares(modes, resultant, state, force)
+    call find_least_squares(modes, resultant - matmul(force, modes), state, correction)
+    force = force + correction
+  end subroutine solve_on_active
+
+  !> The forces at the active points that come nearest to a resultant, those of least squares.
+  subroutine find_least_squares(modes, resultant, state, force)
     real(dp), intent(in) :: modes(:, :), resultant(:)
     integer, intent(in) :: state(:)
     real(dp), intent(out) :: force(:)
@@ -130,6 +152,6 @@ contains
     call dgelsy(m, p, 1, matrix, m, right, size(right), order, DEPENDENT, rank, work, size(work), info)
     force = 0.0_dp
     force(points) = right(:p)
-  end subroutine solve_on_active
+  end subroutine find_least_squares
 
 end module fuge_equilibrium

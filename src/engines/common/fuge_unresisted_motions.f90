@@ -59,8 +59,8 @@ contains
     do j = 1, size(canonical%load)
       scale = max(scale, abs(canonical%modes(:, j)*canonical%load(j)))
     end do
-    ! Without a load of its own a body may be squeezed between stops.
-    where (.not. scale > 0.0_dp) scale = maxval(abs(solution%force))
+    ! Without a load of its own a body may be squeezed between stops; the loads may also nearly cancel at a point.
+    scale = max(scale, canonical%force_scale(solution%force))
     carries = solution%state /= FUGE_OPEN .and. (abs(solution%force) > NO_FORCE*scale &
                                                  .or. .not. canonical%upper > 0.0_dp)
   end function carries_force

@@ -311,7 +311,7 @@ contains
       if (info%failed()) exit
       if (any(iterate%contact .and. iterate%force <= 0.0_dp)) then
         state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
-        call step_to_blocking(iterate%force, 0.0_dp, tied, state, feasible, newest, locked)
+        call step_to_blocking(iterate%force, spread(0.0_dp, 1, n), tied, state, feasible, newest, locked)
         iterate%contact = state /= FUGE_OPEN
         iterate%force = feasible
       else

@@ -1,0 +1,270 @@
+!> Rigid modes made orthogonal, body by body, and the way back to the given ones.
+!>
+!> Neither the units of the given modes nor a far-away point of reference then costs digits, and a small load on one
+!> body keeps its digits beside a large one on another.
+module fuge_orthogonal_modes
+  use fuge_kinds, only: dp
+  use fuge_lapack, only: dgesv
+  use fuge_pivoted_qr, only: orthonormalise, orthonormalise_in_order
+  implicit none
+  private
+
+  public :: bodies_of_modes, make_orthogonal
+
+  !> A mode is linearly dependent on the others if its remainder after projection is below this fraction.
+  real(dp), parameter :: DEPENDENT = 1.0e-12_dp
+  !> The constant vector lies in the span of the modes if its remainder is below this fraction.
+  real(dp), parameter :: CONSTANT_TOLERANCE = 1.0e-13_dp
+
+  !> The given modes as modes*coefficients*diag(units); not allocated where they are the same. Systems are solved
+  !> without the units, which may be far apart.
+  type, public :: mode_change
+    !> (m, m), of order 1.
+    real(dp), allocatable :: coefficients(:, :)
+    !> The largest displacement of each given mode, (m); length per unit of its motion.
+    real(dp), allocatable :: units(:)
+  contains
+    procedure :: given_motion
+    procedure :: orthogonal_load
+    procedure :: contributions
+  end type mode_change
+
+  !> What was wrong with modes: the position of one that moves no point, or that is a combination of others; 0 if
+  !> none is. `stat` is not zero without memory.
+  type, public :: mode_fault
+    integer :: idle = 0, dependent = 0, stat = 0
+  contains
+    procedure :: found
+  end type mode_fault
+
+contains
+
+  elemental function found(self)
+    class(mode_fault), intent(in) :: self
+    logical :: found
+
+    found = self%idle > 0 .or. self%dependent > 0 .or. self%stat /= 0
+  end function found
+
+  !> Modes of equal size that span the same motions and are orthogonal at the points that take part; the first is the
+  !> constant 1 if that lies in the span of the modes of one body.
+  !>
+  !> `columns` (n, m) the given modes; `excluded` (n). Out: `modes` (n, m), zero where excluded; `change`;
+  !> `has_translation`: modes(:, 1) is the constant. All but `fault` are undefined if one was found.
+  subroutine make_orthogonal(columns, excluded, modes, change, has_translation, fault)
+    real(dp), intent(in) :: columns(:, :)
+    logical, intent(in) :: excluded(:)
+    real(dp), intent(out) :: modes(:, :)
+    type(mode_change), intent(out) :: change
+    logical, intent(out) :: has_translation
+    type(mode_fault), intent(out) :: fault
+    real(dp) :: scaled(size(columns, 1), size(columns, 2))
+    integer :: body(size(columns, 2)), j, m
+
+    m = size(columns, 2)
+    has_translation = .false.
+    modes = 0.0_dp
+    allocate (change%coefficients(m, m), change%units(m), stat=fault%stat)
+    if (fault%stat /= 0) return
+    scaled = columns
+    where (spread(excluded, 2, m)) scaled = 0.0_dp
+    change%units = maxval(abs(scaled), dim=1)
+    if (any(.not. change%units > 0.0_dp)) then
+      fault%idle = minloc(change%units, dim=1)
+      return
+    end if
+    scaled = scaled/spread(change%units, 1, size(scaled, 1))
+    change%coefficients = 0.0_dp
+    if (is_orthogonal(scaled)) then
+      call keep_modes(scaled, excluded, modes, change%coefficients, has_translation)
+      return
+    end if
+    body = bodies_of_modes(scaled)
+    do j = 1, m
+      if (body(j) == j) call orthogonalise_body(scaled, excluded, body == j, modes, change%coefficients, &
+                                                has_translation, fault)
+      if (fault%found()) return
+    end do
+  end subroutine make_orthogonal
+
+  !> The modes of one body, marked in `member` (m).
+  subroutine orthogonalise_body(scaled, excluded, member, modes, coefficients, has_translation, fault)
+    real(dp), intent(in) :: scaled(:, :)
+    logical, intent(in) :: excluded(:), member(:)
+    real(dp), intent(inout) :: modes(:, :), coefficients(:, :)
+    logical, intent(inout) :: has_translation
+    type(mode_fault), intent(inout) :: fault
+    real(dp) :: basis(size(scaled, 1), count(member)), points
+    integer :: columns(count(member)), order(count(member)), j, rank, replaced
+
+    columns = pack([(j, j=1, size(member))], member)
+    basis = scaled(:, columns)
+    call orthonormalise(basis, DEPENDENT, order, rank, fault%stat)
+    if (fault%stat /= 0) return
+    if (rank < size(columns)) then
+      fault%dependent = columns(order(rank + 1))
+      return
+    end if
+    call replace_by_constant(basis, excluded, replaced)
+    if (replaced > 0) then
+      has_translation = .true.
+      basis = cshift(basis, replaced - 1, dim=2)
+      call orthonormalise_in_order(basis, fault%stat)
+      if (fault%stat /= 0) return
+    end if
+    ! A point that no mode of the body moves must stay so in spite of rounding: its force contributes to no resultant.
+    where (spread(all(abs(scaled(:, columns)) <= 0.0_dp, dim=2), 2, size(columns))) basis = 0.0_dp
+    points = real(count(.not. excluded), dp)
+    basis = basis*sqrt(points)
+    if (replaced > 0) basis(:, 1) = merge(0.0_dp, 1.0_dp, excluded)
+    modes(:, columns) = basis
+    coefficients(columns, columns) = matmul(transpose(basis), scaled(:, columns))/points
+  end subroutine orthogonalise_body
+
+  !> Which modes belong together, (m): the number of the first mode of the body. Modes that move a common point belong
+  !> to one body. `modes` (n, m).
+  pure function bodies_of_modes(modes) result(body)
+    real(dp), intent(in) :: modes(:, :)
+    integer :: body(size(modes, 2))
+    integer :: first, j, k, low, high
+
+    body = [(j, j=1, size(body))]
+    do k = 1, size(modes, 1)
+      first = 0
+      do j = 1, size(body)
+        if (abs(modes(k, j)) <= 0.0_dp) cycle
+        if (first == 0) first = j
+        if (body(first) == body(j)) cycle
+        low = min(body(first), body(j))
+        high = max(body(first), body(j))
+        where (body == high) body = low
+      end do
+      if (all(body == 1)) return
+    end do
+  end function bodies_of_modes
+
+  !> Are the columns orthogonal to each other?
+  pure function is_orthogonal(matrix) result(orthogonal)
+    real(dp), intent(in) :: matrix(:, :)
+    logical :: orthogonal
+    integer :: i, j
+
+    orthogonal = .true.
+    do j = 2, size(matrix, 2)
+      do i = 1, j - 1
+        orthogonal = orthogonal .and. abs(dot_product(matrix(:, i), matrix(:, j))) &
+                     <= DEPENDENT*norm2(matrix(:, i))*norm2(matrix(:, j))
+      end do
+    end do
+  end function is_orthogonal
+
+  !> Keep orthogonal modes, `scaled` (n, m), but for their size; a constant one becomes the first.
+  pure subroutine keep_modes(scaled, excluded, modes, coefficients, has_translation)
+    real(dp), intent(in) :: scaled(:, :)
+    logical, intent(in) :: excluded(:)
+    real(dp), intent(inout) :: modes(:, :), coefficients(:, :)
+    logical, intent(out) :: has_translation
+    real(dp) :: unit
+    integer :: first, j, m, position
+
+    m = size(scaled, 2)
+    first = 0
+    do j = m, 1, -1
+      if (is_constant(scaled(:, j), excluded)) first = j
+    end do
+    has_translation = first > 0
+    do j = 1, m
+      ! A cyclic shift brings the constant mode to the front.
+      position = modulo(j - max(first, 1), m) + 1
+      unit = norm2(scaled(:, j))/sqrt(real(count(.not. excluded), dp))
+      ! The constant is 1, not -1.
+      if (j == first .and. any(scaled(:, j) < 0.0_dp)) unit = -unit
+      modes(:, position) = scaled(:, j)/unit
+      if (j == first) modes(:, position) = merge(0.0_dp, 1.0_dp, excluded)
+      coefficients(position, j) = unit
+    end do
+  end subroutine keep_modes
+
+  pure function is_constant(values, excluded)
+    real(dp), intent(in) :: values(:)
+    logical, intent(in) :: excluded(:)
+    logical :: is_constant
+
+    is_constant = minval(values, mask=.not. excluded) >= maxval(values, mask=.not. excluded)
+  end function is_constant
+
+  !> Replace a column of an orthonormal basis by the constant vector if that lies in its span; `column` is 0 if it does
+  !> not.
+  pure subroutine replace_by_constant(basis, excluded, column)
+    real(dp), intent(inout) :: basis(:, :)
+    logical, intent(in) :: excluded(:)
+    integer, intent(out) :: column
+    real(dp) :: ones(size(basis, 1)), components(size(basis, 2))
+
+    ones = merge(0.0_dp, 1.0_dp, excluded)
+    components = matmul(ones, basis)
+    column = 0
+    if (maxval(abs(ones - matmul(basis, components))) > CONSTANT_TOLERANCE*real(size(basis, 1), dp)) return
+    column = maxloc(abs(components), dim=1)
+    basis(:, column) = ones/sqrt(sum(ones))
+  end subroutine replace_by_constant
+
+  !> Motions in the given modes, (m), from `motion` (m) in the orthogonal ones.
+  function given_motion(self, motion) result(given)
+    class(mode_change), intent(in) :: self
+    real(dp), intent(in) :: motion(:)
+    real(dp) :: given(size(motion))
+
+    given = motion
+    if (allocated(self%units)) given = solve_small(self%coefficients, motion)/self%units
+  end function given_motion
+
+  !> Resultants in the orthogonal modes, (m), from `resultant` (m) in the given ones. `rounding` (m) is what the last
+  !> digits of the given resultants and of the coefficients make of them.
+  subroutine orthogonal_load(self, resultant, load, rounding)
+    class(mode_change), intent(in) :: self
+    real(dp), intent(in) :: resultant(:)
+    real(dp), intent(out) :: load(:)
+    real(dp), intent(out), optional :: rounding(:)
+    real(dp) :: rows(size(load), size(load)), terms(size(load)), unit(size(load))
+    integer :: j
+
+    load = resultant
+    if (present(rounding)) rounding = epsilon(load)*abs(load)
+    if (.not. allocated(self%units)) return
+    rows = transpose(self%coefficients)
+    load = solve_small(rows, resultant/self%units)
+    if (.not. present(rounding)) return
+    terms = epsilon(terms)*(abs(resultant/self%units) + matmul(abs(rows), abs(load)))
+    rounding = 0.0_dp
+    do j = 1, size(load)
+      unit = 0.0_dp
+      unit(j) = terms(j)
+      rounding = rounding + abs(solve_small(rows, unit))
+    end do
+  end subroutine orthogonal_load
+
+  !> How much each given mode contributes to `motion` (m) in the orthogonal ones, as a length, (m).
+  function contributions(self, motion)
+    class(mode_change), intent(in) :: self
+    real(dp), intent(in) :: motion(:)
+    real(dp) :: contributions(size(motion))
+
+    contributions = abs(motion)
+    if (allocated(self%units)) contributions = abs(solve_small(self%coefficients, motion)) &
+      *norm2(self%coefficients, dim=1)
+  end function contributions
+
+  !> The solution of a regular system.
+  function solve_small(matrix, right) result(solution)
+    real(dp), intent(in) :: matrix(:, :), right(:)
+    real(dp) :: solution(size(right))
+    real(dp) :: copy(size(matrix, 1), size(matrix, 2))
+    integer :: pivots(size(right)), info
+
+    copy = matrix
+    solution = right
+    if (size(right) > 0) call dgesv(size(right), 1, copy, size(right), pivots, solution, size(right), info)
+  end function solve_small
+
+end module fuge_orthogonal_modes
