@@ -253,7 +253,7 @@ contains
     if (info%failed()) return
     call allocate_solution(problem%points(), size(self%canonical%load), engine_solution, info)
     if (info%failed()) return
-    call self%canonical%set_matrix(operator%alpha, operator%datum())
+    call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known())
     if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
       call solve_by_tableau(self%canonical, options, monitor, self%history, self%factor, engine_solution, info)
     else

@@ -9,7 +9,7 @@ module fuge_active_set_engine
   use fuge_initial_set, only: guess_initial_set
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_matrix_checks, only: check_magnitudes, check_pairs
+  use fuge_matrix_checks, only: check_largest, check_pairs
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
@@ -39,9 +39,11 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: sets
 
-    call check_magnitudes(canonical%alpha(:size(canonical%gap), :), canonical%largest_load(), info)
+    call check_largest(canonical%survey%largest(), canonical%largest_load(), info)
     ! Opposite forces are in equilibrium only where all modes move both points alike.
-    if (canonical%plain .and. .not. info%failed()) call check_pairs(canonical%alpha, info)
+    if (canonical%plain .and. .not. (canonical%survey%pairs_hold .or. info%failed())) then
+      call check_pairs(canonical%alpha, info)
+    end if
     if (info%failed()) return
     ! A guess from another problem may name stops and points that this one does not have.
     where (canonical%excluded) solution%state = FUGE_OPEN

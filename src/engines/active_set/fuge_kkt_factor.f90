@@ -177,7 +177,7 @@ contains
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: regularisation
     logical, intent(out) :: is_definite
-    real(dp) :: diagonal(size(self%base_set))
+    real(dp) :: diagonal(size(self%base_set)), largest
     integer :: i, j, m, info
 
     m = size(self%base_set)
@@ -198,9 +198,10 @@ contains
     call dpotrf('L', m, self%lower, m, info)
     is_definite = info == 0
     if (.not. is_definite) return
+    largest = maxval(diagonal)
     do j = 1, m
       is_definite = is_definite .and. self%lower(j, j)**2 > PIVOT_TOLERANCE*real(m, dp)*diagonal(j)
-      if (is_definite) self%pivot_ratio = max(self%pivot_ratio, maxval(diagonal)/self%lower(j, j)**2)
+      if (is_definite) self%pivot_ratio = max(self%pivot_ratio, largest/self%lower(j, j)**2)
     end do
   end subroutine factor_base_set
 

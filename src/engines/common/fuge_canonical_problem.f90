@@ -6,6 +6,7 @@
 module fuge_canonical_problem
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
+  use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text, text
   use fuge_orthogonal_modes, only: bodies_of_modes, make_orthogonal, mode_change, mode_fault
   use fuge_problem_type, only: fuge_problem
@@ -24,6 +25,8 @@ module fuge_canonical_problem
   type, public :: canonical_problem
     !> Influence matrix, (at least n rows, n columns), length per force; owned by the caller.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
+    !> What is known of it.
+    type(matrix_survey) :: survey
     !> Taken out of all of alpha, where it costs digits: the coefficient nearest to zero if there is a
     !> translation to take it up, else 0.
     real(dp) :: datum = 0.0_dp
@@ -156,12 +159,19 @@ contains
     end if
   end subroutine orthogonalise
 
-  !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero.
-  subroutine set_matrix(self, alpha, datum)
+  !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero, `survey` what is known
+  !> of it; without one it is surveyed here.
+  subroutine set_matrix(self, alpha, datum, survey)
     class(canonical_problem), intent(inout) :: self
     real(dp), intent(in), pointer, contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
+    type(matrix_survey), intent(in), optional :: survey
 
+    if (present(survey)) then
+      self%survey = survey
+    else
+      call survey_matrix(alpha, self%survey)
+    end if
     self%alpha => alpha
     ! Without a translation nothing takes up a constant taken out of alpha.
     self%datum = merge(datum, 0.0_dp, self%has_translation)
