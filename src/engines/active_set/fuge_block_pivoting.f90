@@ -7,7 +7,6 @@ module fuge_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
-  use fuge_displacements, only: add_elastic_displacement, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: translation_at_shallowest
@@ -67,12 +66,12 @@ contains
         if (status /= FUGE_DONE) return
       end if
       progress%is_new_set = .false.
-      if (all(set%violation <= SIGN_TOLERANCE)) then
-        if (progress%refine_now) exit
+      if (all(set%violation <= SIGN_TOLERANCE) .and. .not. progress%refine_now) then
         ! Refine before the set is accepted.
         progress%refine_now = .true.
-        cycle
+        call refine_working_set(canonical, set, factor, solution)
       end if
+      if (all(set%violation <= SIGN_TOLERANCE)) exit
       if (is_noise(set, progress, factor)) exit
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
@@ -105,14 +104,23 @@ contains
     progress%refine_now = progress%refine_now .or. factor%pivot_ratio > ILL_CONDITIONED &
       .or. factor%regularisation > 0.0_dp
     if (progress%refine_now) then
-      if (canonical%has_translation) then
-        call set%set_gap_datum(canonical, solution%motion)
-        call set%solve(canonical, factor, solution)
-      end if
-      call set%refine(canonical, factor, factor%regularisation, solution)
+      call refine_working_set(canonical, set, factor, solution)
+    else
+      call set%measure(canonical, .false., solution)
     end if
-    call set%measure(canonical, progress%refine_now, solution)
   end subroutine solve_working_set
+
+  !> Refine the solution of the set and measure its violations exactly.
+  subroutine refine_working_set(canonical, set, factor, solution)
+    type(canonical_problem), intent(in) :: canonical
+    type(working_set), intent(inout) :: set
+    type(kkt_factor), intent(in) :: factor
+    type(contact_solution), intent(inout) :: solution
+
+    if (canonical%has_translation) call set%move_gap_datum(canonical, solution%motion)
+    call set%refine(canonical, factor, factor%regularisation, solution)
+    call set%measure(canonical, .true., solution)
+  end subroutine refine_working_set
 
   !> Are the violations that the primal active-set method has left no more than rounding? The certificate then decides
   !> about the solution.
@@ -150,25 +158,26 @@ contains
   !> Take rounding out of forces, gaps and motion of the accepted set.
   subroutine remove_rounding(canonical, set, factor, solution)
     type(canonical_problem), intent(in) :: canonical
-    type(working_set), intent(in) :: set
+    type(working_set), intent(inout) :: set
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(inout) :: solution
+    real(dp) :: given(size(solution%force))
 
+    given = solution%force
     if (factor%regularisation > 0.0_dp) call set%refine(canonical, factor, 0.0_dp, solution)
-    associate (alpha => canonical%alpha, datum => canonical%datum, upper => canonical%upper, state => solution%state, &
-               force => solution%force, gap => solution%gap, motion => solution%motion)
+    associate (upper => canonical%upper, state => solution%state, force => solution%force, motion => solution%motion)
       where (upper > 0.0_dp) force = real(state, dp)*max(state*force, 0.0_dp)
       where (abs(force) <= set%zero_force) force = 0.0_dp
       if (canonical%plain) then
-        motion(1) = translation_at_shallowest(alpha, datum, set%reduced_gap, state /= FUGE_OPEN, force, motion(1))
+        motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, state /= FUGE_OPEN, &
+                                              force, motion(1), set%terms)
       end if
       ! A motion is rounding then.
       if (set%has_no_length(canonical)) motion = 0.0_dp
-      gap = set%reduced_gap - rigid_displacement(canonical%modes, motion)
-      call add_elastic_displacement(alpha, datum, state /= FUGE_OPEN, force, gap)
-      where (.not. canonical%excluded) gap = min(max(gap, 0.0_dp), upper)
-      gap = merge(merge(0.0_dp, upper, state > FUGE_OPEN), gap, state /= FUGE_OPEN)
-      if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + datum*canonical%load(1)
+      if (any(abs(force - given) > 0.0_dp)) call set%measure(canonical, .false., solution)
+      call set%find_gaps(canonical, solution)
+      where (state == FUGE_OPEN .and. .not. canonical%excluded) solution%gap = min(max(solution%gap, 0.0_dp), upper)
+      if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + canonical%datum*canonical%load(1)
     end associate
   end subroutine remove_rounding
 

@@ -1,18 +1,16 @@
 !> Forces and motion of a given contact set, solved with its factor and refined to the last digits.
 module fuge_kkt_solution
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_displacements, only: add_elastic_displacement, displacement_magnitude, rigid_displacement
-  use fuge_kinds, only: dp, xp
+  use fuge_compensated_sums, only: add_column, add_terms, bias_above, compensated_dot
+  use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   implicit none
   private
 
   public :: refine_solution, solve_set, translation_at_shallowest
 
-  !> A correction above this fraction of the largest force calls for another one.
-  real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
-  !> Ratio of the pivots below which double precision is enough for a residual.
-  real(dp), parameter :: WELL_CONDITIONED = 1.0e4_dp
+  !> An expected correction below this fraction of the largest force is left out.
+  real(dp), parameter :: EXACT_ENOUGH = 0.1_dp*epsilon(1.0_dp)
   integer, parameter :: REFINEMENTS = 10
 
 contains
@@ -38,79 +36,130 @@ contains
   end subroutine change_datum
 
   !> The translation recomputed from the contact point with the smallest terms, so that a translation of exactly zero is
-  !> returned as zero. For the plain problem.
-  pure function translation_at_shallowest(alpha, datum, reduced_gap, contact, force, motion) result(translation)
+  !> returned as zero. For the plain problem; `terms` (n), the size of the terms of the displacement of each point.
+  pure function translation_at_shallowest(alpha, datum, reduced_gap, contact, force, motion, terms) result(translation)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, reduced_gap(:), force(:), motion
+    real(dp), intent(in) :: datum, reduced_gap(:), force(:), motion, terms(:)
     logical, intent(in) :: contact(:)
     real(dp) :: translation
-    real(dp) :: magnitude(size(reduced_gap))
+    real(dp) :: magnitude, least, noise
     integer :: j, k, n
 
     n = size(reduced_gap)
-    magnitude = abs(reduced_gap - motion) + displacement_magnitude(alpha, datum, contact, force)
     ! A point whose force may be rounding does not count as in contact.
-    k = minloc(magnitude, dim=1, mask=contact .and. force > sqrt(epsilon(motion))*maxval(force))
+    noise = sqrt(epsilon(noise))*maxval(force)
+    least = huge(least)
+    k = 1
+    do j = 1, n
+      if (.not. (contact(j) .and. force(j) > noise)) cycle
+      magnitude = abs(reduced_gap(j) - motion) + terms(j)
+      if (magnitude >= least) cycle
+      least = magnitude
+      k = j
+    end do
     translation = reduced_gap(k)
     do j = 1, n
-      if (contact(j)) translation = translation + (alpha(k, j) - datum)*force(j)
+      if (contact(j)) translation = translation + (alpha(j, k) - datum)*force(j)
     end do
   end function translation_at_shallowest
 
   !> Iterative refinement of forces and motion on the contact set.
   !>
-  !> For a well-conditioned alpha one residual in double precision is enough; otherwise residuals are in extended
-  !> precision, which sees errors of the forces that double precision cannot. With the `regularisation` of the factor
-  !> the system solved is that of the regularised alpha, with 0 that of alpha. `gap` (n) as in `solve_set`.
-  subroutine refine_solution(canonical, gap, factor, regularisation, contact, force, motion)
+  !> Residuals have 24 digits of their terms, and see errors of the forces that double precision cannot. With the
+  !> `regularisation` of the factor the system solved is that of the regularised alpha, with 0 that of alpha. `gap` (n)
+  !> as in `solve_set`. Out: `terms` (n), on the contact the size of the terms of each displacement, sum_j |alpha_ij -
+  !> datum| |f_j| before the last correction.
+  subroutine refine_solution(canonical, gap, factor, regularisation, contact, force, motion, terms)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), regularisation
     type(kkt_factor), intent(in) :: factor
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: force(:), motion(:)
-    real(dp) :: residual(size(gap)), correction(size(gap)), missing(size(motion)), shift(size(motion)), change, last
+    real(dp), intent(out) :: terms(:)
+    real(dp) :: residual(size(gap)), correction(size(gap)), missing(size(motion)), shift(size(motion))
+    real(dp) :: change, last, largest
     integer :: step
 
-    if (factor%pivot_ratio < WELL_CONDITIONED .and. .not. factor%regularisation > 0.0_dp) then
-      residual = gap - rigid_displacement(canonical%modes, motion)
-      call add_elastic_displacement(canonical%alpha, canonical%datum, contact, force, residual)
-      missing = canonical%load - matmul(force, canonical%modes)
-    else
-      call extended_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
-    end if
-    last = huge(last)
+    last = maxval(abs(force))
     do step = 1, REFINEMENTS
+      call find_residual(canonical, gap, regularisation, contact, force, motion, residual, missing, terms)
       call factor%solve(residual, missing, correction, shift)
       change = maxval(abs(correction))
-      if (.not. change < 0.5_dp*last) exit
+      if (.not. (change < 0.5_dp*last .or. (step == 1 .and. change <= huge(change)))) exit
       force = force + correction
       call change_datum(factor%datum - canonical%datum, missing, shift)
       motion = motion + shift
-      if (change <= EXACT_ENOUGH*maxval(abs(force))) exit
+      largest = maxval(abs(force))
+      ! Corrections shrink by about the same factor each time, so that of the last one tells the next.
+      if (change <= EXACT_ENOUGH*largest) exit
+      if (last > 0.0_dp) then
+        if (change*(change/last) <= EXACT_ENOUGH*largest) exit
+      end if
       last = change
-      call extended_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
     end do
   end subroutine refine_solution
 
-  !> Residuals of the gaps (n), meant on the contact set, and of equilibrium (m).
-  pure subroutine extended_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
+  !> Residuals of the gaps (n), on the contact set only, and of equilibrium (m); `terms` as in `refine_solution`.
+  subroutine find_residual(canonical, gap, regularisation, contact, force, motion, residual, missing, terms)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: gap(:), regularisation
+    real(dp), intent(in), contiguous :: force(:), motion(:)
+    logical, intent(in) :: contact(:)
+    real(dp), intent(out) :: residual(:), missing(:), terms(:)
+    real(dp), dimension(count(contact)) :: high, low, column, magnitude
+    real(dp) :: shift_high(1), shift_low(1), bias
+    integer :: points(size(high)), j, k, m
+
+    m = 0
+    do j = 1, size(contact)
+      if (.not. contact(j)) cycle
+      m = m + 1
+      points(m) = j
+    end do
+    residual = 0.0_dp
+    bias = bias_above(largest_sum(canonical, gap, regularisation, force, motion))
+    high = bias
+    low = 0.0_dp
+    magnitude = 0.0_dp
+    shift_high = bias
+    shift_low = 0.0_dp
+    do j = 1, m
+      if (.not. abs(force(points(j))) > 0.0_dp) cycle
+      do k = 1, m
+        column(k) = canonical%alpha(points(k), points(j))
+      end do
+      call add_column(column, force(points(j)), high, low)
+      magnitude = magnitude + abs((column - canonical%datum)*force(points(j)))
+      call add_column([canonical%datum], -force(points(j)), shift_high, shift_low)
+    end do
+    ! The datum times the sum of the forces.
+    column = shift_high(1) - bias
+    call add_terms(column, high, low)
+    low = low + shift_low(1)
+    call add_terms(gap(points), high, low)
+    call add_terms(regularisation*force(points), high, low)
+    do j = 1, size(motion)
+      column = canonical%modes(points, j)
+      call add_column(column, -motion(j), high, low)
+      missing(j) = compensated_dot(canonical%load(j), canonical%modes(:, j), force)
+    end do
+    residual(points) = (high - bias) + low
+    terms = 0.0_dp
+    terms(points) = magnitude
+  end subroutine find_residual
+
+  !> A bound of the sums of the residuals.
+  pure function largest_sum(canonical, gap, regularisation, force, motion) result(most)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), regularisation, force(:), motion(:)
-    logical, intent(in) :: contact(:)
-    real(dp), intent(out) :: residual(:), missing(:)
-    real(xp) :: sums(size(gap))
-    integer :: j, n
+    real(dp) :: most
+    integer :: j
 
-    n = size(gap)
-    sums = real(gap, xp) + real(regularisation, xp)*real(force, xp)
-    do j = 1, n
-      if (contact(j)) sums = sums + (real(canonical%alpha(:n, j), xp) - real(canonical%datum, xp))*real(force(j), xp)
-    end do
+    most = maxval(abs(gap)) + (canonical%survey%largest() + abs(canonical%datum) + regularisation)*sum(abs(force))
     do j = 1, size(motion)
-      sums = sums - real(canonical%modes(:, j), xp)*real(motion(j), xp)
-      missing(j) = real(real(canonical%load(j), xp) - sum(real(canonical%modes(:, j), xp)*real(force, xp)), dp)
+      most = most + maxval(abs(canonical%modes(:, j)))*abs(motion(j))
     end do
-    residual = real(sums, dp)
-  end subroutine extended_residual
+    most = min(most, huge(most))
+  end function largest_sum
 
 end module fuge_kkt_solution

@@ -6,8 +6,7 @@ module fuge_working_set
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
-  use fuge_displacements, only: add_elastic_displacement, displacement_magnitude, largest_contribution, &
-    rigid_displacement
+  use fuge_displacements, only: add_open_displacement, displacement_terms, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: refine_solution, solve_set
@@ -27,13 +26,18 @@ module fuge_working_set
     real(dp) :: zero_force = 0.0_dp
     !> Scaled violation of the sign conditions at each point, (n).
     real(dp), allocatable :: violation(:)
+    !> The size of the terms of the displacement at each point in contact, (n), from the last refinement.
+    real(dp), allocatable :: terms(:)
+    !> Displacement by the forces at each open point, (n), from the last measure.
+    real(dp), allocatable :: elastic(:)
   contains
     procedure :: start
-    procedure :: set_gap_datum
+    procedure :: move_gap_datum
     procedure :: solve
     procedure :: refine
     procedure :: measure
     procedure :: has_no_length
+    procedure :: find_gaps
     procedure, private :: gap_at_stops
   end type working_set
 
@@ -48,12 +52,15 @@ contains
     integer, intent(out) :: status
     integer :: stat
 
-    allocate (self%reduced_gap(size(state)), self%violation(size(state)), stat=stat)
+    allocate (self%reduced_gap(size(state)), self%violation(size(state)), self%terms(size(state)), &
+              self%elastic(size(state)), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) return
     if (canonical%has_translation) self%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
     self%reduced_gap = canonical%gap - self%gap_datum
     self%violation = 0.0_dp
+    self%terms = 0.0_dp
+    self%elastic = 0.0_dp
     self%zero_force = rounding_force(canonical, self%reduced_gap)
     where (canonical%excluded) state = FUGE_OPEN
     where (canonical%is_tied()) state = FUGE_AT_LOWER_STOP
@@ -71,9 +78,8 @@ contains
     zero_force = 0.0_dp
     if (any(abs(canonical%load) > 0.0_dp)) return
     length = 0.0_dp
-    largest = 0.0_dp
+    largest = canonical%survey%largest()
     do k = 1, size(reduced_gap)
-      largest = max(largest, maxval(abs(canonical%alpha(:size(reduced_gap), k))))
       if (canonical%excluded(k)) cycle
       if (size(canonical%load) > 0) then
         length = max(length, abs(reduced_gap(k)))
@@ -86,17 +92,20 @@ contains
     zero_force = SIGN_TOLERANCE*(length/largest)
   end function rounding_force
 
-  !> Count gaps from where the bodies meet under `motion` (m): one point far below the others would cost
+  !> Count gaps from where the bodies meet under `motion` (m), which follows: one point far below the others would cost
   !> them digits.
-  pure subroutine set_gap_datum(self, canonical, motion)
+  pure subroutine move_gap_datum(self, canonical, motion)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: motion(:)
+    real(dp), intent(inout) :: motion(:)
+    real(dp) :: before
 
+    before = self%gap_datum
     self%gap_datum = canonical%gap(minloc(abs(self%reduced_gap - rigid_displacement(canonical%modes, motion)), dim=1, &
                                           mask=.not. canonical%excluded))
     self%reduced_gap = canonical%gap - self%gap_datum
-  end subroutine set_gap_datum
+    motion(1) = motion(1) - (self%gap_datum - before)
+  end subroutine move_gap_datum
 
   !> The gaps that displacements have to close: at the upper stop the play stays open.
   pure function gap_at_stops(self, canonical, state) result(gap)
@@ -122,14 +131,14 @@ contains
 
   !> Iterative refinement of forces and motion; `regularisation` as in `refine_solution`.
   subroutine refine(self, canonical, factor, regularisation, solution)
-    class(working_set), intent(in) :: self
+    class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
     real(dp), intent(in) :: regularisation
     type(contact_solution), intent(inout) :: solution
 
     call refine_solution(canonical, self%gap_at_stops(canonical, solution%state), factor, regularisation, &
-                         solution%state /= FUGE_OPEN, solution%force, solution%motion)
+                         solution%state /= FUGE_OPEN, solution%force, solution%motion, self%terms)
   end subroutine refine
 
   !> Does the problem have no length at all, neither gaps nor plays nor displacements?
@@ -150,58 +159,67 @@ contains
     end do
   end function has_no_length
 
-  !> Gaps that follow from forces and motion, and the violations. Lengths are compared with all
-  !> that displaces the point if `exact`, else with the contribution of the largest force, which costs one column.
+  !> Gaps that follow from forces and motion at the open points, those of the stops at the others, and the violations.
+  !> Lengths are compared with all that displaces the point if `exact`, else with the contribution of the largest
+  !> force, which costs one column.
   pure subroutine measure(self, canonical, exact, solution)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     logical, intent(in) :: exact
     type(contact_solution), intent(inout) :: solution
-    real(dp) :: rigid_gap(size(solution%state)), magnitude(size(solution%state))
 
-    rigid_gap = self%reduced_gap - rigid_displacement(canonical%modes, solution%motion)
-    solution%gap = rigid_gap
-    associate (alpha => canonical%alpha, datum => canonical%datum, contact => solution%state /= FUGE_OPEN)
-      call add_elastic_displacement(alpha, datum, contact, solution%force, solution%gap)
-      if (exact) then
-        magnitude = displacement_magnitude(alpha, datum, contact, solution%force)
-      else
-        magnitude = largest_contribution(alpha, datum, solution%force)
-      end if
-    end associate
-    self%violation = violations(canonical, solution, rigid_gap, magnitude, self%zero_force)
+    self%elastic = 0.0_dp
+    call add_open_displacement(canonical%alpha, canonical%datum, solution%state /= FUGE_OPEN, solution%force, &
+                               self%elastic)
+    call self%find_gaps(canonical, solution)
+    call find_violations(self, canonical, exact, solution)
   end subroutine measure
 
-  !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a
-  !> length.
-  !>
-  !> `rigid_gap` (n) is the gap less the rigid displacement, which the elastic displacement has to make up
-  !> for at a point in contact; `magnitude` (n) the size of the terms of that displacement. Tied and
-  !> excluded points cannot be wrong.
-  pure function violations(canonical, solution, rigid_gap, magnitude, zero_force) result(violation)
+  !> The gaps from the motion of the solution and the displacements that `measure` found.
+  pure subroutine find_gaps(self, canonical, solution)
+    class(working_set), intent(in) :: self
     type(canonical_problem), intent(in) :: canonical
-    type(contact_solution), intent(in) :: solution
-    real(dp), intent(in) :: rigid_gap(:), magnitude(:), zero_force
-    real(dp) :: violation(size(rigid_gap))
-    real(dp) :: largest, beyond
-    integer :: j
+    type(contact_solution), intent(inout) :: solution
 
-    largest = maxval(abs(solution%force))
-    violation = 0.0_dp
-    do j = 1, size(violation)
+    solution%gap = (self%reduced_gap - rigid_displacement(canonical%modes, solution%motion)) + self%elastic
+    where (solution%state > FUGE_OPEN) solution%gap = 0.0_dp
+    where (solution%state < FUGE_OPEN) solution%gap = canonical%upper
+  end subroutine find_gaps
+
+  !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a
+  !> length: the gap less the rigid displacement, which the elastic displacement has to make up for at a point in
+  !> contact, and the terms of that displacement. Tied and excluded points cannot be wrong.
+  pure subroutine find_violations(self, canonical, exact, solution)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    logical, intent(in) :: exact
+    type(contact_solution), intent(in) :: solution
+    real(dp) :: scale(size(solution%force)), largest, beyond, rigid_gap
+    integer :: j, strongest
+
+    strongest = maxloc(abs(solution%force), dim=1)
+    largest = abs(solution%force(strongest))
+    scale = canonical%force_scale(solution%force)
+    self%violation = 0.0_dp
+    do j = 1, size(self%violation)
       if (canonical%excluded(j) .or. .not. canonical%upper(j) > 0.0_dp) cycle
       associate (state => solution%state(j), force => solution%force(j), gap => solution%gap(j))
         if (state /= FUGE_OPEN) then
-          if (force*state < -zero_force) violation(j) = abs(force)/largest
-        else
-          beyond = max(-gap, gap - canonical%upper(j))
-          if (beyond > 0.0_dp) violation(j) = beyond/max(abs(rigid_gap(j)) + magnitude(j), beyond)
+          if (force*state < -self%zero_force) self%violation(j) = abs(force)/scale(j)
+          cycle
+        end if
+        beyond = max(-gap, gap - canonical%upper(j))
+        if (.not. beyond > 0.0_dp) cycle
+        rigid_gap = abs(gap - self%elastic(j))
+        self%violation(j) = beyond/max(rigid_gap + abs((canonical%alpha(j, strongest) - canonical%datum)*largest), beyond)
+        ! The other forces can only make it smaller.
+        if (exact .and. self%violation(j) > SIGN_TOLERANCE) then
+          self%violation(j) = beyond/max(rigid_gap + displacement_terms(canonical%alpha, canonical%datum, &
+                                                                        solution%state /= FUGE_OPEN, solution%force, j), &
+                                         beyond)
         end if
       end associate
     end do
-    if (canonical%has_bodies() .and. largest > 0.0_dp) then
-      where (solution%state /= FUGE_OPEN) violation = violation*(largest/canonical%force_scale(solution%force))
-    end if
-  end function violations
+  end subroutine find_violations
 
 end module fuge_working_set
