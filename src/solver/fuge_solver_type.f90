@@ -38,8 +38,13 @@ module fuge_solver_type
     type(fuge_history) :: history
     !> States of the last solve by a dense engine, where the next one starts, with their factor, and the problem.
     integer, allocatable, private :: state(:)
+    !> The factor outlives a solve: the next one starts from it if the matrix is the same.
     type(kkt_factor), private :: factor
     type(canonical_problem), private :: canonical
+    !> State, factor and problem belong to a solution that was accepted.
+    logical, private :: has_solution = .false.
+    !> The last solve started from a factor that it found.
+    logical, private :: found_factor = .false.
     !> Forces of the last iterative solve, divided by its load, and that load.
     real(dp), allocatable, private :: scaled_force(:)
     real(dp), private :: last_load = 0.0_dp
@@ -79,7 +84,7 @@ contains
     if (present(options)) chosen = options
     if (present(monitor)) relay%listener => monitor
     self%history = fuge_history()
-    self%factor = kkt_factor()
+    self%has_solution = .false.
     call check_options(chosen, info)
     if (info%failed()) return
     if (operator%points() < 1) then
@@ -91,19 +96,42 @@ contains
 
     if (is_unloaded(problem)) then
       call solve_without_load(problem, candidate, info)
+      if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
     else
-      call run_engine(self, operator, problem, chosen, relay, candidate, info)
+      call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
+      if (self%found_factor .and. info%status == FUGE_WARN_RESIDUAL) then
+        ! The matrix may have changed since it was factored, although the operator was not set again.
+        self%factor = kkt_factor()
+        candidate = fuge_solution()
+        info = fuge_info()
+        call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
+      end if
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
                                                          //text(relay%reported)//' by the progress monitor')
     end if
-    if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
     if (info%failed()) then
       ! The factor belongs to no accepted solution, so derivatives must not use it.
       self%factor = kkt_factor()
+      self%has_solution = .false.
     else
       call move_solution(candidate, solution)
     end if
   end subroutine solve
+
+  !> One solve by the engine that the options choose, and its certificate.
+  subroutine solve_and_certify(self, operator, problem, options, monitor, solution, info)
+    class(fuge_solver), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+
+    self%found_factor = .false.
+    call run_engine(self, operator, problem, options, monitor, solution, info)
+    if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
+  end subroutine solve_and_certify
 
   !> Forget the last contact set and the history: the next solve starts from scratch. After a change of the operator
   !> that may be faster; the solution is the same.
@@ -112,6 +140,7 @@ contains
 
     self%history = fuge_history()
     self%factor = kkt_factor()
+    self%has_solution = .false.
     if (allocated(self%state)) deallocate (self%state)
     if (allocated(self%scaled_force)) deallocate (self%scaled_force)
   end subroutine reset
@@ -161,7 +190,7 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_info), intent(inout) :: info
 
-    if (.not. (self%factor%is_set() .and. allocated(self%state))) then
+    if (.not. (self%has_solution .and. allocated(self%state))) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load by a dense engine: solve first, ' &
                   //'not by FUGE_ITERATIVE')
     else if (size(gap_change) /= n .or. size(self%state) /= n) then
@@ -253,8 +282,12 @@ contains
     if (info%failed()) return
     call allocate_solution(problem%points(), size(self%canonical%load), engine_solution, info)
     if (info%failed()) return
-    call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known())
+    call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known(), operator%stamp())
+    self%found_factor = self%factor%belongs_to(self%canonical)
+    if (.not. self%found_factor) self%factor = kkt_factor()
     if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
+      self%factor = kkt_factor()
+      self%found_factor = .false.
       call solve_by_tableau(self%canonical, options, monitor, self%history, self%factor, engine_solution, info)
     else
       call run_active_set(self, options, monitor, engine_solution, info)
@@ -273,6 +306,7 @@ contains
     call move_alloc(engine_solution%force, solution%force)
     call move_alloc(engine_solution%gap, solution%gap)
     call move_alloc(engine_solution%state, self%state)
+    self%has_solution = .true.
   end subroutine run_dense_engine
 
   !> The prescribed motions, zero where free, (m).
@@ -299,6 +333,8 @@ contains
     call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info)
     if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
       info = fuge_info()
+      self%factor = kkt_factor()
+      self%found_factor = .false.
       solution%state = FUGE_OPEN
       call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info)
     end if

@@ -4,6 +4,7 @@
 !> their units nor a far-away point of reference costs digits. A resultant that no contact forces can
 !> carry is refused here.
 module fuge_canonical_problem
+  use, intrinsic :: iso_c_binding, only: c_long_long
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
@@ -25,8 +26,9 @@ module fuge_canonical_problem
   type, public :: canonical_problem
     !> Influence matrix, (at least n rows, n columns), length per force; owned by the caller.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
-    !> What is known of it.
+    !> What is known of it, and the number that tells it from other matrices, 0 if there is none.
     type(matrix_survey) :: survey
+    integer(c_long_long) :: stamp = 0
     !> Taken out of all of alpha, where it costs digits: the coefficient nearest to zero if there is a
     !> translation to take it up, else 0.
     real(dp) :: datum = 0.0_dp
@@ -160,13 +162,16 @@ contains
   end subroutine orthogonalise
 
   !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero, `survey` what is known
-  !> of it; without one it is surveyed here.
-  subroutine set_matrix(self, alpha, datum, survey)
+  !> of it; without one it is surveyed here. `stamp` tells it from other matrices; without one factors are not kept.
+  subroutine set_matrix(self, alpha, datum, survey, stamp)
     class(canonical_problem), intent(inout) :: self
     real(dp), intent(in), pointer, contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
     type(matrix_survey), intent(in), optional :: survey
+    integer(c_long_long), intent(in), optional :: stamp
 
+    self%stamp = 0
+    if (present(stamp)) self%stamp = stamp
     if (present(survey)) then
       self%survey = survey
     else
