@@ -29,6 +29,7 @@ module fuge_matrix_operator
     procedure :: apply
     procedure :: datum
     procedure :: magnitude => dense_magnitude
+    procedure :: apply_with_magnitude => dense_apply_with_magnitude
     procedure :: known => what_is_known
     procedure :: stamp
   end type fuge_dense_operator
@@ -140,6 +141,51 @@ contains
       if (abs(force(j)) > 0.0_dp) magnitude = magnitude + abs((self%alpha(:n, j) - datum)*force(j))
     end do
   end subroutine dense_magnitude
+
+  !> As `apply` and `magnitude`, in one pass over the columns of the points with force, two at a time.
+  subroutine dense_apply_with_magnitude(self, force, displacement, magnitude, status)
+    class(fuge_dense_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out) :: displacement(:), magnitude(:)
+    integer, intent(out) :: status
+    integer :: j, n, waiting
+
+    n = self%points()
+    displacement = 0.0_dp
+    magnitude = 0.0_dp
+    waiting = 0
+    do j = 1, n
+      if (.not. abs(force(j)) > 0.0_dp) cycle
+      if (waiting > 0) then
+        call add_two(self%alpha(:n, waiting), self%alpha(:n, j), self%datum(), force(waiting), force(j), displacement, &
+                     magnitude)
+        waiting = 0
+      else
+        waiting = j
+      end if
+    end do
+    if (waiting > 0) then
+      displacement = displacement + (self%alpha(:n, waiting) - self%datum())*force(waiting)
+      magnitude = magnitude + abs((self%alpha(:n, waiting) - self%datum())*force(waiting))
+    end if
+    status = FUGE_DONE
+  end subroutine dense_apply_with_magnitude
+
+  !> Add the terms of two columns to displacements and magnitudes.
+  pure subroutine add_two(a, b, datum, force_a, force_b, displacement, magnitude)
+    real(dp), intent(in), contiguous :: a(:), b(:)
+    real(dp), intent(in) :: datum, force_a, force_b
+    real(dp), intent(inout) :: displacement(:), magnitude(:)
+    real(dp) :: term_a, term_b
+    integer :: i
+
+    do i = 1, size(a)
+      term_a = (a(i) - datum)*force_a
+      term_b = (b(i) - datum)*force_b
+      displacement(i) = displacement(i) + (term_a + term_b)
+      magnitude(i) = magnitude(i) + (abs(term_a) + abs(term_b))
+    end do
+  end subroutine add_two
 
   !> Refuse a matrix (at least n, n) that its survey found not finite, too large or not symmetric.
   !>
