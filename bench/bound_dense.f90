@@ -1,12 +1,13 @@
 !> The active set beside its bound: the least work that any method on Cholesky factors has to do.
 !>
-!>     bound_dense [threads N]
+!>     bound_dense [KIND N]
 !>
 !> The bound knows the contact set. It reads the matrix once, as a check has to, gathers the contact block, solves it
 !> with one `dposv`, and multiplies the columns of the contact once, for gaps and certificate together. A cold solve
 !> makes a new operator and a new solver; a warm one follows a solve at a load that was 1 % smaller, and is compared
 !> with the `dposv` alone. Both sides of a ratio are measured alternately, and the fastest run of each counts. Writes
-!> rows of a Markdown table; with `threads` only the largest grid, cold, to be run with 1 and with 2 threads of BLAS.
+!> rows of a Markdown table, with KIND (quartic or random) and N those of one problem only: that for quartic 4096 is to
+!> be run with 1 and with 2 threads of BLAS.
 program bound_dense
   use, intrinsic :: iso_fortran_env, only: int64, output_unit
   use bench_lapack, only: dposv
@@ -49,25 +50,27 @@ program bound_dense
 contains
 
   subroutine run()
-    character(len=16) :: word
+    character(len=16) :: kind, number
     type(bench_problem), target :: problem
     integer :: k
 
-    call get_command_argument(1, word)
+    call get_command_argument(1, kind)
+    call get_command_argument(2, number)
     write (output_unit, '(a)') '| problem | bound | fuge | ratio | wanted |', '| --- | ---: | ---: | ---: | ---: |'
     do k = 1, size(QUARTICS)
-      if (word == 'threads' .and. k < size(QUARTICS)) cycle
+      if (kind /= '' .and. .not. (kind == 'quartic' .and. number == whole(QUARTICS(k)))) cycle
       call make_known('quartic', FUGE_MEAN, uniform_edges(QUARTICS(k)), problem)
       call add_matrix(problem)
       call measure_cold('quartic '//whole(QUARTICS(k)), problem, WANTED_QUARTIC(k))
-      if (word /= 'threads') call measure_warm('quartic '//whole(QUARTICS(k)), problem, WARM_QUARTIC(k))
+      call measure_warm('quartic '//whole(QUARTICS(k)), problem, WARM_QUARTIC(k))
     end do
-    if (word == 'threads') return
     do k = 1, size(RANDOMS)
+      if (kind /= '' .and. .not. (kind == 'random' .and. number == whole(RANDOMS(k)))) cycle
       call make_random(RANDOMS(k), problem)
       call measure_cold('random '//whole(RANDOMS(k)), problem, WANTED_RANDOM(k))
       call measure_warm('random '//whole(RANDOMS(k)), problem, WARM_RANDOM(k))
     end do
+    if (kind /= '') return
     call make_known('quartic', FUGE_MEAN, uniform_edges(FEW_POINTS), problem)
     call add_matrix(problem)
     call measure_few(problem)

@@ -9,7 +9,7 @@ module fuge_compensated_sums
   implicit none
   private
 
-  public :: add_column, add_terms, bias_above, compensated_dot, upper_half
+  public :: add_column, add_terms, add_two_columns, bias_above, compensated_dot, upper_half
 
   integer, parameter :: int64 = selected_int_kind(18)
   !> The bits of a real that its upper half keeps.
@@ -44,7 +44,7 @@ contains
     factor_upper = upper_half(factor)
     factor_rest = factor - factor_upper
     do i = 1, size(column)
-      upper = upper_half(column(i))
+      upper = transfer(iand(transfer(column(i), UPPER_BITS), UPPER_BITS), upper)
       product = upper*factor_upper
       rest = upper*factor_rest + (column(i) - upper)*factor
       sum = high(i) + product
@@ -52,6 +52,30 @@ contains
       high(i) = sum
     end do
   end subroutine add_column
+
+  !> As `add_column` for two columns and their factors, in one pass over the sums.
+  pure subroutine add_two_columns(first, second, factors, high, low)
+    real(dp), intent(in), contiguous :: first(:), second(:)
+    real(dp), intent(in) :: factors(2)
+    real(dp), intent(inout), contiguous :: high(:), low(:)
+    real(dp) :: factor_upper(2), factor_rest(2), upper(2), product(2), sum(2), rest
+    integer :: i
+
+    factor_upper = upper_half(factors)
+    factor_rest = factors - factor_upper
+    do i = 1, size(first)
+      upper(1) = transfer(iand(transfer(first(i), UPPER_BITS), UPPER_BITS), upper(1))
+      upper(2) = transfer(iand(transfer(second(i), UPPER_BITS), UPPER_BITS), upper(2))
+      product(1) = upper(1)*factor_upper(1)
+      product(2) = upper(2)*factor_upper(2)
+      rest = (upper(1)*factor_rest(1) + (first(i) - upper(1))*factors(1)) &
+             + (upper(2)*factor_rest(2) + (second(i) - upper(2))*factors(2))
+      sum(1) = high(i) + product(1)
+      sum(2) = sum(1) + product(2)
+      low(i) = low(i) + (((product(1) - (sum(1) - high(i))) + (product(2) - (sum(2) - sum(1)))) + rest)
+      high(i) = sum(2)
+    end do
+  end subroutine add_two_columns
 
   !> high + low := high + low + terms.
   pure subroutine add_terms(terms, high, low)

@@ -170,7 +170,7 @@ contains
       where (abs(force) <= set%zero_force) force = 0.0_dp
       if (canonical%plain) then
         motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, state /= FUGE_OPEN, &
-                                              force, motion(1), set%terms)
+                                              force, motion(1))
       end if
       ! A motion is rounding then.
       if (set%has_no_length(canonical)) motion = 0.0_dp

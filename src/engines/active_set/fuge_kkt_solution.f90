@@ -1,7 +1,8 @@
 !> Forces and motion of a given contact set, solved with its factor and refined to the last digits.
 module fuge_kkt_solution
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_compensated_sums, only: add_column, add_terms, bias_above, compensated_dot
+  use fuge_compensated_sums, only: add_column, add_terms, add_two_columns, bias_above, compensated_dot
+  use fuge_displacements, only: displacement_terms
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   implicit none
@@ -12,6 +13,8 @@ module fuge_kkt_solution
   !> An expected correction below this fraction of the largest force is left out.
   real(dp), parameter :: EXACT_ENOUGH = 0.1_dp*epsilon(1.0_dp)
   integer, parameter :: REFINEMENTS = 10
+  !> Most points whose terms are compared.
+  integer, parameter :: CANDIDATES = 8
 
 contains
 
@@ -36,53 +39,73 @@ contains
   end subroutine change_datum
 
   !> The translation recomputed from the contact point with the smallest terms, so that a translation of exactly zero is
-  !> returned as zero. For the plain problem; `terms` (n), the size of the terms of the displacement of each point.
-  pure function translation_at_shallowest(alpha, datum, reduced_gap, contact, force, motion, terms) result(translation)
+  !> returned as zero. For the plain problem.
+  pure function translation_at_shallowest(alpha, datum, reduced_gap, contact, force, motion) result(translation)
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, reduced_gap(:), force(:), motion, terms(:)
+    real(dp), intent(in) :: datum, reduced_gap(:), force(:), motion
     logical, intent(in) :: contact(:)
     real(dp) :: translation
-    real(dp) :: magnitude, least, noise
-    integer :: j, k, n
+    integer :: j, k
 
-    n = size(reduced_gap)
-    ! A point whose force may be rounding does not count as in contact.
-    noise = sqrt(epsilon(noise))*maxval(force)
-    least = huge(least)
-    k = 1
-    do j = 1, n
-      if (.not. (contact(j) .and. force(j) > noise)) cycle
-      magnitude = abs(reduced_gap(j) - motion) + terms(j)
-      if (magnitude >= least) cycle
-      least = magnitude
-      k = j
-    end do
+    k = shallowest_point(alpha, datum, reduced_gap, contact, force, motion)
     translation = reduced_gap(k)
-    do j = 1, n
+    do j = 1, size(contact)
       if (contact(j)) translation = translation + (alpha(j, k) - datum)*force(j)
     end do
   end function translation_at_shallowest
+
+  !> The contact point with the smallest terms: those of its displacement add up to its depth at least, so that few
+  !> points need to be looked at, those of the least depth first.
+  pure function shallowest_point(alpha, datum, reduced_gap, contact, force, motion) result(point)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, reduced_gap(:), force(:), motion
+    logical, intent(in) :: contact(:)
+    integer :: point
+    real(dp) :: depth, least_depth, last_depth, least, noise, terms
+    integer :: candidate, j, next
+
+    ! A point whose force may be rounding does not count as in contact.
+    noise = sqrt(epsilon(noise))*maxval(force)
+    point = maxloc(force, dim=1)
+    least = huge(least)
+    last_depth = -1.0_dp
+    do candidate = 1, CANDIDATES
+      next = 0
+      least_depth = 0.5_dp*least
+      do j = 1, size(contact)
+        if (.not. (contact(j) .and. force(j) > noise)) cycle
+        depth = abs(reduced_gap(j) - motion)
+        if (depth <= last_depth .or. depth >= least_depth) cycle
+        least_depth = depth
+        next = j
+      end do
+      if (next == 0) exit
+      last_depth = least_depth
+      terms = least_depth + displacement_terms(alpha, datum, contact, force, next)
+      if (terms >= least) cycle
+      least = terms
+      point = next
+    end do
+  end function shallowest_point
 
   !> Iterative refinement of forces and motion on the contact set.
   !>
   !> Residuals have 24 digits of their terms, and see errors of the forces that double precision cannot. With the
   !> `regularisation` of the factor the system solved is that of the regularised alpha, with 0 that of alpha. `gap` (n)
-  !> as in `solve_set`. Out: `terms` (n), on the contact the size of the terms of each displacement, sum_j |alpha_ij -
-  !> datum| |f_j| before the last correction.
-  subroutine refine_solution(canonical, gap, factor, regularisation, contact, force, motion, terms)
+  !> as in `solve_set`.
+  subroutine refine_solution(canonical, gap, factor, regularisation, contact, force, motion)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), regularisation
     type(kkt_factor), intent(in) :: factor
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: force(:), motion(:)
-    real(dp), intent(out) :: terms(:)
     real(dp) :: residual(size(gap)), correction(size(gap)), missing(size(motion)), shift(size(motion))
     real(dp) :: change, last, largest
     integer :: step
 
     last = maxval(abs(force))
     do step = 1, REFINEMENTS
-      call find_residual(canonical, gap, regularisation, contact, force, motion, residual, missing, terms)
+      call find_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
       call factor%solve(residual, missing, correction, shift)
       change = maxval(abs(correction))
       if (.not. (change < 0.5_dp*last .or. (step == 1 .and. change <= huge(change)))) exit
@@ -99,16 +122,16 @@ contains
     end do
   end subroutine refine_solution
 
-  !> Residuals of the gaps (n), on the contact set only, and of equilibrium (m); `terms` as in `refine_solution`.
-  subroutine find_residual(canonical, gap, regularisation, contact, force, motion, residual, missing, terms)
+  !> Residuals of the gaps (n), on the contact set only, and of equilibrium (m).
+  subroutine find_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), regularisation
     real(dp), intent(in), contiguous :: force(:), motion(:)
     logical, intent(in) :: contact(:)
-    real(dp), intent(out) :: residual(:), missing(:), terms(:)
-    real(dp), dimension(count(contact)) :: high, low, column, magnitude
+    real(dp), intent(out) :: residual(:), missing(:)
+    real(dp), dimension(count(contact)) :: high, low, column, other
     real(dp) :: shift_high(1), shift_low(1), bias
-    integer :: points(size(high)), j, k, m
+    integer :: points(size(high)), j, m, waiting
 
     m = 0
     do j = 1, size(contact)
@@ -116,22 +139,28 @@ contains
       m = m + 1
       points(m) = j
     end do
-    residual = 0.0_dp
     bias = bias_above(largest_sum(canonical, gap, regularisation, force, motion))
     high = bias
     low = 0.0_dp
-    magnitude = 0.0_dp
     shift_high = bias
     shift_low = 0.0_dp
+    waiting = 0
     do j = 1, m
       if (.not. abs(force(points(j))) > 0.0_dp) cycle
-      do k = 1, m
-        column(k) = canonical%alpha(points(k), points(j))
-      end do
-      call add_column(column, force(points(j)), high, low)
-      magnitude = magnitude + abs((column - canonical%datum)*force(points(j)))
       call add_column([canonical%datum], -force(points(j)), shift_high, shift_low)
+      if (waiting == 0) then
+        waiting = points(j)
+        cycle
+      end if
+      call gather(canonical%alpha(:, waiting), points, column)
+      call gather(canonical%alpha(:, points(j)), points, other)
+      call add_two_columns(column, other, [force(waiting), force(points(j))], high, low)
+      waiting = 0
     end do
+    if (waiting > 0) then
+      call gather(canonical%alpha(:, waiting), points, column)
+      call add_column(column, force(waiting), high, low)
+    end if
     ! The datum times the sum of the forces.
     column = shift_high(1) - bias
     call add_terms(column, high, low)
@@ -143,10 +172,21 @@ contains
       call add_column(column, -motion(j), high, low)
       missing(j) = compensated_dot(canonical%load(j), canonical%modes(:, j), force)
     end do
+    residual = 0.0_dp
     residual(points) = (high - bias) + low
-    terms = 0.0_dp
-    terms(points) = magnitude
   end subroutine find_residual
+
+  !> The `column` at the `points`.
+  pure subroutine gather(column, points, gathered)
+    real(dp), intent(in), contiguous :: column(:)
+    integer, intent(in), contiguous :: points(:)
+    real(dp), intent(out), contiguous :: gathered(:)
+    integer :: k
+
+    do k = 1, size(points)
+      gathered(k) = column(points(k))
+    end do
+  end subroutine gather
 
   !> A bound of the sums of the residuals.
   pure function largest_sum(canonical, gap, regularisation, force, motion) result(most)

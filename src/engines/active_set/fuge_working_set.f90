@@ -26,8 +26,6 @@ module fuge_working_set
     real(dp) :: zero_force = 0.0_dp
     !> Scaled violation of the sign conditions at each point, (n).
     real(dp), allocatable :: violation(:)
-    !> The size of the terms of the displacement at each point in contact, (n), from the last refinement.
-    real(dp), allocatable :: terms(:)
     !> Displacement by the forces at each open point, (n), from the last measure.
     real(dp), allocatable :: elastic(:)
   contains
@@ -52,14 +50,13 @@ contains
     integer, intent(out) :: status
     integer :: stat
 
-    allocate (self%reduced_gap(size(state)), self%violation(size(state)), self%terms(size(state)), &
-              self%elastic(size(state)), stat=stat)
+    allocate (self%reduced_gap(size(state)), self%violation(size(state)), self%elastic(size(state)), &
+              stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) return
     if (canonical%has_translation) self%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
     self%reduced_gap = canonical%gap - self%gap_datum
     self%violation = 0.0_dp
-    self%terms = 0.0_dp
     self%elastic = 0.0_dp
     self%zero_force = rounding_force(canonical, self%reduced_gap)
     where (canonical%excluded) state = FUGE_OPEN
@@ -131,14 +128,14 @@ contains
 
   !> Iterative refinement of forces and motion; `regularisation` as in `refine_solution`.
   subroutine refine(self, canonical, factor, regularisation, solution)
-    class(working_set), intent(inout) :: self
+    class(working_set), intent(in) :: self
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
     real(dp), intent(in) :: regularisation
     type(contact_solution), intent(inout) :: solution
 
     call refine_solution(canonical, self%gap_at_stops(canonical, solution%state), factor, regularisation, &
-                         solution%state /= FUGE_OPEN, solution%force, solution%motion, self%terms)
+                         solution%state /= FUGE_OPEN, solution%force, solution%motion)
   end subroutine refine
 
   !> Does the problem have no length at all, neither gaps nor plays nor displacements?
