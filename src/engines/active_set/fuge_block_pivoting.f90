@@ -2,7 +2,7 @@
 !>
 !> Solve the equations of a guessed contact set, exchange every point that violates a sign, repeat (J. J. Judice,
 !> F. M. Pires, Computers & Operations Research 21, 1994). When the number of violations has not fallen
-!> for a while, the primal active-set method goes on, which ends.
+!> for a while, although points join, the primal active-set method goes on, which ends.
 module fuge_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
@@ -19,7 +19,7 @@ module fuge_block_pivoting
 
   public :: run_block_pivoting
 
-  !> Block exchanges without a new minimum of wrong points before single exchanges begin.
+  !> Block exchanges with points that join, and without a new minimum of wrong points, before single exchanges begin.
   integer, parameter, public :: MAX_STALLS = 3
   !> A large ratio of the pivots raises the violations that count as rounding.
   real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
@@ -77,7 +77,7 @@ contains
         status = FUGE_ERR_ITERATION_LIMIT
         return
       end if
-      call count_progress(count(set%violation > SIGN_TOLERANCE), progress)
+      call count_progress(set%violation > SIGN_TOLERANCE, solution%state == FUGE_OPEN, progress)
       if (progress%stalls_left < 0) then
         call run_primal_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
         if (status /= FUGE_DONE) return
@@ -133,14 +133,18 @@ contains
     is_noise = progress%stalls_left < 0 .and. maxval(set%violation) < NOISE*max(1.0_dp, NOISE_GROWTH*factor%pivot_ratio)
   end function is_noise
 
-  !> Count an exchange; fewer wrong points than ever before renew the stalls left, unless there are none.
-  pure subroutine count_progress(wrong, progress)
-    integer, intent(in) :: wrong
+  !> Count an exchange of the `wrong` points (n), of which the `open` ones join. Fewer wrong points than ever before
+  !> renew the stalls left, unless there are none. An exchange that only opens points is no stall: as long as none
+  !> joins, the contact shrinks, be it by a layer of points at a time, and no set comes again.
+  pure subroutine count_progress(wrong, open, progress)
+    logical, intent(in) :: wrong(:), open(:)
     type(pivoting_progress), intent(inout) :: progress
+    integer :: number
 
-    progress%stalls_left = progress%stalls_left - 1
-    if (wrong < progress%fewest_wrong .and. progress%stalls_left >= 0) progress%stalls_left = MAX_STALLS
-    progress%fewest_wrong = min(progress%fewest_wrong, wrong)
+    number = count(wrong)
+    if (any(wrong .and. open)) progress%stalls_left = progress%stalls_left - 1
+    if (number < progress%fewest_wrong .and. progress%stalls_left >= 0) progress%stalls_left = MAX_STALLS
+    progress%fewest_wrong = min(progress%fewest_wrong, number)
     progress%refine_now = progress%stalls_left < MAX_STALLS
   end subroutine count_progress
 
