@@ -136,33 +136,39 @@ contains
     end do
   end subroutine survey_diagonal_tile
 
+  !> Extremes from the half below the diagonal: the other half differs by the asymmetry only.
   pure subroutine survey_tile(alpha, first_row, first_column, rows, columns, here, across, survey)
     real(dp), intent(in), contiguous :: alpha(:, :)
     integer, intent(in) :: first_row, first_column, rows, columns
     real(dp), intent(in) :: here(TILE, TILE), across(TILE, TILE)
     type(matrix_survey), intent(inout) :: survey
-    real(dp) :: least, most, asymmetry, pair, own(TILE)
+    real(dp) :: least, most, asymmetry, row_energy(TILE), column_energy(TILE)
     integer :: i, j
 
-    least = survey%least
-    most = survey%most
+    least = here(1, 1)
+    most = here(1, 1)
     asymmetry = survey%asymmetry
+    do j = 1, columns
+      do i = 1, rows
+        least = min(least, here(i, j))
+        most = max(most, here(i, j))
+        asymmetry = max(asymmetry, abs(here(i, j) - across(i, j)))
+      end do
+    end do
+    survey%least = min(survey%least, least)
+    survey%most = max(survey%most, most)
+    survey%asymmetry = asymmetry
     do i = 1, rows
-      own(i) = tolerated(alpha(first_row + i - 1, first_row + i - 1))
+      row_energy(i) = tolerated(alpha(first_row + i - 1, first_row + i - 1))
     end do
     do j = 1, columns
-      pair = -huge(pair)
-      do i = 1, rows
-        least = min(least, here(i, j), across(i, j))
-        most = max(most, here(i, j), across(i, j))
-        asymmetry = max(asymmetry, abs(here(i, j) - across(i, j)))
-        pair = max(pair, 2.0_dp*here(i, j) - own(i))
-      end do
-      if (pair > tolerated(alpha(first_column + j - 1, first_column + j - 1))) survey%pairs_hold = .false.
+      column_energy(j) = tolerated(alpha(first_column + j - 1, first_column + j - 1))
     end do
-    survey%least = least
-    survey%most = most
-    survey%asymmetry = asymmetry
+    ! The tile's largest coefficient settles most tiles.
+    if (2.0_dp*most <= minval(row_energy(:rows)) + minval(column_energy(:columns))) return
+    do j = 1, columns
+      if (any(2.0_dp*here(:rows, j) - row_energy(:rows) > column_energy(j))) survey%pairs_hold = .false.
+    end do
   end subroutine survey_tile
 
   !> What a point brings to the energy of a pair, rounding included.

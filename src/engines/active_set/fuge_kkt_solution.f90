@@ -13,6 +13,8 @@ module fuge_kkt_solution
   !> An expected correction below this fraction of the largest force is left out.
   real(dp), parameter :: EXACT_ENOUGH = 0.1_dp*epsilon(1.0_dp)
   integer, parameter :: REFINEMENTS = 10
+  !> Rows that are gathered at a time.
+  integer, parameter :: PANEL = 256
   !> Most points whose terms are compared.
   integer, parameter :: CANDIDATES = 8
 
@@ -129,7 +131,7 @@ contains
     real(dp), intent(in), contiguous :: force(:), motion(:)
     logical, intent(in) :: contact(:)
     real(dp), intent(out) :: residual(:), missing(:)
-    real(dp), dimension(count(contact)) :: high, low, column, other
+    real(dp), dimension(count(contact)) :: high, low, column
     real(dp) :: shift_high(1), shift_low(1), bias
     integer :: points(size(high)), j, m, waiting
 
@@ -152,15 +154,10 @@ contains
         waiting = points(j)
         cycle
       end if
-      call gather(canonical%alpha(:, waiting), points, column)
-      call gather(canonical%alpha(:, points(j)), points, other)
-      call add_two_columns(column, other, [force(waiting), force(points(j))], high, low)
+      call add_columns(canonical%alpha, points, waiting, points(j), force, high, low)
       waiting = 0
     end do
-    if (waiting > 0) then
-      call gather(canonical%alpha(:, waiting), points, column)
-      call add_column(column, force(waiting), high, low)
-    end if
+    if (waiting > 0) call add_columns(canonical%alpha, points, waiting, waiting, 0.5_dp*force, high, low)
     ! The datum times the sum of the forces.
     column = shift_high(1) - bias
     call add_terms(column, high, low)
@@ -176,17 +173,24 @@ contains
     residual(points) = (high - bias) + low
   end subroutine find_residual
 
-  !> The `column` at the `points`.
-  pure subroutine gather(column, points, gathered)
-    real(dp), intent(in), contiguous :: column(:)
-    integer, intent(in), contiguous :: points(:)
-    real(dp), intent(out), contiguous :: gathered(:)
-    integer :: k
+  !> Add two columns at the `points`, times their forces.
+  pure subroutine add_columns(alpha, points, first, second, force, high, low)
+    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
+    integer, intent(in) :: points(:), first, second
+    real(dp), intent(inout), contiguous :: high(:), low(:)
+    real(dp), dimension(PANEL) :: one, other
+    integer :: from, k, panel_size
 
-    do k = 1, size(points)
-      gathered(k) = column(points(k))
+    do from = 1, size(points), PANEL
+      panel_size = min(PANEL, size(points) - from + 1)
+      do k = 1, panel_size
+        one(k) = alpha(points(from + k - 1), first)
+        other(k) = alpha(points(from + k - 1), second)
+      end do
+      call add_two_columns(one(:panel_size), other(:panel_size), [force(first), force(second)], &
+                           high(from:from + panel_size - 1), low(from:from + panel_size - 1))
     end do
-  end subroutine gather
+  end subroutine add_columns
 
   !> A bound of the sums of the residuals.
   pure function largest_sum(canonical, gap, regularisation, force, motion) result(most)

@@ -5,7 +5,7 @@
 !> read; the others are read four at a time, because the displacements would otherwise be loaded and stored for each.
 module fuge_displacements
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgemv
+  use fuge_lapack, only: dgemv, dsymv
   implicit none
   private
 
@@ -15,6 +15,8 @@ module fuge_displacements
   integer, parameter :: SHORT_RUN = 16
   !> Runs of columns from this length on are left to BLAS, where rounding does not matter.
   integer, parameter :: LONG_RUN = 8
+  !> With force at more than this part of the points, half of the matrix is read instead of columns.
+  real(dp), parameter :: MANY = 0.6_dp
 
 contains
 
@@ -44,35 +46,83 @@ contains
   end subroutine add_elastic_displacement
 
   !> As `add_elastic_displacement`, but needed at open points only; what is added to u at points in contact is left
-  !> undefined. Where the open points lie side by side, their rows alone are read.
+  !> undefined. Forces are zero at open points.
+  !>
+  !> Few open points are multiplied one by one, by their columns, which are their rows too; of more, the rows alone are
+  !> read where they lie side by side.
   pure subroutine add_open_displacement(alpha, datum, contact, force, u)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, force(:)
+    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
+    real(dp), intent(in) :: datum
     logical, intent(in) :: contact(:)
     real(dp), intent(inout), contiguous :: u(:)
-    integer :: first, last, n
+    integer :: first, k, last, n
 
     n = size(u)
-    if (count(contact(2:) .neqv. contact(:n - 1))*SHORT_RUN > n) then
+    if (2*count(contact) > n) then
+      first = findloc_contact(contact, 1, n)
+      last = findloc_contact(contact, n, 1)
+      do k = 1, n
+        if (.not. contact(k)) u(k) = u(k) + displacement_at(alpha(first:last, k), datum, force(first:last))
+      end do
+    else if (count(contact(2:) .neqv. contact(:n - 1))*SHORT_RUN > n) then
       call add_in_rows(alpha, datum, contact, force, 1, n, u)
-      return
+    else
+      last = 0
+      do
+        call next_run(.not. contact, last + 1, first, last)
+        if (first > n) exit
+        call add_in_rows(alpha, datum, contact, force, first, last, u)
+      end do
     end if
-    last = 0
-    do
-      first = last + 1
-      do while (first <= n)
-        if (.not. contact(first)) exit
-        first = first + 1
-      end do
-      if (first > n) exit
-      last = first
-      do while (last < n)
-        if (contact(last + 1)) exit
-        last = last + 1
-      end do
-      call add_in_rows(alpha, datum, contact, force, first, last, u)
-    end do
   end subroutine add_open_displacement
+
+  !> The first point in contact on the way from one point to another; the last one of them if there is none.
+  pure function findloc_contact(contact, from, to) result(point)
+    logical, intent(in) :: contact(:)
+    integer, intent(in) :: from, to
+    integer :: point
+
+    do point = from, to, sign(1, to - from)
+      if (contact(point)) return
+    end do
+    point = to
+  end function findloc_contact
+
+  !> The next run of marked points from `start` on; `first` is beyond the last point if there is none.
+  pure subroutine next_run(marked, start, first, last)
+    logical, intent(in) :: marked(:)
+    integer, intent(in) :: start
+    integer, intent(out) :: first, last
+
+    do first = start, size(marked)
+      if (marked(first)) exit
+    end do
+    do last = first, size(marked) - 1
+      if (.not. marked(last + 1)) return
+    end do
+    last = size(marked)
+  end subroutine next_run
+
+  !> (row - datum).force, in four sums that the processor can add side by side.
+  pure function displacement_at(row, datum, force) result(displacement)
+    real(dp), intent(in), contiguous :: row(:), force(:)
+    real(dp), intent(in) :: datum
+    real(dp) :: displacement, sums(4)
+    integer :: k, whole
+
+    sums = 0.0_dp
+    whole = size(row) - modulo(size(row), 4)
+    do k = 1, whole, 4
+      sums(1) = sums(1) + (row(k) - datum)*force(k)
+      sums(2) = sums(2) + (row(k + 1) - datum)*force(k + 1)
+      sums(3) = sums(3) + (row(k + 2) - datum)*force(k + 2)
+      sums(4) = sums(4) + (row(k + 3) - datum)*force(k + 3)
+    end do
+    do k = whole + 1, size(row)
+      sums(1) = sums(1) + (row(k) - datum)*force(k)
+    end do
+    displacement = (sums(1) + sums(2)) + (sums(3) + sums(4))
+  end function displacement_at
 
   !> The rows `first` to `last` of `add_elastic_displacement`.
   pure subroutine add_in_rows(alpha, datum, contact, force, first, last, u)
@@ -138,47 +188,31 @@ contains
     end do
   end function displacement_terms
 
-  !> u := u + factor alpha f, (n), for a guess: with the digits that BLAS leaves. Columns without force are not read.
+  !> u := u + factor alpha f, (n), for a guess: with the digits that BLAS leaves, and where many points have force
+  !> from half of the matrix. Columns without force are not read otherwise.
   subroutine add_rough_product(alpha, factor, force, u)
     real(dp), intent(in), contiguous :: alpha(:, :), force(:)
     real(dp), intent(in) :: factor
     real(dp), intent(inout), contiguous :: u(:)
-    real(dp) :: four(4)
-    integer :: columns(4), first, last, n, waiting, j
+    integer :: first, last, n
+    logical :: loaded(size(force))
 
     n = size(u)
-    waiting = 0
+    loaded = abs(force) > 0.0_dp
+    if (real(count(loaded), dp) > MANY*real(n, dp)) then
+      call dsymv('L', n, factor, alpha, size(alpha, 1), force, 1, 1.0_dp, u, 1)
+      return
+    end if
     last = 0
     do
-      first = last + 1
-      do while (first <= n)
-        if (abs(force(first)) > 0.0_dp) exit
-        first = first + 1
-      end do
+      call next_run(loaded, last + 1, first, last)
       if (first > n) exit
-      last = first
-      do while (last < n)
-        if (.not. abs(force(last + 1)) > 0.0_dp) exit
-        last = last + 1
-      end do
-      if (last - first + 1 >= LONG_RUN) then
-        call dgemv('N', n, last - first + 1, factor, alpha(:, first:last), size(alpha, 1), force(first:last), 1, &
-                   1.0_dp, u, 1)
-        cycle
-      end if
-      do j = first, last
-        waiting = waiting + 1
-        columns(waiting) = j
-        if (waiting < 4) cycle
-        four = factor*force(columns)
-        call add_four(alpha(:n, columns(1)), alpha(:n, columns(2)), alpha(:n, columns(3)), alpha(:n, columns(4)), &
-                      0.0_dp, four, u)
-        waiting = 0
-      end do
+      if (last - first + 1 < LONG_RUN) cycle
+      call dgemv('N', n, last - first + 1, factor, alpha(:, first:last), size(alpha, 1), force(first:last), 1, &
+                 1.0_dp, u, 1)
+      loaded(first:last) = .false.
     end do
-    do j = 1, waiting
-      call add_one(alpha(:n, columns(j)), 0.0_dp, factor*force(columns(j)), u)
-    end do
+    if (any(loaded)) call add_in_rows(alpha, 0.0_dp, loaded, factor*force, 1, n, u)
   end subroutine add_rough_product
 
 end module fuge_displacements
