@@ -9,7 +9,8 @@ module fuge_displacements
   implicit none
   private
 
-  public :: add_elastic_displacement, add_open_displacement, add_rough_product, displacement_terms, rigid_displacement
+  public :: add_elastic_displacement, add_open_displacement, add_rough_product, displacement_magnitude, &
+    displacement_terms, rigid_displacement
 
   !> Runs of points in contact, or open, that are shorter than this on average are not worth a loop each.
   integer, parameter :: SHORT_RUN = 16
@@ -172,8 +173,21 @@ contains
     end do
   end subroutine add_one
 
-  !> sum_j |alpha_jk - datum| |f_j| over the contact, at point k: the size of the terms of its displacement, which may
-  !> cancel.
+  !> sum_j |alpha_kj - datum| |f_j|, (n): the size of the terms of a displacement, which may cancel.
+  pure function displacement_magnitude(alpha, datum, contact, force) result(magnitude)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, force(:)
+    logical, intent(in) :: contact(:)
+    real(dp) :: magnitude(size(contact))
+    integer :: j
+
+    magnitude = 0.0_dp
+    do j = 1, size(contact)
+      if (contact(j)) magnitude = magnitude + abs((alpha(:size(contact), j) - datum)*force(j))
+    end do
+  end function displacement_magnitude
+
+  !> As `displacement_magnitude`, at point k only.
   pure function displacement_terms(alpha, datum, contact, force, k) result(terms)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, force(:)
