@@ -43,15 +43,33 @@ contains
   !>
   !> `solution` allocated; `solution%state` (n) the guess, then the contact set; `factor` is that of the set on
   !> return. `iterations` counts the sets tried, at most `limit`; `monitor` hears of each, with its largest
-  !> violation. Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
-  subroutine run_block_pivoting(canonical, limit, monitor, factor, solution, iterations, status)
+  !> violation. With `kept`, the arrays of an earlier call are used again. Errors: FUGE_ERR_MEMORY,
+  !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
+  subroutine run_block_pivoting(canonical, limit, monitor, factor, solution, iterations, status, kept)
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
     type(kkt_factor), intent(inout) :: factor
     type(contact_solution), intent(inout) :: solution
     integer, intent(out) :: iterations, status
+    type(working_set), intent(inout), optional :: kept
     type(working_set) :: set
+
+    if (present(kept)) then
+      call pivot_blocks(canonical, limit, monitor, kept, factor, solution, iterations, status)
+    else
+      call pivot_blocks(canonical, limit, monitor, set, factor, solution, iterations, status)
+    end if
+  end subroutine run_block_pivoting
+
+  subroutine pivot_blocks(canonical, limit, monitor, set, factor, solution, iterations, status)
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: limit
+    class(fuge_monitor), intent(inout) :: monitor
+    type(working_set), intent(inout) :: set
+    type(kkt_factor), intent(inout) :: factor
+    type(contact_solution), intent(inout) :: solution
+    integer, intent(out) :: iterations, status
     type(pivoting_progress) :: progress
 
     iterations = 0
@@ -87,7 +105,7 @@ contains
       end if
     end do
     call remove_rounding(canonical, set, factor, solution)
-  end subroutine run_block_pivoting
+  end subroutine pivot_blocks
 
   !> Factor the set, solve its equations, refine where that is called for, and measure the violations.
   subroutine solve_working_set(canonical, set, progress, factor, solution, status)
@@ -98,7 +116,8 @@ contains
     type(contact_solution), intent(inout) :: solution
     integer, intent(out) :: status
 
-    call factor%set(canonical, solution%state /= FUGE_OPEN, status)
+    call set%mark(canonical, solution%state)
+    call factor%set(canonical, set%contact, status)
     if (status /= FUGE_DONE) return
     call set%solve(canonical, factor, solution)
     progress%refine_now = progress%refine_now .or. factor%pivot_ratio > ILL_CONDITIONED &
@@ -117,7 +136,7 @@ contains
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(inout) :: solution
 
-    if (canonical%has_translation) call set%move_gap_datum(canonical, solution%motion)
+    if (canonical%has_translation) call set%move_gap_datum(canonical, solution)
     call set%refine(canonical, factor, factor%regularisation, solution)
     call set%measure(canonical, .true., solution)
   end subroutine refine_working_set
@@ -173,8 +192,8 @@ contains
       where (upper > 0.0_dp) force = real(state, dp)*max(state*force, 0.0_dp)
       where (abs(force) <= set%zero_force) force = 0.0_dp
       if (canonical%plain) then
-        motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, state /= FUGE_OPEN, &
-                                              force, motion(1))
+        motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, set%contact, force, &
+                                              motion(1))
       end if
       ! A motion is rounding then.
       if (set%has_no_length(canonical)) motion = 0.0_dp

@@ -18,7 +18,34 @@ module fuge_kkt_solution
   !> Most points whose terms are compared.
   integer, parameter :: CANDIDATES = 8
 
+  !> Arrays of a refinement, kept so that small problems do not spend their time on allocations.
+  type, public :: refinement_arrays
+    !> (n).
+    real(dp), allocatable, private :: residual(:), correction(:), high(:), low(:), column(:)
+    integer, allocatable, private :: points(:)
+    !> (m).
+    real(dp), allocatable, private :: missing(:), shift(:)
+  contains
+    procedure :: fit
+  end type refinement_arrays
+
 contains
+
+  !> Allocate the arrays for n points and m motions, unless they fit. `stat` as from allocate.
+  pure subroutine fit(self, n, m, stat)
+    class(refinement_arrays), intent(inout) :: self
+    integer, intent(in) :: n, m
+    integer, intent(out) :: stat
+
+    stat = 0
+    if (allocated(self%missing)) then
+      if (size(self%residual) == n .and. size(self%missing) == m) return
+      deallocate (self%residual, self%correction, self%high, self%low, self%column, self%points, self%missing, self%shift)
+    end if
+    allocate (self%residual(n), self%correction(n), self%high(n), self%low(n), self%column(n), self%points(n), &
+              self%missing(m), self%shift(m), stat=stat)
+    if (stat == 0) self%residual = 0.0_dp
+  end subroutine fit
 
   !> Forces (n) and motions (m) with reduced_gap + (alpha - datum) f - R q = 0 on the contact set of `factor` and
   !> R^T f = load, not refined. `reduced_gap` (n), length; `load` (m); `datum` is zero unless the first mode is a
@@ -94,26 +121,28 @@ contains
   !>
   !> Residuals have 24 digits of their terms, and see errors of the forces that double precision cannot. With the
   !> `regularisation` of the factor the system solved is that of the regularised alpha, with 0 that of alpha. `gap` (n)
-  !> as in `solve_set`.
-  subroutine refine_solution(canonical, gap, factor, regularisation, contact, force, motion)
+  !> as in `solve_set`; `arrays` that `fit`.
+  subroutine refine_solution(canonical, gap, factor, regularisation, contact, arrays, force, motion)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), regularisation
     type(kkt_factor), intent(in) :: factor
     logical, intent(in) :: contact(:)
-    real(dp), intent(inout) :: force(:), motion(:)
-    real(dp) :: residual(size(gap)), correction(size(gap)), missing(size(motion)), shift(size(motion))
+    type(refinement_arrays), intent(inout) :: arrays
+    real(dp), intent(inout), contiguous :: force(:), motion(:)
     real(dp) :: change, last, largest
-    integer :: step
+    integer :: points, step
 
+    call list_points(contact, arrays%points, points)
     last = maxval(abs(force))
     do step = 1, REFINEMENTS
-      call find_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
-      call factor%solve(residual, missing, correction, shift)
-      change = maxval(abs(correction))
+      call find_residual(canonical, gap, regularisation, arrays%points(:points), force, motion, arrays%high(:points), &
+                         arrays%low(:points), arrays%column(:points), arrays%residual, arrays%missing)
+      call factor%solve(arrays%residual, arrays%missing, arrays%correction, arrays%shift)
+      change = maxval(abs(arrays%correction))
       if (.not. (change < 0.5_dp*last .or. (step == 1 .and. change <= huge(change)))) exit
-      force = force + correction
-      call change_datum(factor%datum - canonical%datum, missing, shift)
-      motion = motion + shift
+      force = force + arrays%correction
+      call change_datum(factor%datum - canonical%datum, arrays%missing, arrays%shift)
+      motion = motion + arrays%shift
       largest = maxval(abs(force))
       ! Corrections shrink by about the same factor each time, so that of the last one tells the next.
       if (change <= EXACT_ENOUGH*largest) exit
@@ -124,59 +153,81 @@ contains
     end do
   end subroutine refine_solution
 
-  !> Residuals of the gaps (n), on the contact set only, and of equilibrium (m).
-  subroutine find_residual(canonical, gap, regularisation, contact, force, motion, residual, missing)
-    type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: gap(:), regularisation
-    real(dp), intent(in), contiguous :: force(:), motion(:)
+  !> The points marked in `contact` (n), the first `number` of `points` (n).
+  pure subroutine list_points(contact, points, number)
     logical, intent(in) :: contact(:)
-    real(dp), intent(out) :: residual(:), missing(:)
-    real(dp), dimension(count(contact)) :: high, low, column
-    real(dp) :: shift_high(1), shift_low(1), bias
-    integer :: points(size(high)), j, m, waiting
+    integer, intent(inout) :: points(:)
+    integer, intent(out) :: number
+    integer :: j
 
-    m = 0
+    number = 0
     do j = 1, size(contact)
       if (.not. contact(j)) cycle
-      m = m + 1
-      points(m) = j
+      number = number + 1
+      points(number) = j
     end do
+  end subroutine list_points
+
+  !> Residuals of the gaps (n), at the `points` of the contact only, and of equilibrium (m). `high`, `low` and `column`
+  !> are work space as long as `points`.
+  pure subroutine find_residual(canonical, gap, regularisation, points, force, motion, high, low, column, residual, &
+                                missing)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: gap(:), regularisation
+    integer, intent(in), contiguous :: points(:)
+    real(dp), intent(in), contiguous :: force(:), motion(:)
+    real(dp), intent(inout), contiguous :: high(:), low(:), column(:)
+    real(dp), intent(inout) :: residual(:), missing(:)
+    real(dp) :: shift_high(1), shift_low(1), bias
+    integer :: j, k, waiting
+
     bias = bias_above(largest_sum(canonical, gap, regularisation, force, motion))
     high = bias
     low = 0.0_dp
     shift_high = bias
     shift_low = 0.0_dp
     waiting = 0
-    do j = 1, m
+    do j = 1, size(points)
       if (.not. abs(force(points(j))) > 0.0_dp) cycle
       call add_column([canonical%datum], -force(points(j)), shift_high, shift_low)
       if (waiting == 0) then
         waiting = points(j)
         cycle
       end if
-      call add_columns(canonical%alpha, points, waiting, points(j), force, high, low)
+      call add_columns(canonical%alpha, points, waiting, points(j), [force(waiting), force(points(j))], high, low)
       waiting = 0
     end do
-    if (waiting > 0) call add_columns(canonical%alpha, points, waiting, waiting, 0.5_dp*force, high, low)
+    if (waiting > 0) call add_columns(canonical%alpha, points, waiting, waiting, [force(waiting), 0.0_dp], high, low)
     ! The datum times the sum of the forces.
     column = shift_high(1) - bias
     call add_terms(column, high, low)
+    do k = 1, size(points)
+      column(k) = gap(points(k))
+    end do
+    call add_terms(column, high, low)
+    do k = 1, size(points)
+      column(k) = regularisation*force(points(k))
+    end do
+    call add_terms(column, high, low)
     low = low + shift_low(1)
-    call add_terms(gap(points), high, low)
-    call add_terms(regularisation*force(points), high, low)
     do j = 1, size(motion)
-      column = canonical%modes(points, j)
+      do k = 1, size(points)
+        column(k) = canonical%modes(points(k), j)
+      end do
       call add_column(column, -motion(j), high, low)
       missing(j) = compensated_dot(canonical%load(j), canonical%modes(:, j), force)
     end do
-    residual = 0.0_dp
-    residual(points) = (high - bias) + low
+    do k = 1, size(points)
+      residual(points(k)) = (high(k) - bias) + low(k)
+    end do
   end subroutine find_residual
 
-  !> Add two columns at the `points`, times their forces.
-  pure subroutine add_columns(alpha, points, first, second, force, high, low)
-    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
-    integer, intent(in) :: points(:), first, second
+  !> Add two columns at the `points`, times their `forces`.
+  pure subroutine add_columns(alpha, points, first, second, forces, high, low)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    integer, intent(in), contiguous :: points(:)
+    integer, intent(in) :: first, second
+    real(dp), intent(in) :: forces(2)
     real(dp), intent(inout), contiguous :: high(:), low(:)
     real(dp), dimension(PANEL) :: one, other
     integer :: from, k, panel_size
@@ -187,7 +238,7 @@ contains
         one(k) = alpha(points(from + k - 1), first)
         other(k) = alpha(points(from + k - 1), second)
       end do
-      call add_two_columns(one(:panel_size), other(:panel_size), [force(first), force(second)], &
+      call add_two_columns(one(:panel_size), other(:panel_size), forces, &
                            high(from:from + panel_size - 1), low(from:from + panel_size - 1))
     end do
   end subroutine add_columns

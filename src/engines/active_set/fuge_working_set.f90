@@ -6,10 +6,10 @@ module fuge_working_set
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
-  use fuge_displacements, only: add_open_displacement, displacement_terms, rigid_displacement
+  use fuge_displacements, only: add_open_displacement, displacement_terms
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_kkt_solution, only: refine_solution, solve_set
+  use fuge_kkt_solution, only: refine_solution, refinement_arrays, solve_set
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
@@ -28,40 +28,76 @@ module fuge_working_set
     real(dp), allocatable :: violation(:)
     !> Displacement by the forces at each open point, (n), from the last measure.
     real(dp), allocatable :: elastic(:)
+    !> The points of the set, and the gaps that displacements have to close there, (n): at the upper stop the play
+    !> stays open.
+    logical, allocatable :: contact(:)
+    real(dp), allocatable, private :: gap_at_stops(:)
+    type(refinement_arrays), private :: arrays
   contains
     procedure :: start
+    procedure :: mark
     procedure :: move_gap_datum
     procedure :: solve
     procedure :: refine
     procedure :: measure
     procedure :: has_no_length
     procedure :: find_gaps
-    procedure, private :: gap_at_stops
   end type working_set
 
 contains
 
-  !> Prepare for a problem. Excluded points of `state` (n) are opened, tied ones closed. `status`: FUGE_DONE
-  !> or FUGE_ERR_MEMORY.
+  !> Prepare for a problem; arrays of an earlier one are used again. Excluded points of `state` (n) are opened, tied
+  !> ones closed. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
   subroutine start(self, canonical, state, status)
-    class(working_set), intent(out) :: self
+    class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     integer, intent(inout) :: state(:)
     integer, intent(out) :: status
-    integer :: stat
+    integer :: n, stat
 
-    allocate (self%reduced_gap(size(state)), self%violation(size(state)), self%elastic(size(state)), &
-              stat=stat)
+    n = size(state)
+    call self%arrays%fit(n, size(canonical%load), stat)
+    if (allocated(self%contact)) then
+      if (size(self%contact) /= n) then
+        deallocate (self%reduced_gap, self%violation, self%elastic, self%contact, self%gap_at_stops)
+      end if
+    end if
+    if (stat == 0 .and. .not. allocated(self%contact)) then
+      allocate (self%reduced_gap(n), self%violation(n), self%elastic(n), self%gap_at_stops(n), self%contact(n), stat=stat)
+    end if
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) return
+    self%gap_datum = 0.0_dp
     if (canonical%has_translation) self%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
     self%reduced_gap = canonical%gap - self%gap_datum
     self%violation = 0.0_dp
     self%elastic = 0.0_dp
     self%zero_force = rounding_force(canonical, self%reduced_gap)
     where (canonical%excluded) state = FUGE_OPEN
-    where (canonical%is_tied()) state = FUGE_AT_LOWER_STOP
+    where (.not. (canonical%upper > 0.0_dp .or. canonical%excluded)) state = FUGE_AT_LOWER_STOP
   end subroutine start
+
+  !> Take these states (n) as the set.
+  pure subroutine mark(self, canonical, state)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
+
+    self%contact = state /= FUGE_OPEN
+    call find_gap_at_stops(self, canonical, state)
+  end subroutine mark
+
+  pure subroutine find_gap_at_stops(self, canonical, state)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
+    integer :: k
+
+    do k = 1, size(state)
+      self%gap_at_stops(k) = self%reduced_gap(k)
+      if (state(k) < FUGE_OPEN) self%gap_at_stops(k) = self%reduced_gap(k) - canonical%upper(k)
+    end do
+  end subroutine find_gap_at_stops
 
   !> Without a load all forces may be rounding. Those count that displace by SIGN_TOLERANCE times the gaps, or,
   !> if no mode is free, times the largest overlap. Zero if there is a load.
@@ -89,53 +125,52 @@ contains
     zero_force = SIGN_TOLERANCE*(length/largest)
   end function rounding_force
 
-  !> Count gaps from where the bodies meet under `motion` (m), which follows: one point far below the others would cost
-  !> them digits.
-  pure subroutine move_gap_datum(self, canonical, motion)
+  !> Count gaps from where the bodies meet under the motion of the solution, which follows: one point far below the
+  !> others would cost them digits.
+  pure subroutine move_gap_datum(self, canonical, solution)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(inout) :: motion(:)
-    real(dp) :: before
+    type(contact_solution), intent(inout) :: solution
+    real(dp) :: distance, least, before
+    integer :: k, nearest
 
+    least = huge(least)
+    nearest = 0
+    do k = 1, size(self%reduced_gap)
+      if (canonical%excluded(k)) cycle
+      distance = abs(self%reduced_gap(k) - sum(canonical%modes(k, :)*solution%motion))
+      if (distance >= least) cycle
+      least = distance
+      nearest = k
+    end do
+    if (nearest == 0) return
     before = self%gap_datum
-    self%gap_datum = canonical%gap(minloc(abs(self%reduced_gap - rigid_displacement(canonical%modes, motion)), dim=1, &
-                                          mask=.not. canonical%excluded))
+    self%gap_datum = canonical%gap(nearest)
     self%reduced_gap = canonical%gap - self%gap_datum
-    motion(1) = motion(1) - (self%gap_datum - before)
+    solution%motion(1) = solution%motion(1) - (self%gap_datum - before)
+    call find_gap_at_stops(self, canonical, solution%state)
   end subroutine move_gap_datum
 
-  !> The gaps that displacements have to close: at the upper stop the play stays open.
-  pure function gap_at_stops(self, canonical, state) result(gap)
-    class(working_set), intent(in) :: self
-    type(canonical_problem), intent(in) :: canonical
-    integer, intent(in) :: state(:)
-    real(dp) :: gap(size(state))
-
-    gap = self%reduced_gap
-    where (state < FUGE_OPEN) gap = self%reduced_gap - canonical%upper
-  end function gap_at_stops
-
-  !> Forces and motion of the set in `solution%state`, whose `factor` is set.
+  !> Forces and motion of the set that was marked last, whose `factor` is set.
   subroutine solve(self, canonical, factor, solution)
     class(working_set), intent(in) :: self
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(inout) :: solution
 
-    call solve_set(factor, canonical%datum, self%gap_at_stops(canonical, solution%state), canonical%load, &
-                   solution%force, solution%motion)
+    call solve_set(factor, canonical%datum, self%gap_at_stops, canonical%load, solution%force, solution%motion)
   end subroutine solve
 
   !> Iterative refinement of forces and motion; `regularisation` as in `refine_solution`.
   subroutine refine(self, canonical, factor, regularisation, solution)
-    class(working_set), intent(in) :: self
+    class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
     real(dp), intent(in) :: regularisation
     type(contact_solution), intent(inout) :: solution
 
-    call refine_solution(canonical, self%gap_at_stops(canonical, solution%state), factor, regularisation, &
-                         solution%state /= FUGE_OPEN, solution%force, solution%motion)
+    call refine_solution(canonical, self%gap_at_stops, factor, regularisation, self%contact, self%arrays, &
+                         solution%force, solution%motion)
   end subroutine refine
 
   !> Does the problem have no length at all, neither gaps nor plays nor displacements?
@@ -166,8 +201,7 @@ contains
     type(contact_solution), intent(inout) :: solution
 
     self%elastic = 0.0_dp
-    call add_open_displacement(canonical%alpha, canonical%datum, solution%state /= FUGE_OPEN, solution%force, &
-                               self%elastic)
+    call add_open_displacement(canonical%alpha, canonical%datum, self%contact, solution%force, self%elastic)
     call self%find_gaps(canonical, solution)
     call find_violations(self, canonical, exact, solution)
   end subroutine measure
@@ -177,8 +211,13 @@ contains
     class(working_set), intent(in) :: self
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(inout) :: solution
+    integer :: j
 
-    solution%gap = (self%reduced_gap - rigid_displacement(canonical%modes, solution%motion)) + self%elastic
+    solution%gap = self%reduced_gap
+    do j = 1, size(solution%motion)
+      solution%gap = solution%gap - canonical%modes(:, j)*solution%motion(j)
+    end do
+    solution%gap = solution%gap + self%elastic
     where (solution%state > FUGE_OPEN) solution%gap = 0.0_dp
     where (solution%state < FUGE_OPEN) solution%gap = canonical%upper
   end subroutine find_gaps
@@ -191,18 +230,20 @@ contains
     type(canonical_problem), intent(in) :: canonical
     logical, intent(in) :: exact
     type(contact_solution), intent(in) :: solution
-    real(dp) :: scale(size(solution%force)), largest, beyond, rigid_gap
+    real(dp), allocatable :: scale(:)
+    real(dp) :: largest, beyond, rigid_gap
     integer :: j, strongest
 
     strongest = maxloc(abs(solution%force), dim=1)
     largest = abs(solution%force(strongest))
-    scale = canonical%force_scale(solution%force)
     self%violation = 0.0_dp
     do j = 1, size(self%violation)
       if (canonical%excluded(j) .or. .not. canonical%upper(j) > 0.0_dp) cycle
       associate (state => solution%state(j), force => solution%force(j), gap => solution%gap(j))
         if (state /= FUGE_OPEN) then
-          if (force*state < -self%zero_force) self%violation(j) = abs(force)/scale(j)
+          if (force*state >= -self%zero_force) cycle
+          if (.not. allocated(scale)) allocate (scale, source=canonical%force_scale(solution%force))
+          self%violation(j) = abs(force)/scale(j)
           cycle
         end if
         beyond = max(-gap, gap - canonical%upper(j))
@@ -211,9 +252,8 @@ contains
         self%violation(j) = beyond/max(rigid_gap + abs((canonical%alpha(j, strongest) - canonical%datum)*largest), beyond)
         ! The other forces can only make it smaller.
         if (exact .and. self%violation(j) > SIGN_TOLERANCE) then
-          self%violation(j) = beyond/max(rigid_gap + displacement_terms(canonical%alpha, canonical%datum, &
-                                                                        solution%state /= FUGE_OPEN, solution%force, j), &
-                                         beyond)
+          self%violation(j) = beyond/max(rigid_gap + displacement_terms(canonical%alpha, canonical%datum, self%contact, &
+                                                                        solution%force, j), beyond)
         end if
       end associate
     end do
