@@ -21,6 +21,7 @@ module fuge_solver_type
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
     FUGE_ERR_OVERFLOW
   use fuge_tableau_engine, only: solve_by_tableau
+  use fuge_working_set, only: working_set
   implicit none
   private
 
@@ -45,6 +46,9 @@ module fuge_solver_type
     logical, private :: has_solution = .false.
     !> The last solve started from a factor that it found.
     logical, private :: found_factor = .false.
+    !> Arrays for the next solve, so that small problems do not spend their time on allocations.
+    type(fuge_solution), private :: spare
+    type(working_set), private :: set
     !> Forces of the last iterative solve, divided by its load, and that load.
     real(dp), allocatable, private :: scaled_force(:)
     real(dp), private :: last_load = 0.0_dp
@@ -114,6 +118,7 @@ contains
       self%factor = kkt_factor()
       self%has_solution = .false.
     else
+      call move_solution(solution, self%spare)
       call move_solution(candidate, solution)
     end if
   end subroutine solve
@@ -276,11 +281,12 @@ contains
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     type(contact_solution) :: engine_solution
-    integer :: stat
+    logical :: is_set
 
-    call make_canonical(problem, self%canonical, info)
+    call self%canonical%set_again(problem, is_set)
+    if (.not. is_set) call make_canonical(problem, self%canonical, info)
     if (info%failed()) return
-    call allocate_solution(problem%points(), size(self%canonical%load), engine_solution, info)
+    call allocate_solution(problem%points(), size(self%canonical%load), engine_solution, info, self%spare)
     if (info%failed()) return
     call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known(), operator%stamp())
     self%found_factor = self%factor%belongs_to(self%canonical)
@@ -295,19 +301,36 @@ contains
     ! The matrix is the caller's and may be gone before the next call.
     self%canonical%alpha => null()
     if (info%failed()) return
-    allocate (solution%motion(problem%mode_count()), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
-      return
+    if (self%canonical%plain) then
+      call move_alloc(engine_solution%motion, solution%motion)
+    else
+      call find_given_motions(self%canonical, operator%alpha, problem, engine_solution, solution, info)
+      if (info%failed()) return
     end if
-    call self%canonical%to_given_modes(prescribed_values(problem), engine_solution%motion, solution%motion)
-    call self%canonical%set_excluded_gaps(operator%alpha, problem%gap, engine_solution%force, solution%motion, &
-                                          engine_solution%gap)
     call move_alloc(engine_solution%force, solution%force)
     call move_alloc(engine_solution%gap, solution%gap)
     call move_alloc(engine_solution%state, self%state)
     self%has_solution = .true.
   end subroutine run_dense_engine
+
+  !> The motions in the given modes, and the gaps of excluded points.
+  subroutine find_given_motions(canonical, alpha, problem, engine_solution, solution, info)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_solution), intent(inout) :: engine_solution
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (solution%motion(problem%mode_count()), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
+      return
+    end if
+    call canonical%to_given_modes(prescribed_values(problem), engine_solution%motion, solution%motion)
+    call canonical%set_excluded_gaps(alpha, problem%gap, engine_solution%force, solution%motion, engine_solution%gap)
+  end subroutine find_given_motions
 
   !> The prescribed motions, zero where free, (m).
   pure function prescribed_values(problem) result(values)
@@ -330,13 +353,13 @@ contains
     warm = .false.
     if (allocated(self%state)) warm = size(self%state) == size(solution%state)
     if (warm) solution%state = self%state
-    call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info)
+    call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info, self%set)
     if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
       info = fuge_info()
       self%factor = kkt_factor()
       self%found_factor = .false.
       solution%state = FUGE_OPEN
-      call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info)
+      call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info, self%set)
     end if
   end subroutine run_active_set
 

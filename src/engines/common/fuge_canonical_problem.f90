@@ -58,6 +58,7 @@ module fuge_canonical_problem
     integer, allocatable, private :: excluded_points(:)
     real(dp), allocatable, private :: excluded_rows(:, :)
   contains
+    procedure :: set_again
     procedure :: set_matrix
     procedure :: mode_count
     procedure :: is_tied
@@ -109,6 +110,20 @@ contains
     end if
     if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info)
   end subroutine make_canonical
+
+  !> Take the gaps and the load of another checked problem of the paper's kind, if this is one of as many points; all
+  !> else is the same then. `is_set` tells whether it was.
+  pure subroutine set_again(self, problem, is_set)
+    class(canonical_problem), intent(inout) :: self
+    type(fuge_problem), intent(in) :: problem
+    logical, intent(out) :: is_set
+
+    is_set = self%plain .and. problem%is_plain() .and. allocated(self%excluded_rows)
+    if (is_set) is_set = size(self%gap) == size(problem%gap)
+    if (.not. is_set) return
+    self%gap = problem%gap
+    self%load = problem%resultant
+  end subroutine set_again
 
   !> Subtract the displacements by the prescribed motions from the gaps.
   pure subroutine apply_prescribed(problem, canonical)
