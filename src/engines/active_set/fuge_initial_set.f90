@@ -46,8 +46,12 @@ module fuge_initial_set
     real(dp), allocatable :: force(:), displacement(:)
     !> Gaps less their rigid part, and their distances from the stop of each point.
     real(dp), allocatable :: gap(:), slope(:)
-    !> The direction of the step, and the displacements by it.
-    real(dp), allocatable :: direction(:), change(:)
+    !> The direction of the step, the displacements by it, and these less their rigid part.
+    real(dp), allocatable :: direction(:), change(:), elastic_change(:)
+    !> Forces after the step, and what was added to them.
+    real(dp), allocatable :: stepped(:), added(:)
+    !> Points at a stop.
+    logical, allocatable :: contact(:)
     !> Sum of the squares of the slopes one step before; zero for a new start.
     real(dp) :: previous = 0.0_dp
   end type descent
@@ -73,7 +77,7 @@ contains
     quiet_for = 0
     do iteration = 1, MOST_ITERATIONS
       call find_slope(canonical, scaled, state, now)
-      call find_step(canonical, scaled, state, now, step, products)
+      call find_step(canonical, scaled, now, step, products)
       if (.not. step > 0.0_dp) exit
       before = state
       call take_step(canonical, scaled, step, state, now)
@@ -125,11 +129,11 @@ contains
     type(scaled_problem), intent(in) :: scaled
     integer, intent(inout) :: state(:), products
     type(descent), intent(out) :: now
-    real(dp) :: stretch
     integer :: n
 
     n = size(state)
-    allocate (now%force(n), now%displacement(n), now%gap(n), now%slope(n), now%direction(n), now%change(n))
+    allocate (now%force(n), now%displacement(n), now%gap(n), now%slope(n), now%direction(n), now%change(n), &
+              now%elastic_change(n), now%stepped(n), now%added(n), now%contact(n))
     if (canonical%plain) then
       state = FUGE_AT_LOWER_STOP
       now%force = 1.0_dp/real(n, dp)
@@ -137,7 +141,7 @@ contains
       state = merge(FUGE_OPEN, FUGE_AT_LOWER_STOP, &
                     canonical%excluded .or. (scaled%upper < huge(1.0_dp) .and. .not. scaled%tied))
       now%force = 0.0_dp
-      call restore_equilibrium(canonical, scaled, state, now%force, stretch)
+      call restore_equilibrium(canonical, scaled, state, now%force)
     end if
     now%displacement = 0.0_dp
     call add_rough_product(canonical%alpha, scaled%factor, now%force, now%displacement)
@@ -151,40 +155,38 @@ contains
     integer, intent(in) :: state(:)
     type(descent), intent(inout) :: now
 
+    now%contact = state /= FUGE_OPEN
     now%gap = scaled%gap + now%displacement
     now%slope = now%gap
     where (state < FUGE_OPEN) now%slope = now%gap - scaled%upper
-    call remove_rigid_part(canonical, state /= FUGE_OPEN, now%slope, now%gap)
+    call remove_rigid_part(canonical, now%contact, now%slope, now%gap)
   end subroutine find_slope
 
   !> The conjugate direction, the displacements by it, and the step along it to the least energy; zero if there is
   !> nothing to gain.
-  subroutine find_step(canonical, scaled, state, now, step, products)
+  subroutine find_step(canonical, scaled, now, step, products)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
-    integer, intent(in) :: state(:)
     type(descent), intent(inout) :: now
     real(dp), intent(out) :: step
     integer, intent(inout) :: products
-    real(dp) :: relative_change(size(state)), curvature, squares
+    real(dp) :: curvature, kept_part, squares
 
     step = 0.0_dp
-    if (maxval(abs(now%slope), mask=state /= FUGE_OPEN) <= ROUNDING*maxval(abs(now%gap))) return
-    squares = sum(now%slope**2, mask=state /= FUGE_OPEN)
+    if (maxval(abs(now%slope), mask=now%contact) <= ROUNDING*maxval(abs(now%gap))) return
+    squares = sum(now%slope**2, mask=now%contact)
     if (.not. squares > 0.0_dp) return
-    if (now%previous > 0.0_dp) then
-      now%direction = merge(now%slope + (squares/now%previous)*now%direction, 0.0_dp, state /= FUGE_OPEN)
-    else
-      now%direction = merge(now%slope, 0.0_dp, state /= FUGE_OPEN)
-    end if
+    kept_part = 0.0_dp
+    if (now%previous > 0.0_dp) kept_part = squares/now%previous
+    now%direction = merge(now%slope + kept_part*now%direction, 0.0_dp, now%contact)
     now%previous = squares
     now%change = 0.0_dp
     call add_rough_product(canonical%alpha, scaled%factor, now%direction, now%change)
     products = products + 1
-    relative_change = now%change
-    call remove_rigid_part(canonical, state /= FUGE_OPEN, relative_change)
-    curvature = sum(relative_change*now%direction, mask=state /= FUGE_OPEN)
-    if (curvature > 0.0_dp) step = sum(now%slope*now%direction, mask=state /= FUGE_OPEN)/curvature
+    now%elastic_change = now%change
+    call remove_rigid_part(canonical, now%contact, now%elastic_change)
+    curvature = sum(now%elastic_change*now%direction, mask=now%contact)
+    if (curvature > 0.0_dp) step = sum(now%slope*now%direction, mask=now%contact)/curvature
   end subroutine find_step
 
   !> Take the step, exchange points and restore equilibrium; the displacements follow.
@@ -194,19 +196,24 @@ contains
     real(dp), intent(in) :: step
     integer, intent(inout) :: state(:)
     type(descent), intent(inout) :: now
-    real(dp) :: stepped(size(state)), added(size(state)), stretch
+    real(dp) :: stretch
     logical :: joined
 
-    stepped = now%force - step*now%direction
-    now%force = stepped
+    now%stepped = now%force - step*now%direction
+    now%force = now%stepped
     call exchange_points(scaled, canonical%excluded, now%gap, step, state, now%force, joined)
     if (joined) now%previous = 0.0_dp
-    ! Not zero at a few points only, except where equilibrium takes more than a stretch.
-    added = now%force - stepped
-    call restore_equilibrium(canonical, scaled, state, now%force, stretch)
-    if (.not. canonical%plain) added = now%force - stepped
+    stretch = 1.0_dp
+    if (canonical%plain) then
+      ! Not zero at a few points only.
+      now%added = now%force - now%stepped
+      call stretch_forces(state, now%force, stretch)
+    else
+      call restore_equilibrium(canonical, scaled, state, now%force)
+      now%added = now%force - now%stepped
+    end if
     now%displacement = now%displacement - step*now%change
-    call add_rough_product(canonical%alpha, scaled%factor, added, now%displacement)
+    call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
     now%displacement = stretch*now%displacement
   end subroutine take_step
 
@@ -255,43 +262,55 @@ contains
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: length(:)
     real(dp), intent(inout), optional :: other(:)
-    real(dp) :: motion(size(canonical%load))
+    real(dp) :: translation
 
-    if (size(motion) < 1) return
     if (canonical%plain) then
-      motion = sum(length, mask=contact)/real(max(count(contact), 1), dp)
-      length = length - motion(1)
-      if (present(other)) other = other - motion(1)
-    else
-      associate (modes => canonical%modes)
-        call solve_on_contact(modes, contact, matmul(merge(length, 0.0_dp, contact), modes), motion)
-        length = length - matmul(modes, motion)
-        if (present(other)) other = other - matmul(modes, motion)
-      end associate
+      translation = sum(length, mask=contact)/real(max(count(contact), 1), dp)
+      length = length - translation
+      if (present(other)) other = other - translation
+    else if (size(canonical%load) > 0) then
+      call remove_motions(canonical%modes, contact, length, other)
     end if
   end subroutine remove_rigid_part
 
-  !> Bring the forces back into equilibrium, and open the points that then pull. One translation scales the
-  !> forces by `stretch`, which keeps all of them pushing; several modes add the least forces that do, and `stretch` is
-  !> 1.
-  subroutine restore_equilibrium(canonical, scaled, state, force, stretch)
+  !> As `remove_rigid_part`, for any modes.
+  subroutine remove_motions(modes, contact, length, other)
+    real(dp), intent(in) :: modes(:, :)
+    logical, intent(in) :: contact(:)
+    real(dp), intent(inout) :: length(:)
+    real(dp), intent(inout), optional :: other(:)
+    real(dp) :: motion(size(modes, 2)), in_contact(size(length))
+
+    in_contact = merge(length, 0.0_dp, contact)
+    call solve_on_contact(modes, contact, matmul(in_contact, modes), motion)
+    length = length - matmul(modes, motion)
+    if (present(other)) other = other - matmul(modes, motion)
+  end subroutine remove_motions
+
+  !> Bring the forces of the plain problem back into equilibrium: a factor, `stretch`, keeps all of them pushing.
+  pure subroutine stretch_forces(state, force, stretch)
+    integer, intent(inout) :: state(:)
+    real(dp), intent(inout) :: force(:)
+    real(dp), intent(out) :: stretch
+    real(dp) :: total
+
+    total = sum(force)
+    stretch = 1.0_dp
+    ! After a step along rounding no force may be left.
+    if (total > 0.0_dp) stretch = 1.0_dp/total
+    force = stretch*force
+    where (.not. force > 0.0_dp) state = FUGE_OPEN
+  end subroutine stretch_forces
+
+  !> Bring the forces back into equilibrium by the least forces that do, and open the points that then pull.
+  subroutine restore_equilibrium(canonical, scaled, state, force)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
     integer, intent(inout) :: state(:)
     real(dp), intent(inout) :: force(:)
-    real(dp), intent(out) :: stretch
-    real(dp) :: motion(size(scaled%load)), total
+    real(dp) :: motion(size(scaled%load))
     integer :: round
 
-    stretch = 1.0_dp
-    if (canonical%plain) then
-      total = sum(force)
-      ! After a step along rounding no force may be left.
-      if (total > 0.0_dp) stretch = 1.0_dp/total
-      force = stretch*force
-      where (.not. force > 0.0_dp) state = FUGE_OPEN
-      return
-    end if
     do round = 1, ROUNDS
       if (size(motion) > 0) then
         call solve_on_contact(canonical%modes, state /= FUGE_OPEN, scaled%load - matmul(force, canonical%modes), motion)

@@ -208,15 +208,27 @@ contains
     real(dp), intent(in), contiguous :: alpha(:, :), force(:)
     real(dp), intent(in) :: factor
     real(dp), intent(inout), contiguous :: u(:)
-    integer :: first, last, n
-    logical :: loaded(size(force))
+    integer :: n
 
     n = size(u)
-    loaded = abs(force) > 0.0_dp
-    if (real(count(loaded), dp) > MANY*real(n, dp)) then
+    if (real(count(abs(force) > 0.0_dp), dp) > MANY*real(n, dp)) then
       call dsymv('L', n, factor, alpha, size(alpha, 1), force, 1, 1.0_dp, u, 1)
-      return
+    else if (any(abs(force) > 0.0_dp)) then
+      call add_some_columns(alpha, factor, abs(force) > 0.0_dp, force, u)
     end if
+  end subroutine add_rough_product
+
+  !> u := u + factor alpha f, with the columns of the `loaded` points only.
+  subroutine add_some_columns(alpha, factor, loaded, force, u)
+    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
+    real(dp), intent(in) :: factor
+    logical, intent(in) :: loaded(:)
+    real(dp), intent(inout), contiguous :: u(:)
+    logical :: rest(size(loaded))
+    integer :: first, last, n
+
+    n = size(u)
+    rest = loaded
     last = 0
     do
       call next_run(loaded, last + 1, first, last)
@@ -224,9 +236,9 @@ contains
       if (last - first + 1 < LONG_RUN) cycle
       call dgemv('N', n, last - first + 1, factor, alpha(:, first:last), size(alpha, 1), force(first:last), 1, &
                  1.0_dp, u, 1)
-      loaded(first:last) = .false.
+      rest(first:last) = .false.
     end do
-    if (any(loaded)) call add_in_rows(alpha, 0.0_dp, loaded, factor*force, 1, n, u)
-  end subroutine add_rough_product
+    if (any(rest)) call add_in_rows(alpha, 0.0_dp, rest, factor*force, 1, n, u)
+  end subroutine add_some_columns
 
 end module fuge_displacements
