@@ -56,11 +56,7 @@ contains
         call copy_transposed(alpha, first_column, first_row, columns, rows, tile_across, mark)
         ! Before anything is compared, because a comparison with NaN may trap.
         if (is_marked(mark)) return
-        if (first_row == first_column) then
-          call survey_diagonal_tile(columns, tile_here, tile_across, survey)
-        else
-          call survey_tile(alpha, first_row, first_column, rows, columns, tile_here, tile_across, survey)
-        end if
+        call survey_tile(alpha, first_row, first_column, rows, columns, tile_here, tile_across, survey)
       end do
     end do
     survey%is_usable = .true.
@@ -118,44 +114,27 @@ contains
     is_marked = btest(mark, 62)
   end function is_marked
 
-  pure subroutine survey_diagonal_tile(columns, here, across, survey)
-    integer, intent(in) :: columns
-    real(dp), intent(in) :: here(TILE, TILE), across(TILE, TILE)
-    type(matrix_survey), intent(inout) :: survey
-    integer :: i, j
-
-    do j = 1, columns
-      do i = 1, columns
-        survey%least = min(survey%least, here(i, j))
-        survey%most = max(survey%most, here(i, j))
-        survey%asymmetry = max(survey%asymmetry, abs(here(i, j) - across(i, j)))
-      end do
-      do i = j + 1, columns
-        survey%pairs_hold = survey%pairs_hold .and. 2.0_dp*here(i, j) - tolerated(here(i, i)) <= tolerated(here(j, j))
-      end do
-    end do
-  end subroutine survey_diagonal_tile
-
-  !> Extremes from the half below the diagonal: the other half differs by the asymmetry only.
+  !> Extremes and pairs from the half below the diagonal: the other half differs by the asymmetry only.
   pure subroutine survey_tile(alpha, first_row, first_column, rows, columns, here, across, survey)
     real(dp), intent(in), contiguous :: alpha(:, :)
     integer, intent(in) :: first_row, first_column, rows, columns
     real(dp), intent(in) :: here(TILE, TILE), across(TILE, TILE)
     type(matrix_survey), intent(inout) :: survey
     real(dp) :: least, most, asymmetry, row_energy(TILE), column_energy(TILE)
-    integer :: i, j
+    integer :: below, i, j
 
-    least = here(1, 1)
-    most = here(1, 1)
+    least = survey%least
+    most = -huge(most)
     asymmetry = survey%asymmetry
     do j = 1, columns
-      do i = 1, rows
+      below = merge(j + 1, 1, first_row == first_column)
+      do i = below, rows
         least = min(least, here(i, j))
         most = max(most, here(i, j))
         asymmetry = max(asymmetry, abs(here(i, j) - across(i, j)))
       end do
     end do
-    survey%least = min(survey%least, least)
+    survey%least = least
     survey%most = max(survey%most, most)
     survey%asymmetry = asymmetry
     do i = 1, rows
@@ -163,11 +142,15 @@ contains
     end do
     do j = 1, columns
       column_energy(j) = tolerated(alpha(first_column + j - 1, first_column + j - 1))
+      if (first_row /= first_column) cycle
+      survey%least = min(survey%least, here(j, j))
+      survey%most = max(survey%most, here(j, j))
     end do
-    ! The tile's largest coefficient settles most tiles.
-    if (2.0_dp*most <= minval(row_energy(:rows)) + minval(column_energy(:columns))) return
+    ! The largest coefficient beside the diagonal settles most tiles.
+    if (most <= 0.5_dp*(minval(row_energy(:rows)) + minval(column_energy(:columns)))) return
     do j = 1, columns
-      if (any(2.0_dp*here(:rows, j) - row_energy(:rows) > column_energy(j))) survey%pairs_hold = .false.
+      below = merge(j + 1, 1, first_row == first_column)
+      if (any(2.0_dp*here(below:rows, j) - row_energy(below:rows) > column_energy(j))) survey%pairs_hold = .false.
     end do
   end subroutine survey_tile
 

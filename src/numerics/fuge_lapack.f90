@@ -4,10 +4,18 @@ module fuge_lapack
   implicit none
   private
 
-  public :: dgelsy, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsymv, dsyrk, &
-    dsytrf, dsytrs, dtrsm, dtrsv
+  public :: ddot, dgelsy, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsymv, &
+    dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
 
   interface
+    !> x.y.
+    function ddot(n, x, incx, y, incy) result(product)
+      import :: dp
+      integer, intent(in) :: n, incx, incy
+      real(dp), intent(in) :: x(*), y(*)
+      real(dp) :: product
+    end function ddot
+
     !> Least-squares solution of least norm, by a complete orthogonal factorisation.
     subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
       import :: dp

@@ -8,7 +8,7 @@ module fuge_initial_set
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_displacements, only: add_rough_product
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgesv
+  use fuge_lapack, only: ddot, dgesv
   implicit none
   private
 
@@ -44,7 +44,7 @@ module fuge_initial_set
   type :: descent
     !> Forces and the displacements by them.
     real(dp), allocatable :: force(:), displacement(:)
-    !> Gaps less their rigid part, and their distances from the stop of each point.
+    !> Gaps less their rigid part, and their distances from the stops; zero at open points.
     real(dp), allocatable :: gap(:), slope(:)
     !> The direction of the step, the displacements by it, and these less their rigid part.
     real(dp), allocatable :: direction(:), change(:), elastic_change(:)
@@ -160,6 +160,7 @@ contains
     now%slope = now%gap
     where (state < FUGE_OPEN) now%slope = now%gap - scaled%upper
     call remove_rigid_part(canonical, now%contact, now%slope, now%gap)
+    where (.not. now%contact) now%slope = 0.0_dp
   end subroutine find_slope
 
   !> The conjugate direction, the displacements by it, and the step along it to the least energy; zero if there is
@@ -171,10 +172,12 @@ contains
     real(dp), intent(out) :: step
     integer, intent(inout) :: products
     real(dp) :: curvature, kept_part, squares
+    integer :: n
 
+    n = size(now%slope)
     step = 0.0_dp
-    if (maxval(abs(now%slope), mask=now%contact) <= ROUNDING*maxval(abs(now%gap))) return
-    squares = sum(now%slope**2, mask=now%contact)
+    if (maxval(abs(now%slope)) <= ROUNDING*maxval(abs(now%gap))) return
+    squares = ddot(n, now%slope, 1, now%slope, 1)
     if (.not. squares > 0.0_dp) return
     kept_part = 0.0_dp
     if (now%previous > 0.0_dp) kept_part = squares/now%previous
@@ -185,8 +188,8 @@ contains
     products = products + 1
     now%elastic_change = now%change
     call remove_rigid_part(canonical, now%contact, now%elastic_change)
-    curvature = sum(now%elastic_change*now%direction, mask=now%contact)
-    if (curvature > 0.0_dp) step = sum(now%slope*now%direction, mask=now%contact)/curvature
+    curvature = ddot(n, now%elastic_change, 1, now%direction, 1)
+    if (curvature > 0.0_dp) step = ddot(n, now%slope, 1, now%direction, 1)/curvature
   end subroutine find_step
 
   !> Take the step, exchange points and restore equilibrium; the displacements follow.
