@@ -289,11 +289,16 @@ contains
     integer, intent(in), contiguous :: points(:)
     real(dp), intent(inout), contiguous :: gathered(:)
     real(dp), intent(inout) :: least, most
-    integer :: i
+    integer :: i, first
 
-    do i = 1, size(points)
-      gathered(i) = column(points(i))
-    end do
+    first = points(1)
+    if (points(size(points)) - first + 1 == size(points)) then
+      gathered = column(first:first + size(points) - 1)
+    else
+      do i = 1, size(points)
+        gathered(i) = column(points(i))
+      end do
+    end if
     do i = 1, size(points)
       least = min(least, gathered(i))
       most = max(most, gathered(i))

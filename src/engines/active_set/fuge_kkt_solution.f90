@@ -230,8 +230,15 @@ contains
     real(dp), intent(in) :: forces(2)
     real(dp), intent(inout), contiguous :: high(:), low(:)
     real(dp), dimension(PANEL) :: one, other
-    integer :: from, k, panel_size
+    integer :: from, k, last, panel_size
 
+    from = points(1)
+    last = points(size(points))
+    if (last - from + 1 == size(points)) then
+      ! Points side by side need not be gathered.
+      call add_two_columns(alpha(from:last, first), alpha(from:last, second), forces, high, low)
+      return
+    end if
     do from = 1, size(points), PANEL
       panel_size = min(PANEL, size(points) - from + 1)
       do k = 1, panel_size
