@@ -211,7 +211,7 @@ contains
     call find_asymmetry(alpha, weight, tolerance, i, j)
     call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//index_text(i)//','//index_text(j)//') and alpha(' &
       //index_text(j)//','//index_text(i)//') differ by '//text(abs(alpha(i, j) - alpha(j, i))) &
-      //' (coefficients from '//text(survey%least)//' to '//text(survey%most) &
+      //' (coefficients from '//text(minval(alpha(:n, :)))//' to '//text(maxval(alpha(:n, :))) &
       //'): if that is rounding, pass (alpha + alpha^T)/2')
   end subroutine judge_survey
 

@@ -143,6 +143,7 @@ contains
       now%force = 0.0_dp
       call restore_equilibrium(canonical, scaled, state, now%force)
     end if
+    now%direction = 0.0_dp
     now%displacement = 0.0_dp
     call add_rough_product(canonical%alpha, scaled%factor, now%force, now%displacement)
     products = products + 1

@@ -40,7 +40,8 @@ contains
     stat = 0
     if (allocated(self%missing)) then
       if (size(self%residual) == n .and. size(self%missing) == m) return
-      deallocate (self%residual, self%correction, self%high, self%low, self%column, self%points, self%missing, self%shift)
+      deallocate (self%residual, self%correction, self%high, self%low, self%column, self%points, self%missing, &
+                  self%shift)
     end if
     allocate (self%residual(n), self%correction(n), self%high(n), self%low(n), self%column(n), self%points(n), &
               self%missing(m), self%shift(m), stat=stat)

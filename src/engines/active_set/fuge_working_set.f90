@@ -63,7 +63,8 @@ contains
       end if
     end if
     if (stat == 0 .and. .not. allocated(self%contact)) then
-      allocate (self%reduced_gap(n), self%violation(n), self%elastic(n), self%gap_at_stops(n), self%contact(n), stat=stat)
+      allocate (self%reduced_gap(n), self%violation(n), self%elastic(n), self%gap_at_stops(n), self%contact(n), &
+                stat=stat)
     end if
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) return
@@ -203,7 +204,7 @@ contains
     self%elastic = 0.0_dp
     call add_open_displacement(canonical%alpha, canonical%datum, self%contact, solution%force, self%elastic)
     call self%find_gaps(canonical, solution)
-    call find_violations(self, canonical, exact, solution)
+    call judge_signs(self, canonical, exact, solution)
   end subroutine measure
 
   !> The gaps from the motion of the solution and the displacements that `measure` found.
@@ -225,13 +226,13 @@ contains
   !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a
   !> length: the gap less the rigid displacement, which the elastic displacement has to make up for at a point in
   !> contact, and the terms of that displacement. Tied and excluded points cannot be wrong.
-  pure subroutine find_violations(self, canonical, exact, solution)
+  pure subroutine judge_signs(self, canonical, exact, solution)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     logical, intent(in) :: exact
     type(contact_solution), intent(in) :: solution
     real(dp), allocatable :: scale(:)
-    real(dp) :: largest, beyond, rigid_gap
+    real(dp) :: largest, beyond, rigid_gap, terms
     integer :: j, strongest
 
     strongest = maxloc(abs(solution%force), dim=1)
@@ -249,14 +250,14 @@ contains
         beyond = max(-gap, gap - canonical%upper(j))
         if (.not. beyond > 0.0_dp) cycle
         rigid_gap = abs(gap - self%elastic(j))
-        self%violation(j) = beyond/max(rigid_gap + abs((canonical%alpha(j, strongest) - canonical%datum)*largest), beyond)
-        ! The other forces can only make it smaller.
-        if (exact .and. self%violation(j) > SIGN_TOLERANCE) then
-          self%violation(j) = beyond/max(rigid_gap + displacement_terms(canonical%alpha, canonical%datum, self%contact, &
-                                                                        solution%force, j), beyond)
+        terms = abs((canonical%alpha(j, strongest) - canonical%datum)*largest)
+        ! The other forces can only make the violation smaller.
+        if (exact .and. beyond > SIGN_TOLERANCE*(rigid_gap + terms)) then
+          terms = displacement_terms(canonical%alpha, canonical%datum, self%contact, solution%force, j)
         end if
+        self%violation(j) = beyond/max(rigid_gap + terms, beyond)
       end associate
     end do
-  end subroutine find_violations
+  end subroutine judge_signs
 
 end module fuge_working_set
