@@ -40,7 +40,7 @@ contains
     type(matrix_survey), intent(out) :: survey
     real(dp) :: tile_here(TILE, TILE), tile_across(TILE, TILE)
     integer(int64) :: mark
-    integer :: first_row, first_column, rows, columns, n
+    integer :: first_row, first_column, rows, columns, k, n
 
     n = size(alpha, 2)
     if (n < 1 .or. size(alpha, 1) < n) return
@@ -48,6 +48,11 @@ contains
     survey%least = huge(1.0_dp)
     survey%most = -huge(1.0_dp)
     mark = 0
+    ! The energies of pairs read the diagonal before its tiles have their turn.
+    do k = 1, n
+      mark = ior(mark, marked(alpha(k, k)))
+    end do
+    if (is_marked(mark)) return
     do first_column = 1, n, TILE
       columns = min(TILE, n - first_column + 1)
       do first_row = first_column, n, TILE
