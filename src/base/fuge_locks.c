@@ -3,7 +3,7 @@
 
 #include <windows.h>
 
-static SRWLOCK locks[3] = {SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT};
+static SRWLOCK locks[4] = {SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT};
 
 void fuge_lock(int which) { AcquireSRWLockExclusive(&locks[which]); }
 
@@ -13,10 +13,24 @@ void fuge_unlock(int which) { ReleaseSRWLockExclusive(&locks[which]); }
 
 #include <pthread.h>
 
-static pthread_mutex_t locks[3] = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER};
+static pthread_mutex_t locks[4] = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER,
+                                   PTHREAD_MUTEX_INITIALIZER};
 
 void fuge_lock(int which) { pthread_mutex_lock(&locks[which]); }
 
 void fuge_unlock(int which) { pthread_mutex_unlock(&locks[which]); }
 
 #endif
+
+/* The last number of fuge_new_stamp, under a lock of its own. */
+static long long last_stamp;
+
+long long fuge_new_stamp(void)
+{
+  long long stamp;
+
+  fuge_lock(3);
+  stamp = ++last_stamp;
+  fuge_unlock(3);
+  return stamp;
+}

@@ -1,10 +1,10 @@
-!> Locks for what only one thread of the process may do at a time.
+!> Locks for what only one thread of the process may do at a time, and numbers that are unique in it.
 module fuge_locks
-  use, intrinsic :: iso_c_binding, only: c_int
+  use, intrinsic :: iso_c_binding, only: c_int, c_long_long
   implicit none
   private
 
-  public :: lock, unlock
+  public :: lock, new_stamp, unlock
 
   !> Calls of the planner of FFTW, which is not thread-safe.
   integer(c_int), parameter, public :: LOCK_PLANNER = 0
@@ -27,6 +27,13 @@ module fuge_locks
       import :: c_int
       integer(c_int), intent(in), value :: which
     end subroutine unlock
+
+    !> A number that no earlier call in this process has returned, from 1 on: it tells states of an object apart, which
+    !> an address cannot, because memory is used again.
+    function new_stamp() result(stamp) bind(c, name='fuge_new_stamp')
+      import :: c_long_long
+      integer(c_long_long) :: stamp
+    end function new_stamp
   end interface
 
 end module fuge_locks

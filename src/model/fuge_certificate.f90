@@ -6,7 +6,7 @@ module fuge_certificate
   use fuge_data_scales, only: data_length, is_loaded, is_prescribed, largest_of_bodies
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_operator_products, only: multiply
+  use fuge_operator_products, only: multiply_with_magnitude
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
@@ -105,13 +105,12 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
       return
     end if
-    call multiply(operator, solution%force, error, info)
+    call multiply_with_magnitude(operator, solution%force, error, elastic, info)
     if (info%failed()) return
 
     included = .true.
     if (allocated(problem%excluded)) included = .not. problem%excluded
     call find_rigid_displacement(problem, solution, operator%datum(), rigid_displacement, rigid_magnitude)
-    call operator%magnitude(solution%force, error, elastic)
     error = (problem%gap - rigid_displacement) + error - solution%gap
     magnitude = abs(problem%gap - rigid_displacement) + elastic
     if (allocated(problem%modes)) then

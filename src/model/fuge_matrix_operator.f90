@@ -2,10 +2,11 @@
 !> points to it and never copies it.
 module fuge_matrix_operator
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-  use fuge_constants, only: LARGEST_EXPONENT
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc, c_long_long
   use fuge_input_checks, only: find_asymmetry
   use fuge_kinds, only: dp
+  use fuge_locks, only: new_stamp
+  use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
@@ -20,15 +21,17 @@ module fuge_matrix_operator
   type, extends(fuge_operator), public :: fuge_dense_operator
     !> The caller's matrix; rows beyond n are padding.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
-    !> The coefficient nearest to zero, or 0 if there are both signs: subtracting it from the
-    !> coefficients costs no digits.
-    real(dp), private :: datum_value = 0.0_dp
+    type(matrix_survey), private :: survey
+    integer(c_long_long), private :: stamp_value = 0
   contains
     procedure :: set
     procedure :: points
     procedure :: apply
     procedure :: datum
     procedure :: magnitude => dense_magnitude
+    procedure :: apply_with_magnitude => dense_apply_with_magnitude
+    procedure :: known => what_is_known
+    procedure :: stamp
   end type fuge_dense_operator
 
 contains
@@ -36,26 +39,54 @@ contains
   !> Point to `alpha` as the influence matrix.
   !>
   !> `alpha` is (n, n), or (lda, n) with lda > n where the first n rows count; length per force. It is
-  !> not copied: declare it `target` and keep it unchanged as long as the operator lives.
+  !> not copied: declare it `target`, and keep it unchanged until the operator is set again. After a change, even
+  !> of one coefficient, set it again: solvers keep the factor of the matrix from solve to solve until then.
   !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW,
   !> FUGE_ERR_POINTER for a section that is not contiguous; they leave the operator as it was.
   subroutine set(self, alpha, info)
     class(fuge_dense_operator), intent(inout) :: self
     real(dp), intent(in), target :: alpha(:, :)
     type(fuge_info), intent(out) :: info
-    real(dp) :: least, most
+    real(dp), pointer, contiguous :: matrix(:, :)
+    type(matrix_survey) :: survey
 
     if (.not. is_contiguous(alpha)) then
       call report(info, FUGE_ERR_POINTER, 'alpha is a section with gaps between its columns: pass the whole ' &
         //'array, whose first n rows count')
       return
     end if
-    call check_influence_matrix(alpha, info, least, most)
+    if (size(alpha, 2) < 1) then
+      call report(info, FUGE_ERR_SIZE, 'n = '//text(size(alpha, 2))//': alpha needs at least one column')
+    else if (size(alpha, 1) < size(alpha, 2)) then
+      call report(info, FUGE_ERR_SIZE, 'alpha has '//text(size(alpha, 1))//' rows and '//text(size(alpha, 2)) &
+        //' columns: its leading dimension must be at least n')
+    end if
     if (info%failed()) return
-    self%datum_value = max(least, 0.0_dp) + min(most, 0.0_dp)
     ! By its address, because the compiler does not know that alpha is contiguous.
-    call c_f_pointer(c_loc(alpha(1, 1)), self%alpha, shape(alpha))
+    call c_f_pointer(c_loc(alpha(1, 1)), matrix, shape(alpha))
+    call survey_matrix(matrix, survey)
+    call judge_survey(matrix, survey, info)
+    if (info%failed()) return
+    self%alpha => matrix
+    self%survey = survey
+    self%stamp_value = new_stamp()
   end subroutine set
+
+  !> What the survey of the matrix found.
+  pure function what_is_known(self) result(survey)
+    class(fuge_dense_operator), intent(in) :: self
+    type(matrix_survey) :: survey
+
+    survey = self%survey
+  end function what_is_known
+
+  !> A number that changes with every `set`, and that no other matrix has; 0 before `set`.
+  pure function stamp(self)
+    class(fuge_dense_operator), intent(in) :: self
+    integer(c_long_long) :: stamp
+
+    stamp = self%stamp_value
+  end function stamp
 
   !> Number of points n; 0 before `set`.
   pure function points(self) result(n)
@@ -75,12 +106,14 @@ contains
     real(dp), intent(in) :: force(:)
     real(dp), intent(out) :: displacement(:)
     integer, intent(out) :: status
+    real(dp) :: datum
     integer :: j, n
 
     n = self%points()
+    datum = self%datum()
     displacement = 0.0_dp
     do j = 1, n
-      if (abs(force(j)) > 0.0_dp) displacement = displacement + (self%alpha(:n, j) - self%datum_value)*force(j)
+      if (abs(force(j)) > 0.0_dp) displacement = displacement + (self%alpha(:n, j) - datum)*force(j)
     end do
     status = FUGE_DONE
   end subroutine apply
@@ -90,7 +123,7 @@ contains
     class(fuge_dense_operator), intent(in) :: self
     real(dp) :: datum
 
-    datum = self%datum_value
+    datum = self%survey%nearest_to_zero()
   end function datum
 
   !> `magnitude` (n), length: sum_j |A_ij - datum| |f_j| at each point, from `force` (n).
@@ -98,55 +131,89 @@ contains
     class(fuge_dense_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
+    real(dp) :: datum
     integer :: j, n
 
     n = size(displacement)
+    datum = self%datum()
     magnitude = 0.0_dp
     do j = 1, n
-      if (abs(force(j)) > 0.0_dp) magnitude = magnitude + abs((self%alpha(:n, j) - self%datum_value)*force(j))
+      if (abs(force(j)) > 0.0_dp) magnitude = magnitude + abs((self%alpha(:n, j) - datum)*force(j))
     end do
   end subroutine dense_magnitude
 
-  !> Refuse a matrix with fewer rows than columns, one that is not finite or not symmetric;
-  !> `least` and `most` are its extreme coefficients.
+  !> As `apply` and `magnitude`, in one pass over the columns of the points with force, two at a time.
+  subroutine dense_apply_with_magnitude(self, force, displacement, magnitude, status)
+    class(fuge_dense_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out) :: displacement(:), magnitude(:)
+    integer, intent(out) :: status
+    integer :: j, n, waiting
+
+    n = self%points()
+    displacement = 0.0_dp
+    magnitude = 0.0_dp
+    waiting = 0
+    do j = 1, n
+      if (.not. abs(force(j)) > 0.0_dp) cycle
+      if (waiting > 0) then
+        call add_two(self%alpha(:n, waiting), self%alpha(:n, j), self%datum(), force(waiting), force(j), displacement, &
+                     magnitude)
+        waiting = 0
+      else
+        waiting = j
+      end if
+    end do
+    if (waiting > 0) then
+      displacement = displacement + (self%alpha(:n, waiting) - self%datum())*force(waiting)
+      magnitude = magnitude + abs((self%alpha(:n, waiting) - self%datum())*force(waiting))
+    end if
+    status = FUGE_DONE
+  end subroutine dense_apply_with_magnitude
+
+  !> Add the terms of two columns to displacements and magnitudes.
+  pure subroutine add_two(a, b, datum, force_a, force_b, displacement, magnitude)
+    real(dp), intent(in), contiguous :: a(:), b(:)
+    real(dp), intent(in) :: datum, force_a, force_b
+    real(dp), intent(inout) :: displacement(:), magnitude(:)
+    real(dp) :: term_a, term_b
+    integer :: i
+
+    do i = 1, size(a)
+      term_a = (a(i) - datum)*force_a
+      term_b = (b(i) - datum)*force_b
+      displacement(i) = displacement(i) + (term_a + term_b)
+      magnitude(i) = magnitude(i) + (abs(term_a) + abs(term_b))
+    end do
+  end subroutine add_two
+
+  !> Refuse a matrix (at least n, n) that its survey found not finite, too large or not symmetric.
   !>
   !> An asymmetry up to 1e-10 of the range of the coefficients passes as rounding.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW.
-  pure subroutine check_influence_matrix(alpha, info, least, most)
-    real(dp), intent(in) :: alpha(:, :)
+  !> Errors: FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW.
+  pure subroutine judge_survey(alpha, survey, info)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    type(matrix_survey), intent(in) :: survey
     type(fuge_info), intent(inout) :: info
-    real(dp), intent(out) :: least, most
-    real(dp) :: weight(size(alpha, 2))
+    real(dp) :: weight(size(alpha, 2)), tolerance
     integer :: i, j, n
 
-    least = 0.0_dp
-    most = 0.0_dp
     n = size(alpha, 2)
-    if (n < 1) then
-      call report(info, FUGE_ERR_SIZE, 'n = '//text(n)//': alpha needs at least one column')
-    else if (size(alpha, 1) < n) then
-      call report(info, FUGE_ERR_SIZE, 'alpha has '//text(size(alpha, 1))//' rows and '//text(n) &
-        //' columns: its leading dimension must be at least n')
-    else
+    if (.not. survey%is_usable) then
       call check_finite_coefficients(alpha(:n, :), info)
-    end if
-    if (info%failed()) return
-    least = minval(alpha(:n, :))
-    most = maxval(alpha(:n, :))
-    if (max(exponent(least), exponent(most)) > LARGEST_EXPONENT) then
-      call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches from '//text(least)//' to '//text(most) &
-        //': choose units in which it is smaller')
+      if (.not. info%failed()) call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches from ' &
+        //text(minval(alpha(:n, :)))//' to '//text(maxval(alpha(:n, :)))//': choose units in which it is smaller')
       return
     end if
+    tolerance = SYMMETRY_TOLERANCE*(survey%most - survey%least)
+    if (survey%asymmetry <= tolerance) return
     weight = 1.0_dp
-    call find_asymmetry(alpha, weight, SYMMETRY_TOLERANCE*(most - least), i, j)
-    if (i > 0) then
-      call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//index_text(i)//','//index_text(j)//') and alpha(' &
-        //index_text(j)//','//index_text(i)//') differ by '//text(abs(alpha(i, j) - alpha(j, i))) &
-        //' (coefficients from '//text(least)//' to '//text(most) &
-        //'): if that is rounding, pass (alpha + alpha^T)/2')
-    end if
-  end subroutine check_influence_matrix
+    call find_asymmetry(alpha, weight, tolerance, i, j)
+    call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//index_text(i)//','//index_text(j)//') and alpha(' &
+      //index_text(j)//','//index_text(i)//') differ by '//text(abs(alpha(i, j) - alpha(j, i))) &
+      //' (coefficients from '//text(minval(alpha(:n, :)))//' to '//text(maxval(alpha(:n, :))) &
+      //'): if that is rounding, pass (alpha + alpha^T)/2')
+  end subroutine judge_survey
 
   pure subroutine check_finite_coefficients(alpha, info)
     real(dp), intent(in) :: alpha(:, :)

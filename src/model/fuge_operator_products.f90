@@ -10,7 +10,7 @@ module fuge_operator_products
   implicit none
   private
 
-  public :: multiply, precondition
+  public :: multiply, multiply_with_magnitude, precondition
 
 contains
 
@@ -28,13 +28,35 @@ contains
     integer :: status
 
     call operator%apply(force, displacement, status)
+    call judge_product(force, displacement, status, info)
+  end subroutine multiply
+
+  !> As `multiply`, with the size of the terms of each displacement, `magnitude` (n), length.
+  subroutine multiply_with_magnitude(operator, force, displacement, magnitude, info)
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out), contiguous :: displacement(:), magnitude(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: status
+
+    call operator%apply_with_magnitude(force, displacement, magnitude, status)
+    call judge_product(force, displacement, status, info)
+  end subroutine multiply_with_magnitude
+
+  !> Count a product and report what is wrong with it.
+  pure subroutine judge_product(force, displacement, status, info)
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(in), contiguous :: displacement(:)
+    integer, intent(in) :: status
+    type(fuge_info), intent(inout) :: info
+
     info%products = info%products + 1
     if (status /= FUGE_DONE) then
       call report_status(status, 'product', info%products, info)
     else if (.not. is_finite_everywhere(displacement)) then
       call report_not_finite(force, 'force', displacement, 'displacement', 'product', info%products, info)
     end if
-  end subroutine multiply
+  end subroutine judge_product
 
   !> f = M u by the preconditioner of the operator, which must have one; adds 1 to
   !> info%preconditionings.

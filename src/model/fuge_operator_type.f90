@@ -20,6 +20,8 @@ module fuge_operator_type
     procedure :: datum => no_datum
     !> The size of the terms of each displacement, by which its error is judged.
     procedure :: magnitude => largest_displacement
+    !> `apply` and `magnitude` together; override it where one pass gives both.
+    procedure :: apply_with_magnitude => apply_then_magnitude
     !> Is there a preconditioner? Without one the conjugate gradients are not preconditioned.
     procedure :: has_preconditioner => without_preconditioner
     !> f = M u, with M symmetric, positive definite and close to the inverse of A.
@@ -124,5 +126,18 @@ contains
     magnitude = 0.0_dp
     if (self%points() == size(force)) magnitude = maxval(abs(displacement))
   end subroutine largest_displacement
+
+  !> `displacement` and `status` as from `apply`, and if that succeeds `magnitude` as from `magnitude`; all (n). The
+  !> certificate calls it once for each solution.
+  subroutine apply_then_magnitude(self, force, displacement, magnitude, status)
+    class(fuge_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out) :: displacement(:), magnitude(:)
+    integer, intent(out) :: status
+
+    magnitude = 0.0_dp
+    call self%apply(force, displacement, status)
+    if (status == FUGE_DONE) call self%magnitude(force, displacement, magnitude)
+  end subroutine apply_then_magnitude
 
 end module fuge_operator_type

@@ -4,10 +4,18 @@ module fuge_lapack
   implicit none
   private
 
-  public :: dgelsy, dgemm, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsyrk, dsytrf, &
-    dsytrs, dtrsm, dtrsv
+  public :: ddot, dgelsy, dgemm, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsymv, &
+    dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
 
   interface
+    !> x.y.
+    function ddot(n, x, incx, y, incy) result(product)
+      import :: dp
+      integer, intent(in) :: n, incx, incy
+      real(dp), intent(in) :: x(*), y(*)
+      real(dp) :: product
+    end function ddot
+
     !> Least-squares solution of least norm, by a complete orthogonal factorisation.
     subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
       import :: dp
@@ -110,6 +118,15 @@ module fuge_lapack
       real(dp), intent(out) :: w(*), work(*)
       integer, intent(out) :: info
     end subroutine dsyev
+
+    !> y := alpha A x + beta y for a symmetric A, of which one triangle is read.
+    subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
+      import :: dp
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, lda, incx, incy
+      real(dp), intent(in) :: alpha, a(lda, *), x(*), beta
+      real(dp), intent(inout) :: y(*)
+    end subroutine dsymv
 
     !> C := alpha A^T A + beta C (trans = 'T'), one triangle of C.
     subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)

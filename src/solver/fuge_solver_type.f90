@@ -21,6 +21,7 @@ module fuge_solver_type
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
     FUGE_ERR_OVERFLOW
   use fuge_tableau_engine, only: solve_by_tableau
+  use fuge_working_set, only: working_set
   implicit none
   private
 
@@ -38,8 +39,16 @@ module fuge_solver_type
     type(fuge_history) :: history
     !> States of the last solve by a dense engine, where the next one starts, with their factor, and the problem.
     integer, allocatable, private :: state(:)
+    !> The factor outlives a solve: the next one starts from it if the matrix is the same.
     type(kkt_factor), private :: factor
     type(canonical_problem), private :: canonical
+    !> State, factor and problem belong to a solution that was accepted.
+    logical, private :: has_solution = .false.
+    !> The last solve started from a factor that it found.
+    logical, private :: found_factor = .false.
+    !> Arrays for the next solve, so that small problems do not spend their time on allocations.
+    type(fuge_solution), private :: spare
+    type(working_set), private :: set
     !> Forces of the last iterative solve, divided by its load, and that load.
     real(dp), allocatable, private :: scaled_force(:)
     real(dp), private :: last_load = 0.0_dp
@@ -79,7 +88,7 @@ contains
     if (present(options)) chosen = options
     if (present(monitor)) relay%listener => monitor
     self%history = fuge_history()
-    self%factor = kkt_factor()
+    self%has_solution = .false.
     call check_options(chosen, info)
     if (info%failed()) return
     if (operator%points() < 1) then
@@ -91,19 +100,43 @@ contains
 
     if (is_unloaded(problem)) then
       call solve_without_load(problem, candidate, info)
+      if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
     else
-      call run_engine(self, operator, problem, chosen, relay, candidate, info)
+      call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
+      if (self%found_factor .and. info%status == FUGE_WARN_RESIDUAL) then
+        ! The matrix may have changed since it was factored, although the operator was not set again.
+        self%factor = kkt_factor()
+        candidate = fuge_solution()
+        info = fuge_info()
+        call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
+      end if
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
                                                          //text(relay%reported)//' by the progress monitor')
     end if
-    if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
     if (info%failed()) then
       ! The factor belongs to no accepted solution, so derivatives must not use it.
       self%factor = kkt_factor()
+      self%has_solution = .false.
     else
+      call move_solution(solution, self%spare)
       call move_solution(candidate, solution)
     end if
   end subroutine solve
+
+  !> One solve by the engine that the options choose, and its certificate.
+  subroutine solve_and_certify(self, operator, problem, options, monitor, solution, info)
+    class(fuge_solver), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+
+    self%found_factor = .false.
+    call run_engine(self, operator, problem, options, monitor, solution, info)
+    if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
+  end subroutine solve_and_certify
 
   !> Forget the last contact set and the history: the next solve starts from scratch. After a change of the operator
   !> that may be faster; the solution is the same.
@@ -112,6 +145,7 @@ contains
 
     self%history = fuge_history()
     self%factor = kkt_factor()
+    self%has_solution = .false.
     if (allocated(self%state)) deallocate (self%state)
     if (allocated(self%scaled_force)) deallocate (self%scaled_force)
   end subroutine reset
@@ -161,7 +195,7 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_info), intent(inout) :: info
 
-    if (.not. (self%factor%is_set() .and. allocated(self%state))) then
+    if (.not. (self%has_solution .and. allocated(self%state))) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load by a dense engine: solve first, ' &
                   //'not by FUGE_ITERATIVE')
     else if (size(gap_change) /= n .or. size(self%state) /= n) then
@@ -247,14 +281,19 @@ contains
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     type(contact_solution) :: engine_solution
-    integer :: stat
+    logical :: is_set
 
-    call make_canonical(problem, self%canonical, info)
+    call self%canonical%set_again(problem, is_set)
+    if (.not. is_set) call make_canonical(problem, self%canonical, info)
     if (info%failed()) return
-    call allocate_solution(problem%points(), size(self%canonical%load), engine_solution, info)
+    call allocate_solution(problem%points(), size(self%canonical%load), engine_solution, info, self%spare)
     if (info%failed()) return
-    call self%canonical%set_matrix(operator%alpha, operator%datum())
+    call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known(), operator%stamp())
+    self%found_factor = self%factor%belongs_to(self%canonical)
+    if (.not. self%found_factor) self%factor = kkt_factor()
     if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
+      self%factor = kkt_factor()
+      self%found_factor = .false.
       call solve_by_tableau(self%canonical, options, monitor, self%history, self%factor, engine_solution, info)
     else
       call run_active_set(self, options, monitor, engine_solution, info)
@@ -262,18 +301,36 @@ contains
     ! The matrix is the caller's and may be gone before the next call.
     self%canonical%alpha => null()
     if (info%failed()) return
+    if (self%canonical%plain) then
+      call move_alloc(engine_solution%motion, solution%motion)
+    else
+      call find_given_motions(self%canonical, operator%alpha, problem, engine_solution, solution, info)
+      if (info%failed()) return
+    end if
+    call move_alloc(engine_solution%force, solution%force)
+    call move_alloc(engine_solution%gap, solution%gap)
+    call move_alloc(engine_solution%state, self%state)
+    self%has_solution = .true.
+  end subroutine run_dense_engine
+
+  !> The motions in the given modes, and the gaps of excluded points.
+  subroutine find_given_motions(canonical, alpha, problem, engine_solution, solution, info)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_solution), intent(inout) :: engine_solution
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
     allocate (solution%motion(problem%mode_count()), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
       return
     end if
-    call self%canonical%to_given_modes(prescribed_values(problem), engine_solution%motion, solution%motion)
-    call self%canonical%set_excluded_gaps(operator%alpha, problem%gap, engine_solution%force, solution%motion, &
-                                          engine_solution%gap)
-    call move_alloc(engine_solution%force, solution%force)
-    call move_alloc(engine_solution%gap, solution%gap)
-    call move_alloc(engine_solution%state, self%state)
-  end subroutine run_dense_engine
+    call canonical%to_given_modes(prescribed_values(problem), engine_solution%motion, solution%motion)
+    call canonical%set_excluded_gaps(alpha, problem%gap, engine_solution%force, solution%motion, engine_solution%gap)
+  end subroutine find_given_motions
 
   !> The prescribed motions, zero where free, (m).
   pure function prescribed_values(problem) result(values)
@@ -296,11 +353,13 @@ contains
     warm = .false.
     if (allocated(self%state)) warm = size(self%state) == size(solution%state)
     if (warm) solution%state = self%state
-    call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info)
+    call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info, self%set)
     if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
       info = fuge_info()
+      self%factor = kkt_factor()
+      self%found_factor = .false.
       solution%state = FUGE_OPEN
-      call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info)
+      call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info, self%set)
     end if
   end subroutine run_active_set
 

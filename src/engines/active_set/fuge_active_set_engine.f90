@@ -9,13 +9,14 @@ module fuge_active_set_engine
   use fuge_initial_set, only: guess_initial_set
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_matrix_checks, only: check_magnitudes, check_pairs
+  use fuge_matrix_checks, only: check_largest, check_pairs
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NOT_DEFINITE
   use fuge_unbounded_forces, only: forces_are_unbounded
   use fuge_unresisted_motions, only: find_unresisted_motion
+  use fuge_working_set, only: working_set
   implicit none
   private
 
@@ -29,26 +30,29 @@ contains
   !> Solve by block principal pivoting.
   !>
   !> `canonical` with its matrix; `solution` allocated, its state (n) a guess on entry, or all open if there is
-  !> none; on return solution and `factor` belong together. Errors in `info`.
-  subroutine solve_by_active_set(canonical, options, monitor, factor, solution, info)
+  !> none; on return solution and `factor` belong together. `kept` as in `run_block_pivoting`. Errors in `info`.
+  subroutine solve_by_active_set(canonical, options, monitor, factor, solution, info, kept)
     type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
     type(kkt_factor), intent(inout) :: factor
     type(contact_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
+    type(working_set), intent(inout), optional :: kept
     integer :: sets
 
-    call check_magnitudes(canonical%alpha(:size(canonical%gap), :), canonical%largest_load(), info)
+    call check_largest(canonical%survey%largest(), canonical%largest_load(), info)
     ! Opposite forces are in equilibrium only where all modes move both points alike.
-    if (canonical%plain .and. .not. info%failed()) call check_pairs(canonical%alpha, info)
+    if (canonical%plain .and. .not. (canonical%survey%pairs_hold .or. info%failed())) then
+      call check_pairs(canonical%alpha, info)
+    end if
     if (info%failed()) return
     ! A guess from another problem may name stops and points that this one does not have.
     where (canonical%excluded) solution%state = FUGE_OPEN
     where (canonical%upper >= huge(1.0_dp)) solution%state = max(solution%state, FUGE_OPEN)
     if (all(solution%state == FUGE_OPEN)) call make_guess(canonical, solution%state, info%products)
     call solve_from_set(canonical, iteration_limit(options, size(solution%state) + 1), monitor, factor, solution, &
-                        sets, info)
+                        sets, info, kept)
     info%iterations = sets
   end subroutine solve_by_active_set
 
@@ -67,8 +71,8 @@ contains
   end subroutine make_guess
 
   !> From a contact set, guessed or found by the tableau, to the solution and its status in words. `sets` counts the
-  !> sets tried.
-  subroutine solve_from_set(canonical, limit, monitor, factor, solution, sets, info)
+  !> sets tried, `kept` as in `run_block_pivoting`.
+  subroutine solve_from_set(canonical, limit, monitor, factor, solution, sets, info, kept)
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
@@ -76,13 +80,14 @@ contains
     type(contact_solution), intent(inout) :: solution
     integer, intent(out) :: sets
     type(fuge_info), intent(inout) :: info
+    type(working_set), intent(inout), optional :: kept
     integer :: more, status
 
-    call run_block_pivoting(canonical, limit, monitor, factor, solution, sets, status)
+    call run_block_pivoting(canonical, limit, monitor, factor, solution, sets, status, kept)
     if (status == FUGE_DONE .and. factor%regularisation > 0.0_dp) then
       ! A set tried on the way was singular; the last one need not be.
       factor = kkt_factor()
-      call run_block_pivoting(canonical, limit, monitor, factor, solution, more, status)
+      call run_block_pivoting(canonical, limit, monitor, factor, solution, more, status, kept)
       sets = sets + more
     end if
     call explain_status(status, limit, count(solution%state /= FUGE_OPEN), info)

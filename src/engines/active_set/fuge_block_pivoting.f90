@@ -2,12 +2,11 @@
 !>
 !> Solve the equations of a guessed contact set, exchange every point that violates a sign, repeat (J. J. Judice,
 !> F. M. Pires, Computers & Operations Research 21, 1994). When the number of violations has not fallen
-!> for a while, the primal active-set method goes on, which ends.
+!> for a while, although points join, the primal active-set method goes on, which ends.
 module fuge_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
-  use fuge_displacements, only: add_elastic_displacement, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: translation_at_shallowest
@@ -20,7 +19,7 @@ module fuge_block_pivoting
 
   public :: run_block_pivoting
 
-  !> Block exchanges without a new minimum of wrong points before single exchanges begin.
+  !> Block exchanges with points that join, and without a new minimum of wrong points, before single exchanges begin.
   integer, parameter, public :: MAX_STALLS = 3
   !> A large ratio of the pivots raises the violations that count as rounding.
   real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
@@ -44,15 +43,33 @@ contains
   !>
   !> `solution` allocated; `solution%state` (n) the guess, then the contact set; `factor` is that of the set on
   !> return. `iterations` counts the sets tried, at most `limit`; `monitor` hears of each, with its largest
-  !> violation. Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
-  subroutine run_block_pivoting(canonical, limit, monitor, factor, solution, iterations, status)
+  !> violation. With `kept`, the arrays of an earlier call are used again. Errors: FUGE_ERR_MEMORY,
+  !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
+  subroutine run_block_pivoting(canonical, limit, monitor, factor, solution, iterations, status, kept)
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: limit
     class(fuge_monitor), intent(inout) :: monitor
     type(kkt_factor), intent(inout) :: factor
     type(contact_solution), intent(inout) :: solution
     integer, intent(out) :: iterations, status
+    type(working_set), intent(inout), optional :: kept
     type(working_set) :: set
+
+    if (present(kept)) then
+      call pivot_blocks(canonical, limit, monitor, kept, factor, solution, iterations, status)
+    else
+      call pivot_blocks(canonical, limit, monitor, set, factor, solution, iterations, status)
+    end if
+  end subroutine run_block_pivoting
+
+  subroutine pivot_blocks(canonical, limit, monitor, set, factor, solution, iterations, status)
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: limit
+    class(fuge_monitor), intent(inout) :: monitor
+    type(working_set), intent(inout) :: set
+    type(kkt_factor), intent(inout) :: factor
+    type(contact_solution), intent(inout) :: solution
+    integer, intent(out) :: iterations, status
     type(pivoting_progress) :: progress
 
     iterations = 0
@@ -67,18 +84,18 @@ contains
         if (status /= FUGE_DONE) return
       end if
       progress%is_new_set = .false.
-      if (all(set%violation <= SIGN_TOLERANCE)) then
-        if (progress%refine_now) exit
+      if (all(set%violation <= SIGN_TOLERANCE) .and. .not. progress%refine_now) then
         ! Refine before the set is accepted.
         progress%refine_now = .true.
-        cycle
+        call refine_working_set(canonical, set, factor, solution)
       end if
+      if (all(set%violation <= SIGN_TOLERANCE)) exit
       if (is_noise(set, progress, factor)) exit
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
         return
       end if
-      call count_progress(count(set%violation > SIGN_TOLERANCE), progress)
+      call count_progress(set%violation > SIGN_TOLERANCE, solution%state == FUGE_OPEN, progress)
       if (progress%stalls_left < 0) then
         call run_primal_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
         if (status /= FUGE_DONE) return
@@ -88,7 +105,7 @@ contains
       end if
     end do
     call remove_rounding(canonical, set, factor, solution)
-  end subroutine run_block_pivoting
+  end subroutine pivot_blocks
 
   !> Factor the set, solve its equations, refine where that is called for, and measure the violations.
   subroutine solve_working_set(canonical, set, progress, factor, solution, status)
@@ -99,20 +116,30 @@ contains
     type(contact_solution), intent(inout) :: solution
     integer, intent(out) :: status
 
-    call factor%set(canonical, solution%state /= FUGE_OPEN, status)
+    call set%mark(canonical, solution%state)
+    call factor%set(canonical, set%contact, status)
     if (status /= FUGE_DONE) return
     call set%solve(canonical, factor, solution)
     progress%refine_now = progress%refine_now .or. factor%pivot_ratio > ILL_CONDITIONED &
       .or. factor%regularisation > 0.0_dp
     if (progress%refine_now) then
-      if (canonical%has_translation) then
-        call set%set_gap_datum(canonical, solution%motion)
-        call set%solve(canonical, factor, solution)
-      end if
-      call set%refine(canonical, factor, factor%regularisation, solution)
+      call refine_working_set(canonical, set, factor, solution)
+    else
+      call set%measure(canonical, .false., solution)
     end if
-    call set%measure(canonical, progress%refine_now, solution)
   end subroutine solve_working_set
+
+  !> Refine the solution of the set and measure its violations exactly.
+  subroutine refine_working_set(canonical, set, factor, solution)
+    type(canonical_problem), intent(in) :: canonical
+    type(working_set), intent(inout) :: set
+    type(kkt_factor), intent(in) :: factor
+    type(contact_solution), intent(inout) :: solution
+
+    if (canonical%has_translation) call set%move_gap_datum(canonical, solution)
+    call set%refine(canonical, factor, factor%regularisation, solution)
+    call set%measure(canonical, .true., solution)
+  end subroutine refine_working_set
 
   !> Are the violations that the primal active-set method has left no more than rounding? The certificate then decides
   !> about the solution.
@@ -125,14 +152,18 @@ contains
     is_noise = progress%stalls_left < 0 .and. maxval(set%violation) < NOISE*max(1.0_dp, NOISE_GROWTH*factor%pivot_ratio)
   end function is_noise
 
-  !> Count an exchange; fewer wrong points than ever before renew the stalls left, unless there are none.
-  pure subroutine count_progress(wrong, progress)
-    integer, intent(in) :: wrong
+  !> Count an exchange of the `wrong` points (n), of which the `open` ones join. Fewer wrong points than ever before
+  !> renew the stalls left, unless there are none. An exchange that only opens points is no stall: as long as none
+  !> joins, the contact shrinks, be it by a layer of points at a time, and no set comes again.
+  pure subroutine count_progress(wrong, open, progress)
+    logical, intent(in) :: wrong(:), open(:)
     type(pivoting_progress), intent(inout) :: progress
+    integer :: number
 
-    progress%stalls_left = progress%stalls_left - 1
-    if (wrong < progress%fewest_wrong .and. progress%stalls_left >= 0) progress%stalls_left = MAX_STALLS
-    progress%fewest_wrong = min(progress%fewest_wrong, wrong)
+    number = count(wrong)
+    if (any(wrong .and. open)) progress%stalls_left = progress%stalls_left - 1
+    if (number < progress%fewest_wrong .and. progress%stalls_left >= 0) progress%stalls_left = MAX_STALLS
+    progress%fewest_wrong = min(progress%fewest_wrong, number)
     progress%refine_now = progress%stalls_left < MAX_STALLS
   end subroutine count_progress
 
@@ -150,25 +181,26 @@ contains
   !> Take rounding out of forces, gaps and motion of the accepted set.
   subroutine remove_rounding(canonical, set, factor, solution)
     type(canonical_problem), intent(in) :: canonical
-    type(working_set), intent(in) :: set
+    type(working_set), intent(inout) :: set
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(inout) :: solution
+    real(dp) :: given(size(solution%force))
 
+    given = solution%force
     if (factor%regularisation > 0.0_dp) call set%refine(canonical, factor, 0.0_dp, solution)
-    associate (alpha => canonical%alpha, datum => canonical%datum, upper => canonical%upper, state => solution%state, &
-               force => solution%force, gap => solution%gap, motion => solution%motion)
+    associate (upper => canonical%upper, state => solution%state, force => solution%force, motion => solution%motion)
       where (upper > 0.0_dp) force = real(state, dp)*max(state*force, 0.0_dp)
       where (abs(force) <= set%zero_force) force = 0.0_dp
       if (canonical%plain) then
-        motion(1) = translation_at_shallowest(alpha, datum, set%reduced_gap, state /= FUGE_OPEN, force, motion(1))
+        motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, set%contact, force, &
+                                              motion(1))
       end if
       ! A motion is rounding then.
       if (set%has_no_length(canonical)) motion = 0.0_dp
-      gap = set%reduced_gap - rigid_displacement(canonical%modes, motion)
-      call add_elastic_displacement(alpha, datum, state /= FUGE_OPEN, force, gap)
-      where (.not. canonical%excluded) gap = min(max(gap, 0.0_dp), upper)
-      gap = merge(merge(0.0_dp, upper, state > FUGE_OPEN), gap, state /= FUGE_OPEN)
-      if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + datum*canonical%load(1)
+      if (any(abs(force - given) > 0.0_dp)) call set%measure(canonical, .false., solution)
+      call set%find_gaps(canonical, solution)
+      where (state == FUGE_OPEN .and. .not. canonical%excluded) solution%gap = min(max(solution%gap, 0.0_dp), upper)
+      if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + canonical%datum*canonical%load(1)
     end associate
   end subroutine remove_rounding
 

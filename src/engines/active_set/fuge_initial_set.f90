@@ -1,10 +1,14 @@
 !> A first guess of the contact set by a few projected conjugate gradients (I. A. Polonsky, L. M. Keer, Wear 231,
-!> 1999), each two products with alpha; with any number of rigid modes and two stops.
+!> 1999), each one product with alpha; with any number of rigid modes and two stops.
+!>
+!> The displacements go along with the forces: after a step, only what was added to it at points that changed has to be
+!> multiplied.
 module fuge_initial_set
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_displacements, only: add_rough_product
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgemv, dgesv
+  use fuge_lapack, only: ddot, dgesv
   implicit none
   private
 
@@ -36,6 +40,22 @@ module fuge_initial_set
     logical, allocatable :: tied(:)
   end type scaled_problem
 
+  !> Where the descent stands; all (n), scaled.
+  type :: descent
+    !> Forces and the displacements by them.
+    real(dp), allocatable :: force(:), displacement(:)
+    !> Gaps less their rigid part, and their distances from the stops; zero at open points.
+    real(dp), allocatable :: gap(:), slope(:)
+    !> The direction of the step, the displacements by it, and these less their rigid part.
+    real(dp), allocatable :: direction(:), change(:), elastic_change(:)
+    !> Forces after the step, and what was added to them.
+    real(dp), allocatable :: stepped(:), added(:)
+    !> Points at a stop.
+    logical, allocatable :: contact(:)
+    !> Sum of the squares of the slopes one step before; zero for a new start.
+    real(dp) :: previous = 0.0_dp
+  end type descent
+
 contains
 
   !> The states (n) that the points probably have.
@@ -46,42 +66,21 @@ contains
     type(canonical_problem), intent(in) :: canonical
     integer, intent(inout) :: state(:), products
     type(scaled_problem) :: scaled
-    real(dp), dimension(size(state)) :: force, rigid_gap, slope, direction, change
-    real(dp) :: previous, squares, step, curvature, noise
+    type(descent) :: now
     integer :: fallback(size(state)), before(size(state)), iteration, quiet_for
-    logical :: restarted
+    real(dp) :: step
 
     call make_scaled(canonical, scaled)
     if (.not. scaled%factor > 0.0_dp) return
     fallback = state
-    call start_forces(canonical, scaled, state, force)
-    direction = 0.0_dp
-    previous = 1.0_dp
-    restarted = .true.
+    call start_descent(canonical, scaled, state, now, products)
     quiet_for = 0
     do iteration = 1, MOST_ITERATIONS
-      call multiply_by_alpha(canonical%alpha, force, scaled%factor, rigid_gap)
-      rigid_gap = rigid_gap + scaled%gap
-      noise = ROUNDING*maxval(abs(rigid_gap))
-      slope = rigid_gap
-      where (state < FUGE_OPEN) slope = rigid_gap - scaled%upper
-      call remove_rigid_part(canonical, state /= FUGE_OPEN, slope, rigid_gap)
-      if (maxval(abs(slope), mask=state /= FUGE_OPEN) <= noise) exit
-      squares = sum(slope**2, mask=state /= FUGE_OPEN)
-      if (.not. squares > 0.0_dp) exit
-      if (restarted) direction = 0.0_dp
-      direction = merge(slope + (squares/previous)*direction, 0.0_dp, state /= FUGE_OPEN)
-      previous = squares
-      call multiply_by_alpha(canonical%alpha, direction, scaled%factor, change)
-      products = products + 2
-      call remove_rigid_part(canonical, state /= FUGE_OPEN, change)
-      curvature = sum(change*direction, mask=state /= FUGE_OPEN)
-      if (.not. curvature > 0.0_dp) exit
-      step = sum(slope*direction, mask=state /= FUGE_OPEN)/curvature
+      call find_slope(canonical, scaled, state, now)
+      call find_step(canonical, scaled, now, step, products)
+      if (.not. step > 0.0_dp) exit
       before = state
-      force = force - step*direction
-      call exchange_points(scaled, canonical%excluded, rigid_gap, step, state, force, restarted)
-      call restore_equilibrium(canonical, scaled, state, force)
+      call take_step(canonical, scaled, step, state, now)
       if (.not. any(state /= FUGE_OPEN)) then
         state = before
         exit
@@ -90,7 +89,7 @@ contains
       if (quiet_for >= QUIET) exit
     end do
     ! Nothing touched from the start, or numbers have overflowed.
-    if (.not. (any(state /= FUGE_OPEN) .and. all(abs(force) <= huge(force)))) state = fallback
+    if (.not. (any(state /= FUGE_OPEN) .and. all(abs(now%force) <= huge(step)))) state = fallback
   end subroutine guess_initial_set
 
   !> The problem without units.
@@ -125,31 +124,102 @@ contains
   end subroutine make_scaled
 
   !> Start with even forces at all points that have one stop only or are tied.
-  subroutine start_forces(canonical, scaled, state, force)
+  subroutine start_descent(canonical, scaled, state, now, products)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
-    integer, intent(inout) :: state(:)
-    real(dp), intent(out) :: force(:)
+    integer, intent(inout) :: state(:), products
+    type(descent), intent(out) :: now
+    integer :: n
 
+    n = size(state)
+    allocate (now%force(n), now%displacement(n), now%gap(n), now%slope(n), now%direction(n), now%change(n), &
+              now%elastic_change(n), now%stepped(n), now%added(n), now%contact(n))
     if (canonical%plain) then
       state = FUGE_AT_LOWER_STOP
-      force = 1.0_dp/real(size(force), dp)
+      now%force = 1.0_dp/real(n, dp)
     else
       state = merge(FUGE_OPEN, FUGE_AT_LOWER_STOP, &
                     canonical%excluded .or. (scaled%upper < huge(1.0_dp) .and. .not. scaled%tied))
-      force = 0.0_dp
-      call restore_equilibrium(canonical, scaled, state, force)
+      now%force = 0.0_dp
+      call restore_equilibrium(canonical, scaled, state, now%force)
     end if
-  end subroutine start_forces
+    now%direction = 0.0_dp
+    now%displacement = 0.0_dp
+    call add_rough_product(canonical%alpha, scaled%factor, now%force, now%displacement)
+    products = products + 1
+  end subroutine start_descent
 
-  !> displacement = factor alpha force, all (n).
-  subroutine multiply_by_alpha(alpha, force, factor, displacement)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: force(:), factor
-    real(dp), intent(out) :: displacement(:)
+  !> Gaps less their rigid part, and their distances from the stops.
+  subroutine find_slope(canonical, scaled, state, now)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(in) :: scaled
+    integer, intent(in) :: state(:)
+    type(descent), intent(inout) :: now
 
-    call dgemv('N', size(force), size(force), factor, alpha, size(alpha, 1), force, 1, 0.0_dp, displacement, 1)
-  end subroutine multiply_by_alpha
+    now%contact = state /= FUGE_OPEN
+    now%gap = scaled%gap + now%displacement
+    now%slope = now%gap
+    where (state < FUGE_OPEN) now%slope = now%gap - scaled%upper
+    call remove_rigid_part(canonical, now%contact, now%slope, now%gap)
+    where (.not. now%contact) now%slope = 0.0_dp
+  end subroutine find_slope
+
+  !> The conjugate direction, the displacements by it, and the step along it to the least energy; zero if there is
+  !> nothing to gain.
+  subroutine find_step(canonical, scaled, now, step, products)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(in) :: scaled
+    type(descent), intent(inout) :: now
+    real(dp), intent(out) :: step
+    integer, intent(inout) :: products
+    real(dp) :: curvature, kept_part, squares
+    integer :: n
+
+    n = size(now%slope)
+    step = 0.0_dp
+    if (maxval(abs(now%slope)) <= ROUNDING*maxval(abs(now%gap))) return
+    squares = ddot(n, now%slope, 1, now%slope, 1)
+    if (.not. squares > 0.0_dp) return
+    kept_part = 0.0_dp
+    if (now%previous > 0.0_dp) kept_part = squares/now%previous
+    now%direction = merge(now%slope + kept_part*now%direction, 0.0_dp, now%contact)
+    now%previous = squares
+    now%change = 0.0_dp
+    call add_rough_product(canonical%alpha, scaled%factor, now%direction, now%change)
+    products = products + 1
+    now%elastic_change = now%change
+    call remove_rigid_part(canonical, now%contact, now%elastic_change)
+    curvature = ddot(n, now%elastic_change, 1, now%direction, 1)
+    if (curvature > 0.0_dp) step = ddot(n, now%slope, 1, now%direction, 1)/curvature
+  end subroutine find_step
+
+  !> Take the step, exchange points and restore equilibrium; the displacements follow.
+  subroutine take_step(canonical, scaled, step, state, now)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(in) :: scaled
+    real(dp), intent(in) :: step
+    integer, intent(inout) :: state(:)
+    type(descent), intent(inout) :: now
+    real(dp) :: stretch
+    logical :: joined
+
+    now%stepped = now%force - step*now%direction
+    now%force = now%stepped
+    call exchange_points(scaled, canonical%excluded, now%gap, step, state, now%force, joined)
+    if (joined) now%previous = 0.0_dp
+    stretch = 1.0_dp
+    if (canonical%plain) then
+      ! Not zero at a few points only.
+      now%added = now%force - now%stepped
+      call stretch_forces(state, now%force, stretch)
+    else
+      call restore_equilibrium(canonical, scaled, state, now%force)
+      now%added = now%force - now%stepped
+    end if
+    now%displacement = now%displacement - step*now%change
+    call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
+    now%displacement = stretch*now%displacement
+  end subroutine take_step
 
   !> Points whose force no longer pushes at their stop open; open ones beyond a stop join it. `joined` if any did.
   pure subroutine exchange_points(scaled, excluded, gap, step, state, force, joined)
@@ -196,39 +266,55 @@ contains
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: length(:)
     real(dp), intent(inout), optional :: other(:)
-    real(dp) :: motion(size(canonical%load))
+    real(dp) :: translation
 
-    if (size(motion) < 1) return
     if (canonical%plain) then
-      motion = sum(length, mask=contact)/real(max(count(contact), 1), dp)
-      length = length - motion(1)
-      if (present(other)) other = other - motion(1)
-    else
-      associate (modes => canonical%modes)
-        call solve_on_contact(modes, contact, matmul(merge(length, 0.0_dp, contact), modes), motion)
-        length = length - matmul(modes, motion)
-        if (present(other)) other = other - matmul(modes, motion)
-      end associate
+      translation = sum(length, mask=contact)/real(max(count(contact), 1), dp)
+      length = length - translation
+      if (present(other)) other = other - translation
+    else if (size(canonical%load) > 0) then
+      call remove_motions(canonical%modes, contact, length, other)
     end if
   end subroutine remove_rigid_part
 
-  !> Bring the forces back into equilibrium, and open the points that then pull. One translation scales the
-  !> forces, which keeps all of them pushing; several modes add the least forces that do.
+  !> As `remove_rigid_part`, for any modes.
+  subroutine remove_motions(modes, contact, length, other)
+    real(dp), intent(in) :: modes(:, :)
+    logical, intent(in) :: contact(:)
+    real(dp), intent(inout) :: length(:)
+    real(dp), intent(inout), optional :: other(:)
+    real(dp) :: motion(size(modes, 2)), in_contact(size(length))
+
+    in_contact = merge(length, 0.0_dp, contact)
+    call solve_on_contact(modes, contact, matmul(in_contact, modes), motion)
+    length = length - matmul(modes, motion)
+    if (present(other)) other = other - matmul(modes, motion)
+  end subroutine remove_motions
+
+  !> Bring the forces of the plain problem back into equilibrium: a factor, `stretch`, keeps all of them pushing.
+  pure subroutine stretch_forces(state, force, stretch)
+    integer, intent(inout) :: state(:)
+    real(dp), intent(inout) :: force(:)
+    real(dp), intent(out) :: stretch
+    real(dp) :: total
+
+    total = sum(force)
+    stretch = 1.0_dp
+    ! After a step along rounding no force may be left.
+    if (total > 0.0_dp) stretch = 1.0_dp/total
+    force = stretch*force
+    where (.not. force > 0.0_dp) state = FUGE_OPEN
+  end subroutine stretch_forces
+
+  !> Bring the forces back into equilibrium by the least forces that do, and open the points that then pull.
   subroutine restore_equilibrium(canonical, scaled, state, force)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
     integer, intent(inout) :: state(:)
     real(dp), intent(inout) :: force(:)
-    real(dp) :: motion(size(scaled%load)), total
+    real(dp) :: motion(size(scaled%load))
     integer :: round
 
-    if (canonical%plain) then
-      total = sum(force)
-      ! After a step along rounding no force may be left.
-      if (total > 0.0_dp) force = force/total
-      where (.not. force > 0.0_dp) state = FUGE_OPEN
-      return
-    end if
     do round = 1, ROUNDS
       if (size(motion) > 0) then
         call solve_on_contact(canonical%modes, state /= FUGE_OPEN, scaled%load - matmul(force, canonical%modes), motion)

@@ -6,6 +6,7 @@
 !> Eliminating the base set leaves a small symmetric indefinite system, the Schur complement, factored anew for each
 !> set.
 module fuge_kkt_factor
+  use, intrinsic :: iso_c_binding, only: c_long_long
   use fuge_canonical_problem, only: canonical_problem
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemv, dpotrf, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
@@ -27,6 +28,10 @@ module fuge_kkt_factor
 
   type, public :: kkt_factor
     private
+    !> The matrix that was factored, 0 if that is not known.
+    integer(c_long_long) :: stamp = 0
+    !> The points of the set, (n).
+    logical, allocatable :: contact(:)
     !> Points of the base set, and the position of each point in it (0: not in it).
     integer, allocatable :: base_set(:), position(:)
     !> Rigid modes, (n, m).
@@ -53,6 +58,7 @@ module fuge_kkt_factor
   contains
     procedure :: set
     procedure :: is_set
+    procedure :: belongs_to
     procedure :: solve
   end type kkt_factor
 
@@ -70,21 +76,48 @@ contains
     integer :: borders
 
     borders = huge(borders)
+    if (allocated(self%contact)) then
+      if (all(self%contact .eqv. contact)) then
+        status = FUGE_DONE
+        return
+      end if
+      ! Until the factor is that of the new set.
+      deallocate (self%contact)
+    end if
     if (allocated(self%base_set)) borders = size(canonical%modes, 2) + count(contact .neqv. (self%position > 0))
     if (allocated(self%keys)) then
       if (borders <= size(self%keys)) then
         call update_borders(self, canonical%alpha, contact, singular)
         if (.not. singular) then
           status = FUGE_DONE
+          allocate (self%contact, source=contact)
           return
         end if
       end if
     end if
+    self%stamp = canonical%stamp
     call factorise(self, canonical%alpha, canonical%modes, canonical%has_translation, contact, status)
     if (status /= FUGE_DONE) return
     call update_borders(self, canonical%alpha, contact, singular)
-    if (singular) status = FUGE_ERR_NOT_DEFINITE
+    if (singular) then
+      status = FUGE_ERR_NOT_DEFINITE
+    else
+      allocate (self%contact, source=contact)
+    end if
   end subroutine set
+
+  !> Is it a factor of the same matrix with the same modes, as far as that is known, and not regularised?
+  pure function belongs_to(self, canonical)
+    class(kkt_factor), intent(in) :: self
+    type(canonical_problem), intent(in) :: canonical
+    logical :: belongs_to
+
+    belongs_to = allocated(self%base_set) .and. self%stamp > 0 .and. self%stamp == canonical%stamp &
+                 .and. .not. self%regularisation > 0.0_dp
+    if (belongs_to) belongs_to = size(self%modes, 1) == size(canonical%modes, 1) &
+                                 .and. size(self%modes, 2) == size(canonical%modes, 2)
+    if (belongs_to) belongs_to = .not. any(abs(self%modes - canonical%modes) > 0.0_dp)
+  end function belongs_to
 
   !> Is there a factor to solve with?
   pure function is_set(self)
@@ -103,16 +136,17 @@ contains
     integer, parameter :: DATUMS = 10
     real(dp) :: nearest_to_zero, range
     integer :: attempt
-    logical :: is_definite
+    logical :: is_definite, is_gathered
 
     call choose_base_set(self, modes, contact, status)
     if (status /= FUGE_DONE) return
     self%datum = 0.0_dp
     self%augmentation = 0.0_dp
-    call find_range(alpha, self%base_set, nearest_to_zero, range)
+    call gather_block(self, alpha, nearest_to_zero, range)
     ! Any datum that makes the block positive definite is right; alpha's own is taken if it does.
+    is_gathered = .true.
     if (abs(nearest_to_zero) <= range .or. .not. has_translation) then
-      call factor_base_set(self, alpha, 0.0_dp, is_definite)
+      call factor_base_set(self, alpha, 0.0_dp, is_gathered, is_definite)
       if (is_definite) return
     end if
     do attempt = 0, DATUMS - 1
@@ -121,13 +155,13 @@ contains
       if (size(modes, 2) > merge(1, 0, has_translation) .and. (attempt > 0 .or. .not. has_translation)) then
         self%augmentation = range*real(8**attempt, dp)
       end if
-      call factor_base_set(self, alpha, 0.0_dp, is_definite)
+      call factor_base_set(self, alpha, 0.0_dp, is_gathered, is_definite)
       if (is_definite) return
     end do
     if (has_translation) self%datum = nearest_to_zero - range
     self%augmentation = merge(range, 0.0_dp, size(modes, 2) > merge(1, 0, has_translation))
     do attempt = 1, size(REGULARISATIONS)
-      call factor_base_set(self, alpha, REGULARISATIONS(attempt)*range, is_definite)
+      call factor_base_set(self, alpha, REGULARISATIONS(attempt)*range, is_gathered, is_definite)
       if (is_definite) return
     end do
     call deallocate_all(self)
@@ -162,6 +196,7 @@ contains
     class(kkt_factor), intent(inout) :: self
 
     self%borders = 0
+    if (allocated(self%contact)) deallocate (self%contact)
     if (allocated(self%base_set)) deallocate (self%base_set)
     if (allocated(self%position)) deallocate (self%position)
     if (allocated(self%modes)) deallocate (self%modes)
@@ -172,19 +207,21 @@ contains
     if (allocated(self%pivots)) deallocate (self%pivots)
   end subroutine deallocate_all
 
-  subroutine factor_base_set(self, alpha, regularisation, is_definite)
+  !> Factor the block of the base set. With `is_gathered` it has just been gathered; then it no longer is.
+  subroutine factor_base_set(self, alpha, regularisation, is_gathered, is_definite)
     class(kkt_factor), intent(inout) :: self
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: regularisation
+    logical, intent(inout) :: is_gathered
     logical, intent(out) :: is_definite
-    real(dp) :: diagonal(size(self%base_set))
-    integer :: i, j, m, info
+    real(dp) :: diagonal(size(self%base_set)), largest, least_ignored, range_ignored
+    integer :: j, m, info
 
     m = size(self%base_set)
+    if (.not. is_gathered) call gather_block(self, alpha, least_ignored, range_ignored)
+    is_gathered = .false.
     do j = 1, m
-      do i = j, m
-        self%lower(i, j) = alpha(self%base_set(i), self%base_set(j)) - self%datum
-      end do
+      if (abs(self%datum) > 0.0_dp) self%lower(j:, j) = self%lower(j:, j) - self%datum
       if (self%augmentation > 0.0_dp) then
         self%lower(j:, j) = self%lower(j:, j) + augmentation_entries(self, self%base_set(j:), self%base_set(j))
       end if
@@ -198,9 +235,10 @@ contains
     call dpotrf('L', m, self%lower, m, info)
     is_definite = info == 0
     if (.not. is_definite) return
+    largest = maxval(diagonal)
     do j = 1, m
       is_definite = is_definite .and. self%lower(j, j)**2 > PIVOT_TOLERANCE*real(m, dp)*diagonal(j)
-      if (is_definite) self%pivot_ratio = max(self%pivot_ratio, maxval(diagonal)/self%lower(j, j)**2)
+      if (is_definite) self%pivot_ratio = max(self%pivot_ratio, largest/self%lower(j, j)**2)
     end do
   end subroutine factor_base_set
 
@@ -217,22 +255,21 @@ contains
     end do
   end function augmentation_entries
 
-  !> The coefficient of a block that is nearest to zero, and the range of the coefficients. Equal coefficients, as of a
-  !> single point, have a range of their own size.
-  pure subroutine find_range(alpha, points, nearest_to_zero, range)
-    real(dp), intent(in) :: alpha(:, :)
-    integer, intent(in) :: points(:)
+  !> Gather the block of the base set; its coefficient that is nearest to zero, and the range of its coefficients.
+  !> Equal coefficients, as of a single point, have a range of their own size.
+  pure subroutine gather_block(self, alpha, nearest_to_zero, range)
+    class(kkt_factor), intent(inout) :: self
+    real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(out) :: nearest_to_zero, range
     real(dp) :: least, most
     integer :: j
 
     least = huge(least)
     most = -huge(most)
-    do j = 1, size(points)
-      least = min(least, minval(alpha(points(j:), points(j))))
-      most = max(most, maxval(alpha(points(j:), points(j))))
+    do j = 1, size(self%base_set)
+      call gather_column(alpha(:, self%base_set(j)), self%base_set(j:), self%lower(j:, j), least, most)
     end do
-    if (size(points) < 1) then
+    if (size(self%base_set) < 1) then
       least = 0.0_dp
       most = 0.0_dp
     end if
@@ -244,7 +281,29 @@ contains
     end if
     ! Zero if there are both signs. Taking out such a coefficient costs no digits.
     nearest_to_zero = max(least, 0.0_dp) + min(most, 0.0_dp)
-  end subroutine find_range
+  end subroutine gather_block
+
+  !> `gathered` is the `column` at the `points`; `least` and `most` go along.
+  pure subroutine gather_column(column, points, gathered, least, most)
+    real(dp), intent(in), contiguous :: column(:)
+    integer, intent(in), contiguous :: points(:)
+    real(dp), intent(inout), contiguous :: gathered(:)
+    real(dp), intent(inout) :: least, most
+    integer :: i, first
+
+    first = points(1)
+    if (points(size(points)) - first + 1 == size(points)) then
+      gathered = column(first:first + size(points) - 1)
+    else
+      do i = 1, size(points)
+        gathered(i) = column(points(i))
+      end do
+    end if
+    do i = 1, size(points)
+      least = min(least, gathered(i))
+      most = max(most, gathered(i))
+    end do
+  end subroutine gather_column
 
   !> Form the borders of a set near the base set; those that it shares with the last set are kept.
   subroutine update_borders(self, alpha, contact, singular)
@@ -486,7 +545,11 @@ contains
     end do
     if (m > 0) call dtrsv('L', 'N', 'N', m, self%lower, m, in_base_set, 1)
     if (m > 0 .and. p > 0) call dgemv('T', m, p, -1.0_dp, self%border, m, in_base_set, 1, 1.0_dp, outer, 1)
-    if (p > 0) call dsytrs('L', p, 1, self%schur, size(self%schur, 1), self%pivots, outer, p, info)
+    if (p == 1) then
+      outer = outer/self%schur(1, 1)
+    else if (p > 0) then
+      call dsytrs('L', p, 1, self%schur, size(self%schur, 1), self%pivots, outer, p, info)
+    end if
     if (m > 0 .and. p > 0) call dgemv('N', m, p, -1.0_dp, self%border, m, outer, 1, 1.0_dp, in_base_set, 1)
     if (m > 0) call dtrsv('L', 'T', 'N', m, self%lower, m, in_base_set, 1)
 

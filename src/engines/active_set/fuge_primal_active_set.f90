@@ -47,7 +47,8 @@ contains
     stalls = 0
     lenient = .false.
     do
-      call factor%set(canonical, solution%state /= FUGE_OPEN, status)
+      call set%mark(canonical, solution%state)
+      call factor%set(canonical, set%contact, status)
       if (status /= FUGE_DONE) return
       call set%solve(canonical, factor, solution)
       call set%refine(canonical, factor, factor%regularisation, solution)

@@ -6,11 +6,10 @@ module fuge_working_set
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
-  use fuge_displacements, only: add_elastic_displacement, displacement_magnitude, largest_contribution, &
-    rigid_displacement
+  use fuge_displacements, only: add_open_displacement, displacement_terms
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_kkt_solution, only: refine_solution, solve_set
+  use fuge_kkt_solution, only: refine_solution, refinement_arrays, solve_set
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
@@ -27,37 +26,79 @@ module fuge_working_set
     real(dp) :: zero_force = 0.0_dp
     !> Scaled violation of the sign conditions at each point, (n).
     real(dp), allocatable :: violation(:)
+    !> Displacement by the forces at each open point, (n), from the last measure.
+    real(dp), allocatable :: elastic(:)
+    !> The points of the set, and the gaps that displacements have to close there, (n): at the upper stop the play
+    !> stays open.
+    logical, allocatable :: contact(:)
+    real(dp), allocatable, private :: gap_at_stops(:)
+    type(refinement_arrays), private :: arrays
   contains
     procedure :: start
-    procedure :: set_gap_datum
+    procedure :: mark
+    procedure :: move_gap_datum
     procedure :: solve
     procedure :: refine
     procedure :: measure
     procedure :: has_no_length
-    procedure, private :: gap_at_stops
+    procedure :: find_gaps
   end type working_set
 
 contains
 
-  !> Prepare for a problem. Excluded points of `state` (n) are opened, tied ones closed. `status`: FUGE_DONE
-  !> or FUGE_ERR_MEMORY.
+  !> Prepare for a problem; arrays of an earlier one are used again. Excluded points of `state` (n) are opened, tied
+  !> ones closed. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
   subroutine start(self, canonical, state, status)
-    class(working_set), intent(out) :: self
+    class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     integer, intent(inout) :: state(:)
     integer, intent(out) :: status
-    integer :: stat
+    integer :: n, stat
 
-    allocate (self%reduced_gap(size(state)), self%violation(size(state)), stat=stat)
+    n = size(state)
+    call self%arrays%fit(n, size(canonical%load), stat)
+    if (allocated(self%contact)) then
+      if (size(self%contact) /= n) then
+        deallocate (self%reduced_gap, self%violation, self%elastic, self%contact, self%gap_at_stops)
+      end if
+    end if
+    if (stat == 0 .and. .not. allocated(self%contact)) then
+      allocate (self%reduced_gap(n), self%violation(n), self%elastic(n), self%gap_at_stops(n), self%contact(n), &
+                stat=stat)
+    end if
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) return
+    self%gap_datum = 0.0_dp
     if (canonical%has_translation) self%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
     self%reduced_gap = canonical%gap - self%gap_datum
     self%violation = 0.0_dp
+    self%elastic = 0.0_dp
     self%zero_force = rounding_force(canonical, self%reduced_gap)
     where (canonical%excluded) state = FUGE_OPEN
-    where (canonical%is_tied()) state = FUGE_AT_LOWER_STOP
+    where (.not. (canonical%upper > 0.0_dp .or. canonical%excluded)) state = FUGE_AT_LOWER_STOP
   end subroutine start
+
+  !> Take these states (n) as the set.
+  pure subroutine mark(self, canonical, state)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
+
+    self%contact = state /= FUGE_OPEN
+    call find_gap_at_stops(self, canonical, state)
+  end subroutine mark
+
+  pure subroutine find_gap_at_stops(self, canonical, state)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
+    integer :: k
+
+    do k = 1, size(state)
+      self%gap_at_stops(k) = self%reduced_gap(k)
+      if (state(k) < FUGE_OPEN) self%gap_at_stops(k) = self%reduced_gap(k) - canonical%upper(k)
+    end do
+  end subroutine find_gap_at_stops
 
   !> Without a load all forces may be rounding. Those count that displace by SIGN_TOLERANCE times the gaps, or,
   !> if no mode is free, times the largest overlap. Zero if there is a load.
@@ -71,9 +112,8 @@ contains
     zero_force = 0.0_dp
     if (any(abs(canonical%load) > 0.0_dp)) return
     length = 0.0_dp
-    largest = 0.0_dp
+    largest = canonical%survey%largest()
     do k = 1, size(reduced_gap)
-      largest = max(largest, maxval(abs(canonical%alpha(:size(reduced_gap), k))))
       if (canonical%excluded(k)) cycle
       if (size(canonical%load) > 0) then
         length = max(length, abs(reduced_gap(k)))
@@ -86,50 +126,52 @@ contains
     zero_force = SIGN_TOLERANCE*(length/largest)
   end function rounding_force
 
-  !> Count gaps from where the bodies meet under `motion` (m): one point far below the others would cost
-  !> them digits.
-  pure subroutine set_gap_datum(self, canonical, motion)
+  !> Count gaps from where the bodies meet under the motion of the solution, which follows: one point far below the
+  !> others would cost them digits.
+  pure subroutine move_gap_datum(self, canonical, solution)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: motion(:)
+    type(contact_solution), intent(inout) :: solution
+    real(dp) :: distance, least, before
+    integer :: k, nearest
 
-    self%gap_datum = canonical%gap(minloc(abs(self%reduced_gap - rigid_displacement(canonical%modes, motion)), dim=1, &
-                                          mask=.not. canonical%excluded))
+    least = huge(least)
+    nearest = 0
+    do k = 1, size(self%reduced_gap)
+      if (canonical%excluded(k)) cycle
+      distance = abs(self%reduced_gap(k) - sum(canonical%modes(k, :)*solution%motion))
+      if (distance >= least) cycle
+      least = distance
+      nearest = k
+    end do
+    if (nearest == 0) return
+    before = self%gap_datum
+    self%gap_datum = canonical%gap(nearest)
     self%reduced_gap = canonical%gap - self%gap_datum
-  end subroutine set_gap_datum
+    solution%motion(1) = solution%motion(1) - (self%gap_datum - before)
+    call find_gap_at_stops(self, canonical, solution%state)
+  end subroutine move_gap_datum
 
-  !> The gaps that displacements have to close: at the upper stop the play stays open.
-  pure function gap_at_stops(self, canonical, state) result(gap)
-    class(working_set), intent(in) :: self
-    type(canonical_problem), intent(in) :: canonical
-    integer, intent(in) :: state(:)
-    real(dp) :: gap(size(state))
-
-    gap = self%reduced_gap
-    where (state < FUGE_OPEN) gap = self%reduced_gap - canonical%upper
-  end function gap_at_stops
-
-  !> Forces and motion of the set in `solution%state`, whose `factor` is set.
+  !> Forces and motion of the set that was marked last, whose `factor` is set.
   subroutine solve(self, canonical, factor, solution)
     class(working_set), intent(in) :: self
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(inout) :: solution
 
-    call solve_set(factor, canonical%datum, self%gap_at_stops(canonical, solution%state), canonical%load, &
-                   solution%force, solution%motion)
+    call solve_set(factor, canonical%datum, self%gap_at_stops, canonical%load, solution%force, solution%motion)
   end subroutine solve
 
   !> Iterative refinement of forces and motion; `regularisation` as in `refine_solution`.
   subroutine refine(self, canonical, factor, regularisation, solution)
-    class(working_set), intent(in) :: self
+    class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
     real(dp), intent(in) :: regularisation
     type(contact_solution), intent(inout) :: solution
 
-    call refine_solution(canonical, self%gap_at_stops(canonical, solution%state), factor, regularisation, &
-                         solution%state /= FUGE_OPEN, solution%force, solution%motion)
+    call refine_solution(canonical, self%gap_at_stops, factor, regularisation, self%contact, self%arrays, &
+                         solution%force, solution%motion)
   end subroutine refine
 
   !> Does the problem have no length at all, neither gaps nor plays nor displacements?
@@ -150,58 +192,72 @@ contains
     end do
   end function has_no_length
 
-  !> Gaps that follow from forces and motion, and the violations. Lengths are compared with all
-  !> that displaces the point if `exact`, else with the contribution of the largest force, which costs one column.
+  !> Gaps that follow from forces and motion at the open points, those of the stops at the others, and the violations.
+  !> Lengths are compared with all that displaces the point if `exact`, else with the contribution of the largest
+  !> force, which costs one column.
   pure subroutine measure(self, canonical, exact, solution)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     logical, intent(in) :: exact
     type(contact_solution), intent(inout) :: solution
-    real(dp) :: rigid_gap(size(solution%state)), magnitude(size(solution%state))
 
-    rigid_gap = self%reduced_gap - rigid_displacement(canonical%modes, solution%motion)
-    solution%gap = rigid_gap
-    associate (alpha => canonical%alpha, datum => canonical%datum, contact => solution%state /= FUGE_OPEN)
-      call add_elastic_displacement(alpha, datum, contact, solution%force, solution%gap)
-      if (exact) then
-        magnitude = displacement_magnitude(alpha, datum, contact, solution%force)
-      else
-        magnitude = largest_contribution(alpha, datum, solution%force)
-      end if
-    end associate
-    self%violation = violations(canonical, solution, rigid_gap, magnitude, self%zero_force)
+    self%elastic = 0.0_dp
+    call add_open_displacement(canonical%alpha, canonical%datum, self%contact, solution%force, self%elastic)
+    call self%find_gaps(canonical, solution)
+    call judge_signs(self, canonical, exact, solution)
   end subroutine measure
 
-  !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a
-  !> length.
-  !>
-  !> `rigid_gap` (n) is the gap less the rigid displacement, which the elastic displacement has to make up
-  !> for at a point in contact; `magnitude` (n) the size of the terms of that displacement. Tied and
-  !> excluded points cannot be wrong.
-  pure function violations(canonical, solution, rigid_gap, magnitude, zero_force) result(violation)
+  !> The gaps from the motion of the solution and the displacements that `measure` found.
+  pure subroutine find_gaps(self, canonical, solution)
+    class(working_set), intent(in) :: self
     type(canonical_problem), intent(in) :: canonical
-    type(contact_solution), intent(in) :: solution
-    real(dp), intent(in) :: rigid_gap(:), magnitude(:), zero_force
-    real(dp) :: violation(size(rigid_gap))
-    real(dp) :: largest, beyond
+    type(contact_solution), intent(inout) :: solution
     integer :: j
 
-    largest = maxval(abs(solution%force))
-    violation = 0.0_dp
-    do j = 1, size(violation)
+    solution%gap = self%reduced_gap
+    do j = 1, size(solution%motion)
+      solution%gap = solution%gap - canonical%modes(:, j)*solution%motion(j)
+    end do
+    solution%gap = solution%gap + self%elastic
+    where (solution%state > FUGE_OPEN) solution%gap = 0.0_dp
+    where (solution%state < FUGE_OPEN) solution%gap = canonical%upper
+  end subroutine find_gaps
+
+  !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a
+  !> length: the gap less the rigid displacement, which the elastic displacement has to make up for at a point in
+  !> contact, and the terms of that displacement. Tied and excluded points cannot be wrong.
+  pure subroutine judge_signs(self, canonical, exact, solution)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    logical, intent(in) :: exact
+    type(contact_solution), intent(in) :: solution
+    real(dp), allocatable :: scale(:)
+    real(dp) :: largest, beyond, rigid_gap, terms
+    integer :: j, strongest
+
+    strongest = maxloc(abs(solution%force), dim=1)
+    largest = abs(solution%force(strongest))
+    self%violation = 0.0_dp
+    do j = 1, size(self%violation)
       if (canonical%excluded(j) .or. .not. canonical%upper(j) > 0.0_dp) cycle
       associate (state => solution%state(j), force => solution%force(j), gap => solution%gap(j))
         if (state /= FUGE_OPEN) then
-          if (force*state < -zero_force) violation(j) = abs(force)/largest
-        else
-          beyond = max(-gap, gap - canonical%upper(j))
-          if (beyond > 0.0_dp) violation(j) = beyond/max(abs(rigid_gap(j)) + magnitude(j), beyond)
+          if (force*state >= -self%zero_force) cycle
+          if (.not. allocated(scale)) allocate (scale, source=canonical%force_scale(solution%force))
+          self%violation(j) = abs(force)/scale(j)
+          cycle
         end if
+        beyond = max(-gap, gap - canonical%upper(j))
+        if (.not. beyond > 0.0_dp) cycle
+        rigid_gap = abs(gap - self%elastic(j))
+        terms = abs((canonical%alpha(j, strongest) - canonical%datum)*largest)
+        ! The other forces can only make the violation smaller.
+        if (exact .and. beyond > SIGN_TOLERANCE*(rigid_gap + terms)) then
+          terms = displacement_terms(canonical%alpha, canonical%datum, self%contact, solution%force, j)
+        end if
+        self%violation(j) = beyond/max(rigid_gap + terms, beyond)
       end associate
     end do
-    if (canonical%has_bodies() .and. largest > 0.0_dp) then
-      where (solution%state /= FUGE_OPEN) violation = violation*(largest/canonical%force_scale(solution%force))
-    end if
-  end function violations
+  end subroutine judge_signs
 
 end module fuge_working_set

@@ -4,8 +4,10 @@
 !> their units nor a far-away point of reference costs digits. A resultant that no contact forces can
 !> carry is refused here.
 module fuge_canonical_problem
+  use, intrinsic :: iso_c_binding, only: c_long_long
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
+  use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text, text
   use fuge_orthogonal_modes, only: bodies_of_modes, make_orthogonal, mode_change, mode_fault
   use fuge_problem_type, only: fuge_problem
@@ -24,6 +26,9 @@ module fuge_canonical_problem
   type, public :: canonical_problem
     !> Influence matrix, (at least n rows, n columns), length per force; owned by the caller.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
+    !> What is known of it, and the number that tells it from other matrices, 0 if there is none.
+    type(matrix_survey) :: survey
+    integer(c_long_long) :: stamp = 0
     !> Taken out of all of alpha, where it costs digits: the coefficient nearest to zero if there is a
     !> translation to take it up, else 0.
     real(dp) :: datum = 0.0_dp
@@ -53,6 +58,7 @@ module fuge_canonical_problem
     integer, allocatable, private :: excluded_points(:)
     real(dp), allocatable, private :: excluded_rows(:, :)
   contains
+    procedure :: set_again
     procedure :: set_matrix
     procedure :: mode_count
     procedure :: is_tied
@@ -105,6 +111,20 @@ contains
     if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info)
   end subroutine make_canonical
 
+  !> Take the gaps and the load of another checked problem of the paper's kind, if this is one of as many points; all
+  !> else is the same then. `is_set` tells whether it was.
+  pure subroutine set_again(self, problem, is_set)
+    class(canonical_problem), intent(inout) :: self
+    type(fuge_problem), intent(in) :: problem
+    logical, intent(out) :: is_set
+
+    is_set = self%plain .and. problem%is_plain() .and. allocated(self%excluded_rows)
+    if (is_set) is_set = size(self%gap) == size(problem%gap)
+    if (.not. is_set) return
+    self%gap = problem%gap
+    self%load = problem%resultant
+  end subroutine set_again
+
   !> Subtract the displacements by the prescribed motions from the gaps.
   pure subroutine apply_prescribed(problem, canonical)
     type(fuge_problem), intent(in) :: problem
@@ -156,12 +176,22 @@ contains
     end if
   end subroutine orthogonalise
 
-  !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero.
-  subroutine set_matrix(self, alpha, datum)
+  !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero, `survey` what is known
+  !> of it; without one it is surveyed here. `stamp` tells it from other matrices; without one factors are not kept.
+  subroutine set_matrix(self, alpha, datum, survey, stamp)
     class(canonical_problem), intent(inout) :: self
     real(dp), intent(in), pointer, contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum
+    type(matrix_survey), intent(in), optional :: survey
+    integer(c_long_long), intent(in), optional :: stamp
 
+    self%stamp = 0
+    if (present(stamp)) self%stamp = stamp
+    if (present(survey)) then
+      self%survey = survey
+    else
+      call survey_matrix(alpha, self%survey)
+    end if
     self%alpha => alpha
     ! Without a translation nothing takes up a constant taken out of alpha.
     self%datum = merge(datum, 0.0_dp, self%has_translation)

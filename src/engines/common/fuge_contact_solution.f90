@@ -1,6 +1,7 @@
 !> Forces, gaps and motions of the canonical problem together with the state of each point.
 module fuge_contact_solution
   use fuge_contact_states, only: FUGE_OPEN
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
@@ -17,19 +18,39 @@ module fuge_contact_solution
 
 contains
 
-  !> Allocate a solution of n points, all open, with m motions. Error: FUGE_ERR_MEMORY.
-  pure subroutine allocate_solution(n, m, solution, info)
+  !> Allocate a solution of n points, all open, with m motions; arrays of `spare` that fit are taken over. Error:
+  !> FUGE_ERR_MEMORY.
+  pure subroutine allocate_solution(n, m, solution, info, spare)
     integer, intent(in) :: n, m
     type(contact_solution), intent(out) :: solution
     type(fuge_info), intent(inout) :: info
+    type(fuge_solution), intent(inout), optional :: spare
     integer :: stat
 
-    allocate (solution%force(n), solution%gap(n), solution%motion(m), solution%state(n), stat=stat)
+    stat = 0
+    if (present(spare)) then
+      call take_over(spare%force, n, solution%force)
+      call take_over(spare%gap, n, solution%gap)
+      call take_over(spare%motion, m, solution%motion)
+    end if
+    if (.not. allocated(solution%force)) allocate (solution%force(n), stat=stat)
+    if (stat == 0 .and. .not. allocated(solution%gap)) allocate (solution%gap(n), stat=stat)
+    if (stat == 0 .and. .not. allocated(solution%motion)) allocate (solution%motion(m), stat=stat)
+    if (stat == 0) allocate (solution%state(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
       return
     end if
     solution%state = FUGE_OPEN
   end subroutine allocate_solution
+
+  !> Move an array of the right `length` to another place.
+  pure subroutine take_over(spare, length, values)
+    real(dp), allocatable, intent(inout) :: spare(:), values(:)
+    integer, intent(in) :: length
+
+    if (.not. allocated(spare)) return
+    if (size(spare) == length) call move_alloc(spare, values)
+  end subroutine take_over
 
 end module fuge_contact_solution

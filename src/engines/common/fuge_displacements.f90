@@ -1,13 +1,23 @@
 !> Displacements of the points by rigid motions and by contact forces.
 !>
 !> Elastic displacements are those of alpha less `datum`, the coefficient nearest to zero: a constant in all of alpha
-!> that changes the translation only and, taken out first, costs no digits.
+!> that changes the translation only and, taken out first, costs no digits. Columns of points without force are not
+!> read; the others are read four at a time, because the displacements would otherwise be loaded and stored for each.
 module fuge_displacements
   use fuge_kinds, only: dp
+  use fuge_lapack, only: dgemv, dsymv
   implicit none
   private
 
-  public :: add_elastic_displacement, displacement_magnitude, largest_contribution, rigid_displacement
+  public :: add_elastic_displacement, add_open_displacement, add_rough_product, displacement_magnitude, &
+    displacement_terms, rigid_displacement
+
+  !> Runs of points in contact, or open, that are shorter than this on average are not worth a loop each.
+  integer, parameter :: SHORT_RUN = 16
+  !> Runs of columns from this length on are left to BLAS, where rounding does not matter.
+  integer, parameter :: LONG_RUN = 8
+  !> With force at more than this part of the points, half of the matrix is read instead of columns.
+  real(dp), parameter :: MANY = 0.6_dp
 
 contains
 
@@ -31,14 +41,137 @@ contains
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, force(:)
     logical, intent(in) :: contact(:)
-    real(dp), intent(inout) :: u(:)
-    integer :: j, n
+    real(dp), intent(inout), contiguous :: u(:)
+
+    call add_in_rows(alpha, datum, contact, force, 1, size(u), u)
+  end subroutine add_elastic_displacement
+
+  !> As `add_elastic_displacement`, but needed at open points only; what is added to u at points in contact is left
+  !> undefined. Forces are zero at open points.
+  !>
+  !> Few open points are multiplied one by one, by their columns, which are their rows too; of more, the rows alone are
+  !> read where they lie side by side.
+  pure subroutine add_open_displacement(alpha, datum, contact, force, u)
+    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
+    real(dp), intent(in) :: datum
+    logical, intent(in) :: contact(:)
+    real(dp), intent(inout), contiguous :: u(:)
+    integer :: first, k, last, n
 
     n = size(u)
-    do j = 1, n
-      if (contact(j)) u = u + (alpha(:n, j) - datum)*force(j)
+    if (2*count(contact) > n) then
+      first = findloc_contact(contact, 1, n)
+      last = findloc_contact(contact, n, 1)
+      do k = 1, n
+        if (.not. contact(k)) u(k) = u(k) + displacement_at(alpha(first:last, k), datum, force(first:last))
+      end do
+    else if (count(contact(2:) .neqv. contact(:n - 1))*SHORT_RUN > n) then
+      call add_in_rows(alpha, datum, contact, force, 1, n, u)
+    else
+      last = 0
+      do
+        call next_run(.not. contact, last + 1, first, last)
+        if (first > n) exit
+        call add_in_rows(alpha, datum, contact, force, first, last, u)
+      end do
+    end if
+  end subroutine add_open_displacement
+
+  !> The first point in contact on the way from one point to another; the last one of them if there is none.
+  pure function findloc_contact(contact, from, to) result(point)
+    logical, intent(in) :: contact(:)
+    integer, intent(in) :: from, to
+    integer :: point
+
+    do point = from, to, sign(1, to - from)
+      if (contact(point)) return
     end do
-  end subroutine add_elastic_displacement
+    point = to
+  end function findloc_contact
+
+  !> The next run of marked points from `start` on; `first` is beyond the last point if there is none.
+  pure subroutine next_run(marked, start, first, last)
+    logical, intent(in) :: marked(:)
+    integer, intent(in) :: start
+    integer, intent(out) :: first, last
+
+    do first = start, size(marked)
+      if (marked(first)) exit
+    end do
+    do last = first, size(marked) - 1
+      if (.not. marked(last + 1)) return
+    end do
+    last = size(marked)
+  end subroutine next_run
+
+  !> (row - datum).force, in four sums that the processor can add side by side.
+  pure function displacement_at(row, datum, force) result(displacement)
+    real(dp), intent(in), contiguous :: row(:), force(:)
+    real(dp), intent(in) :: datum
+    real(dp) :: displacement, sums(4)
+    integer :: k, whole
+
+    sums = 0.0_dp
+    whole = size(row) - modulo(size(row), 4)
+    do k = 1, whole, 4
+      sums(1) = sums(1) + (row(k) - datum)*force(k)
+      sums(2) = sums(2) + (row(k + 1) - datum)*force(k + 1)
+      sums(3) = sums(3) + (row(k + 2) - datum)*force(k + 2)
+      sums(4) = sums(4) + (row(k + 3) - datum)*force(k + 3)
+    end do
+    do k = whole + 1, size(row)
+      sums(1) = sums(1) + (row(k) - datum)*force(k)
+    end do
+    displacement = (sums(1) + sums(2)) + (sums(3) + sums(4))
+  end function displacement_at
+
+  !> The rows `first` to `last` of `add_elastic_displacement`.
+  pure subroutine add_in_rows(alpha, datum, contact, force, first, last, u)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, force(:)
+    logical, intent(in) :: contact(:)
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: u(:)
+    integer :: columns(4), j, waiting
+
+    waiting = 0
+    do j = 1, size(contact)
+      if (.not. contact(j)) cycle
+      if (.not. abs(force(j)) > 0.0_dp) cycle
+      waiting = waiting + 1
+      columns(waiting) = j
+      if (waiting < 4) cycle
+      call add_four(alpha(first:last, columns(1)), alpha(first:last, columns(2)), alpha(first:last, columns(3)), &
+                    alpha(first:last, columns(4)), datum, force(columns), u(first:last))
+      waiting = 0
+    end do
+    do j = 1, waiting
+      call add_one(alpha(first:last, columns(j)), datum, force(columns(j)), u(first:last))
+    end do
+  end subroutine add_in_rows
+
+  pure subroutine add_four(a, b, c, d, datum, force, u)
+    real(dp), intent(in), contiguous :: a(:), b(:), c(:), d(:)
+    real(dp), intent(in) :: datum, force(4)
+    real(dp), intent(inout), contiguous :: u(:)
+    integer :: i
+
+    do i = 1, size(u)
+      u(i) = u(i) + (((a(i) - datum)*force(1) + (b(i) - datum)*force(2)) &
+                     + ((c(i) - datum)*force(3) + (d(i) - datum)*force(4)))
+    end do
+  end subroutine add_four
+
+  pure subroutine add_one(a, datum, force, u)
+    real(dp), intent(in), contiguous :: a(:)
+    real(dp), intent(in) :: datum, force
+    real(dp), intent(inout), contiguous :: u(:)
+    integer :: i
+
+    do i = 1, size(u)
+      u(i) = u(i) + (a(i) - datum)*force
+    end do
+  end subroutine add_one
 
   !> sum_j |alpha_kj - datum| |f_j|, (n): the size of the terms of a displacement, which may cancel.
   pure function displacement_magnitude(alpha, datum, contact, force) result(magnitude)
@@ -54,15 +187,58 @@ contains
     end do
   end function displacement_magnitude
 
-  !> The contribution of the largest force to these magnitudes, (n): less than all, at the cost of one column.
-  pure function largest_contribution(alpha, datum, force) result(magnitude)
+  !> As `displacement_magnitude`, at point k only.
+  pure function displacement_terms(alpha, datum, contact, force, k) result(terms)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, force(:)
-    real(dp) :: magnitude(size(force))
-    integer :: k
+    logical, intent(in) :: contact(:)
+    integer, intent(in) :: k
+    real(dp) :: terms
+    integer :: j
 
-    k = maxloc(abs(force), dim=1)
-    magnitude = abs((alpha(:size(force), k) - datum)*force(k))
-  end function largest_contribution
+    terms = 0.0_dp
+    do j = 1, size(contact)
+      if (contact(j)) terms = terms + abs((alpha(j, k) - datum)*force(j))
+    end do
+  end function displacement_terms
+
+  !> u := u + factor alpha f, (n), for a guess: with the digits that BLAS leaves, and where many points have force
+  !> from half of the matrix. Columns without force are not read otherwise.
+  subroutine add_rough_product(alpha, factor, force, u)
+    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
+    real(dp), intent(in) :: factor
+    real(dp), intent(inout), contiguous :: u(:)
+    integer :: n
+
+    n = size(u)
+    if (real(count(abs(force) > 0.0_dp), dp) > MANY*real(n, dp)) then
+      call dsymv('L', n, factor, alpha, size(alpha, 1), force, 1, 1.0_dp, u, 1)
+    else if (any(abs(force) > 0.0_dp)) then
+      call add_some_columns(alpha, factor, abs(force) > 0.0_dp, force, u)
+    end if
+  end subroutine add_rough_product
+
+  !> u := u + factor alpha f, with the columns of the `loaded` points only.
+  subroutine add_some_columns(alpha, factor, loaded, force, u)
+    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
+    real(dp), intent(in) :: factor
+    logical, intent(in) :: loaded(:)
+    real(dp), intent(inout), contiguous :: u(:)
+    logical :: rest(size(loaded))
+    integer :: first, last, n
+
+    n = size(u)
+    rest = loaded
+    last = 0
+    do
+      call next_run(loaded, last + 1, first, last)
+      if (first > n) exit
+      if (last - first + 1 < LONG_RUN) cycle
+      call dgemv('N', n, last - first + 1, factor, alpha(:, first:last), size(alpha, 1), force(first:last), 1, &
+                 1.0_dp, u, 1)
+      rest(first:last) = .false.
+    end do
+    if (any(rest)) call add_in_rows(alpha, 0.0_dp, rest, factor*force, 1, n, u)
+  end subroutine add_some_columns
 
 end module fuge_displacements

@@ -2,15 +2,13 @@
 module fuge_matrix_checks
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
+  use fuge_matrix_survey, only: PAIR_TOLERANCE
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW
   implicit none
   private
 
-  public :: check_matrix, check_magnitudes, check_pairs
-
-  !> A negative energy below this fraction of the coefficients is rounding.
-  real(dp), parameter :: PAIR_TOLERANCE = 1.0e-12_dp
+  public :: check_largest, check_matrix, check_magnitudes, check_pairs
 
 contains
 
@@ -49,15 +47,21 @@ contains
   pure subroutine check_magnitudes(alpha, load, info)
     real(dp), intent(in) :: alpha(:, :), load
     type(fuge_info), intent(inout) :: info
-    real(dp) :: largest
+
+    call check_largest(maxval(abs(alpha)), load, info)
+  end subroutine check_magnitudes
+
+  !> As `check_magnitudes`, from the largest coefficient.
+  pure subroutine check_largest(largest, load, info)
+    real(dp), intent(in) :: largest, load
+    type(fuge_info), intent(inout) :: info
     integer :: deflection
 
-    largest = maxval(abs(alpha))
     deflection = exponent(largest) + exponent(load)
     if (abs(deflection) > LARGEST_EXPONENT .or. abs(exponent(largest)) > LARGEST_EXPONENT) then
       call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches '//text(largest)//' and alpha times load 2**' &
                   //text(deflection)//': choose units in which they are nearer to 1')
     end if
-  end subroutine check_magnitudes
+  end subroutine check_largest
 
 end module fuge_matrix_checks

@@ -164,7 +164,7 @@ contains
 
     call make_canonical(problem, canonical, info)
     if (info%failed()) return
-    call canonical%set_matrix(operator%alpha, operator%datum())
+    call canonical%set_matrix(operator%alpha, operator%datum(), operator%known())
     no_change = 0.0_dp
     call canonical%transform_change(no_change, line%rate, line%reduced_gap_rate, line%load_rate)
     if (canonical%has_translation) line%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)

@@ -10,7 +10,7 @@ module fuge_tableau_engine
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_matrix_checks, only: check_magnitudes
+  use fuge_matrix_checks, only: check_largest
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
@@ -63,7 +63,7 @@ contains
     integer :: deficient, status
 
     associate (alpha => canonical%alpha(:size(canonical%gap), :))
-      call check_magnitudes(alpha, canonical%largest_load(), info)
+      call check_largest(canonical%survey%largest(), canonical%largest_load(), info)
       if (info%failed()) return
       call check_definite(alpha, merge(0.0_dp, canonical%datum, canonical%plain), canonical%modes, canonical%excluded, &
                           deficient, status)
