@@ -499,7 +499,7 @@ contains
     if (c_associated(self%owner)) then
       if (c_associated(self%owner, c_loc(self%level))) then
         do k = 1, size(self%grid)
-          if (associated(self%grid(k)%operator)) deallocate (self%grid(k)%operator)
+          call free_operator(self%grid(k)%operator)
         end do
         deallocate (self%grid)
       end if
@@ -508,5 +508,12 @@ contains
     self%owner = c_null_ptr
     self%level = 0
   end subroutine destroy
+
+  !> A procedure of its own, because gfortran 12 does not compile it with bounds checks for an element of an array.
+  subroutine free_operator(operator)
+    type(fuge_halfplane_operator), pointer, intent(inout) :: operator
+
+    if (associated(operator)) deallocate (operator)
+  end subroutine free_operator
 
 end module fuge_halfplane_fft
