@@ -37,7 +37,7 @@ module fuge_double_double
     module procedure over
   end interface operator(/)
 
-  !> The natural logarithm of a number >= 1.
+  !> The natural logarithm of a number >= 1 and below 2**1023.
   interface log
     module procedure logarithm
   end interface log
@@ -115,14 +115,13 @@ contains
     total%low = b - (total%high - a)
   end function normalised
 
+  !> a + b, with an error of a few 2**-106 of |a| + |b|.
   elemental function add(a, b) result(total)
     type(double_double), intent(in) :: a, b
-    type(double_double) :: total, rest
+    type(double_double) :: total
 
     total = two_sum(a%high, b%high)
-    rest = two_sum(a%low, b%low)
-    total = normalised(total%high, total%low + rest%high)
-    total = normalised(total%high, total%low + rest%low)
+    total = normalised(total%high, total%low + (a%low + b%low))
   end function add
 
   elemental function subtract(a, b) result(difference)
@@ -175,19 +174,21 @@ contains
   elemental function logarithm(a) result(value)
     type(double_double), intent(in) :: a
     type(double_double) :: value, mantissa, u
-    real(dp) :: c
+    real(dp) :: c, unit
     integer :: power, k
 
-    power = exponent(a%high) - 1
-    mantissa = double_double(scale(a%high, -power), scale(a%low, -power))
-    k = nint(32.0_dp*mantissa%high)
+    ! By the bits of the exponent, because the intrinsics may be calls.
+    power = int(ishft(transfer(a%high, 0_int64), -52)) - 1023
+    unit = transfer(ishft(int(1023 - power, int64), 52), unit)
+    mantissa = double_double(a%high*unit, a%low*unit)
+    k = int(32.0_dp*mantissa%high + 0.5_dp)
     c = real(k, dp)/32.0_dp
     u = divide(add(mantissa, double_double(-c, 0.0_dp)), add(mantissa, double_double(c, 0.0_dp)))
     value = add(double_double(LOG_HIGH(k), LOG_LOW(k)), twice_artanh(u))
     if (power /= 0) value = add(value, multiply_by_double(double_double(LOG_HIGH(64), LOG_LOW(64)), real(power, dp)))
   end function logarithm
 
-  !> 2 artanh(u), |u| <= 1/128, by its series in u squared.
+  !> 2 artanh(u), |u| <= 1/128, by its series in u squared, whose first terms need both doubles.
   elemental function twice_artanh(u) result(value)
     type(double_double), intent(in) :: u
     type(double_double) :: value, square
@@ -195,9 +196,8 @@ contains
 
     square = multiply(u, u)
     q = square%high
-    q = q*(1.0_dp/9.0_dp + q*(1.0_dp/11.0_dp + q*(1.0_dp/13.0_dp + q*(1.0_dp/15.0_dp + q/17.0_dp))))
-    value = add(double_double(0.14285714285714285_dp, 7.93016446160826e-18_dp), double_double(q, 0.0_dp))
-    value = add(double_double(0.2_dp, -1.1102230246251566e-17_dp), multiply(square, value))
+    q = q*(1.0_dp/7.0_dp + q*(1.0_dp/9.0_dp + q*(1.0_dp/11.0_dp + q*(1.0_dp/13.0_dp + q/15.0_dp))))
+    value = add(double_double(0.2_dp, -1.1102230246251566e-17_dp), double_double(q, 0.0_dp))
     value = add(double_double(0.3333333333333333_dp, 1.850371707708594e-17_dp), multiply(square, value))
     value = add(double_double(2.0_dp, 0.0_dp), multiply_by_double(multiply(square, value), 2.0_dp))
     value = multiply(u, value)

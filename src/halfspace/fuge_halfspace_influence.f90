@@ -11,8 +11,8 @@ module fuge_halfspace_influence
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_rectangle_checks, only: check_area_element, check_area_modulus, check_rectangles
-  use fuge_rectangle_influence, only: new_rectangle_kernel, pair_coefficients, rectangle_kernel, set_widths, &
-    HALFSPACE_FACTOR, PAIRS
+  use fuge_rectangle_influence, only: mixed_coefficients, new_rectangle_kernel, pair_coefficients, rectangle_kernel, &
+    set_widths, HALFSPACE_FACTOR, PAIRS
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
@@ -174,25 +174,22 @@ contains
     if (stat /= 0) return
     call new_rectangle_kernel(HALFSPACE_FACTOR/double_double(e_star, 0.0_dp), kernel)
     n = size(cells%x)
-    equal = all(abs(cells%width_x - cells%width_x(1)) <= 0.0_dp) &
-            .and. all(abs(cells%width_y - cells%width_y(1)) <= 0.0_dp)
+    equal = cells%element == FUGE_CENTRE .or. (all(abs(cells%width_x - cells%width_x(1)) <= 0.0_dp) &
+                                               .and. all(abs(cells%width_y - cells%width_y(1)) <= 0.0_dp))
     do j = 1, n
-      first = j
-      do while (first <= n)
-        last = first
-        ! Rectangles of equal widths many at a time.
-        if (equal .or. cells%element == FUGE_CENTRE) last = min(n, first + PAIRS - 1)
-        call fill_part(cells, kernel, first, j, alpha(first:last, j))
+      do first = j, n, PAIRS
+        last = min(n, first + PAIRS - 1)
+        call fill_part(cells, kernel, equal, first, j, alpha(first:last, j))
         alpha(j, first:last) = alpha(first:last, j)
-        first = last + 1
       end do
     end do
   end subroutine fill_from_pairs
 
-  !> The coefficients of column `j` from row `first` on: the mean over the images.
-  pure subroutine fill_part(cells, kernel, first, j, part)
+  !> The coefficients of column `j` from row `first` on: the mean over the images. `equal`: all rectangles are.
+  pure subroutine fill_part(cells, kernel, equal, first, j, part)
     type(rectangles), intent(in) :: cells
     type(rectangle_kernel), intent(inout) :: kernel
+    logical, intent(in) :: equal
     integer, intent(in) :: first, j
     real(dp), intent(out), contiguous :: part(:)
     real(dp) :: total(size(part)), observed(2)
@@ -204,7 +201,7 @@ contains
     total = 0.0_dp
     do along_y = 1, cells%images(2)
       do along_x = 1, cells%images(1)
-        call add_image(cells, kernel, first, j, [along_x, along_y] == 2, total)
+        call add_image(cells, kernel, equal, first, j, [along_x, along_y] == 2, total)
       end do
     end do
     part = total/real(product(cells%images), dp)
@@ -212,14 +209,15 @@ contains
 
   !> Add the coefficients of the rectangles from `first` on under rectangle `j`, or under its image `mirrored` (2)
   !> in x = 0 and in y = 0.
-  pure subroutine add_image(cells, kernel, first, j, mirrored, total)
+  pure subroutine add_image(cells, kernel, equal, first, j, mirrored, total)
     type(rectangles), intent(in) :: cells
     type(rectangle_kernel), intent(inout) :: kernel
+    logical, intent(in) :: equal, mirrored(2)
     integer, intent(in) :: first, j
-    logical, intent(in) :: mirrored(2)
     real(dp), intent(inout) :: total(:)
     type(double_double) :: offset
     real(dp), dimension(size(total)) :: x_high, x_low, y_high, y_low, coefficient
+    real(dp) :: observed(2, size(total))
     integer :: k
 
     do k = 1, size(total)
@@ -229,8 +227,13 @@ contains
       offset = between(cells%y(first + k - 1), cells%y(j), mirrored(2))
       y_high(k) = offset%high
       y_low(k) = offset%low
+      observed(:, k) = [cells%width_x(first + k - 1), cells%width_y(first + k - 1)]
     end do
-    call pair_coefficients(kernel, x_high, x_low, y_high, y_low, coefficient)
+    if (equal) then
+      call pair_coefficients(kernel, x_high, x_low, y_high, y_low, coefficient)
+    else
+      call mixed_coefficients(kernel, x_high, x_low, y_high, y_low, observed, coefficient)
+    end if
     total = total + coefficient
   end subroutine add_image
 

@@ -7,15 +7,18 @@ module fuge_rectangle_influence
   use fuge_double_double, only: double_double, inverse_roots, squared_distances
   use fuge_kinds, only: dp
   use fuge_rectangle_multipoles, only: cosine_powers, expansion_order, multipoles, new_cosine_powers, new_multipoles, &
-    sum_multipoles, FAR_RATIO, HIGHEST_ORDER
+    sum_mixed_multipoles, sum_multipoles, FAR_RATIO, HIGHEST_ORDER
   use fuge_rectangle_potential, only: near_mean
   implicit none
   private
 
-  public :: new_rectangle_kernel, pair_coefficients, set_widths
+  public :: mixed_coefficients, new_rectangle_kernel, pair_coefficients, set_widths
 
   !> Pairs that `pair_coefficients` takes at once, at most.
-  integer, parameter, public :: PAIRS = 64
+  integer, parameter, public :: PAIRS = 128
+
+  !> Pairs of different widths are summed together up to the first of these orders that is enough.
+  integer, parameter :: GROUP_ORDERS(5) = [4, 6, 9, 13, HIGHEST_ORDER]
 
   !> 1/pi: a force f on a point displaces the surface at distance r by f/(pi E* r) (J. Boussinesq 1885; Johnson, 3.2).
   type(double_double), parameter, public :: HALFSPACE_FACTOR = &
@@ -61,50 +64,101 @@ contains
     type(rectangle_kernel), intent(inout) :: kernel
     real(dp), intent(in), contiguous :: x_high(:), x_low(:), y_high(:), y_low(:)
     real(dp), intent(out), contiguous :: coefficient(:)
-    real(dp), dimension(PAIRS) :: high, low, ratio, cosine, correction, root_high, root_low
-    real(dp) :: most
+    real(dp), dimension(PAIRS) :: high, low, ratio, cosine, correction
     integer :: order, n, k
 
     n = size(coefficient)
     call squared_distances(x_high, x_low, y_high, y_low, high(:n), low(:n))
-    most = 0.0_dp
     do k = 1, n
-      if (is_near(kernel, high(k))) then
-        ! Any place that is far, for the multipoles.
-        high(k) = kernel%reach**2/FAR_RATIO
-        low(k) = 0.0_dp
-        ratio(k) = 0.0_dp
-        cosine(k) = 0.0_dp
-        coefficient(k) = -1.0_dp
-      else
-        ratio(k) = kernel%reach**2/high(k)
-        cosine(k) = ((x_high(k) - y_high(k))*(x_high(k) + y_high(k)))/high(k)
-        coefficient(k) = 0.0_dp
-      end if
-      most = max(most, ratio(k))
+      ratio(k) = 0.0_dp
+      cosine(k) = 0.0_dp
+      if (is_near(kernel%reach**2, high(k))) cycle
+      ratio(k) = kernel%reach**2/high(k)
+      cosine(k) = ((x_high(k) - y_high(k))*(x_high(k) + y_high(k)))/high(k)
     end do
-    order = expansion_order(most)
+    order = expansion_order(maxval(ratio(:n)))
     if (order > kernel%terms%order) call new_multipoles(kernel%powers, order, kernel%observed, kernel%loaded, &
       kernel%reach, kernel%terms)
     call sum_multipoles(kernel%terms, order, ratio(:n), cosine(:n), correction(:n))
-    call inverse_roots(kernel%factor, high(:n), low(:n), root_high(:n), root_low(:n))
+    call correct_roots(kernel%factor, high(:n), low(:n), correction(:n), coefficient)
     do k = 1, n
-      if (coefficient(k) < 0.0_dp) then
-        coefficient(k) = near_mean(double_double(x_high(k), x_low(k)), double_double(y_high(k), y_low(k)), &
-                                   kernel%observed, kernel%loaded, kernel%factor)
-      else
-        coefficient(k) = root_high(k) + (root_low(k) + root_high(k)*correction(k))
-      end if
+      if (is_near(kernel%reach**2, high(k))) coefficient(k) = near_mean( &
+        double_double(x_high(k), x_low(k)), double_double(y_high(k), y_low(k)), kernel%observed, kernel%loaded, &
+        kernel%factor)
     end do
   end subroutine pair_coefficients
 
-  !> Is a pair at this squared distance too close for the multipoles?
-  pure function is_near(kernel, squared_distance) result(near)
+  !> As `pair_coefficients`, with the widths `observed` (2, n) instead of those of `set_widths`.
+  !>
+  !> The sums cost the third power of their order, so the pairs are taken in groups of similar orders.
+  pure subroutine mixed_coefficients(kernel, x_high, x_low, y_high, y_low, observed, coefficient)
     type(rectangle_kernel), intent(in) :: kernel
-    real(dp), intent(in) :: squared_distance
+    real(dp), intent(in), contiguous :: x_high(:), x_low(:), y_high(:), y_low(:), observed(:, :)
+    real(dp), intent(out), contiguous :: coefficient(:)
+    real(dp), dimension(size(coefficient)) :: high, low, square, part
+    integer, dimension(size(coefficient)) :: order, member
+    integer :: group, count, k
+
+    call squared_distances(x_high, x_low, y_high, y_low, high, low)
+    do k = 1, size(coefficient)
+      square(k) = 0.25_dp*((observed(1, k) + kernel%loaded(1))**2 + (observed(2, k) + kernel%loaded(2))**2)
+      order(k) = 0
+      if (.not. is_near(square(k), high(k))) then
+        order(k) = expansion_order(square(k)/high(k))
+      else
+        coefficient(k) = near_mean(double_double(x_high(k), x_low(k)), double_double(y_high(k), y_low(k)), &
+                                   observed(:, k), kernel%loaded, kernel%factor)
+      end if
+    end do
+    do group = 1, size(GROUP_ORDERS)
+      count = 0
+      do k = 1, size(order)
+        if (order(k) < 1 .or. order(k) > GROUP_ORDERS(group)) cycle
+        count = count + 1
+        member(count) = k
+        order(k) = 0
+      end do
+      if (count < 1) cycle
+      associate (these => member(:count))
+        call group_coefficients(kernel, GROUP_ORDERS(group), x_high(these), y_high(these), high(these), low(these), &
+                                square(these), observed(:, these), part(:count))
+        coefficient(these) = part(:count)
+      end associate
+    end do
+  end subroutine mixed_coefficients
+
+  !> Far pairs of different widths by `order` multipoles; |R|**2 = `high` + `low`, s**2 = `square`. Nine arguments:
+  !> what is known of each pair.
+  pure subroutine group_coefficients(kernel, order, x, y, high, low, square, observed, coefficient)
+    type(rectangle_kernel), intent(in) :: kernel
+    integer, intent(in) :: order
+    real(dp), intent(in), contiguous :: x(:), y(:), high(:), low(:), square(:), observed(:, :)
+    real(dp), intent(out), contiguous :: coefficient(:)
+    real(dp), dimension(size(x)) :: correction, cosine
+
+    cosine = ((x - y)*(x + y))/high
+    call sum_mixed_multipoles(kernel%powers, order, observed(1, :), observed(2, :), kernel%loaded, square, &
+                              square/high, cosine, correction)
+    call correct_roots(kernel%factor, high, low, correction, coefficient)
+  end subroutine group_coefficients
+
+  !> factor/|R| times 1 + correction, rounded once. All arrays have one length.
+  pure subroutine correct_roots(factor, high, low, correction, coefficient)
+    type(double_double), intent(in) :: factor
+    real(dp), intent(in), contiguous :: high(:), low(:), correction(:)
+    real(dp), intent(out), contiguous :: coefficient(:)
+    real(dp), dimension(size(high)) :: root_high, root_low
+
+    call inverse_roots(factor, max(high, tiny(high)), low, root_high, root_low)
+    coefficient = root_high + (root_low + root_high*correction)
+  end subroutine correct_roots
+
+  !> Is a pair at this squared distance too close for the multipoles? `square` is s**2.
+  elemental function is_near(square, squared_distance) result(near)
+    real(dp), intent(in) :: square, squared_distance
     logical :: near
 
-    near = kernel%reach**2 > FAR_RATIO*squared_distance
+    near = square > FAR_RATIO*squared_distance
   end function is_near
 
 end module fuge_rectangle_influence

@@ -14,7 +14,7 @@ module fuge_rectangle_multipoles
   implicit none
   private
 
-  public :: expansion_order, new_cosine_powers, new_multipoles, sum_multipoles
+  public :: expansion_order, new_cosine_powers, new_multipoles, sum_mixed_multipoles, sum_multipoles
 
   !> The highest order m of the series.
   integer, parameter, public :: HIGHEST_ORDER = 20
@@ -109,40 +109,41 @@ contains
     integer, intent(in) :: order
     real(dp), intent(in) :: observed(2), loaded(2), reach
     type(multipoles), intent(inout) :: terms
-    real(dp) :: along_x(0:HIGHEST_ORDER), along_y(0:HIGHEST_ORDER), moment(0:HIGHEST_ORDER)
+    real(dp) :: along_x(1, 0:HIGHEST_ORDER), along_y(1, 0:HIGHEST_ORDER), moment(0:HIGHEST_ORDER)
     integer :: j, m
 
-    call even_moments(0.5_dp*observed(1)/reach, 0.5_dp*loaded(1)/reach, order, along_x)
-    call even_moments(0.5_dp*observed(2)/reach, 0.5_dp*loaded(2)/reach, order, along_y)
+    call even_moments(observed(1:1), loaded(1), [reach**2], order, along_x)
+    call even_moments(observed(2:2), loaded(2), [reach**2], order, along_y)
     terms%order = order
     do m = 1, order
-      moment(:m) = along_x(:m)*along_y(m:0:-1)
+      moment(:m) = along_x(1, :m)*along_y(1, m:0:-1)
       do j = 0, m
         terms%weight(j, m) = dot_product(powers%coefficient(:m, j, m), moment(:m))
       end do
     end do
   end subroutine new_multipoles
 
-  !> The means of (s - t)**(2 k) over |s| <= a and |t| <= b, for k = 0 .. `order`.
+  !> `moment(i, k)`: the means of (s - t)**(2 k) over |s| <= a(i)/2 and |t| <= b/2, for k = 0 .. `order`, divided by
+  !> `square(i)`**k.
   !>
-  !> With p = a + b and q = a - b, the mean is the sum of all p**(2 i) q**(2 (k - i)), divided by (2 k + 1)(k + 1). All
-  !> terms are positive.
-  pure subroutine even_moments(a, b, order, moment)
-    real(dp), intent(in) :: a, b
+  !> With 2 p = a + b and 2 q = a - b, the mean is the sum of all p**(2 i) q**(2 (k - i)), divided by (2 k + 1)(k + 1).
+  !> All terms are positive.
+  pure subroutine even_moments(a, b, square, order, moment)
+    real(dp), intent(in) :: a(:), b, square(:)
     integer, intent(in) :: order
-    real(dp), intent(out) :: moment(0:)
-    real(dp) :: p2, q2, power, total
+    real(dp), intent(out) :: moment(:, 0:)
+    real(dp), dimension(size(a)) :: p2, q2, power, total
     integer :: k
 
-    p2 = (a + b)**2
-    q2 = (a - b)**2
+    p2 = 0.25_dp*(a + b)**2/square
+    q2 = 0.25_dp*(a - b)**2/square
     power = 1.0_dp
     total = 1.0_dp
-    moment(0) = 1.0_dp
+    moment(:, 0) = 1.0_dp
     do k = 1, order
       power = power*q2
       total = total*p2 + power
-      moment(k) = total/real((2*k + 1)*(k + 1), dp)
+      moment(:, k) = total*(1.0_dp/real((2*k + 1)*(k + 1), dp))
     end do
   end subroutine even_moments
 
@@ -182,5 +183,47 @@ contains
     end do
     correction = correction + product_*above - ratio**2*two_above
   end subroutine sum_multipoles
+
+  !> As `sum_multipoles`, for pairs of different widths: `observed_x`, `observed_y` (n), and `loaded` (2) of all;
+  !> `square` (n) is s**2. The moments cost (order + 1)**3/3 operations for each pair. Nine arguments: what is known of
+  !> each pair.
+  pure subroutine sum_mixed_multipoles(powers, order, observed_x, observed_y, loaded, square, ratio, cosine, correction)
+    type(cosine_powers), intent(in) :: powers
+    integer, intent(in) :: order
+    real(dp), intent(in), contiguous :: observed_x(:), observed_y(:), square(:), ratio(:), cosine(:)
+    real(dp), intent(in) :: loaded(2)
+    real(dp), intent(out), contiguous :: correction(:)
+    real(dp), dimension(size(ratio), 0:order) :: along_x, along_y, moment, radial
+    real(dp), dimension(size(ratio)) :: power, weight, above, two_above
+    integer :: i, j, k, m
+
+    call even_moments(observed_x, loaded(1), square, order, along_x)
+    call even_moments(observed_y, loaded(2), square, order, along_y)
+    radial = 0.0_dp
+    power = 1.0_dp
+    do m = 1, order
+      power = power*ratio
+      do k = 0, m
+        moment(:, k) = along_x(:, k)*along_y(:, m - k)
+      end do
+      do j = 0, m
+        weight = 0.0_dp
+        do k = 0, m
+          do i = 1, size(ratio)
+            weight(i) = weight(i) + powers%coefficient(k, j, m)*moment(i, k)
+          end do
+        end do
+        radial(:, j) = radial(:, j) + power*weight
+      end do
+    end do
+    above = 0.0_dp
+    two_above = 0.0_dp
+    do j = order, 1, -1
+      weight = radial(:, j) + 2.0_dp*cosine*above - two_above
+      two_above = above
+      above = weight
+    end do
+    correction = radial(:, 0) + cosine*above - two_above
+  end subroutine sum_mixed_multipoles
 
 end module fuge_rectangle_multipoles

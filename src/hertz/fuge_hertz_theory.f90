@@ -23,7 +23,7 @@ module fuge_hertz_theory
 
   public :: fuge_hertz_ellipse
 
-  !> Newton's steps for the ratio of the semi-axes; five are enough for any ratio in range.
+  !> Newton's steps for the ratio of the semi-axes; four are enough for any ratio.
   integer, parameter :: MOST_STEPS = 40
 
   !> The area of contact, an ellipse about x = 0, y = 0.
