@@ -80,7 +80,8 @@ contains
     if (order > kernel%terms%order) call new_multipoles(kernel%powers, order, kernel%observed, kernel%loaded, &
       kernel%reach, kernel%terms)
     call sum_multipoles(kernel%terms, order, ratio(:n), cosine(:n), correction(:n))
-    call correct_roots(kernel%factor, high(:n), low(:n), correction(:n), coefficient)
+    ! Near pairs, which may have no distance at all, are computed with another one first.
+    call correct_roots(kernel%factor, max(high(:n), kernel%reach**2), low(:n), correction(:n), coefficient)
     do k = 1, n
       if (is_near(kernel%reach**2, high(k))) coefficient(k) = near_mean( &
         double_double(x_high(k), x_low(k)), double_double(y_high(k), y_low(k)), kernel%observed, kernel%loaded, &
@@ -149,7 +150,7 @@ contains
     real(dp), intent(out), contiguous :: coefficient(:)
     real(dp), dimension(size(high)) :: root_high, root_low
 
-    call inverse_roots(factor, max(high, tiny(high)), low, root_high, root_low)
+    call inverse_roots(factor, high, low, root_high, root_low)
     coefficient = root_high + (root_low + root_high*correction)
   end subroutine correct_roots
 
