@@ -1,8 +1,8 @@
 !> Numbers of about 32 digits: unevaluated sums of two doubles.
 !>
-!> Sums and products are those of T. J. Dekker, A floating-point technique for extending the
-!> available precision, Numerische Mathematik 18 (1971). A double is split by its bits, not by a
-!> multiplication, so that a compiler which contracts products and sums cannot spoil the halves.
+!> Sums and products follow T. J. Dekker, A floating-point technique for extending the available
+!> precision, Numerische Mathematik 18 (1971), but a double is split by its bits, not by a
+!> multiplication: processors with a fused multiply-add would spoil the halves.
 !> Square roots of arrays are here and not where they are used, because compilers
 !> vectorise only what they can inline.
 module fuge_double_double
@@ -85,19 +85,35 @@ contains
     total%low = (a - (total%high - part)) + (b - part)
   end function two_sum
 
-  !> a b without rounding, except for the last bit of the 106.
-  elemental function two_product(a, b) result(product_)
+  !> a b without rounding, except for the last bit of the 106; the lower part may be a unit of the upper one.
+  !>
+  !> Only products of halves are formed, which have no rounding error, except the last one. So it makes no difference
+  !> whether a compiler contracts a product and a sum to one operation.
+  elemental function two_product(a, b) result(value)
     real(dp), intent(in) :: a, b
-    type(double_double) :: product_
+    type(double_double) :: value, cross
     real(dp) :: a_low, a_high, b_low, b_high
 
     a_high = upper_half(a)
     a_low = a - a_high
     b_high = upper_half(b)
     b_low = b - b_high
-    product_%high = a*b
-    product_%low = (((a_high*b_high - product_%high) + a_high*b_low) + a_low*b_high) + a_low*b_low
+    cross = two_sum(a_high*b_low, a_low*b_high)
+    value = normalised(a_high*b_high, cross%high)
+    value%low = value%low + (cross%low + a_low*b_low)
   end function two_product
+
+  !> a**2, likewise.
+  elemental function two_square(a) result(square)
+    real(dp), intent(in) :: a
+    type(double_double) :: square
+    real(dp) :: low, high
+
+    high = upper_half(a)
+    low = a - high
+    square = normalised(high*high, 2.0_dp*(high*low))
+    square%low = square%low + low*low
+  end function two_square
 
   elemental function upper_half(a) result(upper)
     real(dp), intent(in) :: a
@@ -131,21 +147,21 @@ contains
     difference = add(a, double_double(-b%high, -b%low))
   end function subtract
 
-  elemental function multiply(a, b) result(product_)
+  elemental function multiply(a, b) result(value)
     type(double_double), intent(in) :: a, b
-    type(double_double) :: product_
+    type(double_double) :: value
 
-    product_ = two_product(a%high, b%high)
-    product_ = normalised(product_%high, product_%low + (a%high*b%low + a%low*b%high))
+    value = two_product(a%high, b%high)
+    value = normalised(value%high, value%low + (a%high*b%low + a%low*b%high))
   end function multiply
 
-  elemental function multiply_by_double(a, b) result(product_)
+  elemental function multiply_by_double(a, b) result(value)
     type(double_double), intent(in) :: a
     real(dp), intent(in) :: b
-    type(double_double) :: product_
+    type(double_double) :: value
 
-    product_ = two_product(a%high, b)
-    product_ = normalised(product_%high, product_%low + a%low*b)
+    value = two_product(a%high, b)
+    value = normalised(value%high, value%low + a%low*b)
   end function multiply_by_double
 
   elemental function divide(a, b) result(quotient)
@@ -165,7 +181,7 @@ contains
     r = double_double(0.0_dp, 0.0_dp)
     if (.not. a%high > 0.0_dp) return
     first = sqrt(a%high)
-    rest = subtract(a, two_product(first, first))
+    rest = subtract(a, two_square(first))
     r = normalised(first, 0.5_dp*rest%high/first)
   end function root
 
@@ -225,12 +241,13 @@ contains
   end function exact_difference
 
   !> a b without rounding, except for the last bit of the 106.
-  elemental function exact_product(a, b) result(product_)
+  elemental function exact_product(a, b) result(value)
     real(dp), intent(in) :: a
     real(dp), intent(in) :: b
-    type(double_double) :: product_
+    type(double_double) :: value
 
-    product_ = two_product(a, b)
+    value = two_product(a, b)
+    value = normalised(value%high, value%low)
   end function exact_product
 
   elemental function plus(a, b) result(total)
@@ -249,20 +266,20 @@ contains
     difference = subtract(a, b)
   end function minus
 
-  elemental function times(a, b) result(product_)
+  elemental function times(a, b) result(value)
     type(double_double), intent(in) :: a
     type(double_double), intent(in) :: b
-    type(double_double) :: product_
+    type(double_double) :: value
 
-    product_ = multiply(a, b)
+    value = multiply(a, b)
   end function times
 
-  elemental function times_double(a, b) result(product_)
+  elemental function times_double(a, b) result(value)
     type(double_double), intent(in) :: a
     real(dp), intent(in) :: b
-    type(double_double) :: product_
+    type(double_double) :: value
 
-    product_ = multiply_by_double(a, b)
+    value = multiply_by_double(a, b)
   end function times_double
 
   elemental function over(a, b) result(quotient)
@@ -281,8 +298,8 @@ contains
     integer :: k
 
     do k = 1, size(high)
-      x_square = two_product(x_high(k), x_high(k))
-      y_square = two_product(y_high(k), y_high(k))
+      x_square = two_square(x_high(k))
+      y_square = two_square(y_high(k))
       total = two_sum(x_square%high, y_square%high)
       high(k) = total%high
       low(k) = total%low + ((x_square%low + y_square%low) + 2.0_dp*(x_high(k)*x_low(k) + y_high(k)*y_low(k)))
@@ -302,7 +319,7 @@ contains
     do k = 1, size(high)
       guess = 1.0_dp/sqrt(high(k))
       ! One step of Newton's method, with the defect 1 - guess**2 a from exact products.
-      square = two_product(guess, guess)
+      square = two_square(guess)
       one = two_product(square%high, high(k))
       defect = (((1.0_dp - one%high) - one%low) - square%low*high(k)) - square%high*low(k)
       scaled = two_product(factor%high, guess)

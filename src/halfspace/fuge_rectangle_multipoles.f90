@@ -154,13 +154,13 @@ contains
     integer, intent(in) :: order
     real(dp), intent(in), contiguous :: ratio(:), cosine(:)
     real(dp), intent(out), contiguous :: correction(:)
-    real(dp), dimension(size(ratio)) :: product_, above, two_above
+    real(dp), dimension(size(ratio)) :: scaled_cosine, above, two_above
     real(dp) :: radial
     integer :: j, k, m
 
     above = 0.0_dp
     two_above = 0.0_dp
-    product_ = ratio*cosine
+    scaled_cosine = ratio*cosine
     ! Each term of Clenshaw's recurrence is divided by ratio**j.
     do j = order, 1, -1
       correction = 0.0_dp
@@ -170,7 +170,7 @@ contains
         end do
       end do
       do k = 1, size(ratio)
-        radial = correction(k) + 2.0_dp*product_(k)*above(k) - ratio(k)**2*two_above(k)
+        radial = correction(k) + 2.0_dp*scaled_cosine(k)*above(k) - ratio(k)**2*two_above(k)
         two_above(k) = above(k)
         above(k) = radial
       end do
@@ -181,7 +181,7 @@ contains
         correction(k) = (correction(k) + terms%weight(0, m))*ratio(k)
       end do
     end do
-    correction = correction + product_*above - ratio**2*two_above
+    correction = correction + scaled_cosine*above - ratio**2*two_above
   end subroutine sum_multipoles
 
   !> As `sum_multipoles`, for pairs of different widths: `observed_x`, `observed_y` (n), and `loaded` (2) of all;
