@@ -4,7 +4,6 @@
 !> Prints rows | problem | bound | fuge | ratio | wanted | to standard output, times in nanoseconds. Both sides alternate
 !> and the least time of each counts, because other programs may run.
 program bound_halfspace
-  use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp => fuge_dp, fuge_halfspace_matrix, fuge_info, FUGE_CENTRE, FUGE_MEAN
   use fuge_halfspace_table, only: fill_halfspace_table
   implicit none
@@ -84,12 +83,11 @@ contains
     end do
   end subroutine inverse_distances
 
+  !> CPU time.
   function seconds() result(time)
     real(dp) :: time
-    integer(int64) :: ticks, rate
 
-    call system_clock(ticks, rate)
-    time = real(ticks, dp)/real(rate, dp)
+    call cpu_time(time)
   end function seconds
 
   subroutine write_row(name, bound, time, coefficients, status)

@@ -25,11 +25,12 @@ contains
     real(dp), intent(inout) :: table(0:, 0:)
     integer, intent(out) :: stat
     type(rectangle_kernel), allocatable :: kernel
-    type(double_double) :: factor
+    type(double_double) :: factor, offset
+    real(dp), allocatable :: x_high(:), x_low(:)
     real(dp) :: observed(2)
-    integer :: near_x, near_y, j
+    integer :: near_x, near_y, first, i, j
 
-    allocate (kernel, stat=stat)
+    allocate (kernel, x_high(0:size(table, 1) - 1), x_low(0:size(table, 1) - 1), stat=stat)
     if (stat /= 0) return
     factor = HALFSPACE_FACTOR/double_double(e_star, 0.0_dp)
     observed = spacing
@@ -40,8 +41,14 @@ contains
     near_y = near_count(observed, spacing, 2, size(table, 2))
     call near_table(spacing, element == FUGE_CENTRE, factor, table(:near_x - 1, :near_y - 1), stat)
     if (stat /= 0) return
+    do i = 0, ubound(table, 1)
+      offset = exact_product(real(i, dp), spacing(1))
+      x_high(i) = offset%high
+      x_low(i) = offset%low
+    end do
     do j = 0, ubound(table, 2)
-      call fill_row(kernel, spacing, merge(near_x, 0, j < near_y), j, table(:, j))
+      first = merge(near_x, 0, j < near_y)
+      call fill_row(kernel, x_high(first:), x_low(first:), spacing(2), j, table(first:, j))
     end do
   end subroutine fill_halfspace_table
 
@@ -57,28 +64,25 @@ contains
     if (radius < most*loaded(direction)) count = min(most, 1 + int(radius/loaded(direction)))
   end function near_count
 
-  !> The coefficients of row `j` from place `first` on.
-  pure subroutine fill_row(kernel, spacing, first, j, row)
+  !> The coefficients of the rectangles with the offsets x = `x_high` + `x_low` in row `j`.
+  pure subroutine fill_row(kernel, x_high, x_low, spacing_y, j, row)
     type(rectangle_kernel), intent(inout) :: kernel
-    real(dp), intent(in) :: spacing(2)
-    integer, intent(in) :: first, j
-    real(dp), intent(inout), contiguous :: row(0:)
+    real(dp), intent(in), contiguous :: x_high(:), x_low(:)
+    real(dp), intent(in) :: spacing_y
+    integer, intent(in) :: j
+    real(dp), intent(inout), contiguous :: row(:)
     type(double_double) :: offset
-    real(dp), dimension(PAIRS) :: x_high, x_low, y_high, y_low
-    integer :: i, k, count
+    real(dp), dimension(PAIRS) :: y_high, y_low
+    integer :: first, last, count
 
-    offset = exact_product(real(j, dp), spacing(2))
+    offset = exact_product(real(j, dp), spacing_y)
     y_high = offset%high
     y_low = offset%low
-    do i = first, ubound(row, 1), PAIRS
-      count = min(PAIRS, ubound(row, 1) - i + 1)
-      do k = 1, count
-        offset = exact_product(real(i + k - 1, dp), spacing(1))
-        x_high(k) = offset%high
-        x_low(k) = offset%low
-      end do
-      call pair_coefficients(kernel, x_high(:count), x_low(:count), y_high(:count), y_low(:count), &
-                             row(i:i + count - 1))
+    do first = 1, size(row), PAIRS
+      last = min(first + PAIRS - 1, size(row))
+      count = last - first + 1
+      call pair_coefficients(kernel, x_high(first:last), x_low(first:last), y_high(:count), y_low(:count), &
+                             row(first:last))
     end do
   end subroutine fill_row
 
