@@ -534,6 +534,7 @@ int fuge_solver_message(const fuge_solver *s, char *message, size_t len);
 }
 #endif
 
+#include "fuge_area.h"
 #include "fuge_fe.h"
 #include "fuge_smooth.h"
 

@@ -1,0 +1,68 @@
+/* fuge - areas of contact.  SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Included by fuge.h, whose conventions hold here too. */
+#ifndef FUGE_AREA_H
+#define FUGE_AREA_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- half-space --------------------------------------------------------- */
+
+/* Influence matrix of rectangles on an elastic half-space.
+ *   x, y              in   n; centres of the rectangles; length
+ *   width_x, width_y  in   n; widths along x and along y; length
+ *   e_star            in   as in fuge_halfplane_matrix; force per length^2
+ *   element           in   FUGE_CENTRE or FUGE_MEAN: uniform pressure f/(width_x width_y),
+ *                          displacement at the centre, or mean over the rectangle
+ *   alpha             out  lda x n, lda >= n; displacement per force
+ * Displacements vanish far away, so the approach is absolute.  Relative error of a
+ * coefficient: at most 4e-16, for the numbers given; where the rectangles are cells of one
+ * grid, up to rounding of x and y, for that grid.  FUGE_CENTRE needs equal rectangles
+ * (FUGE_ERR_GRID otherwise).  FUGE_ERR_WIDTH: a width <= 0, rectangles that overlap by more
+ * than a millionth of a width, two widths with a ratio of more than 1e5.  FUGE_ERR_SIZE,
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OVERFLOW,
+ * FUGE_ERR_MEMORY. */
+int fuge_halfspace_matrix(int n, const double *x, const double *y, const double *width_x,
+                          const double *width_y, double e_star, int element, double *alpha,
+                          int lda, char *message, size_t len);
+
+/* The same for a symmetric model, of which a half or a quarter is passed.
+ *   symmetric_x  in  1: symmetric about x = 0, only the rectangles with x >= 0 are passed
+ *   symmetric_y  in  1: likewise about y = 0
+ * A force is the sum over a rectangle and its mirror images, the load is the whole load.
+ * A rectangle on the axis has its centre there: it is its own image. */
+int fuge_halfspace_symmetric_matrix(int n, const double *x, const double *y,
+                                    const double *width_x, const double *width_y,
+                                    double e_star, int element, int symmetric_x,
+                                    int symmetric_y, double *alpha, int lda,
+                                    char *message, size_t len);
+
+/* ---- Hertz -------------------------------------------------------------- */
+
+/* Contact of two bodies with the initial gap x^2/(2 radius_x) + y^2/(2 radius_y), in closed
+ * form: an ellipse with the pressure
+ *
+ *     p = peak_pressure sqrt(1 - (x/semi_axis_x)^2 - (y/semi_axis_y)^2).
+ *
+ *   radius_x, radius_y        in   > 0; principal relative radii of curvature,
+ *                                  1/R = 1/R_1 + 1/R_2 of the two bodies, any ratio; length
+ *   e_star                    in   as in fuge_halfplane_matrix; force per length^2
+ *   load                      in   >= 0; force
+ *   semi_axis_x, semi_axis_y  out  of the area of contact; length
+ *   approach                  out  absolute; length
+ *   peak_pressure             out  in the middle; force per length^2
+ * Each output may be NULL.  FUGE_ERR_WIDTH for a radius <= 0, FUGE_ERR_MODULUS,
+ * FUGE_ERR_NO_EQUILIBRIUM for a load < 0, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
+int fuge_hertz_ellipse(double radius_x, double radius_y, double e_star, double load,
+                       double *semi_axis_x, double *semi_axis_y, double *approach,
+                       double *peak_pressure, char *message, size_t len);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

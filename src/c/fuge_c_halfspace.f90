@@ -1,0 +1,61 @@
+!> C bindings, section "half-space": influence matrices of rectangles.
+module fuge_c_halfspace
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use fuge_c_operator, only: find_matrix
+  use fuge_c_types, only: report_to_c, require_pointer
+  use fuge_halfspace_influence, only: fuge_halfspace_matrix
+  use fuge_status, only: fuge_info
+  implicit none
+  private
+
+contains
+
+  !> Eleven arguments, as in the header: the rectangles, the matrix, the message.
+  function c_halfspace_matrix(n, x, y, width_x, width_y, e_star, element, alpha, lda, message, length) &
+    bind(c, name='fuge_halfspace_matrix') result(status)
+    integer(c_int), intent(in), value :: n, element, lda
+    type(c_ptr), intent(in), value :: x, y, width_x, width_y, alpha, message
+    real(c_double), intent(in), value :: e_star
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+
+    status = c_halfspace_symmetric_matrix(n, x, y, width_x, width_y, e_star, element, 0_c_int, 0_c_int, alpha, lda, &
+                                          message, length)
+  end function c_halfspace_matrix
+
+  !> Thirteen arguments, as in the header: the rectangles, the symmetry, the matrix, the message.
+  function c_halfspace_symmetric_matrix(n, x, y, width_x, width_y, e_star, element, symmetric_x, symmetric_y, &
+                                        alpha, lda, message, length) &
+    bind(c, name='fuge_halfspace_symmetric_matrix') result(status)
+    integer(c_int), intent(in), value :: n, element, symmetric_x, symmetric_y, lda
+    type(c_ptr), intent(in), value :: x, y, width_x, width_y, alpha, message
+    real(c_double), intent(in), value :: e_star
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: centre_x(:), centre_y(:), breadth_x(:), breadth_y(:), matrix(:, :)
+    type(fuge_info) :: info
+
+    call find_matrix(n, alpha, lda, matrix, info)
+    call find_values(n, x, 'x', centre_x, info)
+    call find_values(n, y, 'y', centre_y, info)
+    call find_values(n, width_x, 'width_x', breadth_x, info)
+    call find_values(n, width_y, 'width_y', breadth_y, info)
+    if (.not. info%failed()) call fuge_halfspace_matrix(centre_x, centre_y, breadth_x, breadth_y, e_star, int(element), &
+                                                        matrix, info, symmetric_x /= 0, symmetric_y /= 0)
+    status = report_to_c(info, message, length)
+  end function c_halfspace_symmetric_matrix
+
+  !> An array of C of `n` values; unless an error is known already, NULL is one (FUGE_ERR_POINTER).
+  subroutine find_values(n, address, name, values, info)
+    integer(c_int), intent(in) :: n
+    type(c_ptr), intent(in) :: address
+    character(len=*), intent(in) :: name
+    real(c_double), pointer, intent(out) :: values(:)
+    type(fuge_info), intent(inout) :: info
+
+    nullify (values)
+    call require_pointer(address, name, info)
+    if (.not. info%failed()) call c_f_pointer(address, values, [n])
+  end subroutine find_values
+
+end module fuge_c_halfspace

@@ -1,0 +1,102 @@
+/* Section "half-space" of fuge_area.h. */
+#include "check.h"
+
+enum { N = 4, LDA = 5 };
+static const double E_STAR = 3.0, TOLERANCE = 4e-16;
+/* Four unit squares around the origin. */
+static const double X[N] = {-0.5, 0.5, -0.5, 0.5}, Y[N] = {-0.5, -0.5, 0.5, 0.5}, ONES[N] = {1, 1, 1, 1};
+/* Three rectangles of different sizes, side by side from the axes. */
+static const double QUARTER_X[3] = {0.5, 1.5, 1.0}, QUARTER_Y[3] = {0.25, 0.25, 1.0};
+static const double QUARTER_WIDTH_X[3] = {1.0, 1.0, 2.0}, QUARTER_WIDTH_Y[3] = {0.5, 0.5, 1.0};
+
+static int matrix(int n, const double *x, int element, double *alpha, int lda, char *message, size_t len) {
+  return fuge_halfspace_matrix(n, x, Y, ONES, ONES, E_STAR, element, alpha, lda, message, len);
+}
+
+/* The mean of 1/r over a unit square from its centre is 4 ln(1 + sqrt 2); over all pairs of its points
+ * it is 4 (ln(1 + sqrt 2) + (1 - sqrt 2)/3). */
+static void test_one_square(void) {
+  const double pi = acos(-1.0), root = sqrt(2.0);
+  double alpha;
+  CHECK_STATUS(matrix(1, X, FUGE_CENTRE, &alpha, 1, NULL, 0), FUGE_DONE);
+  CHECK_NEAR(alpha, 4.0 * log(1.0 + root) / (pi * E_STAR), 2.0 * TOLERANCE);
+  CHECK_STATUS(matrix(1, X, FUGE_MEAN, &alpha, 1, NULL, 0), FUGE_DONE);
+  CHECK_NEAR(alpha, 4.0 * (log(1.0 + root) + (1.0 - root) / 3.0) / (pi * E_STAR), 2.0 * TOLERANCE);
+}
+
+/* Symmetric, the nearer the larger; rows beyond n are padding. */
+static void test_four_squares(int element) {
+  double alpha[LDA * N];
+  char message[256] = "old";
+  fill(alpha, LDA * N);
+  CHECK_STATUS(matrix(N, X, element, alpha, LDA, message, sizeof message), FUGE_DONE);
+  CHECK_STRING(message, "");
+  for (int k = 0; k < N; k++) {
+    CHECK_NEAR(alpha[k + LDA * k], alpha[0], 0.0);
+    CHECK_NEAR(alpha[k + LDA * (k ^ 1)], alpha[1], 0.0);
+    CHECK_NEAR(alpha[k + LDA * (k ^ 2)], alpha[1], 0.0);
+    CHECK_NEAR(alpha[k + LDA * (k ^ 3)], alpha[3], 0.0);
+    CHECK_UNTOUCHED(alpha + N + LDA * k, 1);
+  }
+  CHECK(alpha[0] > alpha[1] && alpha[1] > alpha[3] && alpha[3] > 0.0);
+}
+
+/* A quarter of a force on a rectangle and on each of its images. */
+static void test_folded(void) {
+  double x[12], y[12], width_x[12], width_y[12], whole[144], quarter[9], half[36];
+  for (int k = 0; k < 12; k++) {
+    x[k] = QUARTER_X[k % 3] * (k < 6 ? 1.0 : -1.0);
+    y[k] = QUARTER_Y[k % 3] * (k % 6 < 3 ? 1.0 : -1.0);
+    width_x[k] = QUARTER_WIDTH_X[k % 3];
+    width_y[k] = QUARTER_WIDTH_Y[k % 3];
+  }
+  CHECK_STATUS(fuge_halfspace_matrix(12, x, y, width_x, width_y, E_STAR, FUGE_MEAN, whole, 12, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_symmetric_matrix(3, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 1, quarter, 3, NULL, 0),
+               FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_symmetric_matrix(6, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 0, half, 6, NULL, 0),
+               FUGE_DONE);
+  for (int j = 0; j < 3; j++)
+    for (int i = 0; i < 3; i++) {
+      double sum = 0.0;
+      for (int image = 0; image < 4; image++) sum += whole[i + 12 * (j + 3 * image)];
+      CHECK_NEAR(quarter[i + 3 * j], 0.25 * sum, TOLERANCE);
+      CHECK_NEAR(half[i + 6 * j], 0.5 * (whole[i + 12 * j] + whole[i + 12 * (j + 6)]), TOLERANCE);
+    }
+}
+
+/* Indices in messages count from 0. */
+static void test_refusals(void) {
+  static const double zero[N] = {1, 1, 0, 1}, nan[N] = {0, 1, 2, NAN};
+  double alpha[N * N];
+  char message[256];
+  fill(alpha, N * N);
+  CHECK_STATUS(matrix(0, X, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STATUS(matrix(N, X, FUGE_MEAN, alpha, N - 1, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STATUS(matrix(N, NULL, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STRING(message, "x is NULL");
+  CHECK_STATUS(matrix(N, X, FUGE_MEAN, NULL, N, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STATUS(matrix(N, X, FUGE_HAT, alpha, N, message, sizeof message), FUGE_ERR_ELEMENT);
+  CHECK_STATUS(matrix(N, nan, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_NOT_FINITE);
+  CHECK_CONTAINS(message, "x(3) = NaN");
+  CHECK_STATUS(fuge_halfspace_matrix(N, X, X, ONES, ONES, E_STAR, FUGE_MEAN, alpha, N, message, sizeof message),
+               FUGE_ERR_WIDTH);
+  CHECK_CONTAINS(message, "rectangles 0 and 2 overlap");
+  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, zero, E_STAR, FUGE_MEAN, alpha, N, message, sizeof message),
+               FUGE_ERR_WIDTH);
+  CHECK_CONTAINS(message, "width_y(2) = 0.");
+  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, 0.0, FUGE_MEAN, alpha, N, message, sizeof message),
+               FUGE_ERR_MODULUS);
+  CHECK_STATUS(fuge_halfspace_symmetric_matrix(N, X, Y, ONES, ONES, E_STAR, FUGE_MEAN, 0, 1, alpha, N, message,
+                                               sizeof message), FUGE_ERR_WIDTH);
+  CHECK_CONTAINS(message, "y(0) = -0.5");
+  CHECK_UNTOUCHED(alpha, N * N);
+}
+
+int main(void) {
+  test_one_square();
+  test_four_squares(FUGE_CENTRE);
+  test_four_squares(FUGE_MEAN);
+  test_folded();
+  test_refusals();
+  return check_summary();
+}
