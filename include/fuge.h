@@ -292,8 +292,9 @@ int fuge_contact_edges(int n, const double *x, const double *width, const double
 typedef struct fuge_operator fuge_operator;
 
 /* A dense matrix as operator.  alpha (lda x n, lda >= n) is not copied: keep it unchanged
- * until the operator is freed.  *op is set on success only.  FUGE_ERR_SIZE,
- * FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW. */
+ * until the operator is freed, and create a new operator after any change, because solvers
+ * keep the factor of the matrix from solve to solve.  *op is set on success only.
+ * FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW. */
 int fuge_operator_dense(int n, const double *alpha, int lda, fuge_operator **op,
                         char *message, size_t len);
 
