@@ -131,7 +131,8 @@ contains
 
     call require_count(begin(size(begin)), 0, 'column('//text(size(begin) - 1)//')', 'entries', info)
     if (info%failed()) return
-    entries = int(begin(size(begin)))
+    ! Where the columns do not begin at 0 the last one may end beyond the entries: no entry is read then.
+    entries = merge(int(begin(size(begin))), 0, begin(1) == 0)
     allocate (column(size(begin)), i(entries), stat=status)
     if (status /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of '//text(entries)//' indices')

@@ -3,6 +3,7 @@
 !> Extend it for an operator of your own. A is symmetric and positive definite on the
 !> forces with zero resultant; u is positive into the body.
 module fuge_operator_type
+  use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_SIZE
   implicit none
@@ -137,7 +138,9 @@ contains
 
     magnitude = 0.0_dp
     call self%apply(force, displacement, status)
-    if (status == FUGE_DONE) call self%magnitude(force, displacement, magnitude)
+    if (status /= FUGE_DONE) return
+    ! A product that is not finite is refused; its magnitude would only raise an exception.
+    if (is_finite_everywhere(displacement)) call self%magnitude(force, displacement, magnitude)
   end subroutine apply_then_magnitude
 
 end module fuge_operator_type

@@ -39,7 +39,7 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory to displace '//text(n)//' points by equal forces')
       return
     end if
-    force = 1.0_dp/real(n, dp)
+    force = 1.0_dp/real(max(n, 1), dp)
     call compute_displacement(operator, .true., force, displacement, info)
     if (info%failed()) return
     mean = sum(displacement)/real(n, dp)
