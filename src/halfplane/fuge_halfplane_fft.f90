@@ -447,21 +447,21 @@ contains
     class(fuge_halfplane_operator), intent(in) :: self
     integer, intent(in) :: levels, k
     class(fuge_operator), allocatable :: coarse
+    type(stored_grid), pointer :: kept
     integer :: stat
 
     call self%coarsen(levels, coarse)
     if (.not. allocated(coarse)) return
-    associate (kept => self%coarser%grid(k))
-      allocate (kept%operator, stat=stat)
-      if (stat /= 0) return
-      select type (coarse)
-      type is (fuge_halfplane_operator)
-        call move_contents(kept%operator, coarse)
-      end select
-      call destroy(kept%operator%coarser)
-      kept%operator%coarser%grid => self%coarser%grid
-      kept%operator%coarser%level = k
-    end associate
+    kept => self%coarser%grid(k)
+    allocate (kept%operator, stat=stat)
+    if (stat /= 0) return
+    select type (coarse)
+    type is (fuge_halfplane_operator)
+      call move_contents(kept%operator, coarse)
+    end select
+    call destroy(kept%operator%coarser)
+    kept%operator%coarser%grid => self%coarser%grid
+    kept%operator%coarser%level = k
   end subroutine keep_coarser
 
   !> Room for the coarser grids of `cells` cells; without memory none are kept.
