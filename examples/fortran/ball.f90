@@ -47,7 +47,8 @@ contains
     integer, intent(in) :: n, element
     real(dp), intent(in) :: radius_x, radius_y
     type(fuge_hertz_contact), intent(in) :: hertz
-    real(dp), allocatable :: alpha(:, :), x(:), y(:), width_x(:), width_y(:), gap(:), force(:), open(:)
+    real(dp), allocatable, target :: alpha(:, :)
+    real(dp), allocatable :: x(:), y(:), width_x(:), width_y(:), gap(:), force(:), open(:)
     real(dp) :: h_x, h_y, approach, error(4), a, b
     type(fuge_info) :: info
     integer :: i, j
