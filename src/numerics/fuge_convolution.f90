@@ -37,6 +37,7 @@ module fuge_convolution
     procedure :: copy_from
     procedure :: move_from
     procedure :: convolve
+    final :: release
   end type convolution_kernel
 
 contains
@@ -127,6 +128,14 @@ contains
       twist(2, j) = sin(angle)
     end do
   end subroutine compute_twist
+
+  !> gfortran 12 does not free these arrays where a user's type holds an operator that holds the kernel.
+  impure elemental subroutine release(self)
+    type(convolution_kernel), intent(inout) :: self
+
+    call clear(self)
+    self%length = 0
+  end subroutine release
 
   !> Copy a kernel; arrays of the right size are kept. `status` is not 0 without memory, and the copy is
   !> not set then.
