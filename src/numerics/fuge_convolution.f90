@@ -130,7 +130,7 @@ contains
   end subroutine compute_twist
 
   !> gfortran 12 does not free these arrays where a user's type holds an operator that holds the kernel.
-  impure elemental subroutine release(self)
+  elemental subroutine release(self)
     type(convolution_kernel), intent(inout) :: self
 
     call clear(self)
