@@ -81,7 +81,7 @@ module fuge_halfplane_fft
     procedure :: magnitude => halfplane_magnitude
     procedure :: has_preconditioner
     procedure :: precondition
-    procedure :: in_row
+    procedure :: grid
     procedure :: coarsen
     procedure :: kept_coarser
     procedure, private :: copy
@@ -392,13 +392,13 @@ contains
     if (status == FUGE_DONE) call self%inverse%convolve(self%plan, displacement, force, status)
   end subroutine precondition
 
-  !> True after `set`: the cells are side by side in the order of their numbers.
-  function in_row(self)
+  !> [n, 1] after `set`: the cells are side by side in the order of their numbers.
+  function grid(self) result(cells)
     class(fuge_halfplane_operator), intent(in) :: self
-    logical :: in_row
+    integer :: cells(2)
 
-    in_row = self%cells > 0
-  end function in_row
+    cells = [self%cells, min(self%cells, 1)]
+  end function grid
 
   !> Wider cells, with the same element and boundary, and on a periodic surface the same period,
   !> which may make them a little narrower than 2**levels cells. Unallocated for fewer than

@@ -27,8 +27,8 @@ module fuge_operator_type
     procedure :: has_preconditioner => without_preconditioner
     !> f = M u, with M symmetric, positive definite and close to the inverse of A.
     procedure :: precondition => copy_displacement
-    !> Are the points equal cells side by side, numbered along the surface?
-    procedure :: in_row => in_no_order
+    !> The equal cells of a grid that the points are, in each direction; [0, 0] if they are none.
+    procedure :: grid => no_grid
     !> The same body on wider cells, for nested iteration; none by default.
     procedure :: coarsen => no_coarser
     !> What `coarsen` gives, kept and owned by this operator; none by default.
@@ -78,17 +78,18 @@ contains
     status = merge(FUGE_DONE, FUGE_ERR_SIZE, self%points() == size(displacement))
   end subroutine copy_displacement
 
-  !> False: the positions of the points are unknown.
-  function in_no_order(self) result(in_row)
+  !> [nx, ny] if the points are equal cells of a grid, the number i + nx*(j - 1) for the cell i of row j; [n, 1]
+  !> for cells side by side. [0, 0], as in this default, if the positions of the points are unknown.
+  function no_grid(self) result(cells)
     class(fuge_operator), intent(in) :: self
-    logical :: in_row
+    integer :: cells(2)
 
-    in_row = self%points() < 0
-  end function in_no_order
+    cells = min(self%points(), 0)
+  end function no_grid
 
-  !> `coarse` has n/2**levels points, rounded up. Each replaces 2**levels consecutive points of
-  !> this operator, the last one maybe fewer. Unallocated if there is no such operator, as in
-  !> this default. Called only if `in_row` is true.
+  !> `coarse` has 1/2**levels of the cells in each direction of `grid`, rounded up. Each of them replaces
+  !> 2**levels by 2**levels cells of this operator, the last one of a direction maybe fewer. Unallocated if
+  !> there is no such operator, as in this default. Called only if the points are cells of a grid.
   subroutine no_coarser(self, levels, coarse)
     class(fuge_operator), intent(in) :: self
     integer, intent(in) :: levels

@@ -62,10 +62,11 @@ contains
     type(fuge_info), intent(inout) :: info
     type(contact_preconditioner) :: preconditioner
     real(dp) :: previous_residual
-    integer :: wrong, fewest_wrong, stalls_left
+    integer :: cells(2), wrong, fewest_wrong, stalls_left
     logical :: to_tolerance, confirmed, in_row, undetermined
 
-    in_row = operator%in_row()
+    cells = operator%grid()
+    in_row = cells(1) > 0 .and. cells(2) == 1
     fewest_wrong = huge(fewest_wrong)
     stalls_left = MAX_STALLS
     previous_residual = huge(previous_residual)

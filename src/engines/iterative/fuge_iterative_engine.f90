@@ -161,7 +161,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
 
-    if (.not. operator%in_row()) return
+    if (any(operator%grid() < 1)) return
     call start_iterate(iterate, size(scaled_force), prescribed, scaled_force, info)
     if (info%failed()) return
     iterate%contact = scaled_force > 0.0_dp
