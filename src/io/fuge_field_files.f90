@@ -151,7 +151,8 @@ contains
     call check_finite(spacing(1), 'spacing_x', info)
     if (.not. info%failed()) call check_finite(spacing(2), 'spacing_y', info)
     if (.not. info%failed()) call check_finite(origin, 'origin', info)
-    if (.not. info%failed() .and. .not. minval(spacing) > 0.0_dp) &
+    if (info%failed()) return
+    if (.not. minval(spacing) > 0.0_dp) &
       call report(info, FUGE_ERR_WIDTH, 'spacing_x = '//text(spacing(1))//', spacing_y = '//text(spacing(2)) &
                   //': both must be > 0')
   end subroutine check_grid

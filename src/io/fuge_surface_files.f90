@@ -144,7 +144,8 @@ contains
     type(fuge_info), intent(inout) :: info
 
     call check_finite(spacing, name, info)
-    if (.not. info%failed() .and. .not. spacing >= 0.0_dp) &
+    if (info%failed()) return
+    if (.not. spacing >= 0.0_dp) &
       call report(info, FUGE_ERR_WIDTH, name//' = '//text(spacing)//' is negative: pass 0 if it is unknown')
   end subroutine check_spacing
 

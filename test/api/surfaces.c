@@ -167,11 +167,33 @@ static void test_fields(void) {
   remove(NAME);
 }
 
+/* A full disk, where there is one: more than the library writes at a time, and less. */
+static void test_full_disk(void) {
+  enum { LARGE = 60 };
+  static double values[LARGE * LARGE];
+  const char *const name = "p";
+  const double *const field = values;
+  const double spacing[2] = {1.0, 1.0};
+  char message[256] = "";
+  FILE *full = fopen("/dev/full", "wb");
+  if (full == NULL) return;
+  fclose(full);
+  for (int n = 1; n <= LARGE; n += LARGE - 1) {
+    CHECK_STATUS(fuge_write_surface("/dev/full", n, n, NULL, values, message, sizeof message), FUGE_ERR_FILE);
+    CHECK_CONTAINS(message, "\"/dev/full\" cannot be written: ");
+    message[0] = '\0';
+    CHECK_STATUS(fuge_write_fields("/dev/full", n, n, spacing, NULL, 1, &name, &field, message, sizeof message),
+                 FUGE_ERR_FILE);
+    CHECK_CONTAINS(message, "\"/dev/full\" cannot be written: ");
+  }
+}
+
 int main(void) {
   test_read();
   test_read_refusals();
   test_write();
   test_level();
   test_fields();
+  test_full_disk();
   return check_summary();
 }
