@@ -11,6 +11,7 @@ module fuge_halfspace_fft
   use fuge_halfspace_waves, only: fill_periodic_eigenvalues, fill_periodic_kernel, fill_strip_kernel
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
+  use fuge_memory, only: check_memory
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_rectangle_checks, only: check_area_element, check_area_modulus
@@ -230,9 +231,24 @@ contains
                   //': a direction has at most '//text(MOST_CELLS)//' cells')
       return
     end if
+    call check_memory(bytes_needed(operator, length), 'nx = '//text(operator%cells(1))//', ny = ' &
+                      //text(operator%cells(2))//':', info)
+    if (info%failed()) return
     call operator%plan%set(operator%cells, length, info, operator%measured)
     if (info%status == FUGE_ERR_MEMORY) call report_no_memory(operator, info)
   end subroutine plan_transforms
+
+  !> The two spectra, and the greater one of a table of coefficients and the rows of a product.
+  pure function bytes_needed(operator, length) result(bytes)
+    type(fuge_halfspace_operator), intent(in) :: operator
+    integer, intent(in) :: length(2)
+    real(dp) :: bytes
+    real(dp) :: circle(2), rows
+
+    circle = merge(0.5_dp, 1.0_dp, cyclic(operator))*length + 1.0_dp
+    rows = 2.0_dp*circle(1)*(operator%cells(2) + 1)
+    bytes = 8.0_dp*(product(circle) + product(0.5_dp*length + 1.0_dp) + max(product(circle), rows))
+  end function bytes_needed
 
   subroutine report_no_memory(operator, info)
     type(fuge_halfspace_operator), intent(in) :: operator

@@ -28,7 +28,7 @@ module fuge_grid_convolution
   public :: fast_length
 
   !> Columns in the buffer.
-  integer, parameter :: COLUMNS = 8
+  integer, parameter :: COLUMNS = 16
   !> Rows whose distance in memory is a multiple of so many bytes fall on the same places of the cache.
   integer, parameter :: PAGE = 4096
 
@@ -614,7 +614,7 @@ contains
     integer :: other
 
     if (circle == 0) then
-      other = modulo(n - k, n)
+      other = merge(0, n - k, k == 0)
     else
       other = n - 1 - k
     end if
