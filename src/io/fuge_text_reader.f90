@@ -8,7 +8,7 @@ module fuge_text_reader
   implicit none
   private
 
-  public :: io_reason, quoted_path
+  public :: quoted_path
 
   !> Number of characters of a path that messages show, from its end.
   integer, parameter :: PATH_LENGTH = 100
