@@ -9,7 +9,7 @@ module fuge_text_fields
   implicit none
   private
 
-  public :: after_blanks, describe_field, find_field, is_blank, lower_case, quoted, read_number, read_whole
+  public :: after_blanks, describe_field, find_field, lower_case, quoted, read_number, read_whole
 
   !> Kinds of fields.
   integer, parameter, public :: FIELD_NUMBER = 0
