@@ -1,7 +1,8 @@
 !> One line of a profile file: two numbers, a comment or a header.
 module fuge_profile_lines
   use fuge_kinds, only: dp
-  use fuge_text_fields, only: after_blanks, describe_field, is_blank, read_number, FIELD_NUMBER, FIELD_WORD
+  use fuge_text_columns, only: begin_columns, next_column
+  use fuge_text_fields, only: describe_field, read_number, FIELD_NUMBER, FIELD_WORD
   implicit none
   private
 
@@ -58,36 +59,20 @@ contains
   pure subroutine find_columns(line, first, last, fields)
     character(len=*), intent(in) :: line
     integer, intent(out) :: first(2), last(2), fields
-    integer :: k, start
+    integer :: from, k, separator, to
 
     first = 1
     last = 0
     fields = 0
-    k = after_blanks(line, 1)
+    k = begin_columns(line)
     do while (k <= len(line))
-      if (line(k:k) == '#' .or. line(k:k) == '!') exit
+      call next_column(line, k, from, to, separator)
       fields = fields + 1
       if (fields > 2) exit
-      start = k
-      do while (k <= len(line))
-        if (is_blank(line(k:k)) .or. is_separator(line(k:k))) exit
-        k = k + 1
-      end do
-      first(fields) = start
-      last(fields) = k - 1
-      k = after_blanks(line, k)
-      if (k > len(line)) exit
-      if (is_separator(line(k:k))) k = after_blanks(line, k + 1)
+      first(fields) = from
+      last(fields) = to
     end do
   end subroutine find_columns
-
-  !> Does the character separate columns, apart from blanks?
-  elemental function is_separator(letter)
-    character, intent(in) :: letter
-    logical :: is_separator
-
-    is_separator = letter == ',' .or. letter == ';'
-  end function is_separator
 
   !> Why a column is not a number; `kind` as `read_number` returns it.
   pure subroutine explain_column(field, kind, reason)

@@ -8,8 +8,8 @@ module fuge_sdf_reader
   use fuge_number_text, only: index_text, text
   use fuge_sdf_header, only: check_version, read_binary_header, read_text_header, sdf_header, &
     BINARY_HEADER_LENGTH, SDF_INT16
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
-  use fuge_surface_heights, only: read_height, NOT_MEASURED
+  use fuge_status, only: fuge_info
+  use fuge_surface_heights, only: allocate_heights, read_height, NOT_MEASURED
   use fuge_surface_type, only: fuge_surface
   use fuge_text_fields, only: find_field, quoted
   use fuge_text_reader, only: text_file
@@ -31,7 +31,6 @@ contains
     type(fuge_info), intent(inout) :: info
     type(sdf_header) :: header
     logical :: binary
-    integer :: status
 
     call file%rewind()
     call check_version(file, binary, info)
@@ -42,11 +41,9 @@ contains
       call read_text_header(file, header, info)
     end if
     if (info%failed()) return
-    allocate (surface%height(header%nx, header%ny), stat=status)
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, file%name//': no memory for '//text(int(header%nx))//' x ' &
-                  //text(int(header%ny))//' heights')
-    else if (binary) then
+    call allocate_heights(file%name, int(header%nx), int(header%ny), surface%height, info)
+    if (info%failed()) return
+    if (binary) then
       call read_binary_heights(file, int(header%data_type), size(surface%height), surface%height, info)
     else
       call read_text_heights(file, fill, size(surface%height), surface%height, info)

@@ -1,10 +1,9 @@
 !> A surface from a plain grid of numbers, and back.
 module fuge_surface_grid
-  use, intrinsic :: iso_fortran_env, only: int64
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_FILES
-  use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info
+  use fuge_surface_heights, only: allocate_heights
   use fuge_surface_rows, only: advance_to_row, count_rows, find_first_row, read_row, refuse_unmeasured, row_form
   use fuge_surface_type, only: fuge_surface
   use fuge_text_fields, only: read_number, find_field, FIELD_NUMBER
@@ -33,23 +32,12 @@ contains
     type(fuge_surface), intent(inout) :: surface
     type(fuge_info), intent(inout) :: info
     type(row_form) :: form
-    integer :: rows, status
+    integer :: rows
 
     call count_rows(file, rows, info)
     if (.not. info%failed()) call find_first_row(file, form, info)
-    if (info%failed()) return
-    if (int(rows, int64)*int(form%columns, int64) > huge(1)) then
-      call report(info, FUGE_ERR_FILE, file%name//': '//text(rows)//' rows of '//text(form%columns) &
-                  //' values are more than an integer counts')
-      return
-    end if
-    allocate (surface%height(form%columns, rows), stat=status)
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, file%name//': no memory for '//text(form%columns)//' x ' &
-                  //text(rows)//' heights')
-      return
-    end if
-    call read_rows(file, form, fill, surface%height, info)
+    if (.not. info%failed()) call allocate_heights(file%name, form%columns, rows, surface%height, info)
+    if (.not. info%failed()) call read_rows(file, form, fill, surface%height, info)
     if (.not. info%failed()) call read_spacings(file, surface)
   end subroutine read_grid
 

@@ -4,19 +4,39 @@ module fuge_surface_heights
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, &
+    FUGE_ERR_SIZE
   use fuge_text_fields, only: describe_field, lower_case, quoted, read_number, FIELD_NOT_FINITE, FIELD_NUMBER, &
     FIELD_WORD
   implicit none
   private
 
-  public :: check_heights, is_in_range, read_height
+  public :: allocate_heights, check_heights, is_in_range, read_height
 
   !> Stands for the height of a point that was not measured; no height that is in range is as large.
   real(dp), parameter, public :: NOT_MEASURED = huge(1.0_dp)
   real(dp), parameter :: LARGEST_HEIGHT = scale(1.0_dp, LARGEST_EXPONENT)
 
 contains
+
+  !> Allocate the heights of a surface in a file whose name messages quote as `name`.
+  !>
+  !> Errors: FUGE_ERR_FILE for more points than an integer counts, FUGE_ERR_MEMORY.
+  pure subroutine allocate_heights(name, nx, ny, height, info)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: nx, ny
+    real(dp), allocatable, intent(inout) :: height(:, :)
+    type(fuge_info), intent(inout) :: info
+    integer :: status
+
+    if (nx > huge(nx)/ny) then
+      call report(info, FUGE_ERR_FILE, name//': '//text(nx)//' x '//text(ny) &
+                  //' heights are more than an integer counts')
+      return
+    end if
+    allocate (height(nx, ny), stat=status)
+    if (status /= 0) call report(info, FUGE_ERR_MEMORY, name//': no memory for '//text(nx)//' x '//text(ny)//' heights')
+  end subroutine allocate_heights
 
   !> Convert a field to a height, or to NOT_MEASURED if it is empty, NaN, or BAD, in letters of either case.
   !>

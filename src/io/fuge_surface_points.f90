@@ -5,7 +5,7 @@ module fuge_surface_points
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
-  use fuge_surface_heights, only: NOT_MEASURED
+  use fuge_surface_heights, only: allocate_heights, NOT_MEASURED
   use fuge_surface_rows, only: advance_to_row, count_rows, find_first_row, read_row, refuse_unmeasured, row_form
   use fuge_surface_type, only: fuge_surface
   use fuge_text_reader, only: text_file
@@ -48,14 +48,8 @@ contains
     end if
     call read_lines(file, fill, point, info)
     if (.not. info%failed()) call find_axes(file, point, axis, info)
-    if (info%failed()) return
-    allocate (surface%height(axis(1)%count, axis(2)%count), stat=status)
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, file%name//': no memory for '//text(axis(1)%count)//' x ' &
-                  //text(axis(2)%count)//' heights')
-      return
-    end if
-    call place_points(file, point, axis, surface%height, info)
+    if (.not. info%failed()) call allocate_heights(file%name, axis(1)%count, axis(2)%count, surface%height, info)
+    if (.not. info%failed()) call place_points(file, point, axis, surface%height, info)
     if (.not. info%failed()) call check_all_named(file, axis, fill, surface%height, info)
     surface%spacing_x = axis(1)%spacing
     surface%spacing_y = axis(2)%spacing
@@ -112,7 +106,7 @@ contains
       if (info%failed()) return
     end do
     places = int(axis(1)%count, int64)*int(axis(2)%count, int64)
-    if (places > huge(1) .or. places/2_int64 > size(point, 1)) &
+    if (places/2_int64 > size(point, 1)) &
       call report(info, FUGE_ERR_FILE, file%name//': '//text(size(point, 1))//' points are no full grid of ' &
                   //text(axis(1)%count)//' positions x and '//text(axis(2)%count)//' positions y')
   end subroutine find_axes
@@ -142,7 +136,7 @@ contains
   pure subroutine refuse_second_point(file, k, position, info)
     type(text_file), intent(inout) :: file
     integer, intent(in) :: k
-    real(dp), intent(in) :: position(2)
+    real(dp), intent(in) :: position(:)
     type(fuge_info), intent(inout) :: info
     type(row_form) :: form
     integer :: row
@@ -153,7 +147,7 @@ contains
       call advance_to_row(file, exists, info)
     end do
     call file%refuse('a second point at x = '//text(position(1))//', y = '//text(position(2)) &
-                     //': remove one of them', info)
+                     //': remove one of them, or say that the file is a grid of three columns', info)
   end subroutine refuse_second_point
 
   !> Refuse a grid with a missing point, or with `fill` make it one that was not measured.

@@ -1,15 +1,16 @@
 !> Fields of a line of text, and the numbers in them.
 !>
 !> Numbers are converted here, because formatted reads would take most of the time for a long
-!> file. The few numbers that cannot be rounded with certainty are left to the compiler's library.
+!> file.
 module fuge_text_fields
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_decimal_rounding, only: round_decimal, MOST_DIGITS
+  use fuge_exact_rounding, only: round_exactly, DECISIVE_DIGITS
   use fuge_kinds, only: dp
   implicit none
   private
 
-  public :: after_blanks, describe_field, find_field, is_blank, lower_case, quoted, read_number, read_whole
+  public :: after_blanks, describe_field, find_field, lower_case, quoted, read_number, read_whole
 
   !> Kinds of fields.
   integer, parameter, public :: FIELD_NUMBER = 0
@@ -127,7 +128,6 @@ contains
     real(dp), intent(out) :: value
     type(decimal) :: number
     logical :: certain
-    integer :: status
 
     value = 0.0_dp
     call read_decimal(field, number, kind)
@@ -137,15 +137,48 @@ contains
       return
     end if
     certain = number%digits == 0_int64 .or. number%exponent + number%count < LEAST_PLACES
-    if (number%complete .and. .not. certain) call round_decimal(number%digits, number%exponent, value, certain)
-    if (certain) then
-      if (number%negative) value = -value
-    else
-      value = 0.0_dp
-      read (field, *, iostat=status) value
-      if (status /= 0) kind = FIELD_WRONG
-    end if
+    if (.not. certain) call round_first_digits(number, value, certain)
+    if (.not. certain) call round_all_digits(field, number%exponent + number%count, value)
+    if (number%negative) value = -value
   end subroutine read_number
+
+  !> Round a number by its first digits; not `certain` if they do not decide.
+  pure subroutine round_first_digits(number, value, certain)
+    type(decimal), intent(in) :: number
+    real(dp), intent(out) :: value
+    logical, intent(out) :: certain
+    real(dp) :: upper
+
+    call round_decimal(number%digits, number%exponent, value, certain)
+    if (number%complete .or. .not. certain) return
+    ! The others make it larger, by less than one in the last of these.
+    call round_decimal(number%digits + 1_int64, number%exponent, upper, certain)
+    certain = certain .and. .not. upper > value
+  end subroutine round_first_digits
+
+  !> Round a number with all its digits: 0.d1d2d3.. * 10**`places`, where d1 is the first digit that is not 0.
+  pure subroutine round_all_digits(field, places, value)
+    character(len=*), intent(in) :: field
+    integer, intent(in) :: places
+    real(dp), intent(out) :: value
+    character(len=DECISIVE_DIGITS) :: digits
+    integer :: k, used
+
+    used = 0
+    do k = 1, len(field)
+      if (field(k:k) == '.') cycle
+      if (used == 0 .and. (field(k:k) == '+' .or. field(k:k) == '-' .or. field(k:k) == '0')) cycle
+      if (field(k:k) < '0' .or. field(k:k) > '9') exit
+      if (used < DECISIVE_DIGITS) then
+        used = used + 1
+        digits(used:used) = field(k:k)
+      else if (field(k:k) /= '0') then
+        ! No point half-way between two doubles has as many digits: the number is above it.
+        digits(used:used) = '1'
+      end if
+    end do
+    value = round_exactly(digits(:used), places)
+  end subroutine round_all_digits
 
   !> Is the number larger than the largest double?
   pure function overflows(number) result(beyond)

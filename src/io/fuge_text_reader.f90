@@ -8,7 +8,7 @@ module fuge_text_reader
   implicit none
   private
 
-  public :: io_reason, quoted_path
+  public :: quoted_path
 
   !> Number of characters of a path that messages show, from its end.
   integer, parameter :: PATH_LENGTH = 100
@@ -71,7 +71,6 @@ contains
     character(len=*), intent(in) :: path
     type(fuge_info), intent(inout) :: info
     character(len=len(path) + REASON_LENGTH) :: reason
-    integer(int64) :: bytes
     integer :: file, status
 
     self%name = quoted_path(path)
@@ -84,29 +83,42 @@ contains
     call lock(LOCK_FILES)
     open (newunit=file, file=path, status='old', action='read', access='stream', form='unformatted', &
           iostat=status, iomsg=reason)
-    if (status /= 0) then
-      call unlock(LOCK_FILES)
+    if (status == 0) then
+      call read_content(file, self%name, self%content, info)
+      close (file, iostat=status)
+      if (status /= 0 .and. .not. info%failed()) call report(info, FUGE_ERR_FILE, self%name//' cannot be closed')
+    else
       call report(info, FUGE_ERR_FILE, self%name//' cannot be opened: '//trim(io_reason(reason)))
-      return
     end if
-    inquire (unit=file, size=bytes)
-    if (bytes < 0_int64) then
-      call report(info, FUGE_ERR_FILE, self%name//' has no size: only a regular file can be read')
-    else if (bytes > 0_int64) then
-      deallocate (self%content)
-      allocate (character(len=bytes) :: self%content, stat=status)
-      if (status == 0) then
-        read (file, iostat=status, iomsg=reason) self%content
-        if (status /= 0) call report(info, FUGE_ERR_FILE, self%name//' cannot be read: '//trim(reason))
-      else
-        call report(info, FUGE_ERR_MEMORY, self%name//': no memory for its '//text(real(bytes, dp))//' bytes')
-      end if
-    end if
-    close (file, iostat=status)
     call unlock(LOCK_FILES)
-    if (status /= 0 .and. .not. info%failed()) call report(info, FUGE_ERR_FILE, self%name//' cannot be closed')
     if (.not. info%failed()) call self%rewind()
   end subroutine load
+
+  !> Read all bytes of an open file, whose name messages quote as `name`. Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
+  subroutine read_content(file, name, content, info)
+    integer, intent(in) :: file
+    character(len=*), intent(in) :: name
+    character(len=:), allocatable, intent(inout) :: content
+    type(fuge_info), intent(inout) :: info
+    character(len=REASON_LENGTH) :: reason
+    integer(int64) :: bytes
+    integer :: status
+
+    inquire (unit=file, size=bytes)
+    if (bytes < 0_int64) then
+      call report(info, FUGE_ERR_FILE, name//' has no size: only a regular file can be read')
+    else if (bytes > 0_int64) then
+      deallocate (content)
+      allocate (character(len=bytes) :: content, stat=status)
+      if (status == 0) then
+        reason = ''
+        read (file, iostat=status, iomsg=reason) content
+        if (status /= 0) call report(info, FUGE_ERR_FILE, name//' cannot be read: '//trim(reason))
+      else
+        call report(info, FUGE_ERR_MEMORY, name//': no memory for its '//text(real(bytes, dp))//' bytes')
+      end if
+    end if
+  end subroutine read_content
 
   !> Go back before the first line, which begins after a byte order mark.
   pure subroutine rewind(self)

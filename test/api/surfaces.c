@@ -188,7 +188,39 @@ static void test_full_disk(void) {
   }
 }
 
-int main(void) {
+/* The same surface in two formats, ground.sdf and ground.txt in `folder`: with and without the points that were not
+ * measured. */
+static void test_data(const char *folder) {
+  enum { NX = 40, NY = 30 };
+  static double from_sdf[NX * NY], from_grid[NX * NY];
+  const char *const names[2] = {"ground.sdf", "ground.txt"};
+  double *const heights[2] = {from_sdf, from_grid};
+  double difference = 0.0, spacing[2];
+  char path[1000], message[256] = "";
+  int nx, ny, filled;
+  for (int k = 0; k < 2; k++) {
+    snprintf(path, sizeof path, "%s/%s", folder, names[k]);
+    CHECK_STATUS(fuge_read_surface(path, FUGE_FILE_ANY, 0, 0, NULL, &nx, &ny, NULL, NULL, NULL, message,
+                                   sizeof message), FUGE_ERR_FILE);
+    CHECK_CONTAINS(message, "not measured");
+    CHECK_STATUS(fuge_read_surface(path, FUGE_FILE_ANY, 1, NX * NY, heights[k], &nx, &ny, spacing, NULL, &filled,
+                                   message, sizeof message), FUGE_DONE);
+    CHECK_INT(nx, NX);
+    CHECK_INT(ny, NY);
+    CHECK_INT(filled, 9);
+    CHECK_NEAR(spacing[0], 2.0e-6, 0.0);
+    CHECK_NEAR(spacing[1], 2.5e-6, 0.0);
+  }
+  for (int k = 0; k < NX * NY; k++) difference = fmax(difference, fabs(from_sdf[k] - from_grid[k]));
+  CHECK_NEAR(from_sdf[1], 7.259e-7, 1e-21);
+  CHECK_NEAR(difference, 0.0, 1e-21);
+}
+
+int main(int argc, char **argv) {
+  if (argc > 1) {
+    test_data(argv[1]);
+    return check_summary();
+  }
   test_read();
   test_read_refusals();
   test_write();
