@@ -57,6 +57,7 @@ contains
     type(abel_transform), intent(out) :: transform
     type(fuge_info), intent(inout) :: info
     real(dp) :: gap(2), slope(2)
+    integer :: terms
 
     transform%radius = radius
     call sample_profile(profile, [0.0_dp, radius], gap, slope, info)
@@ -71,12 +72,39 @@ contains
       call expand_slope(profile, anchored_interval(0.0_dp, 0.5_dp*radius, 0.5_dp*radius), tolerance, degrees, &
                         transform%slope, info)
       if (info%failed()) return
-      allocate (transform%coefficients, source=transformed(transform%slope%coefficients))
+      terms = terms_above_noise(transform%slope)
+      allocate (transform%coefficients, source=transformed(transform%slope%coefficients(:terms)))
       allocate (transform%powers(0), transform%factors(0))
       transform%error = transform%slope%series_error
     end select
     if (abs(transform%tip) <= LEAST_TIP*maxval(abs(transform%slopes([0.5_dp, 1.0_dp])))) transform%tip = 0.0_dp
+    call fix_tip(transform%tip, transform%coefficients)
   end subroutine expand_transform
+
+  !> Terms of a series up to the last one above its error: the derivative in g' would magnify what is noise.
+  pure function terms_above_noise(series) result(terms)
+    type(slope_series), intent(in) :: series
+    integer :: terms
+
+    terms = size(series%coefficients)
+    do while (terms > 4)
+      if (abs(series%coefficients(terms)) > series%leading_error) exit
+      terms = terms - 1
+    end do
+  end function terms_above_noise
+
+  !> Make the series exact on the axis: its rounding error there would be integrated over 1/t. The change is shared
+  !> equally, so that it is large on the axis only.
+  pure subroutine fix_tip(tip, coefficients)
+    real(dp), intent(in) :: tip
+    real(dp), intent(inout) :: coefficients(:)
+    real(dp) :: change
+
+    if (size(coefficients) == 0) return
+    change = (tip - (sum(coefficients(1::2)) - sum(coefficients(2::2))))/real(size(coefficients), dp)
+    coefficients(1::2) = coefficients(1::2) + change
+    coefficients(2::2) = coefficients(2::2) - change
+  end subroutine fix_tip
 
   !> Factors of g' for the profile sum_k c_k r**n_k: c n**2 B(n) radius**(n - 1), B the integral of sin**(n - 1) over a
   !> quarter of the circle.

@@ -100,7 +100,7 @@ contains
       converged = fine .and. slope > 0.0_dp .and. (abs(change) <= 4.0_dp*epsilon(change) &
                                                    .or. (abs(change) <= ROUNDING_STEP .and. previous <= LAST_STEP))
       if (converged) exit
-      if (fine .or. abs(change) <= ROUNDING_STEP) previous = abs(change)
+      if (fine) previous = abs(change)
       radius = next_radius(radius, lower, upper, change, slope > 0.0_dp)
       if (.not. radius > 0.0_dp) return
       if (abs(change) <= COARSE_STEP .and. slope > 0.0_dp) fine = .true.
