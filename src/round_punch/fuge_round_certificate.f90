@@ -1,8 +1,7 @@
 !> The certificate of a round contact: how far pressure and approach are from the contact problem.
 !>
-!> The search uses slopes and Abel's transform; here the displacement in the contact follows from the inverse
-!> transform and is compared with the gap, at points of its own, and the load is the integral of the pressure
-!> that is returned.
+!> The search uses slopes and Abel's transform; here the load and the displacement on the axis are integrals of the
+!> pressure that is returned, and the gaps are compared with the inverse transform, at points of their own.
 module fuge_round_certificate
   use fuge_abel_transform, only: abel_transform
   use fuge_constants, only: PI
@@ -21,16 +20,18 @@ module fuge_round_certificate
   !> The offset keeps the radii off the nodes of a Chebyshev series.
   real(dp), parameter :: OFFSET = 0.39_dp
   !> Substitutions that make a singular pressure in a tip, and powers that are no integers, smooth enough.
-  integer, parameter :: RIM_POWER = 6, AXIS_POWER = 4
+  integer, parameter :: PRESSURE_POWER = 6, AXIS_POWER = 4
   !> Rounding errors of the caller's own numbers that do not count, in units of the last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
 
 contains
 
-  !> The `residual`, no unit, is the larger of
+  !> The `residual`, no unit, is the largest of
   !>
-  !> - |gap + displacement - approach| at radii in the contact, relative to the height of the profile there plus
-  !>   load/(E* radius), less the rounding of the gap;
+  !> - |gap + displacement - approach| on the axis, where the displacement is 2/E* times the integral of the pressure
+  !>   over r, relative to load/(E* radius), less the rounding of the gap;
+  !> - |gap - that which the inverse transform gives| at radii in the contact, relative to the height of the profile
+  !>   there plus load/(E* radius), less the rounding of the gap;
   !> - |the integral of the pressure less the load|, relative to the load.
   !>
   !> Calls the profile once. Errors: those of the profile.
@@ -40,19 +41,21 @@ contains
     type(abel_transform), intent(in) :: transform
     real(dp), intent(out) :: residual
     type(fuge_info), intent(inout) :: info
-    real(dp), dimension(size(transform%coefficients) + MORE_POINTS) :: r, gap, slope, error, height
-    real(dp) :: unit
+    real(dp), dimension(size(transform%coefficients) + MORE_POINTS) :: r, gap, slope, error
+    real(dp) :: unit, load, displacement
     integer :: k
 
     residual = 0.0_dp
     r = [(contact%radius*sin(0.5_dp*PI*((real(k, dp) - OFFSET)/real(size(r), dp))), k=1, size(r))]
     call sample_profile(profile, r, gap, slope, info)
     if (info%failed()) return
-    height = recovered_heights(transform, r)
     unit = contact%load/contact%e_star/contact%radius
-    error = abs((contact%axis_gap + height) - gap) - ROUNDINGS*epsilon(error)*(abs(gap) + abs(slope)*r)
-    residual = max(0.0_dp, maxval(error/(abs(gap - contact%axis_gap) + unit)), &
-                   abs(integrated_load(contact, transform) - 1.0_dp))
+    error = abs((contact%axis_gap + recovered_heights(transform, r)) - gap) &
+            - ROUNDINGS*epsilon(error)*(abs(gap) + abs(slope)*r)
+    call integrate_pressure(contact, transform, load, displacement)
+    displacement = abs((contact%axis_gap - contact%approach) + unit*displacement) &
+                   - ROUNDINGS*epsilon(displacement)*(abs(contact%axis_gap) + abs(contact%approach))
+    residual = max(0.0_dp, maxval(error/(abs(gap - contact%axis_gap) + unit)), displacement/unit, abs(load - 1.0_dp))
     if (.not. residual <= huge(residual)) residual = huge(residual)
   end subroutine certify_round
 
@@ -76,26 +79,30 @@ contains
     end do
   end function recovered_heights
 
-  !> The integral of the pressure over the load.
-  pure function integrated_load(contact, transform) result(ratio)
+  !> The integral of the pressure over the `load`, and its `displacement` on the axis over load/(E* radius).
+  pure subroutine integrate_pressure(contact, transform, load, displacement)
     type(fuge_round_contact), intent(in) :: contact
     type(abel_transform), intent(in) :: transform
-    real(dp) :: ratio
-    real(dp), dimension(nodes_of(transform)) :: node, weight, depth, pressure
+    real(dp), intent(out) :: load, displacement
+    real(dp), dimension(nodes_of(transform)) :: node, weight, r, pressure
 
     call gauss_rule(node, weight)
-    ! r = radius sqrt(1 - y**2) with y = 1 - depth.
-    depth = node**RIM_POWER
-    weight = weight*real(RIM_POWER, dp)*node**(RIM_POWER - 1)*(1.0_dp - depth)
-    pressure = contact%pressure(contact%radius*sqrt(depth*(2.0_dp - depth)))
-    ratio = 2.0_dp*PI*contact%radius*(contact%radius/contact%load*dot_product(weight, pressure))
-  end function integrated_load
+    ! r = radius w (2 - w), smooth at the rim, where the pressure has a root; w = node**PRESSURE_POWER.
+    weight = weight*real(PRESSURE_POWER, dp)*node**(PRESSURE_POWER - 1)
+    node = node**PRESSURE_POWER
+    weight = 2.0_dp*(1.0_dp - node)*weight
+    r = node*(2.0_dp - node)
+    ! In units of the mean pressure, which keeps extreme numbers in range.
+    pressure = contact%pressure(contact%radius*r)/(contact%load/contact%radius/contact%radius)
+    load = 2.0_dp*PI*dot_product(weight, r*pressure)
+    displacement = 2.0_dp*dot_product(weight, pressure)
+  end subroutine integrate_pressure
 
   pure function nodes_of(transform) result(nodes)
     type(abel_transform), intent(in) :: transform
     integer :: nodes
 
-    nodes = MORE_NODES + 3*(size(transform%coefficients)/2)
+    nodes = MORE_NODES + 3*size(transform%coefficients)
     if (size(transform%powers) > 0) nodes = nodes + int(min(400.0_dp, 2.0_dp*maxval(transform%powers)))
   end function nodes_of
 
