@@ -22,7 +22,7 @@ module fuge_round_newton
   end type round_target
 
   !> Highest degree of the series, and that of series that need not be exact.
-  integer, parameter, public :: MAX_DEGREE = 256
+  integer, parameter, public :: MAX_DEGREE = 128
   integer, parameter :: COARSE_MAX_DEGREE = 64
   integer, parameter :: MAX_STEPS = 120
   !> Tolerance of the series until a step of the logarithm of the radius is below COARSE_STEP, and then.

@@ -39,7 +39,7 @@ module fuge_round_search
   !> Radii of the second search: so many equal steps, and halvings of the first one.
   integer, parameter :: EQUAL_STEPS = 64, HALVINGS = 40
   !> The degree of a series that has missed a detail is raised to this one.
-  integer, parameter :: RAISED_DEGREE = 128
+  integer, parameter :: RAISED_DEGREE = 64
 
 contains
 
