@@ -86,25 +86,28 @@ contains
   pure function far_mean(inner, outer, inner_node, inner_weight, outer_node, outer_weight) result(mean)
     real(dp), intent(in) :: inner(2), outer(2), inner_node(:), inner_weight(:), outer_node(:), outer_weight(:)
     real(dp) :: mean
-    real(dp), dimension(size(inner_node)*size(outer_node)) :: large, geometric, weight
-    real(dp), dimension(size(inner_node)) :: depth, r
+    ! Of fixed size, because arrays whose size varies are allocated.
+    real(dp), dimension(MOST_NODES**2) :: large, geometric, weight
+    real(dp), dimension(MOST_NODES) :: depth, r, share
     real(dp) :: height, s, distance
-    integer :: k, first, n
+    integer :: k, first, n, all_nodes
 
     n = size(inner_node)
+    all_nodes = n*size(outer_node)
     distance = outer(1) - inner(2)
-    depth = (inner(2) - inner(1))*inner_node
-    r = inner(2) - depth
+    depth(:n) = (inner(2) - inner(1))*inner_node
+    r(:n) = inner(2) - depth(:n)
+    share(:n) = r(:n)*inner_weight
     do k = 1, size(outer_node)
       first = (k - 1)*n
       height = (outer(2) - outer(1))*outer_node(k)
       s = outer(1) + height
       large(first + 1:first + n) = s
-      geometric(first + 1:first + n) = sqrt((s + r)*(height + distance + depth))
-      weight(first + 1:first + n) = (s*outer_weight(k))*(r*inner_weight)
+      geometric(first + 1:first + n) = sqrt((s + r(:n))*(height + distance + depth(:n)))
+      weight(first + 1:first + n) = (s*outer_weight(k))*share(:n)
     end do
-    call reduce_means(large, geometric)
-    mean = sum(weight/large)/(0.25_dp*(inner(1) + inner(2))*(outer(1) + outer(2)))
+    call reduce_means(large(:all_nodes), geometric(:all_nodes))
+    mean = sum(weight(:all_nodes)/large(:all_nodes))/(0.25_dp*(inner(1) + inner(2))*(outer(1) + outer(2)))
   end function far_mean
 
   !> The arithmetic-geometric means of `arithmetic` and `geometric` > 0, in place of the first.

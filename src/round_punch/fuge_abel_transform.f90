@@ -24,7 +24,7 @@ module fuge_abel_transform
   !> Nodes of the quadrature over the angle beyond those of a polynomial of the same degree.
   integer, parameter :: MORE_NODES = 14
   !> A slope on the axis below this fraction of that at the rim is rounding, not a tip.
-  real(dp), parameter :: LEAST_TIP = 1.0e-9_dp
+  real(dp), parameter :: LEAST_TIP = 3.0e-11_dp
   !> Above this argument the gamma function itself might overflow.
   real(dp), parameter :: LARGEST_ARGUMENT = 150.0_dp
 

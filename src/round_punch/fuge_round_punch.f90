@@ -150,6 +150,7 @@ contains
     integer, intent(in) :: kind_given
     type(fuge_round_contact), intent(inout) :: contact
     type(fuge_info), intent(inout) :: info
+    type(fuge_round_contact) :: without_load
     real(dp) :: position, gap, reached
 
     call lowest_position(profile, position, gap, info)
@@ -161,10 +162,10 @@ contains
                   //', not on its axis'//OTHER_ENGINES)
       return
     end if
-    contact = fuge_round_contact()
-    contact%axis_gap = axis_gap
-    contact%approach = reached
-    contact%e_star = e_star
+    without_load%axis_gap = axis_gap
+    without_load%approach = reached
+    without_load%e_star = e_star
+    contact = without_load
   end subroutine touch
 
   !> Certify the contact found; warn of a large residual or estimated error.
