@@ -23,6 +23,8 @@ module fuge_round_punch
   public :: fuge_solve_round_punch
 
   type(fuge_options), parameter :: DEFAULTS = fuge_options()
+  !> Rounding errors of a gap, in units of the last place.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
   character(len=*), parameter :: OTHER_ENGINES = ': use rings, fuge_ring_matrix, with the active set'
 
 contains
@@ -151,13 +153,15 @@ contains
     type(fuge_round_contact), intent(inout) :: contact
     type(fuge_info), intent(inout) :: info
     type(fuge_round_contact) :: without_load
-    real(dp) :: position, gap, reached
+    real(dp) :: position, gap, reached, end_gap(1), end_slope(1)
 
     call lowest_position(profile, position, gap, info)
+    if (.not. info%failed()) call sample_profile(profile, [profile%upper], end_gap, end_slope, info)
     if (info%failed()) return
     reached = axis_gap
     if (kind_given == GIVEN_APPROACH) reached = given
-    if (gap < reached) then
+    ! Samples and series have rounding errors relative to the height of the whole profile.
+    if (gap < reached - ROUNDINGS*epsilon(gap)*max(abs(axis_gap), abs(gap), abs(end_gap(1)))) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'the punch touches first at r = '//text(position) &
                   //', not on its axis'//OTHER_ENGINES)
       return
