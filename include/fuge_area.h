@@ -71,6 +71,35 @@ int fuge_operator_halfspace(int nx, int ny, double spacing_x, double spacing_y, 
                             int element, int boundary, fuge_operator **op, char *message,
                             size_t len);
 
+/* ---- rings ---------------------------------------------------------------
+ *
+ * Round bodies pressed along their axis need a line of unknowns only: rings about the axis,
+ * for the dense engines. */
+
+/* Influence matrix of rings side by side.
+ *   radius   in   n + 1, increasing, >= 0; ring k lies between radius[k] and radius[k + 1];
+ *                 the first one is a disc if radius[0] = 0; length
+ *   e_star   in   as in fuge_halfplane_matrix; force per length^2
+ *   element  in   FUGE_MEAN: uniform pressure on a ring, mean displacement of a ring
+ *   alpha    out  lda x n, lda >= n; displacement per force
+ * The force of a ring is its resultant, so the load is the whole load; gaps are means over the
+ * rings, weighted by area.  Displacements vanish far away: the approach is absolute.
+ * FUGE_ERR_WIDTH: radii that do not increase, a negative one, a ring thinner than 1e-7 of its
+ * radius.  FUGE_ERR_GRID for FUGE_CENTRE, whose matrix would not be symmetric.
+ * FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT,
+ * FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. */
+int fuge_ring_matrix(int n, const double *radius, double e_star, int element, double *alpha,
+                     int lda, char *message, size_t len);
+
+/* Displacement of the surface by forces on rings, anywhere.
+ *   force         in   n; the resultants; force
+ *   place         in   count >= 0 distances from the axis, >= 0; length
+ *   displacement  out  count; into the body; length
+ * Errors as above; FUGE_ERR_WIDTH also for a negative place. */
+int fuge_ring_displacement(int n, const double *radius, const double *force, double e_star,
+                           int count, const double *place, double *displacement,
+                           char *message, size_t len);
+
 /* ---- Hertz -------------------------------------------------------------- */
 
 /* Contact of two bodies with the initial gap x^2/(2 radius_x) + y^2/(2 radius_y), in closed

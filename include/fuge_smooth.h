@@ -1,4 +1,4 @@
-/* fuge - smooth punches on a half-plane.  SPDX-License-Identifier: BSD-3-Clause
+/* fuge - smooth punches, on a half-plane and round ones on a half-space.  SPDX-License-Identifier: BSD-3-Clause
  *
  * Included by fuge.h, whose conventions hold here too. */
 #ifndef FUGE_SMOOTH_H
@@ -86,6 +86,73 @@ int fuge_smooth_get_gap(const fuge_smooth *contact, int count, const double *x,
  * fuge_smooth_get_report has their number. */
 int fuge_smooth_get_coefficients(const fuge_smooth *contact, int capacity, double *coefficients,
                                  char *message, size_t len);
+
+/* ---- round punches ------------------------------------------------------
+ *
+ * The same for a punch of revolution on a half-space: one disc of contact, whose radius is
+ * the only unknown.
+ *
+ *     fuge_solve_round_punch -> fuge_round_get_... -> fuge_round_free */
+
+typedef struct fuge_round fuge_round;
+
+/* Solve.
+ *   profile, user           in   as above, x being the distance from the axis; the profile has
+ *                                to be smooth from the axis on, a tip is allowed
+ *   reach                   in   > 0; where the profile ends; length
+ *   e_star                  in   as in fuge_halfplane_matrix; force per length^2
+ *   load, approach, radius  in   one of them, the others NULL: >= 0, force; how far the bodies
+ *                                approach each other, length; radius of the contact, length
+ *   contact                 out  *contact is set unless there is an error
+ * Without load, or up to the approach at which the punch touches, the radius is 0.
+ * FUGE_WARN_RESIDUAL: certificate or estimated error above 1e-10, the message says why.
+ * FUGE_ERR_UNSUPPORTED: the contact is not one disc, or reaches the end of the profile; the
+ * message says where, and which engine to use.  Bounds of series decide that; a feature of the
+ * profile narrower than reach/512 may be overlooked.
+ * FUGE_ERR_OPTION unless one of load, approach and radius is given.  FUGE_ERR_WIDTH,
+ * FUGE_ERR_MODULUS, FUGE_ERR_NO_EQUILIBRIUM (load < 0), FUGE_ERR_NOT_FINITE,
+ * FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK. */
+int fuge_solve_round_punch(fuge_smooth_profile profile, void *user, double reach, double e_star,
+                           const double *load, const double *approach, const double *radius,
+                           fuge_round **contact, char *message, size_t len);
+
+/* The same for the initial gap sum over k < terms of coefficients[k] r^powers[k].
+ *   powers  in  >= 1, any: 1 for a cone, 2 for a paraboloid
+ * FUGE_ERR_WIDTH for a power below 1. */
+int fuge_solve_round_powers(int terms, const double *coefficients, const double *powers,
+                            double reach, double e_star, const double *load,
+                            const double *approach, const double *radius,
+                            fuge_round **contact, char *message, size_t len);
+
+/* Free and set *contact to NULL; NULL and *contact == NULL are fine. */
+void fuge_round_free(fuge_round **contact);
+
+typedef struct fuge_round_report {
+  int iterations;               /* series formed */
+  int coefficients;             /* number of coefficients of the series */
+  int reserved_int[6];
+  double radius;                /* of the contact; length */
+  double load;
+  double approach;              /* absolute; length */
+  double residual;              /* certificate: largest scaled violation of the problem */
+  double radius_error;          /* estimated error of the radius, relative to it */
+  double pressure_error;        /* estimated error of the pressure, relative to its mean */
+  double reserved[8];
+} fuge_round_report;
+
+/* As for fuge_smooth: several threads may read a contact at once. */
+int fuge_round_get_report(const fuge_round *contact, fuge_round_report *report,
+                          char *message, size_t len);
+
+/* Pressure at count >= 0 distances r from the axis; force per length^2, 0 outside the contact.
+ * In the tip of a cone it is infinite: the result is the largest number. */
+int fuge_round_get_pressure(const fuge_round *contact, int count, const double *r,
+                            double *pressure, char *message, size_t len);
+
+/* Gap under load at count >= 0 distances r from the initial gaps there; length.  gap may be
+ * the same array as r or initial_gap. */
+int fuge_round_get_gap(const fuge_round *contact, int count, const double *r,
+                       const double *initial_gap, double *gap, char *message, size_t len);
 
 #ifdef __cplusplus
 }

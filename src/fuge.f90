@@ -26,9 +26,13 @@ module fuge
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET, FUGE_ITERATIVE, &
     FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
   use fuge_path_type, only: fuge_path
+  use fuge_power_profile_type, only: fuge_power_profile
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_profile_files, only: fuge_read_profile
   use fuge_profile_sampling, only: fuge_level_profile, fuge_sample_profile, FUGE_LEVEL_LINE, FUGE_LEVEL_MEAN
+  use fuge_ring_influence, only: fuge_ring_displacement, fuge_ring_matrix
+  use fuge_round_contact_type, only: fuge_round_contact
+  use fuge_round_punch, only: fuge_solve_round_punch
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_profile_type, only: fuge_smooth_profile, fuge_polynomial_profile, fuge_sampled_profile
   use fuge_smooth_punch, only: fuge_solve_smooth_punch

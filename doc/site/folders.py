@@ -31,6 +31,7 @@ HOLDS = {
     "solver": "the choice of the engine",
     "condensation": "stiffness to influence",
     "smooth_punch": "contact without a grid",
+    "round_punch": "round contact without a grid",
     "io": "matrices, profiles",
     "c": "C interface",
     "f77": "FORTRAN 77 interface",

@@ -13,6 +13,8 @@ module fuge_c_smooth
   implicit none
   private
 
+  public :: procedure_at
+
   abstract interface
     !> fuge_smooth_profile of fuge_smooth.h.
     function c_profile(n, x, gap, slope, user) bind(c) result(status)
@@ -25,7 +27,8 @@ module fuge_c_smooth
     end function c_profile
   end interface
 
-  type, extends(fuge_smooth_profile) :: callback_profile
+  !> A profile that is a function of C.
+  type, extends(fuge_smooth_profile), public :: callback_profile
     procedure(c_profile), pointer, nopass :: profile => null()
     type(c_ptr) :: user = c_null_ptr
   contains

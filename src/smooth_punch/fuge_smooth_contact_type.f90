@@ -40,7 +40,7 @@ module fuge_smooth_contact_type
     !> Contact pressure at any x, one or several; force per length squared.
     generic :: pressure => pressure_at, pressures_at
     procedure, private :: gap_at
-    procedure, private :: gaps_at
+    procedure :: gaps_at
     !> Gap under load at any x, one or several, from the initial gap there; length. 0 in the
     !> contact, elsewhere exact to the rounding of the initial gap.
     generic :: gap => gap_at, gaps_at

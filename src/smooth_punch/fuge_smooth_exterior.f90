@@ -52,7 +52,7 @@ contains
   !> Find the deepest penetration on side 1 (left) or 2 (right) of the contact. Errors: those of the profile.
   subroutine find_penetration(profile, contact, number, violation, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(fuge_smooth_contact), intent(in) :: contact
+    class(fuge_smooth_contact), intent(in) :: contact
     integer, intent(in) :: number
     type(exterior_violation), intent(inout) :: violation
     type(fuge_info), intent(inout) :: info
@@ -87,7 +87,7 @@ contains
 
   pure function side_of(profile, contact, number) result(side)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(fuge_smooth_contact), intent(in) :: contact
+    class(fuge_smooth_contact), intent(in) :: contact
     integer, intent(in) :: number
     type(exterior_side) :: side
 
@@ -98,7 +98,7 @@ contains
 
   !> Distance from the end of the contact at `xi`; length.
   pure function distance(contact, xi)
-    type(fuge_smooth_contact), intent(in) :: contact
+    class(fuge_smooth_contact), intent(in) :: contact
     real(dp), intent(in) :: xi
     real(dp) :: distance
 
@@ -107,7 +107,7 @@ contains
 
   pure function is_too_long(profile, contact, side, panel) result(too_long)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(fuge_smooth_contact), intent(in) :: contact
+    class(fuge_smooth_contact), intent(in) :: contact
     type(exterior_side), intent(in) :: side
     real(dp), intent(in) :: panel(2)
     logical :: too_long
@@ -121,7 +121,7 @@ contains
   !> Look for penetration in one panel; `decided` unless it has to be halved. The `last` one is not.
   subroutine examine_panel(profile, contact, side, panel, last, decided, violation, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(fuge_smooth_contact), intent(in) :: contact
+    class(fuge_smooth_contact), intent(in) :: contact
     type(exterior_side), intent(in) :: side
     real(dp), intent(in) :: panel(2)
     logical, intent(in) :: last
@@ -158,7 +158,7 @@ contains
   !> Does the tail exceed `level`, length, in short parts at both ends of a panel?
   subroutine compare_noise(profile, contact, side, panel, level, exceeds, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(fuge_smooth_contact), intent(in) :: contact
+    class(fuge_smooth_contact), intent(in) :: contact
     type(exterior_side), intent(in) :: side
     real(dp), intent(in) :: panel(2), level
     logical, intent(out) :: exceeds
@@ -182,7 +182,7 @@ contains
   !> Positions at t, -1 to 1, on a panel; length.
   pure function positions(profile, contact, side, panel, t) result(x)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(fuge_smooth_contact), intent(in) :: contact
+    class(fuge_smooth_contact), intent(in) :: contact
     type(exterior_side), intent(in) :: side
     real(dp), intent(in) :: panel(2), t(:)
     real(dp) :: x(size(t))
@@ -197,7 +197,7 @@ contains
   !> Gaps, the magnitudes with which they are compared, and their rounding errors; length.
   subroutine exterior_gaps(profile, contact, x, gap, magnitude, rounding, info)
     class(fuge_smooth_profile), intent(in) :: profile
-    type(fuge_smooth_contact), intent(in) :: contact
+    class(fuge_smooth_contact), intent(in) :: contact
     real(dp), intent(in) :: x(:)
     real(dp), intent(out) :: gap(:), magnitude(:), rounding(:)
     type(fuge_info), intent(inout) :: info

@@ -1,0 +1,65 @@
+!> C bindings, section "rings": round bodies on the half-space with the dense engines.
+module fuge_c_rings
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use fuge_c_operator, only: find_matrix
+  use fuge_c_types, only: copy_reals, report_to_c, require_count, require_pointer
+  use fuge_ring_influence, only: fuge_ring_displacement, fuge_ring_matrix
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+contains
+
+  function c_ring_matrix(n, radius, e_star, element, alpha, lda, message, length) &
+    bind(c, name='fuge_ring_matrix') result(status)
+    integer(c_int), intent(in), value :: n, element, lda
+    type(c_ptr), intent(in), value :: radius, alpha, message
+    real(c_double), intent(in), value :: e_star
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: radii(:), matrix(:, :)
+    type(fuge_info) :: info
+
+    call find_matrix(n, alpha, lda, matrix, info)
+    call require_pointer(radius, 'radius', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(radius, radii, [int(n) + 1])
+      call fuge_ring_matrix(radii, e_star, int(element), matrix, info)
+    end if
+    status = report_to_c(info, message, length)
+  end function c_ring_matrix
+
+  !> Nine arguments, as in the header: the rings, the places, the message.
+  function c_ring_displacement(n, radius, force, e_star, number, place, displacement, message, length) &
+    bind(c, name='fuge_ring_displacement') result(status)
+    integer(c_int), intent(in), value :: n, number
+    type(c_ptr), intent(in), value :: radius, force, place, displacement, message
+    real(c_double), intent(in), value :: e_star
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: radii(:), forces(:), places(:)
+    real(c_double), allocatable :: found(:)
+    type(fuge_info) :: info
+    integer :: stat
+
+    call require_count(n, 1, 'n', 'rings', info)
+    call require_count(number, 0, 'count', 'places', info)
+    call require_pointer(radius, 'radius', info)
+    call require_pointer(force, 'force', info)
+    call require_pointer(place, 'place', info)
+    call require_pointer(displacement, 'displacement', info)
+    if (.not. info%failed()) then
+      allocate (found(number), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
+    end if
+    if (.not. info%failed()) then
+      call c_f_pointer(radius, radii, [int(n) + 1])
+      call c_f_pointer(force, forces, [n])
+      call c_f_pointer(place, places, [number])
+      call fuge_ring_displacement(radii, forces, e_star, places, found, info)
+    end if
+    if (.not. info%failed()) call copy_reals(found, displacement)
+    status = report_to_c(info, message, length)
+  end function c_ring_displacement
+
+end module fuge_c_rings

@@ -1,0 +1,208 @@
+!> The contact of a round punch with a half-space, in closed form once its radius is known.
+!>
+!> With Abel's transform g of the profile (`fuge_abel_transform`) the pressure is
+!>
+!>     p(r) = (E*/pi) integral of g'(t)/sqrt(t**2 - r**2) dt, t = r .. a,
+!>
+!> and the displacement beside the contact (2/pi) integral of g'(t) arcsin(t/r) dt, t = 0 .. a (I. N. Sneddon 1965).
+!> t = r cosh(xi) and t = r sin(phi) make both integrands smooth; neither has a difference.
+module fuge_round_contact_type
+  use fuge_abel_transform, only: abel_transform
+  use fuge_constants, only: PI
+  use fuge_gauss_legendre, only: gauss_rule
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  !> A contact in a disc about r = 0. Without load its radius is 0.
+  type, public :: fuge_round_contact
+    !> Radius of the contact; length.
+    real(dp) :: radius = 0.0_dp
+    !> Force, and how far the bodies approach each other, absolute; length.
+    real(dp) :: load = 0.0_dp, approach = 0.0_dp
+    !> The modulus E*; force per length squared.
+    real(dp) :: e_star = 0.0_dp
+    !> Estimated errors, no unit: of the radius, and of the pressure relative to load/(pi radius**2).
+    real(dp) :: radius_error = 0.0_dp, pressure_error = 0.0_dp
+    !> Initial gap on the axis; length.
+    real(dp) :: axis_gap = 0.0_dp
+    !> Abel's transform of the profile.
+    type(abel_transform), private :: transform
+  contains
+    procedure :: set => set_contact
+    procedure :: coefficients => slope_coefficients
+    procedure, private :: pressure_at
+    procedure, private :: pressures_at
+    !> Contact pressure at any distance r >= 0 from the axis, one or several; force per length squared.
+    generic :: pressure => pressure_at, pressures_at
+    procedure, private :: gap_at
+    procedure, private :: gaps_at
+    !> Gap under load at any r >= 0, one or several, from the initial gap there; length. 0 in the contact,
+    !> elsewhere exact to the rounding of the initial gap.
+    generic :: gap => gap_at, gaps_at
+  end type fuge_round_contact
+
+  !> Length of a panel of xi, and the number of panels after which only g'(0) is left.
+  real(dp), parameter :: PANEL = 1.0_dp, LAST_PANEL = 40.0_dp
+  !> Nodes of a quadrature rule beyond half of the degree.
+  integer, parameter :: MORE_NODES = 14
+  !> With phi = v**4 a power of t that is no integer is smooth enough for the quadrature.
+  integer, parameter :: AXIS_POWER = 4
+
+contains
+
+  !> For the solver: the contact of a profile with this transform and this gap on the axis, length.
+  subroutine set_contact(self, transform, axis_gap, e_star)
+    class(fuge_round_contact), intent(inout) :: self
+    type(abel_transform), intent(in) :: transform
+    real(dp), intent(in) :: axis_gap, e_star
+
+    self%transform = transform
+    self%radius = transform%radius
+    self%axis_gap = axis_gap
+    self%e_star = e_star
+    self%approach = axis_gap + transform%radius*transform%depth()
+    self%load = e_star*transform%radius*(2.0_dp*transform%thrust()*transform%radius)
+    self%pressure_error = transform%error/max(tiny(1.0_dp), transform%thrust())
+  end subroutine set_contact
+
+  !> The Chebyshev coefficients of g' from 0 to the radius, no unit; none for a `fuge_power_profile` or without load.
+  pure function slope_coefficients(self) result(coefficients)
+    class(fuge_round_contact), intent(in) :: self
+    real(dp), allocatable :: coefficients(:)
+
+    if (allocated(self%transform%coefficients)) then
+      allocate (coefficients, source=self%transform%coefficients)
+    else
+      allocate (coefficients(0))
+    end if
+  end function slope_coefficients
+
+  !> Pressure at one `r`, length; force per length squared, 0 outside of the contact.
+  pure function pressure_at(self, r) result(pressure)
+    class(fuge_round_contact), intent(in) :: self
+    real(dp), intent(in) :: r
+    real(dp) :: pressure
+    real(dp) :: one(1)
+
+    one = self%pressures_at([r])
+    pressure = one(1)
+  end function pressure_at
+
+  !> Pressures at several `r`, length; (size(r)), force per length squared, 0 outside of the contact. In the tip of a
+  !> cone the pressure is infinite: the result is the largest number.
+  pure function pressures_at(self, r) result(pressure)
+    class(fuge_round_contact), intent(in) :: self
+    real(dp), intent(in) :: r(:)
+    real(dp) :: pressure(size(r))
+    real(dp), allocatable :: node(:), weight(:)
+    integer :: k
+
+    pressure = 0.0_dp
+    if (.not. self%radius > 0.0_dp) return
+    allocate (node(nodes_of(self%transform)), weight(nodes_of(self%transform)))
+    call gauss_rule(node, weight)
+    do k = 1, size(r)
+      if (.not. abs(r(k)) > 0.0_dp .and. self%transform%tip > 0.0_dp) then
+        pressure(k) = huge(1.0_dp)
+      else if (abs(r(k)) < self%radius) then
+        pressure(k) = self%e_star/PI*pressure_integral(self%transform, abs(r(k)), node, weight)
+      end if
+    end do
+  end function pressures_at
+
+  !> Nodes for a panel: half of the degree of g', and some more.
+  pure function nodes_of(transform) result(nodes)
+    type(abel_transform), intent(in) :: transform
+    integer :: nodes
+
+    nodes = size(transform%coefficients)/2 + MORE_NODES
+    if (size(transform%powers) > 0) nodes = nodes + int(min(200.0_dp, 0.5_dp*maxval(transform%powers)))
+  end function nodes_of
+
+  !> The integral of g'(t)/sqrt(t**2 - r**2) dt from `r` to the radius; no unit.
+  !>
+  !> Panel by panel from the rim. Close to the axis only g'(0) is left, unless there are powers between 1 and 2.
+  pure function pressure_integral(transform, r, node, weight) result(integral)
+    type(abel_transform), intent(in) :: transform
+    real(dp), intent(in) :: r, node(:), weight(:)
+    real(dp) :: integral
+    real(dp) :: ratio, length, upper, lower, part(size(node))
+
+    integral = 0.0_dp
+    ratio = max(r/transform%radius, tiny(1.0_dp))
+    length = acosh_of(ratio, (transform%radius - r)/transform%radius)
+    upper = length
+    do while (upper > 0.0_dp)
+      if (length - upper > LAST_PANEL .and. .not. size(transform%powers) > 0) exit
+      lower = max(0.0_dp, upper - PANEL)
+      part = min(1.0_dp, ratio*cosh(lower + (upper - lower)*node))
+      integral = integral + (upper - lower)*dot_product(weight, transform%slopes(part))
+      upper = lower
+    end do
+    integral = integral + max(0.0_dp, upper)*transform%tip
+  end function pressure_integral
+
+  !> arcosh(1/ratio), with 1 - ratio given.
+  pure function acosh_of(ratio, rest) result(angle)
+    real(dp), intent(in) :: ratio, rest
+    real(dp) :: angle
+
+    angle = log((1.0_dp + sqrt(rest*(1.0_dp + ratio)))/ratio)
+    if (rest < 0.5_dp) angle = asinh(sqrt(rest*(1.0_dp + ratio))/ratio)
+  end function acosh_of
+
+  !> Gap at one `r`, length, where the initial gap is `initial_gap`, length.
+  pure function gap_at(self, r, initial_gap) result(gap)
+    class(fuge_round_contact), intent(in) :: self
+    real(dp), intent(in) :: r, initial_gap
+    real(dp) :: gap
+    real(dp) :: one(1)
+
+    one = self%gaps_at([r], [initial_gap])
+    gap = one(1)
+  end function gap_at
+
+  !> Gaps at several `r`, length, where the initial gaps are `initial_gap` (size(r)), length.
+  pure function gaps_at(self, r, initial_gap) result(gap)
+    class(fuge_round_contact), intent(in) :: self
+    real(dp), intent(in) :: r(:), initial_gap(:)
+    real(dp) :: gap(size(r))
+    real(dp), allocatable :: node(:), weight(:)
+    integer :: k
+
+    gap = initial_gap - self%approach
+    if (.not. self%radius > 0.0_dp) return
+    k = nodes_of(self%transform)
+    if (size(self%transform%powers) > 0) k = AXIS_POWER*k
+    allocate (node(k), weight(k))
+    call gauss_rule(node, weight)
+    if (size(self%transform%powers) > 0) then
+      weight = real(AXIS_POWER, dp)*node**(AXIS_POWER - 1)*weight
+      node = node**AXIS_POWER
+    end if
+    do k = 1, size(r)
+      if (abs(r(k)) > self%radius) then
+        gap(k) = gap(k) + displacement_integral(self%transform, abs(r(k)), node, weight)
+      else
+        gap(k) = 0.0_dp
+      end if
+    end do
+  end function gaps_at
+
+  !> The displacement at `r` beside the contact; length.
+  pure function displacement_integral(transform, r, node, weight) result(displacement)
+    type(abel_transform), intent(in) :: transform
+    real(dp), intent(in) :: r, node(:), weight(:)
+    real(dp) :: displacement
+    real(dp), dimension(size(node)) :: angle, part
+    real(dp) :: ratio, rim_angle
+
+    ratio = r/transform%radius
+    rim_angle = atan2(1.0_dp, sqrt(((r - transform%radius)/transform%radius)*(ratio + 1.0_dp)))
+    angle = rim_angle*node
+    part = min(1.0_dp, ratio*sin(angle))
+    displacement = 2.0_dp/PI*r*rim_angle*dot_product(weight, transform%slopes(part)*angle*cos(angle))
+  end function displacement_integral
+
+end module fuge_round_contact_type
