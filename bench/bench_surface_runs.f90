@@ -1,0 +1,96 @@
+!> Repeated solves of a contact on an area: the first of an operator, the following ones, residual and errors.
+module bench_surface_runs
+  use bench_records, only: bench_row, element_name
+  use bench_surface_judge, only: surface_judge
+  use bench_surfaces, only: bench_surface, set_operator
+  use bench_transforms, only: forget_wisdom
+  use bench_watch, only: stopwatch
+  use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
+    fuge_solver, FUGE_ITERATIVE
+  implicit none
+  private
+
+  public :: new_area_row, run_area
+
+  !> The times of an operator and of its solves.
+  type :: area_watches
+    type(stopwatch) :: setup, first, repeated
+  end type area_watches
+
+contains
+
+  function new_area_row(surface) result(row)
+    type(bench_surface), intent(in) :: surface
+    type(bench_row) :: row
+
+    row%problem = surface%name
+    row%method = 'iterative_fft'
+    row%n = size(surface%gap)
+    row%element = element_name(surface%element)
+  end function new_area_row
+
+  !> Times, products and errors of solves to `tolerance`, by one thread.
+  subroutine run_area(surface, tolerance, judge, row, force)
+    type(bench_surface), intent(in) :: surface
+    real(dp), intent(in) :: tolerance
+    type(surface_judge), intent(inout) :: judge
+    type(bench_row), intent(inout) :: row
+    real(dp), intent(out), optional :: force(:)
+    type(area_watches) :: watches
+    type(fuge_solution) :: solution
+    type(fuge_info) :: info
+
+    do while (.not. watches%first%enough())
+      call solve_twice(surface, fuge_options(FUGE_ITERATIVE, tolerance=tolerance), watches, solution, info)
+      if (info%failed()) exit
+    end do
+    row%tolerance = tolerance
+    row%setup = watches%setup%best
+    row%first = watches%first%best
+    row%time = watches%repeated%best
+    row%work = info%products
+    row%preconditionings = info%preconditionings
+    row%failure = ''
+    if (info%status /= 0) row%failure = info%message(:len(row%failure))
+    if (info%failed()) return
+    call judge%judge(surface, solution%force, row)
+    if (present(force)) force = solution%force
+  end subroutine run_area
+
+  !> By a new operator and by the same again, each time by a new solver.
+  subroutine solve_twice(surface, options, watches, solution, info)
+    type(bench_surface), intent(in) :: surface
+    type(fuge_options), intent(in) :: options
+    type(area_watches), intent(inout) :: watches
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_halfspace_operator) :: operator
+    type(fuge_problem) :: contact
+
+    contact = surface%contact()
+    ! What FFTW remembers of earlier plans, a first solve would not have.
+    call forget_wisdom()
+    call watches%first%start()
+    call watches%setup%start()
+    call set_operator(surface, operator)
+    call watches%setup%stop()
+    call solve_cold(operator, contact, options, solution, info)
+    call watches%first%stop()
+    if (info%failed()) return
+    call watches%repeated%start()
+    call solve_cold(operator, contact, options, solution, info)
+    call watches%repeated%stop()
+  end subroutine solve_twice
+
+  subroutine solve_cold(operator, contact, options, solution, info)
+    type(fuge_halfspace_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: contact
+    type(fuge_options), intent(in) :: options
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_solver) :: solver
+
+    call solver%solve(operator, contact, solution, info, options)
+  end subroutine solve_cold
+
+end module bench_surface_runs
