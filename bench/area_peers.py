@@ -4,10 +4,10 @@
 
 `quick` gives a code less time, `once` does not repeat fast solves.
 
-Reads each DIRECTORY/NAME.area and NAME.gaps; writes the forces found to NAME.METHODTOLERANCE and a line for each solve to
-area_answers.csv: name, method, tolerance, time, nothing, memory, failure. The program `judge_surfaces` does the rest. Each
-code runs in a process of its own, with one thread; the time is from the gaps to the pressures, operator included.
-ASPHER is measured as its documentation solves by FFT, and with the settings that are fastest here: nested grids, the
+Reads each DIRECTORY/NAME.area and NAME.gaps; writes the forces found to NAME.METHODTOLERANCE and a line for each solve
+to area_answers.csv: name, method, tolerance, time, nothing, memory, failure. The program `judge_surfaces` does the
+rest. Each code runs in a process of its own, with one thread; the time is from the gaps to the pressures, operator
+included. ASPHER is measured as its documentation solves by FFT, and with the settings that are fastest here: nested grids, the
 preconditioner by FFT, single precision first.
 """
 import glob

@@ -1,5 +1,5 @@
-!> Residual and errors of forces on an area, the same for all solvers, from the forces alone and by a product of its own:
-!> exact coefficients of Love on a free half-space, the spectrum on a periodic one.
+!> Residual and errors of forces on an area, the same for all solvers, from the forces alone and by a product of its
+!> own: exact coefficients of Love on a free half-space, the spectrum on a periodic one.
 module bench_surface_judge
   use bench_records, only: bench_row
   use bench_surfaces, only: bench_surface

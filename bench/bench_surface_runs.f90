@@ -1,7 +1,6 @@
-!> Repeated solves of a contact on an area: the first of an operator, the following ones, residual and errors.
+!> Repeated solves of a contact on an area: the first of an operator, and the following ones.
 module bench_surface_runs
   use bench_records, only: bench_row, element_name
-  use bench_surface_judge, only: surface_judge
   use bench_surfaces, only: bench_surface, set_operator
   use bench_transforms, only: forget_wisdom
   use bench_watch, only: stopwatch
@@ -29,13 +28,12 @@ contains
     row%element = element_name(surface%element)
   end function new_area_row
 
-  !> Times, products and errors of solves to `tolerance`, by one thread.
-  subroutine run_area(surface, tolerance, judge, row, force)
+  !> Times and products of solves to `tolerance`, by one thread. `force` (n*n): the answer, if there is one.
+  subroutine run_area(surface, tolerance, row, force)
     type(bench_surface), intent(in) :: surface
     real(dp), intent(in) :: tolerance
-    type(surface_judge), intent(inout) :: judge
     type(bench_row), intent(inout) :: row
-    real(dp), intent(out), optional :: force(:)
+    real(dp), allocatable, intent(out), optional :: force(:)
     type(area_watches) :: watches
     type(fuge_solution) :: solution
     type(fuge_info) :: info
@@ -52,9 +50,7 @@ contains
     row%preconditionings = info%preconditionings
     row%failure = ''
     if (info%status /= 0) row%failure = info%message(:len(row%failure))
-    if (info%failed()) return
-    call judge%judge(surface, solution%force, row)
-    if (present(force)) force = solution%force
+    if (present(force) .and. .not. info%failed()) call move_alloc(solution%force, force)
   end subroutine run_area
 
   !> By a new operator and by the same again, each time by a new solver.

@@ -131,8 +131,8 @@ contains
     row%limit = question%limit
     row%failure = field(line, FAILURE)
     if (row%failure == '') then
-      open (newunit=unit, file=stem//'.'//trim(field(line, METHOD))//field(line, TOLERANCE), access='stream', form='unformatted', &
-            status='old', action='read')
+      open (newunit=unit, file=stem//'.'//trim(field(line, METHOD))//field(line, TOLERANCE), access='stream', &
+            form='unformatted', status='old', action='read')
       read (unit) force
       close (unit)
       if (allocated(question%problem%alpha)) then

@@ -83,26 +83,38 @@ contains
     type(settings), intent(in) :: chosen
     type(bench_surface) :: surface
     type(surface_judge) :: judge
-    type(bench_row) :: row
     integer :: k
 
     call make_surface(name, n, surface)
     if (chosen%writes) call write_surface(chosen%directory, surface)
     call judge%prepare(surface, by_waves=.false.)
     do k = 1, size(tolerances)
-      row = new_area_row(surface)
-      call run_area(surface, tolerances(k), judge, row)
-      call write_row(chosen%table, row)
+      call solve_and_judge(surface, tolerances(k), judge, 'iterative_fft', chosen%table)
     end do
     call judge%free()
   end subroutine solve_surface
+
+  subroutine solve_and_judge(surface, tolerance, judge, method, table)
+    type(bench_surface), intent(in) :: surface
+    real(dp), intent(in) :: tolerance
+    type(surface_judge), intent(inout) :: judge
+    character(len=*), intent(in) :: method
+    integer, intent(in) :: table
+    type(bench_row) :: row
+    real(dp), allocatable :: force(:)
+
+    row = new_area_row(surface)
+    row%method = method
+    call run_area(surface, tolerance, row, force)
+    if (allocated(force)) call judge%judge(surface, force, row)
+    call write_row(table, row)
+  end subroutine solve_and_judge
 
   subroutine run_orders(element, chosen)
     integer, intent(in) :: element
     type(settings), intent(in) :: chosen
     type(bench_surface) :: surface
     type(surface_judge) :: judge
-    type(bench_row) :: row
     real(dp) :: last
     integer :: k, grids_used
 
@@ -111,10 +123,7 @@ contains
     do k = 0, grids_used - 1
       call make_sphere(nint(FEWEST*(last/FEWEST)**(real(k, dp)/real(grids_used - 1, dp))), element, surface)
       call judge%prepare(surface, by_waves=.false.)
-      row = new_area_row(surface)
-      call run_area(surface, OF_ORDERS, judge, row)
-      row%method = 'order'
-      call write_row(chosen%table, row)
+      call solve_and_judge(surface, OF_ORDERS, judge, 'order', chosen%table)
     end do
     call judge%free()
   end subroutine run_orders
