@@ -2,17 +2,15 @@
 !>
 !>     area_growth DIRECTORY NAME N
 !>
-!> NAME is sphere, light_area or heavy_area, on N x N cells. Appends to DIRECTORY/results.csv; the limit is as many pairs
-!> of bare transforms as the solve makes products and preconditionings.
+!> NAME is sphere, light_area or heavy_area, on N x N cells. Appends to DIRECTORY/results.csv; the limit is the
+!> time of the products and preconditionings alone.
 program area_growth
   use bench_memory, only: forget_peak, peak_resident, resident
   use bench_records, only: bench_row, open_table, write_row
-  use bench_surface_runs, only: new_area_row, run_area
-  use bench_surfaces, only: bench_surface, make_surface
-  use bench_transforms, only: grid_transform
+  use bench_surface_runs, only: new_area_row, run_area, time_products
+  use bench_surfaces, only: bench_surface, make_surface, set_operator
   use bench_watch, only: stopwatch
-  use fuge, only: dp => fuge_dp, FUGE_FREE
-  use fuge_fft, only: good_length
+  use fuge, only: dp => fuge_dp, fuge_halfspace_operator
   implicit none
 
   real(dp), parameter :: OF_SPHERE = 1.0e-10_dp, OF_ROUGH = 1.0e-8_dp
@@ -43,41 +41,22 @@ contains
     before = resident()
     call run_area(surface, merge(OF_SPHERE, OF_ROUGH, name == 'sphere'), row)
     if (forgotten .and. before > 0.0_dp) row%memory = peak_resident() - before
-    row%limit = time_of_transforms(surface, row)
+    row%limit = time_of_products(surface, row)
     call open_table(directory, table)
     call write_row(table, row)
     close (table)
   end subroutine run
 
-  function time_of_transforms(surface, row) result(time)
+  function time_of_products(surface, row) result(time)
     type(bench_surface), intent(in) :: surface
     type(bench_row), intent(in) :: row
     real(dp) :: time
+    type(fuge_halfspace_operator) :: operator
+    type(stopwatch) :: product, preconditioning
 
-    if (surface%boundary == FUGE_FREE) then
-      time = row%work*pair(good_length(2*surface%n - 1)) + row%preconditionings*pair(good_length(surface%n))
-    else
-      time = (row%work + row%preconditionings)*pair(surface%n)
-    end if
-  end function time_of_transforms
-
-  !> The time of a pair of bare transforms of length x length numbers.
-  function pair(length) result(time)
-    integer, intent(in) :: length
-    real(dp) :: time
-    type(grid_transform) :: transform
-    type(stopwatch) :: watch
-
-    call transform%create(length, length)
-    do while (.not. watch%enough())
-      call watch%start()
-      call transform%forward()
-      call transform%backward()
-      call watch%stop()
-      transform%values = 0.0_dp
-    end do
-    time = watch%best
-    call transform%free()
-  end function pair
+    call set_operator(surface, operator)
+    call time_products(surface, operator, product, preconditioning)
+    time = row%work*product%best + row%preconditionings*preconditioning%best
+  end function time_of_products
 
 end program area_growth

@@ -1,15 +1,16 @@
-!> Repeated solves of a contact on an area: the first of an operator, and the following ones.
+!> Repeated solves of a contact on an area: the first of an operator, and the following ones; and what bounds them.
 module bench_surface_runs
   use bench_records, only: bench_row, element_name
   use bench_surfaces, only: bench_surface, set_operator
-  use bench_transforms, only: forget_wisdom
+  use bench_transforms, only: forget_wisdom, grid_transform
   use bench_watch, only: stopwatch
   use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    fuge_solver, FUGE_ITERATIVE
+    fuge_solver, FUGE_FREE, FUGE_ITERATIVE
+  use fuge_fft, only: good_length
   implicit none
   private
 
-  public :: new_area_row, run_area
+  public :: new_area_row, run_area, time_products
 
   !> The times of an operator and of its solves.
   type :: area_watches
@@ -88,5 +89,55 @@ contains
 
     call solver%solve(operator, contact, solution, info, options)
   end subroutine solve_cold
+
+  !> The least time of one product, and of one preconditioning: the operator's own, or a pair of bare transforms in
+  !> place of the whole padded grid, forward and back. Call it between the solves that it bounds.
+  subroutine time_products(surface, operator, product, preconditioning)
+    type(bench_surface), intent(in) :: surface
+    type(fuge_halfspace_operator), intent(in) :: operator
+    type(stopwatch), intent(inout) :: product, preconditioning
+    real(dp), allocatable :: force(:), displacement(:)
+    integer, parameter :: RUNS = 3
+    integer :: k, status
+
+    allocate (force(size(surface%gap)), source=1.0_dp)
+    allocate (displacement(size(surface%gap)), source=0.0_dp)
+    do k = 1, RUNS
+      call product%start()
+      call operator%apply(force, displacement, status)
+      call product%stop()
+      if (status /= 0) error stop 'no product'
+      call preconditioning%start()
+      call operator%precondition(force, displacement, status)
+      call preconditioning%stop()
+      if (status /= 0) error stop 'no preconditioning'
+    end do
+    deallocate (force, displacement)
+    if (surface%boundary == FUGE_FREE) then
+      call time_pairs(good_length(2*surface%n - 1), RUNS, product)
+      call time_pairs(good_length(surface%n), RUNS, preconditioning)
+    else
+      call time_pairs(surface%n, RUNS, product)
+      call time_pairs(surface%n, RUNS, preconditioning)
+    end if
+  end subroutine time_products
+
+  !> Pairs of bare transforms of length x length numbers, in place.
+  subroutine time_pairs(length, runs, watch)
+    integer, intent(in) :: length, runs
+    type(stopwatch), intent(inout) :: watch
+    type(grid_transform) :: transform
+    integer :: k
+
+    call transform%create(length, length)
+    do k = 1, runs
+      call watch%start()
+      call transform%forward()
+      call transform%backward()
+      call watch%stop()
+      transform%values = 0.0_dp
+    end do
+    call transform%free()
+  end subroutine time_pairs
 
 end module bench_surface_runs

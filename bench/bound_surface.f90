@@ -1,18 +1,18 @@
-!> Solves on areas beside their bounds: as many pairs of bare transforms, forward and back, as a solve makes products and
-!> preconditionings, of the padded grids of these; a repeated solve for the first of an operator; the window of the
-!> contact for a sphere that touches 1 % of the grid.
+!> Solves on areas beside their bounds: the products and preconditionings that a solve makes, or as many pairs of bare
+!> transforms if these are faster; a repeated solve for the first of an operator; the window of the contact for a
+!> sphere that touches 1 % of the grid.
 !>
 !> Prints rows | problem | bound | fuge | ratio | wanted | to standard output, times in milliseconds. Both sides
 !> alternate and the least time of each counts, because other programs may run.
 program bound_surface
   use, intrinsic :: iso_fortran_env, only: output_unit
   use bench_problems, only: whole
+  use bench_surface_runs, only: time_products
   use bench_surfaces, only: bench_surface, make_sphere, make_surface, set_operator
-  use bench_transforms, only: forget_wisdom, grid_transform
+  use bench_transforms, only: forget_wisdom
   use bench_watch, only: stopwatch
   use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    fuge_solver, FUGE_CENTRE, FUGE_FREE, FUGE_ITERATIVE
-  use fuge_fft, only: good_length
+    fuge_solver, FUGE_CENTRE, FUGE_ITERATIVE
   implicit none
 
   !> Largest wanted ratios: of a solve, of a first solve, of a contact that fills 1 % of the grid.
@@ -72,34 +72,15 @@ contains
     call set_operator(surface, operator)
     call solve_once(surface, operator, info)
     do k = 1, repeats
-      call time_pairs(merge(good_length(2*n - 1), n, surface%boundary == FUGE_FREE), product)
+      call time_products(surface, operator, product, preconditioning)
       call solve%start()
       call solve_once(surface, operator, info)
       call solve%stop()
-      call time_pairs(merge(good_length(n), n, surface%boundary == FUGE_FREE), preconditioning)
     end do
     call print_row(title(name, n)//', '//whole(info%products)//' + '//whole(info%preconditionings)//' transforms', &
                    real(info%products, dp)*product%best + real(info%preconditionings, dp)*preconditioning%best, &
                    solve%best, WANTED)
   end subroutine measure_solve
-
-  !> Pairs of bare transforms of length x length numbers, in place.
-  subroutine time_pairs(length, watch)
-    integer, intent(in) :: length
-    type(stopwatch), intent(inout) :: watch
-    type(grid_transform) :: transform
-    integer :: k
-
-    call transform%create(length, length)
-    do k = 1, 3
-      call watch%start()
-      call transform%forward()
-      call transform%backward()
-      call watch%stop()
-      transform%values = 0.0_dp
-    end do
-    call transform%free()
-  end subroutine time_pairs
 
   !> The first solve of an operator and a repeated one in turn.
   subroutine measure_first(name, n, repeats)
