@@ -49,7 +49,9 @@ def power(n):
 def memory(value):
     if value is None:
         return ""
-    return f"{value / 1e9:.2g} GB" if value >= 1e9 else f"{value / 1e6:.2g} MB"
+    if value >= 1e9:
+        return f"{value / 1e9:.2g} GB"
+    return f"{value / 1e6:.2g} MB" if value < 99.5e6 else f"{value / 1e6:.0f} MB"
 
 
 def table(head, rows):
