@@ -11,7 +11,8 @@ module bench_problems
   implicit none
   private
 
-  public :: make_known, make_random, make_rough, add_matrix, contact_problem, uniform_edges, graded_edges, whole
+  public :: make_known, make_random, make_rough, add_matrix, contact_problem, uniform_edges, graded_edges, &
+    next_uniform, whole
 
   !> Contacts with known answers.
   character(len=8), parameter, public :: KNOWN(6) = &

@@ -3,6 +3,7 @@
 !>     hard DIRECTORY write     writes the scenes
 !>     hard DIRECTORY           writes DIRECTORY/hard.md from the answers
 program hard
+  use bench_answers, only: field, FAILURE, METHOD, NAME, TOLERANCE
   use bench_problems, only: bench_problem, whole
   use bench_records, only: bench_row, write_problem
   use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET
@@ -16,10 +17,8 @@ program hard
   !> With a residual above this an answer counts as wrong.
   real(dp), parameter :: WRONG = 1.0e-6_dp
 
-  !> A line of answers.csv.
-  type :: answer_line
-    character(len=60) :: field(6) = ''
-  end type answer_line
+  !> Of a line of answers.csv.
+  integer, parameter :: LENGTH = 400
 
   call run()
 
@@ -28,7 +27,7 @@ contains
   subroutine run()
     character(len=256) :: directory
     character(len=8) :: word
-    type(answer_line), allocatable :: answers(:)
+    character(len=LENGTH), allocatable :: answers(:)
     integer :: number, unit
 
     call get_command_argument(1, directory)
@@ -70,23 +69,16 @@ contains
 
   subroutine read_answers(directory, answers)
     character(len=*), intent(in) :: directory
-    type(answer_line), allocatable, intent(out) :: answers(:)
-    type(answer_line) :: next
-    character(len=400) :: line
-    integer :: unit, stat, k, comma
+    character(len=LENGTH), allocatable, intent(out) :: answers(:)
+    character(len=LENGTH) :: line
+    integer :: unit, stat
 
     allocate (answers(0))
     open (newunit=unit, file=directory//'/answers.csv', status='old', action='read')
     do
       read (unit, '(a)', iostat=stat) line
       if (stat /= 0) exit
-      do k = 1, size(next%field)
-        comma = index(line, ',')
-        if (comma == 0) comma = len(line)
-        next%field(k) = line(:comma - 1)
-        line = line(comma + 1:)
-      end do
-      answers = [answers, next]
+      answers = [answers, line]
     end do
     close (unit)
   end subroutine read_answers
@@ -95,7 +87,7 @@ contains
     integer, intent(in) :: unit, number
     character(len=*), intent(in) :: directory
     type(hard_scene), intent(in) :: scene
-    type(answer_line), intent(in) :: answers(:)
+    character(len=LENGTH), intent(in) :: answers(:)
     type(fuge_solution) :: solution
     type(fuge_info) :: info
     character(len=:), allocatable :: line, stem
@@ -113,18 +105,16 @@ contains
     do peer = 1, size(PEERS)
       line = line//' | '
       do k = 1, size(answers)
-        associate (field => answers(k)%field)
-          if (field(1) /= stem .or. field(2) /= PEERS(peer)) cycle
-          if (field(6) /= '') then
-            line = line//trim(field(6))
-          else
-            open (newunit=forces, file=directory//'/'//stem//'.'//trim(PEERS(peer))//trim(field(3)), access='stream', &
-                  form='unformatted', status='old', action='read')
-            read (forces) force
-            close (forces)
-            line = line//judged(scene, force)
-          end if
-        end associate
+        if (field(answers(k), NAME) /= stem .or. field(answers(k), METHOD) /= PEERS(peer)) cycle
+        if (field(answers(k), FAILURE) /= '') then
+          line = line//field(answers(k), FAILURE)
+        else
+          open (newunit=forces, file=directory//'/'//stem//'.'//trim(PEERS(peer))//field(answers(k), TOLERANCE), &
+                access='stream', form='unformatted', status='old', action='read')
+          read (forces) force
+          close (forces)
+          line = line//judged(scene, force)
+        end if
       end do
     end do
     write (unit, '(a)') line//' |'

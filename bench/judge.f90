@@ -2,9 +2,10 @@
 !>
 !>     judge DIRECTORY
 !>
-!> reads DIRECTORY/answers.csv: a line with problem file, method, tolerance, time, residual and
-!> failure for each answer, whose forces are in a file of its own; appends to DIRECTORY/results.csv.
+!> reads DIRECTORY/answers.csv: a line with problem file, method, tolerance, time, residual,
+!> memory and failure for each answer, whose forces are in a file of its own; appends to DIRECTORY/results.csv.
 program judge_answers
+  use bench_answers, only: field, value, FAILURE, METHOD, NAME, RESIDUAL, TIME, TOLERANCE
   use bench_judge, only: judge
   use bench_problems, only: bench_problem, make_known, uniform_edges, KNOWN
   use bench_records, only: bench_row, open_table, write_row
@@ -38,7 +39,7 @@ contains
     do
       read (answers, '(a)', iostat=stat) line
       if (stat /= 0) exit
-      stem = trim(directory)//'/'//field(line, 1)
+      stem = trim(directory)//'/'//field(line, NAME)
       if (stem /= last) call read_problem(trim(stem), question)
       last = stem
       call judge_one(question, trim(stem), line, table)
@@ -46,33 +47,6 @@ contains
     close (answers)
     close (table)
   end subroutine run
-
-  !> Field `number` of a line.
-  pure function field(line, number) result(word)
-    character(len=*), intent(in) :: line
-    integer, intent(in) :: number
-    character(len=:), allocatable :: word
-    integer :: first, length, k
-
-    first = 1
-    do k = 1, number
-      length = index(line(first:), ',') - 1
-      if (length < 0) length = len_trim(line(first:))
-      word = line(first:first + length - 1)
-      first = min(first + length + 1, len(line))
-    end do
-  end function field
-
-  function value(word) result(found)
-    character(len=*), intent(in) :: word
-    real(dp) :: found
-    integer :: stat
-
-    found = -1.0_dp
-    if (word == '') return
-    read (word, *, iostat=stat) found
-    if (stat /= 0) error stop 'answers.csv: not a number'
-  end function value
 
   subroutine read_problem(stem, question)
     character(len=*), intent(in) :: stem
@@ -150,22 +124,22 @@ contains
     integer :: unit
 
     row = new_row(question%problem, trim(question%name))
-    row%method = field(line, 2)
-    row%tolerance = value(field(line, 3))
-    row%time = value(field(line, 4))
+    row%method = field(line, METHOD)
+    row%tolerance = value(field(line, TOLERANCE))
+    row%time = value(field(line, TIME))
     row%setup = question%setup
     row%limit = question%limit
-    row%failure = field(line, 6)
+    row%failure = field(line, FAILURE)
     if (row%failure == '') then
-      open (newunit=unit, file=stem//'.'//trim(field(line, 2))//field(line, 3), access='stream', form='unformatted', &
-            status='old', action='read')
+      open (newunit=unit, file=stem//'.'//trim(field(line, METHOD))//field(line, TOLERANCE), access='stream', &
+            form='unformatted', status='old', action='read')
       read (unit) force
       close (unit)
       if (allocated(question%problem%alpha)) then
         call operator%set(question%problem%alpha, info)
         call judge(question%problem, operator, force, question%force, row)
       else
-        call judge_profile(question, force, value(field(line, 5)), row)
+        call judge_profile(question, force, value(field(line, RESIDUAL)), row)
       end if
     end if
     call write_row(table, row)

@@ -5,7 +5,7 @@
 `quick` gives a solver less time, `once` does not repeat fast solves.
 
 Reads each DIRECTORY/NAME.txt and NAME.bin; writes the forces found to NAME.METHODTOLERANCE and a
-line for each solve to answers.csv: name, method, tolerance, time, residual, failure. The program
+line for each solve to answers.csv: name, method, tolerance, time, residual, memory, failure. The program
 `judge` does the rest. Every solver of quadratic programs gets the same scaled problem (largest
 diagonal of H 1, mean of F 1)
 
@@ -14,15 +14,11 @@ diagonal of H 1, mean of F 1)
 in a process of its own, with one thread. Settings are those with which a solver is fastest for
 the accuracy it reaches. Tamaas gets the profiles.
 """
-import os
-for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ[variable] = "1"
 import glob
-import multiprocessing
-import resource
-import signal
+import os
 import sys
-import time
+
+from peer_runs import Answers
 
 import daqp
 import numpy as np
@@ -33,10 +29,8 @@ import scipy.linalg
 import scipy.optimize
 import tamaas
 
-# Processor time in seconds until a solver is stopped; a solve is repeated for a fraction of a second.
+# Processor time in seconds until a solver is stopped.
 TIMEOUT, TIMEOUT_QUICK = 20, 5
-BUSY = 3
-PATIENCE = 0.0 if "once" in sys.argv else 0.1
 ROUGH_TOLERANCES = ["1e-2", "1e-4", "1e-6", "1e-8"]
 
 
@@ -119,62 +113,6 @@ QUADRATIC = [
 ]
 
 
-def in_short(error):
-    """A long message in short, without commas."""
-    words = str(error).lower().replace("_", " ").replace(",", " ")
-    for told, meant in (("positive definite", "not positive definite"), ("leading minor", "not positive definite"),
-                        ("max iter", "iteration limit"), ("infs or nans", "not finite")):
-        if told in words:
-            return meant
-    return (words.splitlines() or [type(error).__name__])[0][:40]
-
-
-def work(pipe, timeout, solver, *problem):
-    """In a process of its own: the forces, then the fastest time."""
-    resource.setrlimit(resource.RLIMIT_CPU, (timeout, timeout + 5))
-    quiet = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(quiet, 1)
-    os.dup2(quiet, 2)
-    try:
-        times = []
-        while not times or (sum(times) < 20 * PATIENCE and (len(times) < 3 or sum(times) < PATIENCE)):
-            start, processor = time.perf_counter(), time.thread_time()
-            force = solver(*problem)
-            spent = time.perf_counter() - start
-            # As in the benchmark, a long run counts by its processor time (that of the thread: under a
-            # limit the clock of the process moves in ticks).
-            times.append(min(spent, time.thread_time() - processor) if spent > 1e-3 else spent)
-        pipe.send((force, min(times), ""))
-    except Exception as error:
-        pipe.send((None, None, in_short(error)))
-
-
-def run(solver, timeout, *problem):
-    """Forces, time, failure."""
-    context = multiprocessing.get_context("fork")
-    ours, theirs = context.Pipe()
-    process = context.Process(target=work, args=(theirs, timeout, solver, *problem))
-    process.start()
-    theirs.close()
-    late = (None, None, f"more than {timeout} s")
-    try:
-        # On a busy machine processor time passes more slowly.
-        found = ours.recv() if ours.poll(BUSY * timeout) else late
-    except EOFError:
-        found = None
-    if found is late:
-        process.kill()
-    process.join()
-    if found is None:
-        found = late if process.exitcode == -signal.SIGXCPU else (None, None, "crash")
-    force, seconds, failure = found
-    if not failure:
-        force = np.asarray(force, float).ravel()
-        if not np.all(np.isfinite(force)):
-            failure = "not finite"
-    return force, seconds, failure
-
-
 def read_problem(path):
     """Header, gaps, tilt and its resultant, matrix."""
     with open(path + ".txt") as header:
@@ -215,30 +153,6 @@ def own_residual(force, gap, load, e_star, length):
                abs(force.sum() - load) / load)
 
 
-class Answers:
-    """Answers as files for `judge`; a solver that ran out of time on a smaller problem is not run again."""
-
-    def __init__(self, directory, timeout):
-        self.directory, self.timeout, self.given_up = directory, timeout, {}
-        self.out = open(os.path.join(directory, "answers.csv"), "w")
-        self.log = open(os.path.join(directory, "peers.log"), "w")
-
-    def add(self, name, method, tolerance, family, solver, problem, mean=1.0, judged=None):
-        failure = self.given_up.get((family, method))
-        if not failure:
-            force, seconds, failure = run(solver, self.timeout, *problem)
-            if failure.startswith("more than"):
-                self.given_up[family, method] = failure
-        residual = ""
-        if not failure:
-            (force * mean).tofile(os.path.join(self.directory, f"{name}.{method}{tolerance}"))
-            residual = f"{judged(force):.3e}" if judged else ""
-        fields = [name, method, tolerance, "" if failure else f"{seconds:.4e}", residual, failure]
-        self.out.write(",".join(fields) + "\n")
-        self.out.flush()
-        print(*fields, file=self.log, flush=True)
-
-
 def measure(answers, directory, name):
     fields, gap, tilt, moment, matrix = read_problem(os.path.join(directory, name))
     n, load, family = len(gap), float(fields["load"]), fields["problem"]
@@ -258,7 +172,7 @@ def measure(answers, directory, name):
 def main():
     directory = sys.argv[1]
     names = [os.path.basename(path)[:-4] for path in glob.glob(os.path.join(directory, "*_*.txt"))]
-    answers = Answers(directory, TIMEOUT_QUICK if "quick" in sys.argv[2:] else TIMEOUT)
+    answers = Answers(directory, "answers.csv", TIMEOUT_QUICK if "quick" in sys.argv[2:] else TIMEOUT)
     family = ""
     # Smaller problems first.
     for name in sorted(names, key=lambda name: (name.split("_")[0], int(name.split("_")[1]))):

@@ -2,7 +2,7 @@
 
     python report.py DIRECTORY [DOCUMENT ...]
 
-writes DIRECTORY/speed_error.csv, growth.csv and tables.md; in each DOCUMENT it replaces the text
+writes DIRECTORY/speed_error.csv, growth.csv, area_growth.csv and tables.md; in each DOCUMENT it replaces the text
 between `<!-- NAME begin -->` and `<!-- NAME end -->`. Needs only Python. What was not measured is
 omitted.
 """
@@ -13,72 +13,18 @@ import re
 import statistics
 import sys
 
+import area_report
+from report_text import Table, cell, fit, memory, power, seconds, short, table, total
+
 KNOWN = ("quartic", "cylinder", "wave", "flat", "tilted", "lifted")
-PEERS = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls", "tamaas")
+PEERS = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls", "tamaas", *area_report.CODES)
 # Programs bound_*, each a part of one table.
-BOUNDS = ("dense", "path", "fft", "condensation")
+BOUNDS = ("dense", "path", "fft", "surface", "condensation")
 ENGINES = ("tableau", "active_set", "iterative_dense", "iterative_fft")
 # Errors that differ by less are rounding and the remaining residual of the solve.
 ROUNDING = 2e-12
 # Less memory than this is that of the program itself.
 SMALL = 8e6
-
-
-class Table:
-    """The rows of results.csv, their figures as numbers or None."""
-
-    WORDS = ("problem", "method", "element", "failure")
-
-    def __init__(self, path):
-        with open(path) as table:
-            self.rows = [{key: value if key in self.WORDS else float(value) if value else None
-                          for key, value in row.items()} for row in csv.DictReader(table)]
-        for row in self.rows:
-            row["n"] = int(row["n"])
-
-    def where(self, **wanted):
-        return [row for row in self.rows if all(row[key] == value for key, value in wanted.items())]
-
-    def one(self, **wanted):
-        found = self.where(**wanted)
-        return found[0] if found else None
-
-
-def seconds(value):
-    if value is None:
-        return ""
-    if value >= 1.0:
-        return f"{value:.2g} s" if value < 9.95 else f"{value:.0f} s"
-    scale, unit = (1e3, "ms") if value >= 1e-3 else (1e6, "us")
-    value *= scale
-    return f"{value:.2g} {unit}" if value < 99.5 else f"{value:.0f} {unit}"
-
-
-def short(value):
-    """Such as 2e-5; 0 for zero."""
-    if value is None:
-        return ""
-    return "0" if value == 0.0 else re.sub(r"e([+-])0*(\d+)", r"e\g<1>\2", f"{value:.0e}").replace("e+", "e")
-
-
-def power(n):
-    return f"2^{n.bit_length() - 1}" if n & (n - 1) == 0 and n > 4096 else str(n)
-
-
-def memory(value):
-    if value is None:
-        return ""
-    return f"{value / 1e9:.2g} GB" if value >= 1e9 else f"{value / 1e6:.2g} MB"
-
-
-def table(head, rows):
-    """Markdown, the first column to the left."""
-    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
-    return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
-
-
-def total(row):
-    return None if row["time_s"] is None else row["time_s"] + (row["setup_s"] or 0.0)
 
 
 def label(method):
@@ -125,6 +71,9 @@ def write_picture(path, data):
     points += solver_points(data, "random", largest(data, "random", 800))
     for problem in ("light", "heavy"):
         points += solver_points(data, problem, largest(data, problem, 65536))
+    points += area_report.sphere_points(data)
+    for problem in area_report.ROUGH:
+        points += solver_points(data, problem, largest(data, problem, area_report.PICTURE))
     limit = {panel: max((p[4] for p in points if p[0] == panel and p[4]), default=1.0) for panel in {p[0] for p in points}}
     with open(path, "w", newline="") as out:
         writer = csv.writer(out, lineterminator="\n")
@@ -206,16 +155,6 @@ def order_table(data):
     return table(head, rows)
 
 
-def fit(points):
-    if len(points) < 4:
-        return "", ""
-    line = statistics.linear_regression(*zip(*points))
-    rest = [y - line.intercept - line.slope * x for x, y in points]
-    spread = math.sqrt(sum(r * r for r in rest) / (len(points) - 2)
-                       / sum((x - statistics.fmean(x for x, _ in points)) ** 2 for x, _ in points))
-    return f"{-line.slope:.2f} +- {spread:.2f}", short(math.exp(line.intercept))
-
-
 def dense_table(data):
     """fuge's dense engines and the peers: time and residual; the limit."""
     columns = [("quartic", n) for n in (64, 256, 1024)] + [("random", n) for n in (50, 200, 800, 2000)]
@@ -237,14 +176,6 @@ def dense_table(data):
 
 
 NAMES = {"daqp": "DAQP", "piqp": "PIQP, 1e-12", "proxqp": "ProxQP, 1e-9", "quadprog": "quadprog", "scipy_nnls": "scipy nnls"}
-
-
-def cell(row):
-    if row is None:
-        return ""
-    if row["time_s"] is None:
-        return row["failure"]
-    return f"{seconds(row['time_s'])} {short(row['residual'])}" + (f" ({row['failure'][:20]})" if row["failure"] else "")
 
 
 def products_table(data):
@@ -349,9 +280,10 @@ def main():
     data = Table(os.path.join(directory, "results.csv"))
     write_picture(os.path.join(directory, "speed_error.csv"), data)
     write_growth(os.path.join(directory, "growth.csv"), data)
+    area_report.write_growth(os.path.join(directory, "area_growth.csv"), data)
     parts = {"machine": machine(directory), "choice": choice_table(data), "orders": order_table(data),
              "dense": dense_table(data), "products": products_table(data), "growth": growth_table(data),
-             "crossings": crossing_list(data), "bound": bound_table(directory), "accuracy": accuracy_table(directory)}
+             "crossings": crossing_list(data), "bound": bound_table(directory), "accuracy": accuracy_table(directory), **area_report.tables(data)}
     with open(os.path.join(directory, "tables.md"), "w") as out:
         out.write("\n".join(parts.values()))
     for path in sys.argv[2:]:

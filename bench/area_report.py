@@ -1,0 +1,112 @@
+"""Tables and pictures of areas, for report.py."""
+import csv
+import math
+import statistics
+
+from report_text import cell, fit, memory, seconds, short, table, total
+
+ROUGH = ("light_area", "heavy_area")
+# Codes that solve nothing but areas, and all of them.
+CODES = ("aspher", "aspher_nested", "contactmechanics")
+ALL_CODES = {"aspher": "ASPHER", "aspher_nested": "ASPHER, nested", "tamaas": "Tamaas",
+             "contactmechanics": "ContactMechanics"}
+NAMES = {"sphere": "sphere", "light_area": "rough, light", "heavy_area": "rough, heavy"}
+# Points of the largest rough surface that is in the picture.
+PICTURE = 512**2
+# The size at which the orders give an error, in cells along a side.
+AT = 256
+# Errors that differ by less are rounding, and the remaining residual of the solve.
+ROUNDING = 1e-11
+TOLERANCE = {"sphere": 1e-10, "light_area": 1e-8, "heavy_area": 1e-8}
+
+
+def side(row):
+    return math.isqrt(row["n"])
+
+
+def sphere_points(data):
+    """Error of the pressure over the time from the gaps to the answer."""
+    grid = {row["n"]: row["error_pressure"] for row in data.where(problem="sphere", method="iterative_fft")}
+    for row in data.where(problem="sphere"):
+        if row["method"] == "iterative_fft" or row["method"] in ALL_CODES:
+            # A failure is placed at the error that its grid would have had.
+            yield ("sphere", row["method"], row["n"], row["error_pressure"] or grid.get(row["n"]), total(row),
+                   row["failure"])
+
+
+def growth(data, problem, method):
+    """Rows by size: those of fuge are measured in processes of their own."""
+    if method == "fuge":
+        found = data.where(problem="area_growth", method=problem)
+    else:
+        found = data.where(problem=problem, method=method, tolerance=TOLERANCE[problem], failure="")
+    return sorted(found, key=lambda row: row["n"])
+
+
+def write_growth(path, data):
+    with open(path, "w", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(["curve", "n", "time_s", "memory_bytes"])
+        for problem in NAMES:
+            for method in ("fuge", *(ALL_CODES if problem == "sphere" else ())):
+                for row in growth(data, problem, method):
+                    writer.writerow([f"{method}_{problem}", side(row), f"{total(row):.3e}",
+                                     "" if row["memory_bytes"] is None else f"{row['memory_bytes']:.3e}"])
+
+
+def comparison_table(data):
+    """First solves of all codes, and how often fuge's fits into that of the fastest other one."""
+    rows = []
+    for problem in NAMES:
+        for own in data.where(problem=problem, method="iterative_fft", tolerance=TOLERANCE[problem]):
+            peers = [data.one(problem=problem, n=own["n"], method=method, tolerance=TOLERANCE[problem])
+                     for method in ALL_CODES]
+            times = [row["time_s"] for row in peers if row and not row["failure"]]
+            n = side(own)
+            rows.append([f"{NAMES[problem]}, {n} x {n}", f"{100.0 * own['unknowns'] / own['n']:.0f} %",
+                         f"{own['products_or_pivots']:.0f} + {own['preconditionings']:.0f}",
+                         f"**{seconds(own['first_s'])}** {short(own['residual'])}", seconds(own["time_s"]),
+                         *map(cell, peers), f"{min(times) / own['first_s']:.1f}" if times else ""])
+    head = ["problem", "in contact", "products + preconditioner", "fuge: operator and first solve", "next solve",
+            *ALL_CODES.values(), "fastest other one over fuge"]
+    return table(head, rows)
+
+
+def order_table(data):
+    rows = []
+    for element in ("centre", "mean"):
+        cells = [f"sphere, {element}"]
+        for column in ("error_peak", "error_pressure", "error_approach", "error_halfwidth"):
+            points = [(math.log(side(row) / AT), math.log(row[column]))
+                      for row in data.where(problem="sphere", method="order", element=element)
+                      if row[column] and row[column] > ROUNDING]
+            cells += list(fit(points))
+        rows.append(cells)
+    head = [f"order, error at {AT} x {AT}", "largest pressure", "", "pressure", "", "approach", "", "radius", ""]
+    return table(head, rows)
+
+
+def growth_table(data):
+    rows = []
+    for problem, name in NAMES.items():
+        for method in ("fuge", *ALL_CODES):
+            curve = growth(data, problem, method)
+            if len(curve) < 4:
+                continue
+            last = curve[-1]
+            cells = [f"{name}, {ALL_CODES.get(method, '**fuge**')}", f"{side(curve[0])} .. {side(last)}"]
+            for value in (total, lambda row: row["memory_bytes"]):
+                points = [(math.log(side(row)), math.log(value(row))) for row in curve[-max(3, len(curve) // 2):]
+                          if value(row)]
+                cells.append(f"n^{statistics.linear_regression(*zip(*points)).slope:.1f}" if len(points) > 2 else "")
+            cells += [seconds(total(last)), memory(last["memory_bytes"]),
+                      f"{last['memory_bytes'] / last['n']:.0f}" if last["memory_bytes"] else "",
+                      f"{last['time_over_limit']:.2f}" if last["time_over_limit"] else ""]
+            rows.append(cells)
+    head = ["problem", "n", "time grows", "memory grows", "largest n: first solve", "memory", "bytes per cell",
+            "next solve over its products"]
+    return table(head, rows)
+
+
+def tables(data):
+    return {"areas": comparison_table(data), "area_orders": order_table(data), "area_growth": growth_table(data)}
