@@ -3,8 +3,7 @@
 module fuge_halfspace_fft
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_constants, only: LARGEST_EXPONENT_OF_4
-  use fuge_fft, only: good_length
-  use fuge_grid_convolution, only: grid_kernel, grid_plan
+  use fuge_grid_convolution, only: fast_length, grid_kernel, grid_plan
   use fuge_grid_store, only: grid_store
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: FUGE_MEAN
@@ -196,7 +195,7 @@ contains
     integer :: length(2)
 
     length = operator%cells
-    where (.not. periodic(operator) .and. length > 1) length = [good_length(length(1)), good_length(length(2))]
+    where (.not. periodic(operator) .and. length > 1) length = [fast_length(length(1)), fast_length(length(2))]
     if (any(length < 1) .or. any(length > MOST_CELLS)) then
       call report(info, FUGE_ERR_MEMORY, 'nx = '//text(operator%cells(1))//', ny = '//text(operator%cells(2)) &
                   //': a direction has at most '//text(MOST_CELLS)//' cells')
@@ -355,7 +354,8 @@ contains
     integer, intent(out) :: status
 
     call check_sizes(self, size(force), size(displacement), status)
-    if (status == FUGE_DONE) call self%influence%convolve(self%plan, force, displacement, status)
+    if (status /= FUGE_DONE) return
+    call self%influence%convolve(self%plan, size(force), force, displacement, self%threads, status)
   end subroutine apply
 
   pure subroutine check_sizes(self, first, second, status)
@@ -405,7 +405,8 @@ contains
     integer, intent(out) :: status
 
     call check_sizes(self, size(displacement), size(force), status)
-    if (status == FUGE_DONE) call self%inverse%convolve(self%plan, displacement, force, status)
+    if (status /= FUGE_DONE) return
+    call self%inverse%convolve(self%plan, size(force), displacement, force, self%threads, status)
   end subroutine precondition
 
   !> [nx, ny].
