@@ -8,7 +8,7 @@ module fuge_halfspace_fft
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: FUGE_MEAN
   use fuge_halfspace_table, only: fill_halfspace_table
-  use fuge_halfspace_waves, only: fill_periodic_eigenvalues
+  use fuge_halfspace_waves, only: fill_periodic_eigenvalues, fill_periodic_kernel, fill_strip_kernel
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_number_text, only: text
@@ -44,8 +44,14 @@ module fuge_halfspace_fft
     integer :: cells(2) = 0
     integer :: element = FUGE_MEAN
     integer :: boundary = FUGE_FREE
+    !> Cells in a period of each direction, 0 if it is not periodic. A window has fewer cells.
+    integer :: period(2) = 0
     real(dp) :: spacing(2) = 0.0_dp
     real(dp) :: e_star = 0.0_dp
+    !> Where a force displaces nothing if the surface is periodic in one direction only: a distance along the other one.
+    real(dp) :: reach = 0.0_dp
+    !> Subtracted from all coefficients; length per force.
+    real(dp) :: datum_value = 0.0_dp
     integer :: threads = 1
     logical :: measured = .false.
     !> Transforms of rows and columns, of a free surface with some more cells to lengths that are fast.
@@ -59,12 +65,14 @@ module fuge_halfspace_fft
     procedure :: set_threads
     procedure :: points
     procedure :: apply
+    procedure :: datum
     procedure :: magnitude => halfspace_magnitude
     procedure :: has_preconditioner
     procedure :: precondition
     procedure :: grid
     procedure :: coarsen
     procedure :: kept_coarser
+    procedure :: window
     procedure, private :: copy
     generic :: assignment(=) => copy
   end type fuge_halfspace_operator
@@ -77,7 +85,10 @@ contains
   !> `nx`, `ny` >= 1, any numbers; `spacing_x`, `spacing_y` length; `e_star` force per length squared. `element`
   !> FUGE_CENTRE or FUGE_MEAN (default). `boundary` FUGE_FREE (default): the matrix of `fuge_halfspace_matrix`;
   !> FUGE_PERIODIC: the periods are nx*spacing_x and ny*spacing_y, and displacements count from the mean of the
-  !> surface, so that A is singular: equal forces on all cells displace nothing. `threads` (default 1) share each
+  !> surface, so that A is singular: equal forces on all cells displace nothing; FUGE_PERIODIC_X, FUGE_PERIODIC_Y: in
+  !> one direction only. Then the mean along that direction is displaced as a half-plane, by a logarithm without a
+  !> datum at infinity: displacements are zero, as those of `fuge_halfplane_operator`, at the distance of twice the
+  !> length of the grid along the free direction, ny*spacing_y for FUGE_PERIODIC_X. `threads` (default 1) share each
   !> product; `measured` (default .false.) lets FFTW time its algorithms and take the fastest.
   !> The arguments are ten, because the last four are optional and named by the caller.
   !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
@@ -100,12 +111,22 @@ contains
     if (present(measured)) new%measured = measured
     call check_cells(new, info)
     if (.not. info%failed()) call check_options(new, info)
-    if (.not. info%failed()) call plan_transforms(new, info)
-    if (.not. info%failed()) call compute_spectra(new, info)
     if (info%failed()) return
-    call new%coarser%create(count_coarser(new))
-    call move_contents(self, new)
+    new%period = merge(new%cells, 0, periodic(new))
+    if (.not. all(periodic(new))) new%reach = 2.0_dp*maxval(new%cells*new%spacing, mask=.not. periodic(new))
+    call prepare(new, info)
+    if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
+
+  !> Plan and compute what belongs to the cells of `operator`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  subroutine prepare(operator, info)
+    type(fuge_halfspace_operator), intent(inout) :: operator
+    type(fuge_info), intent(inout) :: info
+
+    call plan_transforms(operator, info)
+    if (.not. info%failed()) call compute_spectra(operator, info)
+    if (.not. info%failed()) call operator%coarser%create(count_coarser(operator))
+  end subroutine prepare
 
   !> Let `threads` >= 1 threads share each product from now on. Not during a solve. Errors, which leave the operator
   !> as it was: FUGE_ERR_CALL_ORDER before `set`, FUGE_ERR_OPTION.
@@ -174,19 +195,27 @@ contains
     if (.not. info%failed()) call check_area_element(operator%element, info)
     if (.not. info%failed()) call check_threads(operator%threads, info)
     if (info%failed()) return
-    if (all(operator%boundary /= [FUGE_FREE, FUGE_PERIODIC])) then
+    if (all(operator%boundary /= [FUGE_FREE, FUGE_PERIODIC, FUGE_PERIODIC_X, FUGE_PERIODIC_Y])) then
       call report(info, FUGE_ERR_OPTION, 'boundary = '//text(operator%boundary) &
-                  //' is unknown: use FUGE_FREE or FUGE_PERIODIC')
+                  //' is unknown: use FUGE_FREE, FUGE_PERIODIC, FUGE_PERIODIC_X or FUGE_PERIODIC_Y')
     end if
   end subroutine check_options
 
-  !> Do the cells repeat in each direction?
+  !> Is the surface periodic in each direction?
   pure function periodic(operator)
     class(fuge_halfspace_operator), intent(in) :: operator
     logical :: periodic(2)
 
     periodic = operator%boundary == FUGE_PERIODIC .or. operator%boundary == [FUGE_PERIODIC_X, FUGE_PERIODIC_Y]
   end function periodic
+
+  !> Are the cells a whole period in each direction? In the others the circle of a product is longer than the grid.
+  pure function cyclic(operator)
+    class(fuge_halfspace_operator), intent(in) :: operator
+    logical :: cyclic(2)
+
+    cyclic = operator%cells == operator%period
+  end function cyclic
 
   !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
   subroutine plan_transforms(operator, info)
@@ -195,7 +224,7 @@ contains
     integer :: length(2)
 
     length = operator%cells
-    where (.not. periodic(operator) .and. length > 1) length = [fast_length(length(1)), fast_length(length(2))]
+    where (.not. cyclic(operator) .and. length > 1) length = [fast_length(length(1)), fast_length(length(2))]
     if (any(length < 1) .or. any(length > MOST_CELLS)) then
       call report(info, FUGE_ERR_MEMORY, 'nx = '//text(operator%cells(1))//', ny = '//text(operator%cells(2)) &
                   //': a direction has at most '//text(MOST_CELLS)//' cells')
@@ -217,62 +246,90 @@ contains
   subroutine compute_spectra(operator, info)
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: eigenvalue(:, :), inverse(:, :)
+    real(dp), allocatable :: eigenvalue(:, :)
     integer :: length(2), status
 
     length = operator%plan%length
-    allocate (eigenvalue(0:length(2)/2, 0:length(1)/2), inverse(0:length(2)/2, 0:length(1)/2), stat=status)
+    allocate (eigenvalue(0:length(2)/2, 0:length(1)/2), stat=status)
     if (status == 0) call fill_periodic_eigenvalues(length, operator%spacing, operator%e_star, operator%element, &
                                                     eigenvalue, status)
     if (status == 0) then
-      call invert(eigenvalue, inverse, operator%e_star*sqrt(product(operator%spacing)))
-      call operator%inverse%set(operator%plan, [.false., .false.], inverse, status)
-      if (all(periodic(operator))) then
-        call operator%influence%set(operator%plan, [.false., .false.], eigenvalue, status)
-      else
-        deallocate (eigenvalue)
-        call compute_free_spectrum(operator, status)
-      end if
+      call invert(eigenvalue, operator%e_star*sqrt(product(operator%spacing)))
+      call operator%inverse%set(operator%plan, [.false., .false.], eigenvalue, status)
     end if
+    if (status == 0) call compute_influence(operator, status)
     if (status /= 0) call report_no_memory(operator, info)
   end subroutine compute_spectra
 
   !> The inverse of all eigenvalues but that of the constant, for which any positive number is valid; that of the
   !> longest wave has the right size. If there is no other wave, it is `alone`.
-  pure subroutine invert(eigenvalue, inverse, alone)
-    real(dp), intent(in) :: eigenvalue(0:, 0:), alone
-    real(dp), intent(out) :: inverse(0:, 0:)
+  pure subroutine invert(eigenvalue, alone)
+    real(dp), intent(inout) :: eigenvalue(0:, 0:)
+    real(dp), intent(in) :: alone
     real(dp) :: longest
     integer :: k
 
     longest = maxval(eigenvalue(0:min(1, ubound(eigenvalue, 1)), 0:min(1, ubound(eigenvalue, 2))))
     do k = 0, ubound(eigenvalue, 2)
-      inverse(merge(1, 0, k == 0):, k) = 1.0_dp/eigenvalue(merge(1, 0, k == 0):, k)
+      eigenvalue(merge(1, 0, k == 0):, k) = 1.0_dp/eigenvalue(merge(1, 0, k == 0):, k)
     end do
-    inverse(0, 0) = alone
-    if (longest > 0.0_dp) inverse(0, 0) = 1.0_dp/longest
+    eigenvalue(0, 0) = alone
+    if (longest > 0.0_dp) eigenvalue(0, 0) = 1.0_dp/longest
   end subroutine invert
 
-  !> The eigenvalues for a free surface, on circles so long that no two cells are closer the other way round.
-  subroutine compute_free_spectrum(operator, status)
+  !> The eigenvalues of A on circles so long that the distance of no two cells is shorter the other way round, unless
+  !> the surface repeats.
+  subroutine compute_influence(operator, status)
     type(fuge_halfspace_operator), intent(inout) :: operator
     integer, intent(out) :: status
     real(dp), allocatable :: table(:, :), spectrum(:, :)
-    logical :: padded(2)
+    logical :: closed(2), padded(2)
     integer :: extent(2)
 
-    padded = operator%cells > 1
-    extent = merge(operator%plan%length, 0, padded)
-    allocate (table(0:extent(1), 0:extent(2)), stat=status)
-    if (status == 0) call fill_halfspace_table(operator%spacing, operator%e_star, operator%element, table, status)
-    if (status == 0) call operator%plan%transform_even(1, padded(1), table, status)
-    if (status == 0) allocate (spectrum(0:extent(2), 0:extent(1)), stat=status)
+    closed = cyclic(operator)
+    padded = .not. closed .and. operator%cells > 1
+    extent = merge(operator%plan%length, operator%plan%length/2, padded)
+    allocate (spectrum(0:extent(2), 0:extent(1)), stat=status)
     if (status /= 0) return
-    call transpose_blocks(table, spectrum)
-    deallocate (table)
-    call operator%plan%transform_even(2, padded(2), spectrum, status)
-    if (status == 0) call operator%influence%set(operator%plan, padded, spectrum, status)
-  end subroutine compute_free_spectrum
+    if (all(periodic(operator))) then
+      call fill_periodic_kernel(operator%period, closed, operator%spacing, operator%e_star, operator%element, spectrum, &
+                                status)
+    else if (operator%boundary == FUGE_PERIODIC_X) then
+      call fill_strip_kernel(1, operator%period(1), closed(1), operator%reach, operator%spacing, operator%e_star, &
+                             operator%element, spectrum, operator%datum_value, status)
+    end if
+    if (status == 0 .and. (.not. closed(1) .or. operator%boundary == FUGE_PERIODIC_Y)) then
+      allocate (table(0:extent(1), 0:extent(2)), stat=status)
+      if (status == 0) call transform_along_x(operator, padded(1), table, spectrum, status)
+    end if
+    if (status == 0 .and. .not. closed(2)) call operator%plan%transform_even(2, padded(2), spectrum, status)
+    if (status /= 0) return
+    ! The datum of a strip is the mean over the circle.
+    if (any(closed) .and. .not. all(periodic(operator))) spectrum(0, 0) = 0.0_dp
+    call operator%influence%set(operator%plan, padded, spectrum, status)
+  end subroutine compute_influence
+
+  !> Fill `table`, along x first, if `spectrum` is not filled yet, and transform it along x to `spectrum`, along y first.
+  subroutine transform_along_x(operator, padded, table, spectrum, status)
+    type(fuge_halfspace_operator), intent(inout) :: operator
+    logical, intent(in) :: padded
+    real(dp), intent(inout), contiguous :: table(:, :), spectrum(:, :)
+    integer, intent(out) :: status
+    logical :: closed(2)
+
+    status = FUGE_DONE
+    closed = cyclic(operator)
+    if (operator%boundary == FUGE_FREE) then
+      call fill_halfspace_table(operator%spacing, operator%e_star, operator%element, table, status)
+    else if (operator%boundary == FUGE_PERIODIC_Y) then
+      call fill_strip_kernel(2, operator%period(2), closed(2), operator%reach, operator%spacing, operator%e_star, &
+                             operator%element, table, operator%datum_value, status)
+    else
+      call transpose_blocks(spectrum, table)
+    end if
+    if (status == 0 .and. .not. closed(1)) call operator%plan%transform_even(1, padded, table, status)
+    if (status == 0) call transpose_blocks(table, spectrum)
+  end subroutine transform_along_x
 
   !> transpose() of a block after the other, each of which stays in cache.
   pure subroutine transpose_blocks(a, b)
@@ -310,7 +367,10 @@ contains
     self%element = source%element
     self%boundary = source%boundary
     self%spacing = source%spacing
+    self%period = source%period
     self%e_star = source%e_star
+    self%reach = source%reach
+    self%datum_value = source%datum_value
     self%threads = source%threads
     self%measured = source%measured
   end subroutine copy_numbers
@@ -343,7 +403,7 @@ contains
     n = product(self%cells)
   end function points
 
-  !> u = A f, with errors of about 1e-16 of its largest value.
+  !> u = (A - datum) f, with errors of about 1e-16 of its largest value.
   !>
   !> `force` (nx*ny), force; `displacement` (nx*ny), length. Safe in several threads at once. `status`: 0,
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE or FUGE_ERR_MEMORY.
@@ -371,6 +431,14 @@ contains
     end if
   end subroutine check_sizes
 
+  !> What is subtracted from all coefficients, length per force; 0 unless the surface is periodic in one direction only.
+  function datum(self)
+    class(fuge_halfspace_operator), intent(in) :: self
+    real(dp) :: datum
+
+    datum = self%datum_value
+  end function datum
+
   !> `magnitude` (nx*ny), length: the largest displacement; on a periodic surface, where equal forces
   !> displace nothing, at least the terms of their displacement.
   subroutine halfspace_magnitude(self, force, displacement, magnitude)
@@ -381,7 +449,7 @@ contains
 
     magnitude = maxval(abs(displacement))
     if (self%boundary == FUGE_FREE) return
-    period = minval(self%spacing*self%cells)
+    period = minval(self%spacing*self%period, mask=periodic(self))
     magnitude = max(magnitude, MEAN_TERM*sum(abs(force))/(self%e_star*period))
   end subroutine halfspace_magnitude
 
@@ -440,21 +508,41 @@ contains
     integer, intent(in) :: levels
     type(fuge_halfspace_operator), intent(inout) :: wider
     type(fuge_info), intent(out) :: info
-    real(dp) :: spacing(2)
-    integer :: cells(2), k
+    integer :: k
 
-    info%status = FUGE_ERR_SIZE
-    if (levels < 1 .or. levels > count_coarser(self)) return
-    cells = self%cells
-    spacing = self%spacing
+    if (levels < 1 .or. levels > count_coarser(self)) then
+      call report(info, FUGE_ERR_SIZE, 'levels = '//text(levels)//': the grid has too few cells')
+      return
+    end if
+    call copy_numbers(wider, self)
     do k = 1, levels
-      where (cells > 1) spacing = 2.0_dp*spacing
-      cells = (cells - 1)/2 + 1
+      where (wider%cells > 1) wider%spacing = 2.0_dp*wider%spacing
+      wider%cells = (wider%cells - 1)/2 + 1
+      wider%period = (wider%period + 1)/2
     end do
-    where (periodic(self)) spacing = self%spacing*(real(self%cells, dp)/real(cells, dp))
-    call wider%set(cells(1), cells(2), spacing(1), spacing(2), self%e_star, info, self%element, self%boundary, &
-                   self%threads)
+    where (periodic(self)) wider%spacing = self%spacing*(real(self%period, dp)/real(wider%period, dp))
+    wider%measured = .false.
+    call prepare(wider, info)
   end subroutine set_wider
+
+  !> The window of `fuge_operator`: the same coefficients on fewer cells. A window of a periodic surface knows the forces of
+  !> all periods.
+  subroutine window(self, first, last, part)
+    class(fuge_halfspace_operator), intent(in) :: self
+    integer, intent(in) :: first(2), last(2)
+    class(fuge_operator), allocatable, intent(out) :: part
+    type(fuge_halfspace_operator), allocatable :: smaller
+    type(fuge_info) :: info
+    integer :: stat
+
+    if (any(first < 1) .or. any(last < first) .or. any(last > self%cells)) return
+    allocate (smaller, stat=stat)
+    if (stat /= 0) return
+    call copy_numbers(smaller, self)
+    smaller%cells = last - first + 1
+    call prepare(smaller, info)
+    if (.not. info%failed()) call move_alloc(smaller, part)
+  end subroutine window
 
   !> How many times the grid can be coarsened.
   pure function count_coarser(self) result(count)
