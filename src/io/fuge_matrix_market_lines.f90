@@ -7,7 +7,8 @@ module fuge_matrix_market_lines
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_text_fields, only: after_blanks, describe_field, find_field, quoted, read_number, read_whole, FIELD_NUMBER
+  use fuge_text_fields, only: after_blanks, describe_field, find_field, lower_case, quoted, read_number, &
+    read_whole, FIELD_NUMBER
   implicit none
   private
 
@@ -96,18 +97,6 @@ contains
     layout%whole = words(4) == 'integer'
     layout%symmetric = words(5) == 'symmetric'
   end subroutine read_banner
-
-  !> The string with its letters in lower case.
-  pure function lower_case(string) result(lower)
-    character(len=*), intent(in) :: string
-    character(len=len(string)) :: lower
-    integer :: k
-
-    lower = string
-    do k = 1, len(string)
-      if (string(k:k) >= 'A' .and. string(k:k) <= 'Z') lower(k:k) = achar(iachar(string(k:k)) + 32)
-    end do
-  end function lower_case
 
   !> Read the numbers of rows, columns and, in coordinate format, entries; `reason` is allocated
   !> if they are missing or impossible.

@@ -9,7 +9,7 @@ module fuge_text_fields
   implicit none
   private
 
-  public :: after_blanks, describe_field, find_field, is_blank, quoted, read_number, read_whole
+  public :: after_blanks, describe_field, find_field, is_blank, lower_case, quoted, read_number, read_whole
 
   !> Kinds of fields.
   integer, parameter, public :: FIELD_NUMBER = 0
@@ -23,6 +23,7 @@ module fuge_text_fields
   integer(int64), parameter :: LARGEST_DIGITS = 179769313486231570_int64
   !> Larger exponents are cut to this one, which overflows or vanishes in any case.
   integer, parameter :: EXPONENT_LIMIT = 100000
+  integer, parameter :: BLANK = iachar(' '), MINUS = iachar('-'), PLUS = iachar('+'), POINT = iachar('.')
   !> Number of characters of a field that messages quote.
   integer, parameter :: QUOTE_LENGTH = 24
 
@@ -109,8 +110,11 @@ contains
   elemental function is_blank(letter)
     character, intent(in) :: letter
     logical :: is_blank
+    integer :: code
 
-    is_blank = letter == ' ' .or. letter == achar(9) .or. letter == achar(13)
+    ! By number: gfortran compares characters with a blank by a call of its library.
+    code = iachar(letter)
+    is_blank = code == BLANK .or. code == 9 .or. code == 13
   end function is_blank
 
   !> Convert a number, which may have a decimal point and an exponent after d, D, e or E.
@@ -160,26 +164,29 @@ contains
     character(len=*), intent(in) :: field
     type(decimal), intent(out) :: number
     integer, intent(out) :: kind
-    integer :: k, seen
+    integer :: first, k, seen
 
     k = 1
-    if (len(field) > 0) then
-      number%negative = field(1:1) == '-'
-      if (number%negative .or. field(1:1) == '+') k = 2
-    end if
+    number%negative = code_at(field, 1) == MINUS
+    if (number%negative .or. code_at(field, 1) == PLUS) k = 2
     seen = 0
     call read_digits(field, k, number, seen)
-    if (character_at(field, k) == '.') then
-      k = k + 1
-      number%exponent = number%exponent - count_digits(field, k)
+    if (code_at(field, k) == POINT) then
+      first = k + 1
+      k = first
       call read_digits(field, k, number, seen)
+      number%exponent = number%exponent - (k - first)
     end if
     if (seen == 0) then
       kind = kind_of_word(field)
       return
     end if
     kind = FIELD_NUMBER
-    if (scan(character_at(field, k), 'eEdD') > 0) call read_exponent(field, k, number)
+    if (k > len(field)) return
+    select case (field(k:k))
+    case ('e', 'E', 'd', 'D')
+      call read_exponent(field, k, number)
+    end select
     if (k <= len(field)) kind = FIELD_WRONG
   end subroutine read_decimal
 
@@ -207,36 +214,37 @@ contains
     end do
   end subroutine read_digits
 
-  !> Number of digits from position `from` on.
-  pure function count_digits(field, from) result(digits)
-    character(len=*), intent(in) :: field
-    integer, intent(in) :: from
-    integer :: digits
-
-    digits = verify(field(from:), '0123456789') - 1
-    if (digits < 0) digits = len(field) - from + 1
-  end function count_digits
-
   !> Add the exponent whose letter is at position `k`; if no digits follow, `k` is unchanged.
   pure subroutine read_exponent(field, k, number)
     character(len=*), intent(in) :: field
     integer, intent(inout) :: k
     type(decimal), intent(inout) :: number
-    integer :: j, power
+    integer :: digit, first, j, power
     logical :: negative
 
-    j = k + 1
-    negative = character_at(field, j) == '-'
-    if (negative .or. character_at(field, j) == '+') j = j + 1
-    if (count_digits(field, j) == 0) return
+    first = k + 1
+    negative = code_at(field, first) == MINUS
+    if (negative .or. code_at(field, first) == PLUS) first = first + 1
     power = 0
-    do while (scan(character_at(field, j), '0123456789') > 0)
-      power = min(10*power + iachar(field(j:j)) - iachar('0'), EXPONENT_LIMIT)
-      j = j + 1
+    do j = first, len(field)
+      digit = iachar(field(j:j)) - iachar('0')
+      if (digit < 0 .or. digit > 9) exit
+      power = min(10*power + digit, EXPONENT_LIMIT)
     end do
+    if (j == first) return
     k = j
     number%exponent = number%exponent + merge(-power, power, negative)
   end subroutine read_exponent
+
+  !> The code of the character at position `k`, that of a blank beyond the end.
+  pure function code_at(field, k) result(code)
+    character(len=*), intent(in) :: field
+    integer, intent(in) :: k
+    integer :: code
+
+    code = BLANK
+    if (k <= len(field)) code = iachar(field(k:k))
+  end function code_at
 
   !> The character at position `k`, a blank beyond the end.
   pure function character_at(field, k) result(letter)
@@ -254,13 +262,10 @@ contains
     character(len=*), intent(in) :: field
     integer :: kind
     character(len=8) :: word
-    integer :: k
 
     word = field
     if (scan(character_at(field, 1), '+-') > 0) word = field(2:)
-    do k = 1, len(word)
-      if (word(k:k) >= 'A' .and. word(k:k) <= 'Z') word(k:k) = achar(iachar(word(k:k)) + 32)
-    end do
+    word = lower_case(word)
     if (word == 'inf' .or. word == 'infinity' .or. word == 'nan' .or. word(1:4) == 'nan(') then
       kind = FIELD_NOT_FINITE
     else if (scan(character_at(field, 1), '0123456789+-.* ') > 0) then
@@ -269,6 +274,18 @@ contains
       kind = FIELD_WORD
     end if
   end function kind_of_word
+
+  !> The string with its letters in lower case.
+  pure function lower_case(string) result(lower)
+    character(len=*), intent(in) :: string
+    character(len=len(string)) :: lower
+    integer :: k
+
+    lower = string
+    do k = 1, len(string)
+      if (string(k:k) >= 'A' .and. string(k:k) <= 'Z') lower(k:k) = achar(iachar(string(k:k)) + 32)
+    end do
+  end function lower_case
 
   !> Convert a whole number: digits, optionally with a sign.
   !>

@@ -30,6 +30,7 @@ module fuge_text_reader
     procedure :: load
     procedure :: advance
     procedure :: count_lines
+    procedure :: rewind
     procedure :: refuse
   end type text_file
 
@@ -104,9 +105,19 @@ contains
     close (file, iostat=status)
     call unlock(LOCK_FILES)
     if (status /= 0 .and. .not. info%failed()) call report(info, FUGE_ERR_FILE, self%name//' cannot be closed')
-    if (info%failed()) return
-    if (index(self%content, BYTE_ORDER_MARK) == 1) self%last = 2_int64
+    if (.not. info%failed()) call self%rewind()
   end subroutine load
+
+  !> Go back before the first line, which begins after a byte order mark.
+  pure subroutine rewind(self)
+    class(text_file), intent(inout) :: self
+
+    self%line = 0
+    self%first = 1_int64
+    self%last = -1_int64
+    if (len(self%content, kind=int64) < 3_int64) return
+    if (self%content(:3) == BYTE_ORDER_MARK) self%last = 2_int64
+  end subroutine rewind
 
   !> Advance to the next line; `exists` is false at the end of the file.
   pure subroutine advance(self, exists)

@@ -1,7 +1,8 @@
-!> A text file that is written through a buffer, by the C library: Fortran's `close` does not release a file on a
-!> full disk.
+!> A file of lines and numbers that is written through a buffer, by the C library: Fortran's `close` does not release a
+!> file on a full disk.
 module fuge_text_writer
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
+  use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE
   use fuge_text_reader, only: quoted_path, REASON_LENGTH
   implicit none
@@ -22,6 +23,8 @@ module fuge_text_writer
   contains
     procedure :: create
     procedure :: put
+    procedure :: put_bytes
+    procedure :: put_reals
     procedure :: finish
     procedure, private :: write_buffer
   end type text_output
@@ -101,6 +104,31 @@ contains
     self%buffer(self%used + length:self%used + length) = LINE_FEED
     self%used = self%used + length
   end subroutine put
+
+  !> Add bytes as they are, at most as many as the buffer holds.
+  subroutine put_bytes(self, bytes)
+    class(text_output), intent(inout) :: self
+    character(len=*), intent(in) :: bytes
+
+    if (self%used + len(bytes) > BUFFER_LENGTH) call self%write_buffer()
+    self%buffer(self%used + 1:self%used + len(bytes)) = bytes
+    self%used = self%used + len(bytes)
+  end subroutine put_bytes
+
+  !> Add numbers as this machine stores them.
+  subroutine put_reals(self, values)
+    class(text_output), intent(inout) :: self
+    real(dp), intent(in) :: values(:)
+    integer, parameter :: BLOCK = BUFFER_LENGTH/8
+    integer :: k, last
+
+    do k = 1, size(values), BLOCK
+      last = min(size(values) - k, BLOCK - 1) + k
+      call self%write_buffer()
+      self%used = 8*(last - k + 1)
+      self%buffer(:self%used) = transfer(values(k:last), self%buffer(:self%used))
+    end do
+  end subroutine put_reals
 
   !> Write and empty the buffer, unless an error has occurred.
   subroutine write_buffer(self)

@@ -8,18 +8,9 @@ module fuge_matrix_checks
   implicit none
   private
 
-  public :: check_largest, check_matrix, check_magnitudes, check_pairs
+  public :: check_largest, check_pairs
 
 contains
-
-  !> Refuse an alpha that `check_magnitudes` (FUGE_ERR_OVERFLOW) or `check_pairs` (FUGE_ERR_NOT_DEFINITE) refuses.
-  pure subroutine check_matrix(alpha, load, info)
-    real(dp), intent(in) :: alpha(:, :), load
-    type(fuge_info), intent(inout) :: info
-
-    call check_magnitudes(alpha(:size(alpha, 2), :), load, info)
-    if (.not. info%failed()) call check_pairs(alpha, info)
-  end subroutine check_matrix
 
   !> Refuse an alpha for which a pair of opposite forces gains energy (FUGE_ERR_NOT_DEFINITE): the cheap part of
   !> definiteness. Whether the block of a contact set is definite shows when it is factored.
@@ -43,15 +34,7 @@ contains
   end subroutine check_pairs
 
   !> Refuse an alpha whose products with the load leave the range of double precision, at either end
-  !> (FUGE_ERR_OVERFLOW).
-  pure subroutine check_magnitudes(alpha, load, info)
-    real(dp), intent(in) :: alpha(:, :), load
-    type(fuge_info), intent(inout) :: info
-
-    call check_largest(maxval(abs(alpha)), load, info)
-  end subroutine check_magnitudes
-
-  !> As `check_magnitudes`, from the largest coefficient.
+  !> (FUGE_ERR_OVERFLOW). `largest` is its largest coefficient in magnitude.
   pure subroutine check_largest(largest, load, info)
     real(dp), intent(in) :: largest, load
     type(fuge_info), intent(inout) :: info

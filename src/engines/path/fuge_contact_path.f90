@@ -7,8 +7,9 @@ module fuge_contact_path
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_matrix_checks, only: check_magnitudes, check_matrix
+  use fuge_matrix_checks, only: check_largest, check_pairs
   use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_matrix_survey, only: matrix_survey
   use fuge_monitor_type, only: monitor_relay
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
@@ -51,7 +52,7 @@ contains
     select type (operator)
     class is (fuge_dense_operator)
       call check_start(operator, problem, info)
-      if (.not. info%failed() .and. load > 0.0_dp) call check_matrix(operator%alpha, load, info)
+      if (.not. info%failed() .and. load > 0.0_dp) call check_matrix(operator, load, info)
       if (.not. info%failed()) call set_problem(gap, 0.0_dp, problem, info)
       line%last = load
       if (info%failed()) return
@@ -82,7 +83,7 @@ contains
     select type (operator)
     class is (fuge_dense_operator)
       call check_start(operator, problem, info)
-      if (.not. info%failed()) call check_finish(operator%alpha, problem, finish, info)
+      if (.not. info%failed()) call check_finish(operator, problem, finish, info)
       if (info%failed()) return
       line%start = start_values(problem)
       line%rate = finish - line%start
@@ -107,18 +108,33 @@ contains
     end if
   end subroutine check_start
 
+  !> Refuse a matrix that is out of range or by whose coefficients a pair of points gains energy.
+  pure subroutine check_matrix(operator, load, info)
+    type(fuge_dense_operator), intent(in) :: operator
+    real(dp), intent(in) :: load
+    type(fuge_info), intent(inout) :: info
+    type(matrix_survey) :: survey
+
+    survey = operator%known()
+    call check_largest(survey%largest(), load, info)
+    if (.not. (survey%pairs_hold .or. info%failed())) call check_pairs(operator%alpha, info)
+  end subroutine check_matrix
+
   !> Refuse an end that no path leads to.
-  pure subroutine check_finish(alpha, problem, finish, info)
-    real(dp), intent(in) :: alpha(:, :), finish(:)
+  pure subroutine check_finish(operator, problem, finish, info)
+    type(fuge_dense_operator), intent(in) :: operator
+    real(dp), intent(in) :: finish(:)
     type(fuge_problem), intent(in) :: problem
     type(fuge_info), intent(inout) :: info
+    type(matrix_survey) :: survey
 
+    survey = operator%known()
     if (size(finish) /= problem%mode_count()) then
       call report(info, FUGE_ERR_SIZE, 'finish has '//text(size(finish))//' value(s): it needs ' &
                   //text(problem%mode_count()))
     else if (size(finish) > 0) then
       call check_finite(finish, 'finish', info)
-      if (.not. info%failed()) call check_magnitudes(alpha(:size(alpha, 2), :), maxval(abs(finish)), info)
+      if (.not. info%failed()) call check_largest(survey%largest(), maxval(abs(finish)), info)
       if (.not. info%failed() .and. problem%is_plain()) call check_load(finish(1), info)
     end if
   end subroutine check_finish
@@ -168,7 +184,7 @@ contains
     no_change = 0.0_dp
     call canonical%transform_change(no_change, line%rate, line%reduced_gap_rate, line%load_rate)
     if (canonical%has_translation) line%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
-    line%flexibility = largest_coefficient(operator)
+    line%flexibility = canonical%survey%largest()
     call find_start(line, canonical, position, info)
     if (info%failed()) return
     call certificate%start(operator, problem, line%start, line%rate, line%origin)
@@ -237,17 +253,6 @@ contains
       call report(info, status, 'after '//text(max(entries - 1, 0))//' events: '//fuge_status_text(status))
     end if
   end subroutine explain_end
-
-  pure function largest_coefficient(operator) result(largest)
-    type(fuge_dense_operator), intent(in) :: operator
-    real(dp) :: largest
-    integer :: j
-
-    largest = 0.0_dp
-    do j = 1, operator%points()
-      largest = max(largest, maxval(abs(operator%alpha(:operator%points(), j))))
-    end do
-  end function largest_coefficient
 
   !> The largest violation of all pieces is the residual of the path; above the tolerance of a solve it is a warning.
   subroutine report_certificate(certificate, info)

@@ -1,0 +1,193 @@
+!> C bindings, section "surfaces".
+module fuge_c_surfaces
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
+  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, report_to_c, require_count, require_path, &
+    require_pointer
+  use fuge_field_files, only: fuge_write_fields
+  use fuge_number_text, only: index_text, text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
+  use fuge_surface_levelling, only: fuge_level_surface
+  use fuge_surface_type, only: fuge_surface
+  implicit none
+  private
+
+  !> Longest name of a field that is passed on: one character more than is allowed.
+  integer, parameter :: NAME_LENGTH = 201
+
+contains
+
+  !> Twelve arguments, as in the header: the file, the surface, the message.
+  function c_read_surface(path, format, fill, capacity, height, nx, ny, spacing, origin, filled, message, length) &
+    bind(c, name='fuge_read_surface') result(status)
+    type(c_ptr), intent(in), value :: path, height, nx, ny, spacing, origin, filled, message
+    integer(c_int), intent(in), value :: format, fill, capacity
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_surface) :: surface
+    type(fuge_info) :: info
+
+    call require_path(path, info)
+    call require_pointer(nx, 'nx', info)
+    call require_pointer(ny, 'ny', info)
+    call require_count(capacity, 0, 'capacity', 'elements of height', info)
+    if (.not. info%failed()) call fuge_read_surface(from_c_string(path), surface, info, int(format), fill /= 0)
+    status = report_to_c(info, message, length)
+    if (info%failed()) return
+    call copy_heights(surface%height, int(capacity), height)
+    call copy_integers([size(surface%height, 1)], nx)
+    call copy_integers([size(surface%height, 2)], ny)
+    call copy_reals([surface%spacing_x, surface%spacing_y], spacing)
+    call copy_reals([surface%origin_x, surface%origin_y], origin)
+    call copy_integers([surface%filled], filled)
+  end function c_read_surface
+
+  !> Copy the first `capacity` heights, or all of them if they are fewer.
+  subroutine copy_heights(height, capacity, destination)
+    real(c_double), intent(in) :: height(:, :)
+    integer, intent(in) :: capacity
+    type(c_ptr), intent(in) :: destination
+    real(c_double), pointer :: copy(:)
+    integer :: j, first, last
+
+    if (.not. c_associated(destination)) return
+    call c_f_pointer(destination, copy, [min(size(height), capacity)])
+    first = 1
+    do j = 1, size(height, 2)
+      last = first + min(size(height, 1) - 1, size(copy) - first)
+      copy(first:last) = height(:last - first + 1, j)
+      if (last == size(copy)) return
+      first = last + 1
+    end do
+  end subroutine copy_heights
+
+  function c_write_surface(path, nx, ny, spacing, height, message, length) &
+    bind(c, name='fuge_write_surface') result(status)
+    type(c_ptr), intent(in), value :: path, spacing, height, message
+    integer(c_int), intent(in), value :: nx, ny
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: heights(:, :), spacings(:)
+    type(fuge_surface) :: surface
+    type(fuge_info) :: info
+    integer :: failure
+
+    call require_path(path, info)
+    call find_heights(nx, ny, height, heights, info)
+    if (.not. info%failed()) then
+      allocate (surface%height, source=heights, stat=failure)
+      if (failure /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the heights')
+    end if
+    if (c_associated(spacing)) then
+      call c_f_pointer(spacing, spacings, [2])
+      surface%spacing_x = spacings(1)
+      surface%spacing_y = spacings(2)
+    end if
+    if (.not. info%failed()) call fuge_write_surface(from_c_string(path), surface, info)
+    status = report_to_c(info, message, length)
+  end function c_write_surface
+
+  function c_level_surface(nx, ny, height, form, message, length) bind(c, name='fuge_level_surface') result(status)
+    integer(c_int), intent(in), value :: nx, ny, form
+    type(c_ptr), intent(in), value :: height, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: heights(:, :)
+    type(fuge_info) :: info
+
+    call find_heights(nx, ny, height, heights, info)
+    if (.not. info%failed()) call fuge_level_surface(heights, int(form), info)
+    status = report_to_c(info, message, length)
+  end function c_level_surface
+
+  !> The heights of a surface of C; unless an error is known already, NULL and sizes that cannot be are one.
+  subroutine find_heights(nx, ny, address, height, info)
+    integer(c_int), intent(in) :: nx, ny
+    type(c_ptr), intent(in) :: address
+    real(c_double), pointer, intent(out) :: height(:, :)
+    type(fuge_info), intent(inout) :: info
+
+    nullify (height)
+    call require_pointer(address, 'height', info)
+    call require_sizes(nx, ny, info)
+    if (.not. info%failed()) call c_f_pointer(address, height, [nx, ny])
+  end subroutine find_heights
+
+  !> Refuse numbers of points below 1, or whose product an integer does not hold (FUGE_ERR_SIZE).
+  subroutine require_sizes(nx, ny, info)
+    integer(c_int), intent(in) :: nx, ny
+    type(fuge_info), intent(inout) :: info
+
+    call require_count(nx, 1, 'nx', 'points along x', info)
+    call require_count(ny, 1, 'ny', 'points along y', info)
+    if (info%failed()) return
+    if (nx > huge(nx)/ny) call report(info, FUGE_ERR_SIZE, text(int(nx))//' x '//text(int(ny)) &
+                                      //' points are more than an integer counts')
+  end subroutine require_sizes
+
+  !> Ten arguments, as in the header: the file, the grid, the fields, the message.
+  function c_write_fields(path, nx, ny, spacing, origin, count, names, fields, message, length) &
+    bind(c, name='fuge_write_fields') result(status)
+    type(c_ptr), intent(in), value :: path, spacing, origin, names, fields, message
+    integer(c_int), intent(in), value :: nx, ny, count
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    character(len=NAME_LENGTH), allocatable :: all_names(:)
+    real(c_double), allocatable :: all_fields(:, :)
+    real(c_double), pointer :: spacings(:), place(:)
+    real(c_double) :: centre(2)
+    type(fuge_info) :: info
+    integer :: points
+
+    call require_path(path, info)
+    call require_pointer(spacing, 'spacing', info)
+    call require_sizes(nx, ny, info)
+    call require_count(count, 1, 'count', 'fields', info)
+    points = 0
+    if (.not. info%failed()) points = int(nx)*int(ny)
+    call copy_fields(points, int(count), names, fields, all_names, all_fields, info)
+    if (.not. info%failed()) then
+      centre = 0.0_c_double
+      if (c_associated(origin)) then
+        call c_f_pointer(origin, place, [2])
+        centre = place
+      end if
+      call c_f_pointer(spacing, spacings, [2])
+      call fuge_write_fields(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), all_names, all_fields, &
+                             info, centre)
+    end if
+    status = report_to_c(info, message, length)
+  end function c_write_fields
+
+  !> Copy the names of `count` fields of n values and the fields, unless an error is known already.
+  subroutine copy_fields(n, count, names, fields, all_names, all_fields, info)
+    integer, intent(in) :: n, count
+    type(c_ptr), intent(in) :: names, fields
+    character(len=*), allocatable, intent(out) :: all_names(:)
+    real(c_double), allocatable, intent(out) :: all_fields(:, :)
+    type(fuge_info), intent(inout) :: info
+    type(c_ptr), pointer :: name(:), field(:)
+    real(c_double), pointer :: values(:)
+    integer :: k, status
+
+    call require_pointer(names, 'names', info)
+    call require_pointer(fields, 'fields', info)
+    if (info%failed()) return
+    allocate (all_names(count), all_fields(n, count), stat=status)
+    if (status /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of '//text(count)//' fields of '//text(n)//' values')
+      return
+    end if
+    call c_f_pointer(names, name, [count])
+    call c_f_pointer(fields, field, [count])
+    do k = 1, count
+      call require_pointer(name(k), 'names['//index_text(k)//']', info)
+      call require_pointer(field(k), 'fields['//index_text(k)//']', info)
+      if (info%failed()) return
+      all_names(k) = from_c_string(name(k))
+      call c_f_pointer(field(k), values, [n])
+      all_fields(:, k) = values
+    end do
+  end subroutine copy_fields
+
+end module fuge_c_surfaces

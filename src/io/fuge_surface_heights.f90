@@ -1,0 +1,85 @@
+!> Heights of a surface: those in the fields of a file, measured or not, and those of a caller.
+module fuge_surface_heights
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text, text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
+  use fuge_text_fields, only: describe_field, lower_case, quoted, read_number, FIELD_NOT_FINITE, FIELD_NUMBER, &
+    FIELD_WORD
+  implicit none
+  private
+
+  public :: check_heights, is_in_range, read_height
+
+  !> Stands for the height of a point that was not measured; no height that is in range is as large.
+  real(dp), parameter, public :: NOT_MEASURED = huge(1.0_dp)
+  real(dp), parameter :: LARGEST_HEIGHT = scale(1.0_dp, LARGEST_EXPONENT)
+
+contains
+
+  !> Convert a field to a height, or to NOT_MEASURED if it is empty, NaN, or BAD, in letters of either case.
+  !>
+  !> `reason` is allocated if the field is neither, or out of range.
+  pure subroutine read_height(field, value, reason)
+    character(len=*), intent(in) :: field
+    real(dp), intent(out) :: value
+    character(len=:), allocatable, intent(inout) :: reason
+    integer :: kind
+
+    call read_number(field, kind, value)
+    if (kind == FIELD_NUMBER .and. is_in_range(value)) return
+    if (kind == FIELD_NUMBER) then
+      reason = quoted(field)//' is out of range: choose another unit of length'
+    else if (is_not_measured(field, kind)) then
+      value = NOT_MEASURED
+    else
+      reason = describe_field(field, kind)
+    end if
+  end subroutine read_height
+
+  !> Can heights of this size be added and subtracted without overflow?
+  elemental function is_in_range(value) result(in_range)
+    real(dp), intent(in) :: value
+    logical :: in_range
+
+    in_range = abs(value) <= LARGEST_HEIGHT
+  end function is_in_range
+
+  !> Does a field that is no number say that a point was not measured? `kind` as `read_number` returns it.
+  pure function is_not_measured(field, kind) result(unmeasured)
+    character(len=*), intent(in) :: field
+    integer, intent(in) :: kind
+    logical :: unmeasured
+    character(len=4) :: word
+
+    word = field
+    word = lower_case(word)
+    unmeasured = len(field) == 0 .or. (kind == FIELD_WORD .and. word == 'bad' .and. len(field) == 3)
+    if (kind == FIELD_NOT_FINITE) unmeasured = index(word, 'nan') > 0
+  end function is_not_measured
+
+  !> Refuse a surface without points (FUGE_ERR_SIZE), NaN and infinity (FUGE_ERR_NOT_FINITE), and heights out of range
+  !> (FUGE_ERR_OVERFLOW).
+  pure subroutine check_heights(height, info)
+    real(dp), intent(in) :: height(:, :)
+    type(fuge_info), intent(inout) :: info
+    integer :: i, j
+
+    if (size(height) == 0) call report(info, FUGE_ERR_SIZE, 'the surface has no heights')
+    do j = 1, size(height, 2)
+      do i = 1, size(height, 1)
+        if (ieee_is_finite(height(i, j))) then
+          if (is_in_range(height(i, j))) cycle
+          call report(info, FUGE_ERR_OVERFLOW, 'height('//index_text(i)//', '//index_text(j)//') = ' &
+                      //text(height(i, j))//' is out of range: choose another unit of length')
+        else
+          call report(info, FUGE_ERR_NOT_FINITE, 'height('//index_text(i)//', '//index_text(j)//') = ' &
+                      //text(height(i, j))//' is not a finite number')
+        end if
+        return
+      end do
+    end do
+  end subroutine check_heights
+
+end module fuge_surface_heights

@@ -1,0 +1,102 @@
+!> The columns of a line of text: fields between blanks, tabs, commas or semicolons.
+module fuge_text_columns
+  implicit none
+  private
+
+  public :: begin_columns, next_column, separator_name
+
+  !> What follows a column.
+  integer, parameter, public :: SEPARATOR_NONE = 0
+  integer, parameter, public :: SEPARATOR_BLANK = 1
+  integer, parameter, public :: SEPARATOR_COMMA = 2
+  integer, parameter, public :: SEPARATOR_SEMICOLON = 3
+
+  !> Kinds of characters; # and ! begin a comment.
+  integer, parameter :: OTHER = 0, BLANK = 1, COMMA = 2, SEMICOLON = 3, COMMENT = 4
+
+contains
+
+  !> Kind of a character.
+  pure function kind_of(letter) result(class)
+    character, intent(in) :: letter
+    integer :: class
+
+    ! By number: gfortran compares characters with a blank by a call of its library.
+    select case (iachar(letter))
+    case (9, 13, 32)
+      class = BLANK
+    case (iachar(','))
+      class = COMMA
+    case (iachar(';'))
+      class = SEMICOLON
+    case (iachar('#'), iachar('!'))
+      class = COMMENT
+    case default
+      class = OTHER
+    end select
+  end function kind_of
+
+  !> Position of the first column of a line, len(line) + 1 if it has none: it is blank or a comment.
+  pure function begin_columns(line) result(k)
+    character(len=*), intent(in) :: line
+    integer :: k
+
+    k = after_blanks(line, 1)
+  end function begin_columns
+
+  !> The column that begins at position `k`, line(first:last), which is empty if a separator stands there.
+  !>
+  !> On return `separator` is what follows it, SEPARATOR_NONE at the end of the line or before a comment, and `k` the
+  !> position of the next column, or len(line) + 1. After a comma or a semicolon there may be none.
+  pure subroutine next_column(line, k, first, last, separator)
+    character(len=*), intent(in) :: line
+    integer, intent(inout) :: k
+    integer, intent(out) :: first, last, separator
+    integer :: class
+
+    first = k
+    class = OTHER
+    do while (k <= len(line))
+      class = kind_of(line(k:k))
+      if (class /= OTHER .and. class /= COMMENT) exit
+      k = k + 1
+    end do
+    last = k - 1
+    k = after_blanks(line, k)
+    separator = SEPARATOR_NONE
+    if (k > len(line)) return
+    separator = SEPARATOR_BLANK
+    class = kind_of(line(k:k))
+    if (class /= COMMA .and. class /= SEMICOLON) return
+    separator = merge(SEPARATOR_COMMA, SEPARATOR_SEMICOLON, class == COMMA)
+    k = after_blanks(line, k + 1)
+  end subroutine next_column
+
+  !> Position of the first character from `from` on that is neither blank nor in a comment; len(line) + 1 if there is
+  !> none.
+  pure function after_blanks(line, from) result(k)
+    character(len=*), intent(in) :: line
+    integer, intent(in) :: from
+    integer :: k
+    integer :: class
+
+    do k = from, len(line)
+      class = kind_of(line(k:k))
+      if (class == BLANK) cycle
+      if (class == COMMENT) exit
+      return
+    end do
+    k = len(line) + 1
+  end function after_blanks
+
+  !> What stands between columns, for a message.
+  pure function separator_name(separator) result(name)
+    integer, intent(in) :: separator
+    character(len=10) :: name
+
+    name = 'blanks'
+    if (separator == SEPARATOR_COMMA) name = 'commas'
+    if (separator == SEPARATOR_SEMICOLON) name = 'semicolons'
+  end function separator_name
+
+end module fuge_text_columns

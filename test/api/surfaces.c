@@ -1,0 +1,177 @@
+/* Section "surfaces" of fuge_area.h. */
+#include <stdlib.h>
+#include "check.h"
+
+static const char *const NAME = "api_surfaces_scratch.txt";
+
+static void write_file(const char *content) {
+  FILE *file = fopen(NAME, "wb");
+  CHECK(file != NULL);
+  if (file == NULL) return;
+  fputs(content, file);
+  fclose(file);
+}
+
+/* The bytes of the file, ended by NUL; their number.  The caller frees them. */
+static char *read_file(size_t *length) {
+  FILE *file = fopen(NAME, "rb");
+  char *bytes = calloc(1, 4096);
+  CHECK(file != NULL && bytes != NULL);
+  *length = 0;
+  if (file == NULL || bytes == NULL) return bytes;
+  *length = fread(bytes, 1, 4095, file);
+  fclose(file);
+  return bytes;
+}
+
+static void test_read(void) {
+  double height[6], spacing[2], origin[2];
+  int nx = -1, ny = -1, filled = -1;
+  char message[256] = "old";
+  write_file("# made by hand\n1 2 4\n8 16 nan\n");
+  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_GRID, 1, 6, height, &nx, &ny, spacing, origin, &filled, message,
+                                 sizeof message), FUGE_DONE);
+  CHECK_STRING(message, "");
+  CHECK_INT(nx, 3);
+  CHECK_INT(ny, 2);
+  CHECK_INT(filled, 1);
+  CHECK_NEAR(height[2], 4.0, 0.0);
+  CHECK_NEAR(height[4], 16.0, 0.0);
+  CHECK_NEAR(height[5], 10.0, 0.0);
+  CHECK_NEAR(spacing[0], 0.0, 0.0);
+  CHECK_NEAR(origin[1], 0.0, 0.0);
+  fill(height, 6);
+  write_file("10 5 1\n12 5 2\n12 6 4\n10 6 3\n10 7 5\n12 7 6\n");
+  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 4, height, &nx, &ny, spacing, origin, NULL, NULL, 0),
+               FUGE_DONE);
+  CHECK_INT(nx, 2);
+  CHECK_INT(ny, 3);
+  CHECK_NEAR(height[2], 3.0, 0.0);
+  CHECK_NEAR(height[3], 4.0, 0.0);
+  CHECK_UNTOUCHED(height + 4, 2);
+  CHECK_NEAR(spacing[0], 2.0, 0.0);
+  CHECK_NEAR(spacing[1], 1.0, 0.0);
+  CHECK_NEAR(origin[0], 10.0, 0.0);
+  CHECK_NEAR(origin[1], 5.0, 0.0);
+  fill(height, 6);
+  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 0, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_UNTOUCHED(height, 6);
+  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 9, NULL, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_DONE);
+  remove(NAME);
+}
+
+static void test_read_refusals(void) {
+  double height[4];
+  int nx = -1, ny = -1;
+  char message[256] = "";
+  fill(height, 4);
+  write_file("1 2\n3\n");
+  CHECK_STATUS(fuge_read_surface(NAME, 0, 0, 4, height, &nx, &ny, NULL, NULL, NULL, message, sizeof message),
+               FUGE_ERR_FILE);
+  CHECK_STRING(message, "\"api_surfaces_scratch.txt\", line 2: 1 value(s), but the first row has 2");
+  CHECK_STATUS(fuge_read_surface(NAME, 9, 0, 4, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_ERR_OPTION);
+  CHECK_STATUS(fuge_read_surface(NAME, 0, 0, -1, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_read_surface(NAME, 0, 0, 4, height, NULL, &ny, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_read_surface(NAME, 0, 0, 4, height, &nx, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_read_surface(NULL, 0, 0, 4, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
+  remove(NAME);
+  CHECK_STATUS(fuge_read_surface(NAME, 0, 0, 4, height, &nx, &ny, NULL, NULL, NULL, message, sizeof message),
+               FUGE_ERR_FILE);
+  CHECK_CONTAINS(message, "cannot be opened");
+  CHECK_UNTOUCHED(height, 4);
+  CHECK_INT(nx, -1);
+  CHECK_INT(ny, -1);
+}
+
+/* A surface that is written is read back to the last bit. */
+static void test_write(void) {
+  const double height[6] = {1.0 / 3.0, -2.0 / 7.0, 1e-6, 3e-300, 0.0, 12345.678}, spacing[2] = {0.1, 0.3};
+  const double wrong[2] = {1.0, -1.0}, bad[2] = {1.0, NAN};
+  double back[6], found[2];
+  int nx, ny;
+  char message[256] = "";
+  CHECK_STATUS(fuge_write_surface(NAME, 2, 3, spacing, height, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_GRID, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_INT(nx, 2);
+  CHECK_INT(ny, 3);
+  CHECK(memcmp(back, height, sizeof back) == 0);
+  CHECK(memcmp(found, spacing, sizeof found) == 0);
+  CHECK_STATUS(fuge_write_surface(NAME, 6, 1, NULL, height, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_INT(nx, 6);
+  CHECK_NEAR(found[0], 0.0, 0.0);
+  CHECK_STATUS(fuge_write_surface(NAME, 2, 3, wrong, height, NULL, 0), FUGE_ERR_WIDTH);
+  CHECK_STATUS(fuge_write_surface(NAME, 2, 1, NULL, bad, message, sizeof message), FUGE_ERR_NOT_FINITE);
+  CHECK_CONTAINS(message, "height(1, 0) = NaN");
+  CHECK_STATUS(fuge_write_surface(NAME, 0, 3, NULL, height, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_surface(NAME, 65536, 65536, NULL, height, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_surface(NAME, 2, 3, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_surface(NULL, 2, 3, NULL, height, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_surface("no_such_folder/a.txt", 2, 3, NULL, height, NULL, 0), FUGE_ERR_FILE);
+  remove(NAME);
+}
+
+static void test_level(void) {
+  double height[6] = {1.0, 3.0, 2.0, 4.0, 3.0, 5.0};
+  char message[256] = "";
+  CHECK_STATUS(fuge_level_surface(2, 3, height, FUGE_LEVEL_MEAN, NULL, 0), FUGE_DONE);
+  CHECK_NEAR(height[0], -2.0, 1e-15);
+  CHECK_STATUS(fuge_level_surface(2, 3, height, FUGE_LEVEL_PLANE, NULL, 0), FUGE_DONE);
+  CHECK_NEAR(height[0], 0.0, 1e-15);
+  CHECK_NEAR(height[5], 0.0, 1e-15);
+  fill(height, 6);
+  CHECK_STATUS(fuge_level_surface(2, 3, height, FUGE_LEVEL_LINE, message, sizeof message), FUGE_ERR_OPTION);
+  CHECK_CONTAINS(message, "form = 1");
+  CHECK_STATUS(fuge_level_surface(-1, 3, height, FUGE_LEVEL_MEAN, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_level_surface(2, 3, NULL, FUGE_LEVEL_MEAN, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_UNTOUCHED(height, 6);
+}
+
+static void test_fields(void) {
+  const double height[2] = {1.0, 2.0}, pressure[2] = {0.5, -3.0}, bad[2] = {0.0, HUGE_VAL};
+  const double spacing[2] = {0.5, 2.0}, origin[2] = {10.0, 20.0}, flat[2] = {1.0, 0.0};
+  const char *const names[2] = {"height", "p & q"}, *const same[2] = {"a", "a"}, *const none[2] = {"a", NULL};
+  const double *const fields[2] = {height, pressure}, *const infinite[2] = {height, bad}, *const no_field[2] = {height, NULL};
+  char message[256] = "", *bytes, *values;
+  size_t length;
+  double back[2];
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, origin, 2, names, fields, message, sizeof message), FUGE_DONE);
+  bytes = read_file(&length);
+  CHECK_CONTAINS(bytes, "WholeExtent=\"0 2 0 1 0 0\"");
+  CHECK_CONTAINS(bytes, "Origin=\" 9.75");
+  CHECK_CONTAINS(bytes, "Name=\"p &amp; q\" format=\"appended\" offset=\"24\"");
+  values = strstr(bytes, "\n_");
+  CHECK(values != NULL);
+  if (values != NULL) {
+    memcpy(back, values + 2 + 8 + 16 + 8, sizeof back);
+    CHECK_NEAR(back[0], 0.5, 0.0);
+    CHECK_NEAR(back[1], -3.0, 0.0);
+  }
+  free(bytes);
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 1, names, fields, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, same, fields, message, sizeof message), FUGE_ERR_OPTION);
+  CHECK_CONTAINS(message, "fields 0 and 1");
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, none, fields, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STRING(message, "names[1] is NULL");
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, names, no_field, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, names, infinite, message, sizeof message),
+               FUGE_ERR_NOT_FINITE);
+  CHECK_CONTAINS(message, "field \"p & q\": value(1)");
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, flat, NULL, 2, names, fields, NULL, 0), FUGE_ERR_WIDTH);
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 0, spacing, NULL, 2, names, fields, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_fields(NAME, 65536, 65536, spacing, NULL, 2, names, fields, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 0, names, fields, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, NULL, NULL, 2, names, fields, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, NULL, fields, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, names, NULL, NULL, 0), FUGE_ERR_POINTER);
+  remove(NAME);
+}
+
+int main(void) {
+  test_read();
+  test_read_refusals();
+  test_write();
+  test_level();
+  test_fields();
+  return check_summary();
+}
