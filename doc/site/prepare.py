@@ -16,7 +16,7 @@ from reduce import PROCEDURE, TYPE, exports, own_exports, reduced, without_uses
 
 # Modules in the order in which a reader meets them; others follow.
 FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_matrix_operator",
-         "fuge_halfplane_influence", "fuge_halfplane_fft", "fuge_halfspace_influence",
+         "fuge_halfplane_influence", "fuge_halfplane_fft", "fuge_halfspace_influence", "fuge_halfspace_fft",
          "fuge_hertz_theory", "fuge_edge_refinement", "fuge_certificate",
          "fuge_contact_path", "fuge_path_type", "fuge_elastic_moduli", "fuge_profile_files", "fuge_profile_sampling")
 # A name of fuge as code that is no link yet.

@@ -1,12 +1,17 @@
 !> A ball, and a barrel, pressed on a plane: an area of contact against Hertz.
 !>
-!> The gap is x**2/(2 R_x) + y**2/(2 R_y). A quarter of the surface is modelled, x >= 0 and y >= 0, with n x n
-!> rectangles that cover a little more than the contact. The semi-axes follow from the second moments of the forces:
-!> for the pressure of Hertz the mean of x**2 is a**2/5. All values are compared with the closed form of
-!> `fuge_hertz_ellipse`.
+!>     ball [cells [folder for its tables]]
+!>
+!> The gap is x**2/(2 R_x) + y**2/(2 R_y). First the matrix of a small model: a quarter of the surface, x >= 0 and
+!> y >= 0, with n x n rectangles that cover a little more than the contact. Then the whole surface as a grid of `cells`
+!> x `cells`, 512 unless given, by FFT. The semi-axes follow from the second moments of the forces: for the pressure of
+!> Hertz the mean of x**2 is a**2/5. All values are compared with the closed form of `fuge_hertz_ellipse`.
+!> For the picture it writes ball_axis.csv and ball_map.dat, that of the barrel.
 program ball
-  use fuge, only: dp => fuge_dp, fuge_halfspace_matrix, fuge_hertz_contact, fuge_hertz_ellipse, fuge_info, &
-    fuge_solve_dense, FUGE_CENTRE, FUGE_MEAN
+  use example_output, only: create_file
+  use fuge, only: dp => fuge_dp, fuge_halfspace_matrix, fuge_halfspace_operator, fuge_hertz_contact, &
+    fuge_hertz_ellipse, fuge_info, fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver, FUGE_CENTRE, FUGE_FREE, &
+    FUGE_MEAN
   implicit none
 
   !> N, mm: steel on steel.
@@ -14,11 +19,43 @@ program ball
   !> The model ends this many semi-axes from the middle.
   real(dp), parameter :: COVERED = 1.2_dp
   integer, parameter :: SIZES(3) = [10, 20, 40]
+  !> The picture of the pressure has about so many cells in each direction.
+  integer, parameter :: SHOWN = 256
 
-  call press('Ball, R = 10 mm', 10.0_dp, 10.0_dp)
-  call press('Barrel, R_x = 10 mm, R_y = 200 mm', 10.0_dp, 200.0_dp)
+  call run()
 
 contains
+
+  subroutine run()
+    integer :: cells, axis, map
+
+    call read_cells(cells)
+    call press('Ball, R = 10 mm', 10.0_dp, 10.0_dp)
+    call press('Barrel, R_x = 10 mm, R_y = 200 mm', 10.0_dp, 200.0_dp)
+    call create_file('ball_axis.csv', 2, axis)
+    call create_file('ball_map.dat', 2, map)
+    write (axis, '(a)') 'x,pressure,hertz'
+    print '(/,a,i0,a,i0,a)', 'Grids of ', cells, ' x ', cells, ' cells by FFT, pressure in GPa:'
+    print '(a)', '              a [mm]    error      b [mm]    error  approach [mm]    error  pressure    error' &
+      //'  products'
+    call press_grid('Ball', cells, 10.0_dp, 10.0_dp, axis_file=axis)
+    call press_grid('Barrel', cells, 10.0_dp, 200.0_dp, map_file=map)
+    close (axis)
+    close (map)
+  end subroutine run
+
+  subroutine read_cells(cells)
+    integer, intent(out) :: cells
+    character(len=32) :: argument
+    integer :: status
+
+    cells = 512
+    if (command_argument_count() < 1) return
+    call get_command_argument(1, argument)
+    read (argument, *, iostat=status) cells
+    if (status /= 0) error stop 'usage: ball [cells [folder]]'
+    if (cells < 16) error stop 'cells: at least 16'
+  end subroutine read_cells
 
   !> Both elements on finer and finer grids.
   subroutine press(title, radius_x, radius_y)
@@ -90,6 +127,90 @@ contains
     inside = hypot(x/hertz%semi_axis_x, y/hertz%semi_axis_y) < 0.9_dp
     error = maxval(abs(pressure - hertz%pressure(x, y)), mask=inside)/hertz%peak_pressure
   end function pressure_error
+
+  !> The whole surface, by products: no matrix, and no symmetry needed.
+  subroutine press_grid(title, n, radius_x, radius_y, axis_file, map_file)
+    character(len=*), intent(in) :: title
+    integer, intent(in) :: n
+    real(dp), intent(in) :: radius_x, radius_y
+    integer, intent(in), optional :: axis_file, map_file
+    type(fuge_halfspace_operator) :: operator
+    type(fuge_problem) :: problem
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution
+    type(fuge_hertz_contact) :: hertz
+    type(fuge_info) :: info
+    real(dp) :: x(n), y(n), h_x, h_y
+    integer :: i, j
+
+    call fuge_hertz_ellipse(radius_x, radius_y, E_STAR, LOAD, hertz, info)
+    call require(info, 'Hertz')
+    h_x = 2.0_dp*COVERED*hertz%semi_axis_x/n
+    h_y = 2.0_dp*COVERED*hertz%semi_axis_y/n
+    x = [((i - 0.5_dp*(n + 1))*h_x, i=1, n)]
+    y = [((j - 0.5_dp*(n + 1))*h_y, j=1, n)]
+    call operator%set(n, n, h_x, h_y, E_STAR, info, element=FUGE_MEAN, boundary=FUGE_FREE)
+    call require(info, 'grid')
+    ! Point i + n*(j - 1) is the cell i, j; the gap is the mean over the cell.
+    allocate (problem%gap(n*n))
+    do j = 1, n
+      problem%gap((j - 1)*n + 1:j*n) = (x**2 + h_x**2/12.0_dp)/(2.0_dp*radius_x) &
+                                       + (y(j)**2 + h_y**2/12.0_dp)/(2.0_dp*radius_y)
+    end do
+    problem%resultant = [LOAD]
+    call solver%solve(operator, problem, solution, info)
+    call require(info, 'contact')
+    call compare(title, reshape(solution%force, [n, n]), solution%motion(1), x, y, hertz, info%products)
+    if (present(axis_file)) &
+      call write_axis(axis_file, x, y(n/2), solution%force((n/2 - 1)*n + 1:n/2*n)/(h_x*h_y), hertz)
+    if (present(map_file)) call write_map(map_file, x, y, reshape(solution%force, [n, n])/(h_x*h_y))
+  end subroutine press_grid
+
+  !> The line of a grid in the table.
+  subroutine compare(title, force, approach, x, y, hertz, products)
+    character(len=*), intent(in) :: title
+    real(dp), intent(in) :: force(:, :), approach, x(:), y(:)
+    type(fuge_hertz_contact), intent(in) :: hertz
+    integer, intent(in) :: products
+    real(dp) :: h_x, h_y, a, b, pressure, error(4)
+
+    h_x = x(2) - x(1)
+    h_y = y(2) - y(1)
+    a = sqrt(5.0_dp*dot_product(sum(force, 2), x**2 + h_x**2/12.0_dp)/LOAD)
+    b = sqrt(5.0_dp*dot_product(sum(force, 1), y**2 + h_y**2/12.0_dp)/LOAD)
+    pressure = maxval(force)/(h_x*h_y)
+    error = [a/hertz%semi_axis_x, b/hertz%semi_axis_y, approach/hertz%approach, pressure/hertz%peak_pressure] - 1.0_dp
+    print '(a8,2(f12.6,es9.1),f15.7,es9.1,f10.5,es9.1,i10)', title, a, error(1), b, error(2), approach, error(3), &
+      1.0e-3_dp*pressure, error(4), products
+    ! Between two and ten times what is observed.
+    if (any(abs(error) > [1.0_dp, 1.0_dp, 1.0_dp, 2.0_dp]/real(size(x), dp)**1.5_dp)) error stop 'far from Hertz'
+  end subroutine compare
+
+  !> Pressure along x, beside that of Hertz.
+  subroutine write_axis(file, x, y, pressure, hertz)
+    integer, intent(in) :: file
+    real(dp), intent(in) :: x(:), y, pressure(:)
+    type(fuge_hertz_contact), intent(in) :: hertz
+    integer :: i
+
+    do i = 1, size(x)
+      write (file, '(2(es14.6,","),es14.6)') x(i), pressure(i), hertz%pressure(x(i), y)
+    end do
+  end subroutine write_axis
+
+  !> x, y and pressure of every so many cells.
+  subroutine write_map(file, x, y, pressure)
+    integer, intent(in) :: file
+    real(dp), intent(in) :: x(:), y(:), pressure(:, :)
+    integer :: i, j, stride
+
+    stride = max(1, size(x)/SHOWN)
+    do j = 1, size(y), stride
+      do i = 1, size(x), stride
+        write (file, '(2es14.6,es12.4)') x(i), y(j), pressure(i, j)
+      end do
+    end do
+  end subroutine write_map
 
   subroutine require(info, what)
     type(fuge_info), intent(in) :: info
