@@ -40,9 +40,10 @@ contains
                   //text(memory)//': use a coarser grid')
       return
     end if
-    ! Never touched, so that it costs no time.
+    ! One byte only is touched, so that it costs no time.
     stat = 1
-    if (bytes < real(huge(0_int64), dp)) allocate (trial(int(bytes, int64)), stat=stat)
+    if (bytes < real(huge(0_int64), dp)) allocate (trial(int(bytes, int64) + 1), stat=stat)
+    if (stat == 0) trial(1) = ' '
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, what//' needs '//text(bytes) &
                                //' bytes, which cannot be allocated: use a coarser grid')
   end subroutine check_memory

@@ -30,6 +30,8 @@ module fuge_halfspace_fft
   real(dp), parameter :: MEAN_TERM = 0.4_dp
   !> A grid of fewer cells is not made by `coarsen`.
   integer, parameter :: FEWEST_CELLS = 32
+  !> A coarser grid of fewer cells is multiplied by one thread: starting more would take longer.
+  integer, parameter :: FEWEST_FOR_THREADS = 65536
   !> Cells of one direction, at most: a row of the circle has a default integer of numbers.
   integer, parameter :: MOST_CELLS = 2**28
   !> The longer spacing over the shorter one, at most.
@@ -538,6 +540,7 @@ contains
     end do
     where (periodic(self)) wider%spacing = self%spacing*(real(self%period, dp)/real(wider%period, dp))
     wider%measured = .false.
+    if (wider%points() < FEWEST_FOR_THREADS) wider%threads = 1
     call prepare(wider, info)
   end subroutine set_wider
 

@@ -20,7 +20,8 @@ module fuge_grid_convolution
   use fuge_fft, only: allocate_values, fft_plan, release_buffer
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_BUFFERS
-  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_threads, only: run_in_threads
   implicit none
   private
@@ -127,22 +128,36 @@ contains
     type(fuge_info), intent(inout) :: info
     logical, intent(in) :: measured
     type(grid_plan) :: new
+
+    call prepare_plan(new, cells, length, info, measured)
+    if (.not. info%failed()) call self%move_from(new)
+  end subroutine set_plan
+
+  !> Set a plan that has nothing yet, but perhaps the factors of the right lengths. Errors as in `set`.
+  subroutine prepare_plan(plan, cells, length, info, measured)
+    type(grid_plan), intent(inout) :: plan
+    integer, intent(in) :: cells(2), length(2)
+    type(fuge_info), intent(inout) :: info
+    logical, intent(in) :: measured
     integer :: stat
 
-    call new%rows%set(2*length(1), info, measured=measured, separate=.true.)
-    if (.not. info%failed()) call new%columns%set(2*length(2), info, measured=measured, separate=.true.)
+    call plan%rows%set(2*length(1), info, measured=measured, separate=.true.)
+    if (.not. info%failed()) call plan%columns%set(2*length(2), info, measured=measured, separate=.true.)
     if (info%failed()) return
-    allocate (new%row_twist(2, length(1)), new%column_twist(2, length(2)), new%kept, stat=stat)
+    stat = 0
+    if (.not. allocated(plan%row_twist)) allocate (plan%row_twist(2, length(1)), stat=stat)
+    if (stat == 0 .and. .not. allocated(plan%column_twist)) allocate (plan%column_twist(2, length(2)), stat=stat)
+    if (stat == 0) allocate (plan%kept, stat=stat)
     if (stat /= 0) then
-      info%status = FUGE_ERR_MEMORY
+      call report(info, FUGE_ERR_MEMORY, 'no memory for transforms of '//text(length(1))//' by '//text(length(2)) &
+                  //' values')
       return
     end if
-    call compute_twist(new%row_twist)
-    call compute_twist(new%column_twist)
-    new%cells = cells
-    new%length = length
-    call self%move_from(new)
-  end subroutine set_plan
+    call compute_twist(plan%row_twist)
+    call compute_twist(plan%column_twist)
+    plan%cells = cells
+    plan%length = length
+  end subroutine prepare_plan
 
   pure subroutine compute_twist(twist)
     real(dp), intent(out) :: twist(:, :)
@@ -248,7 +263,14 @@ contains
     type(grid_plan) :: new
     type(fuge_info) :: info
 
-    if (source%cells(1) > 0) call new%set(source%cells, source%length, info, source%rows%measured)
+    if (source%cells(1) > 0) then
+      ! Kept, because the source may be a bitwise copy of self that shares them.
+      if (all(self%length == source%length)) then
+        if (allocated(self%row_twist)) call move_alloc(self%row_twist, new%row_twist)
+        if (allocated(self%column_twist)) call move_alloc(self%column_twist, new%column_twist)
+      end if
+      call prepare_plan(new, source%cells, source%length, info, source%rows%measured)
+    end if
     call self%move_from(new)
   end subroutine copy_plan
 
