@@ -3,7 +3,8 @@
 module fuge_halfspace_fft
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_constants, only: LARGEST_EXPONENT_OF_4
-  use fuge_grid_convolution, only: fast_length, grid_kernel, grid_plan
+  use fuge_grid_convolution, only: grid_kernel
+  use fuge_grid_plan, only: fast_length, grid_plan
   use fuge_grid_store, only: grid_store
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: FUGE_MEAN
@@ -310,8 +311,8 @@ contains
     allocate (spectrum(0:extent(2), 0:extent(1)), stat=status)
     if (status /= 0) return
     if (all(periodic(operator))) then
-      call fill_periodic_kernel(operator%period, closed, operator%spacing, operator%e_star, operator%element, spectrum, &
-                                status)
+      call fill_periodic_kernel(operator%period, closed, operator%spacing, operator%e_star, operator%element, &
+                                spectrum, status)
     else if (operator%boundary == FUGE_PERIODIC_X) then
       call fill_strip_kernel(1, operator%period(1), closed(1), operator%reach, operator%spacing, operator%e_star, &
                              operator%element, spectrum, operator%datum_value, status)
@@ -327,7 +328,8 @@ contains
     call operator%influence%set(operator%plan, padded, spectrum, status)
   end subroutine compute_influence
 
-  !> Fill `table`, along x first, if `spectrum` is not filled yet, and transform it along x to `spectrum`, along y first.
+  !> Fill `table` (along x, along y) if `spectrum` (along y, along x) is not filled yet, and transform it along x to
+  !> `spectrum`.
   subroutine transform_along_x(operator, padded, table, spectrum, status)
     type(fuge_halfspace_operator), intent(inout) :: operator
     logical, intent(in) :: padded
@@ -544,8 +546,8 @@ contains
     call prepare(wider, info)
   end subroutine set_wider
 
-  !> The window of `fuge_operator`: the same coefficients on fewer cells. A window of a periodic surface knows the forces of
-  !> all periods.
+  !> The window of `fuge_operator`: the same coefficients on fewer cells. A window of a periodic surface knows the
+  !> forces of all periods.
   subroutine window(self, first, last, part)
     class(fuge_halfspace_operator), intent(in) :: self
     integer, intent(in) :: first(2), last(2)
