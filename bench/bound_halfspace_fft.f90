@@ -1,6 +1,6 @@
 !> Time of a product of the half-space by FFT, of its preconditioner and of setting it, against plain transforms: one
-!> forward and one backward two-dimensional transform by FFTW (r2c and c2r, in place, estimated) of the cells and as many
-!> zeros in each direction, or for a periodic surface of the cells. No multiplication, no copy to the padded array.
+!> forward and one backward two-dimensional transform by FFTW (r2c and c2r, in place, estimated) of the cells and as
+!> many zeros in each direction, or for a periodic surface of the cells. No multiplication, no copy to the padded array.
 !>
 !> Prints rows | problem | bound | fuge | ratio | wanted | to standard output, times in milliseconds. Both sides
 !> alternate and the least time of each counts, because other programs may run. Arguments: sizes n of grids n x n.

@@ -72,8 +72,9 @@ contains
       type is (fuge_halfspace_operator)
         call surface%set_threads(int(threads), info)
       class default
-        call report(info, FUGE_ERR_UNSUPPORTED, 'only operators of fuge_operator_halfplane and fuge_operator_halfspace ' &
-                    //'have transforms for several threads: a matrix is multiplied by BLAS, which has threads of its own')
+        call report(info, FUGE_ERR_UNSUPPORTED, 'only operators of fuge_operator_halfplane and ' &
+                    //'fuge_operator_halfspace have transforms for several threads: a matrix is multiplied by BLAS, ' &
+                    //'which has threads of its own')
       end select
     end if
     status = report_to_c(info, message, length)

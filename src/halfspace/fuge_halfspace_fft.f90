@@ -1,41 +1,29 @@
 !> The elastic half-space on a uniform grid of rectangles, by FFT: A of `fuge_halfspace_matrix`, or of a periodic
 !> surface, in O(n log n) operations and O(n) memory.
 module fuge_halfspace_fft
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge_constants, only: LARGEST_EXPONENT_OF_4
-  use fuge_grid_convolution, only: fast_length, grid_kernel, grid_plan
+  use fuge_grid_convolution, only: grid_kernel
+  use fuge_grid_plan, only: fast_length, grid_plan
   use fuge_grid_store, only: grid_store
-  use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
-  use fuge_halfplane_influence, only: FUGE_MEAN
-  use fuge_halfspace_table, only: fill_halfspace_table
-  use fuge_halfspace_waves, only: fill_periodic_eigenvalues, fill_periodic_kernel, fill_strip_kernel
+  use fuge_halfplane_fft, only: FUGE_FREE
+  use fuge_halfspace_grid, only: check_grid, coarsened, count_coarser, cyclic, halfspace_grid, periodic
+  use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_rectangle_checks, only: check_area_element, check_area_modulus
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_NOT_FINITE, &
-    FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
+    FUGE_ERR_OPTION, FUGE_ERR_SIZE
   implicit none
   private
-
-  !> `boundary`: the cells repeat periodically along x, and beyond them along y the surface is free.
-  integer, parameter, public :: FUGE_PERIODIC_X = 2
-  !> `boundary`: the cells repeat periodically along y, and beyond them along x the surface is free.
-  integer, parameter, public :: FUGE_PERIODIC_Y = 3
 
   !> On a periodic surface of the shorter period L, the terms of a displacement by the forces f are about this times
   !> the sum of |f|/(e_star L).
   real(dp), parameter :: MEAN_TERM = 0.4_dp
-  !> A grid of fewer cells is not made by `coarsen`.
-  integer, parameter :: FEWEST_CELLS = 32
   !> A coarser grid of fewer cells is multiplied by one thread: starting more would take longer.
   integer, parameter :: FEWEST_FOR_THREADS = 65536
   !> Cells of one direction, at most: a row of the circle has a default integer of numbers.
   integer, parameter :: MOST_CELLS = 2**28
-  !> The longer spacing over the shorter one, at most.
-  real(dp), parameter :: LARGEST_RATIO = 1.0e5_dp
 
   !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes a third of the memory again.
@@ -43,16 +31,8 @@ module fuge_halfspace_fft
   !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
   type, extends(fuge_operator), public :: fuge_halfspace_operator
     private
-    !> nx and ny; 0 before `set`.
-    integer :: cells(2) = 0
-    integer :: element = FUGE_MEAN
-    integer :: boundary = FUGE_FREE
-    !> Cells in a period of each direction, 0 if it is not periodic. A window has fewer cells.
-    integer :: period(2) = 0
-    real(dp) :: spacing(2) = 0.0_dp
-    real(dp) :: e_star = 0.0_dp
-    !> Where a force displaces nothing if the surface is periodic in one direction only: a distance along the other one.
-    real(dp) :: reach = 0.0_dp
+    !> No cells before `set`.
+    type(halfspace_grid) :: surface
     !> Subtracted from all coefficients; length per force.
     real(dp) :: datum_value = 0.0_dp
     integer :: threads = 1
@@ -105,30 +85,41 @@ contains
     logical, intent(in), optional :: measured
     type(fuge_halfspace_operator) :: new
 
-    new%cells = [nx, ny]
-    new%spacing = [spacing_x, spacing_y]
-    new%e_star = e_star
-    if (present(element)) new%element = element
-    if (present(boundary)) new%boundary = boundary
+    new%surface%cells = [nx, ny]
+    new%surface%spacing = [spacing_x, spacing_y]
+    new%surface%e_star = e_star
+    if (present(element)) new%surface%element = element
+    if (present(boundary)) new%surface%boundary = boundary
     if (present(threads)) new%threads = threads
     if (present(measured)) new%measured = measured
-    call check_cells(new, info)
-    if (.not. info%failed()) call check_options(new, info)
+    call check_grid(new%surface, info)
+    if (.not. info%failed()) call check_threads(new%threads, info)
     if (info%failed()) return
-    new%period = merge(new%cells, 0, periodic(new))
-    if (.not. all(periodic(new))) new%reach = 2.0_dp*maxval(new%cells*new%spacing, mask=.not. periodic(new))
+    call complete(new%surface)
     call prepare(new, info)
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
+
+  !> The periods, and where a force displaces nothing, of a grid that is no window.
+  pure subroutine complete(grid)
+    type(halfspace_grid), intent(inout) :: grid
+
+    grid%period = merge(grid%cells, 0, periodic(grid))
+    if (.not. all(periodic(grid))) grid%reach = 2.0_dp*maxval(grid%cells*grid%spacing, mask=.not. periodic(grid))
+  end subroutine complete
 
   !> Plan and compute what belongs to the cells of `operator`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
   subroutine prepare(operator, info)
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
+    integer :: status
 
     call plan_transforms(operator, info)
-    if (.not. info%failed()) call compute_spectra(operator, info)
-    if (.not. info%failed()) call operator%coarser%create(count_coarser(operator))
+    if (info%failed()) return
+    call compute_spectra(operator%surface, operator%plan, operator%influence, operator%inverse, operator%datum_value, &
+                         status)
+    if (status /= 0) call report_no_memory(operator, info)
+    if (.not. info%failed()) call operator%coarser%create(count_coarser(operator%surface))
   end subroutine prepare
 
   !> Let `threads` >= 1 threads share each product from now on. Not during a solve. Errors, which leave the operator
@@ -138,14 +129,14 @@ contains
     integer, intent(in) :: threads
     type(fuge_info), intent(out) :: info
 
-    if (any(self%cells < 1)) then
+    if (any(self%surface%cells < 1)) then
       call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it before its threads')
     else
       call check_threads(threads, info)
     end if
     if (info%failed()) return
     self%threads = threads
-    call self%coarser%create(count_coarser(self))
+    call self%coarser%create(count_coarser(self%surface))
   end subroutine set_threads
 
   pure subroutine check_threads(threads, info)
@@ -155,215 +146,33 @@ contains
     if (threads < 1) call report(info, FUGE_ERR_OPTION, 'threads = '//text(threads)//': use 1 or more')
   end subroutine check_threads
 
-  !> Refuse numbers and sizes of cells that make no grid.
-  pure subroutine check_cells(operator, info)
-    type(fuge_halfspace_operator), intent(in) :: operator
-    type(fuge_info), intent(inout) :: info
-    character, parameter :: AXIS(2) = ['x', 'y']
-    real(dp) :: points
-    integer :: k
-
-    do k = 1, 2
-      if (info%failed()) return
-      if (operator%cells(k) < 1) then
-        call report(info, FUGE_ERR_SIZE, 'n'//AXIS(k)//' = '//text(operator%cells(k))//': at least one cell is needed')
-      else if (.not. ieee_is_finite(operator%spacing(k))) then
-        call report(info, FUGE_ERR_NOT_FINITE, 'spacing_'//AXIS(k)//' = '//text(operator%spacing(k)) &
-                    //' is not a finite number')
-      else if (.not. operator%spacing(k) > 0.0_dp) then
-        call report(info, FUGE_ERR_WIDTH, 'spacing_'//AXIS(k)//' = '//text(operator%spacing(k)) &
-                    //' is not positive: it is the width of a cell along '//AXIS(k))
-      else if (abs(exponent(operator%spacing(k))) > LARGEST_EXPONENT_OF_4) then
-        call report(info, FUGE_ERR_OVERFLOW, 'spacing_'//AXIS(k)//' = '//text(operator%spacing(k)) &
-                    //' is out of range: choose another unit of length')
-      end if
-    end do
-    if (info%failed()) return
-    points = real(operator%cells(1), dp)*real(operator%cells(2), dp)
-    if (points > real(huge(1), dp)) then
-      call report(info, FUGE_ERR_SIZE, 'nx = '//text(operator%cells(1))//' times ny = '//text(operator%cells(2)) &
-                  //' is '//text(points)//' points, more than the largest integer, '//text(huge(1)) &
-                  //': use a coarser grid')
-    else if (maxval(operator%spacing) > LARGEST_RATIO*minval(operator%spacing)) then
-      call report(info, FUGE_ERR_WIDTH, 'spacing_x = '//text(operator%spacing(1))//' and spacing_y = ' &
-                  //text(operator%spacing(2))//': the ratio of the two is at most '//text(LARGEST_RATIO))
-    end if
-  end subroutine check_cells
-
-  pure subroutine check_options(operator, info)
-    type(fuge_halfspace_operator), intent(in) :: operator
-    type(fuge_info), intent(inout) :: info
-
-    call check_area_modulus(operator%e_star, info)
-    if (.not. info%failed()) call check_area_element(operator%element, info)
-    if (.not. info%failed()) call check_threads(operator%threads, info)
-    if (info%failed()) return
-    if (all(operator%boundary /= [FUGE_FREE, FUGE_PERIODIC, FUGE_PERIODIC_X, FUGE_PERIODIC_Y])) then
-      call report(info, FUGE_ERR_OPTION, 'boundary = '//text(operator%boundary) &
-                  //' is unknown: use FUGE_FREE, FUGE_PERIODIC, FUGE_PERIODIC_X or FUGE_PERIODIC_Y')
-    end if
-  end subroutine check_options
-
-  !> Is the surface periodic in each direction?
-  pure function periodic(operator)
-    class(fuge_halfspace_operator), intent(in) :: operator
-    logical :: periodic(2)
-
-    periodic = operator%boundary == FUGE_PERIODIC .or. operator%boundary == [FUGE_PERIODIC_X, FUGE_PERIODIC_Y]
-  end function periodic
-
-  !> Are the cells a whole period in each direction? In the others the circle of a product is longer than the grid.
-  pure function cyclic(operator)
-    class(fuge_halfspace_operator), intent(in) :: operator
-    logical :: cyclic(2)
-
-    cyclic = operator%cells == operator%period
-  end function cyclic
-
   !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
   subroutine plan_transforms(operator, info)
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
     integer :: length(2)
 
-    length = operator%cells
-    where (.not. cyclic(operator) .and. length > 1) length = [fast_length(length(1)), fast_length(length(2))]
+    length = operator%surface%cells
+    where (.not. cyclic(operator%surface) .and. length > 1) length = [fast_length(length(1)), fast_length(length(2))]
     if (any(length < 1) .or. any(length > MOST_CELLS)) then
-      call report(info, FUGE_ERR_MEMORY, 'nx = '//text(operator%cells(1))//', ny = '//text(operator%cells(2)) &
-                  //': a direction has at most '//text(MOST_CELLS)//' cells')
+      call report(info, FUGE_ERR_MEMORY, 'nx = '//text(operator%surface%cells(1))//', ny = ' &
+                  //text(operator%surface%cells(2))//': a direction has at most '//text(MOST_CELLS)//' cells')
       return
     end if
-    call check_memory(bytes_needed(operator, length), 'nx = '//text(operator%cells(1))//', ny = ' &
-                      //text(operator%cells(2))//':', info)
+    call check_memory(bytes_needed(operator%surface, length), 'nx = '//text(operator%surface%cells(1))//', ny = ' &
+                      //text(operator%surface%cells(2))//':', info)
     if (info%failed()) return
-    call operator%plan%set(operator%cells, length, info, operator%measured)
+    call operator%plan%set(operator%surface%cells, length, info, operator%measured)
     if (info%status == FUGE_ERR_MEMORY) call report_no_memory(operator, info)
   end subroutine plan_transforms
-
-  !> The two spectra, and the greater one of a table of coefficients and the rows of a product.
-  pure function bytes_needed(operator, length) result(bytes)
-    type(fuge_halfspace_operator), intent(in) :: operator
-    integer, intent(in) :: length(2)
-    real(dp) :: bytes
-    real(dp) :: circle(2), rows
-
-    circle = merge(0.5_dp, 1.0_dp, cyclic(operator))*length + 1.0_dp
-    rows = 2.0_dp*circle(1)*(operator%cells(2) + 1)
-    bytes = 8.0_dp*(product(circle) + product(0.5_dp*length + 1.0_dp) + max(product(circle), rows))
-  end function bytes_needed
 
   subroutine report_no_memory(operator, info)
     type(fuge_halfspace_operator), intent(in) :: operator
     type(fuge_info), intent(inout) :: info
 
-    call report(info, FUGE_ERR_MEMORY, 'no memory for nx = '//text(operator%cells(1))//', ny = ' &
-                //text(operator%cells(2))//': use a coarser grid')
+    call report(info, FUGE_ERR_MEMORY, 'no memory for nx = '//text(operator%surface%cells(1))//', ny = ' &
+                //text(operator%surface%cells(2))//': use a coarser grid')
   end subroutine report_no_memory
-
-  !> The eigenvalues of A and of the preconditioner. Error: FUGE_ERR_MEMORY.
-  subroutine compute_spectra(operator, info)
-    type(fuge_halfspace_operator), intent(inout) :: operator
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: eigenvalue(:, :)
-    integer :: length(2), status
-
-    length = operator%plan%length
-    allocate (eigenvalue(0:length(2)/2, 0:length(1)/2), stat=status)
-    if (status == 0) call fill_periodic_eigenvalues(length, operator%spacing, operator%e_star, operator%element, &
-                                                    eigenvalue, status)
-    if (status == 0) then
-      call invert(eigenvalue, operator%e_star*sqrt(product(operator%spacing)))
-      call operator%inverse%set(operator%plan, [.false., .false.], eigenvalue, status)
-    end if
-    if (status == 0) call compute_influence(operator, status)
-    if (status /= 0) call report_no_memory(operator, info)
-  end subroutine compute_spectra
-
-  !> The inverse of all eigenvalues but that of the constant, for which any positive number is valid; that of the
-  !> longest wave has the right size. If there is no other wave, it is `alone`.
-  pure subroutine invert(eigenvalue, alone)
-    real(dp), intent(inout) :: eigenvalue(0:, 0:)
-    real(dp), intent(in) :: alone
-    real(dp) :: longest
-    integer :: k
-
-    longest = maxval(eigenvalue(0:min(1, ubound(eigenvalue, 1)), 0:min(1, ubound(eigenvalue, 2))))
-    do k = 0, ubound(eigenvalue, 2)
-      eigenvalue(merge(1, 0, k == 0):, k) = 1.0_dp/eigenvalue(merge(1, 0, k == 0):, k)
-    end do
-    eigenvalue(0, 0) = alone
-    if (longest > 0.0_dp) eigenvalue(0, 0) = 1.0_dp/longest
-  end subroutine invert
-
-  !> The eigenvalues of A on circles so long that the distance of no two cells is shorter the other way round, unless
-  !> the surface repeats.
-  subroutine compute_influence(operator, status)
-    type(fuge_halfspace_operator), intent(inout) :: operator
-    integer, intent(out) :: status
-    real(dp), allocatable :: table(:, :), spectrum(:, :)
-    logical :: closed(2), padded(2)
-    integer :: extent(2)
-
-    closed = cyclic(operator)
-    padded = .not. closed .and. operator%cells > 1
-    extent = merge(operator%plan%length, operator%plan%length/2, padded)
-    allocate (spectrum(0:extent(2), 0:extent(1)), stat=status)
-    if (status /= 0) return
-    if (all(periodic(operator))) then
-      call fill_periodic_kernel(operator%period, closed, operator%spacing, operator%e_star, operator%element, spectrum, &
-                                status)
-    else if (operator%boundary == FUGE_PERIODIC_X) then
-      call fill_strip_kernel(1, operator%period(1), closed(1), operator%reach, operator%spacing, operator%e_star, &
-                             operator%element, spectrum, operator%datum_value, status)
-    end if
-    if (status == 0 .and. (.not. closed(1) .or. operator%boundary == FUGE_PERIODIC_Y)) then
-      allocate (table(0:extent(1), 0:extent(2)), stat=status)
-      if (status == 0) call transform_along_x(operator, padded(1), table, spectrum, status)
-    end if
-    if (status == 0 .and. .not. closed(2)) call operator%plan%transform_even(2, padded(2), spectrum, status)
-    if (status /= 0) return
-    ! The datum of a strip is the mean over the circle.
-    if (any(closed) .and. .not. all(periodic(operator))) spectrum(0, 0) = 0.0_dp
-    call operator%influence%set(operator%plan, padded, spectrum, status)
-  end subroutine compute_influence
-
-  !> Fill `table`, along x first, if `spectrum` is not filled yet, and transform it along x to `spectrum`, along y first.
-  subroutine transform_along_x(operator, padded, table, spectrum, status)
-    type(fuge_halfspace_operator), intent(inout) :: operator
-    logical, intent(in) :: padded
-    real(dp), intent(inout), contiguous :: table(:, :), spectrum(:, :)
-    integer, intent(out) :: status
-    logical :: closed(2)
-
-    status = FUGE_DONE
-    closed = cyclic(operator)
-    if (operator%boundary == FUGE_FREE) then
-      call fill_halfspace_table(operator%spacing, operator%e_star, operator%element, table, status)
-    else if (operator%boundary == FUGE_PERIODIC_Y) then
-      call fill_strip_kernel(2, operator%period(2), closed(2), operator%reach, operator%spacing, operator%e_star, &
-                             operator%element, table, operator%datum_value, status)
-    else
-      call transpose_blocks(spectrum, table)
-    end if
-    if (status == 0 .and. .not. closed(1)) call operator%plan%transform_even(1, padded, table, status)
-    if (status == 0) call transpose_blocks(table, spectrum)
-  end subroutine transform_along_x
-
-  !> transpose() of a block after the other, each of which stays in cache.
-  pure subroutine transpose_blocks(a, b)
-    real(dp), intent(in), contiguous :: a(:, :)
-    real(dp), intent(inout), contiguous :: b(:, :)
-    integer, parameter :: BLOCK = 16
-    integer :: i, j, k
-
-    do j = 1, size(a, 2), BLOCK
-      do i = 1, size(a, 1), BLOCK
-        do k = i, min(i + BLOCK - 1, size(a, 1))
-          b(j:min(j + BLOCK - 1, size(a, 2)), k) = a(k, j:min(j + BLOCK - 1, size(a, 2)))
-        end do
-      end do
-    end do
-  end subroutine transpose_blocks
 
   !> Move the contents of `new` to `self`.
   subroutine move_contents(self, new)
@@ -381,13 +190,7 @@ contains
     class(fuge_halfspace_operator), intent(inout) :: self
     class(fuge_halfspace_operator), intent(in) :: source
 
-    self%cells = source%cells
-    self%element = source%element
-    self%boundary = source%boundary
-    self%spacing = source%spacing
-    self%period = source%period
-    self%e_star = source%e_star
-    self%reach = source%reach
+    self%surface = source%surface
     self%datum_value = source%datum_value
     self%threads = source%threads
     self%measured = source%measured
@@ -399,18 +202,18 @@ contains
     class(fuge_halfspace_operator), intent(in) :: source
     integer :: cells(2), stat
 
-    cells = source%cells
-    self%cells = 0
+    cells = source%surface%cells
+    self%surface%cells = 0
     ! Arrays of the right size are kept, because the source may be a bitwise copy of self that shares them.
     call self%influence%copy_from(source%influence, stat)
     if (stat == 0) call self%inverse%copy_from(source%inverse, stat)
     call self%plan%copy_from(source%plan)
     call copy_numbers(self, source)
     call self%coarser%clear()
-    self%cells = 0
+    self%surface%cells = 0
     if (stat /= 0 .or. self%plan%cells(1) < 1) return
-    self%cells = cells
-    call self%coarser%create(count_coarser(self))
+    self%surface%cells = cells
+    call self%coarser%create(count_coarser(self%surface))
   end subroutine copy
 
   !> Number of cells nx*ny; 0 before `set`.
@@ -418,7 +221,7 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     integer :: n
 
-    n = product(self%cells)
+    n = product(self%surface%cells)
   end function points
 
   !> u = (A - datum) f, with errors of about 1e-16 of its largest value.
@@ -442,7 +245,7 @@ contains
     integer, intent(out) :: status
 
     status = FUGE_DONE
-    if (any(self%cells < 1)) then
+    if (any(self%surface%cells < 1)) then
       status = FUGE_ERR_CALL_ORDER
     else if (first /= self%points() .or. second /= self%points()) then
       status = FUGE_ERR_SIZE
@@ -466,9 +269,9 @@ contains
     real(dp) :: period
 
     magnitude = maxval(abs(displacement))
-    if (self%boundary == FUGE_FREE) return
-    period = minval(self%spacing*self%period, mask=periodic(self))
-    magnitude = max(magnitude, MEAN_TERM*sum(abs(force))/(self%e_star*period))
+    if (self%surface%boundary == FUGE_FREE) return
+    period = minval(self%surface%spacing*self%surface%period, mask=periodic(self%surface))
+    magnitude = max(magnitude, MEAN_TERM*sum(abs(force))/(self%surface%e_star*period))
   end subroutine halfspace_magnitude
 
   !> True after `set`.
@@ -476,7 +279,7 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     logical :: preconditioned
 
-    preconditioned = all(self%cells > 0)
+    preconditioned = all(self%surface%cells > 0)
   end function has_preconditioner
 
   !> The inverse on a periodic surface, exact except for the constant. A free surface is taken
@@ -500,7 +303,7 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     integer :: cells(2)
 
-    cells = self%cells
+    cells = self%surface%cells
   end function grid
 
   !> Cells 2**levels times as wide in both directions, with the same element and boundary. In a periodic direction the
@@ -526,26 +329,20 @@ contains
     integer, intent(in) :: levels
     type(fuge_halfspace_operator), intent(inout) :: wider
     type(fuge_info), intent(out) :: info
-    integer :: k
 
-    if (levels < 1 .or. levels > count_coarser(self)) then
+    if (levels < 1 .or. levels > count_coarser(self%surface)) then
       call report(info, FUGE_ERR_SIZE, 'levels = '//text(levels)//': the grid has too few cells')
       return
     end if
     call copy_numbers(wider, self)
-    do k = 1, levels
-      where (wider%cells > 1) wider%spacing = 2.0_dp*wider%spacing
-      wider%cells = (wider%cells - 1)/2 + 1
-      wider%period = (wider%period + 1)/2
-    end do
-    where (periodic(self)) wider%spacing = self%spacing*(real(self%period, dp)/real(wider%period, dp))
+    wider%surface = coarsened(self%surface, levels)
     wider%measured = .false.
     if (wider%points() < FEWEST_FOR_THREADS) wider%threads = 1
     call prepare(wider, info)
   end subroutine set_wider
 
-  !> The window of `fuge_operator`: the same coefficients on fewer cells. A window of a periodic surface knows the forces of
-  !> all periods.
+  !> The window of `fuge_operator`: the same coefficients on fewer cells. A window of a periodic surface knows the
+  !> forces of all periods.
   subroutine window(self, first, last, part)
     class(fuge_halfspace_operator), intent(in) :: self
     integer, intent(in) :: first(2), last(2)
@@ -554,28 +351,14 @@ contains
     type(fuge_info) :: info
     integer :: stat
 
-    if (any(first < 1) .or. any(last < first) .or. any(last > self%cells)) return
+    if (any(first < 1) .or. any(last < first) .or. any(last > self%surface%cells)) return
     allocate (smaller, stat=stat)
     if (stat /= 0) return
     call copy_numbers(smaller, self)
-    smaller%cells = last - first + 1
+    smaller%surface%cells = last - first + 1
     call prepare(smaller, info)
     if (.not. info%failed()) call move_alloc(smaller, part)
   end subroutine window
-
-  !> How many times the grid can be coarsened.
-  pure function count_coarser(self) result(count)
-    class(fuge_halfspace_operator), intent(in) :: self
-    integer :: count, cells(2)
-
-    count = -1
-    cells = self%cells
-    do while (real(cells(1), dp)*real(cells(2), dp) >= FEWEST_CELLS)
-      cells = (cells - 1)/2 + 1
-      count = count + 1
-    end do
-    count = max(count, 0)
-  end function count_coarser
 
   !> As `coarsen`, but the wider cells are kept with those of the finest grid, for the next solve and for
   !> solves in other threads.

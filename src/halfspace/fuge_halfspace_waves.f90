@@ -1,5 +1,5 @@
-!> Influence coefficients and eigenvalues of grids of rectangles on an elastic half-space that is periodic in at least one
-!> direction.
+!> Influence coefficients and eigenvalues of grids of rectangles on an elastic half-space that is periodic in at least
+!> one direction.
 !>
 !> A wave q of pressure displaces the surface by 2/(e_star |q|) times itself (K. L. Johnson, Contact Mechanics, 1985,
 !> equation 13.6 and section 13.2). The eigenvalue of a wave of forces on the cells is the sum of this over all waves
@@ -15,7 +15,7 @@
 !> Fourier transform of its sums.
 module fuge_halfspace_waves
   use fuge_constants, only: PI
-  use fuge_grid_convolution, only: grid_plan
+  use fuge_grid_plan, only: grid_plan
   use fuge_halfplane_influence, only: mean_log, FUGE_CENTRE
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemm
@@ -63,8 +63,9 @@ contains
   !> The influence of a cell on a surface that is periodic in both directions, `surface` (2) cells each.
   !>
   !> `kernel` (0:my, 0:mx), displacement per force: for the waves of 0, 1, .. periods in a direction that is
-  !> `wanted_waves`, then m is half of its cells, and otherwise at the distances 0, 1, .. cells. Displacements count from
-  !> the mean of the surface. `spacing` (2) length, `e_star` force per length squared. `stat` as in an allocate statement.
+  !> `wanted_waves`, then m is half of its cells, and otherwise at the distances 0, 1, .. cells. Displacements count
+  !> from the mean of the surface. `spacing` (2) length, `e_star` force per length squared. `stat` as in an allocate
+  !> statement.
   subroutine fill_periodic_kernel(surface, wanted_waves, spacing, e_star, element, kernel, stat)
     integer, intent(in) :: surface(2), element
     logical, intent(in) :: wanted_waves(2)
@@ -111,8 +112,8 @@ contains
   !>
   !> `kernel` (0:m, 0:n): along the first dimension the free direction, at the distances 0, 1, ..; along the second one
   !> waves or distances as for `fill_periodic_kernel`. The wave of constant forces is the half-plane's logarithm; its
-  !> datum is the mean over a circle of 2 m cells. `datum`, length per force of a cell: what then remains to be added if the
-  !> displacement is to be 0 at the distance `reach` along the free direction, length.
+  !> datum is the mean over a circle of 2 m cells. `datum`, length per force of a cell: what then remains to be added if
+  !> the displacement is to be 0 at the distance `reach` along the free direction, length.
   !> Ten arguments: those of `fill_periodic_kernel`, and the datum.
   subroutine fill_strip_kernel(direction, surface, wanted_waves, reach, spacing, e_star, element, kernel, datum, stat)
     integer, intent(in) :: direction, surface, element
@@ -132,7 +133,8 @@ contains
     if (stat /= 0) return
     weight = weight*(4.0_dp/sqrt(PI))*(least/spacing(1)/spacing(2)/e_star)
     allocate (round(0:ubound(kernel, 2), size(node)), along(0:m, size(node)), logarithm(0:m), stat=stat)
-    if (stat == 0) call fill_circle(surface, wanted_waves, node*(least/spacing(direction)), element, .false., round, stat)
+    if (stat == 0) call fill_circle(surface, wanted_waves, node*(least/spacing(direction)), element, .false., round, &
+                                    stat)
     if (stat /= 0) return
     do k = 1, size(node)
       call fill_places(node(k)*(least/spacing(3 - direction)), element, along(:, k))

@@ -291,8 +291,8 @@ contains
     call convolve_values(self, plan, size(x), x, size(y), y, status)
   end subroutine convolve
 
-  !> As `convolve`, checked. The arrays have an explicit shape, because gfortran copies arrays to pass them as contiguous
-  !> ones.
+  !> As `convolve`, checked. The arrays have an explicit shape, because gfortran copies arrays to pass them as
+  !> contiguous ones.
   subroutine convolve_values(self, plan, values, x, results, y, status)
     type(convolution_kernel), intent(in) :: self
     type(fft_plan), intent(in) :: plan
