@@ -109,22 +109,14 @@ contains
     integer :: first, last
 
     call split_entry(file%content(file%first:file%last), name, first, last)
-    select case (name)
-    case ('numpoints')
-      call take_whole(file, first, last, header%nx, info)
-    case ('numprofiles')
-      call take_whole(file, first, last, header%ny, info)
-    case ('compression')
-      call take_whole(file, first, last, header%compression, info)
-    case ('checktype')
-      call take_whole(file, first, last, header%check_type, info)
-    case ('xscale')
-      call take_real(file, first, last, header%scale_x, info)
-    case ('yscale')
-      call take_real(file, first, last, header%scale_y, info)
-    case ('zscale')
-      call take_real(file, first, last, header%scale_z, info)
-    end select
+    ! Not by cases: gfortran keeps the table of the names as a variable, which threads would share.
+    if (name == 'numpoints') call take_whole(file, first, last, header%nx, info)
+    if (name == 'numprofiles') call take_whole(file, first, last, header%ny, info)
+    if (name == 'compression') call take_whole(file, first, last, header%compression, info)
+    if (name == 'checktype') call take_whole(file, first, last, header%check_type, info)
+    if (name == 'xscale') call take_real(file, first, last, header%scale_x, info)
+    if (name == 'yscale') call take_real(file, first, last, header%scale_y, info)
+    if (name == 'zscale') call take_real(file, first, last, header%scale_z, info)
   end subroutine read_entry
 
   !> The name of an entry, in lower case, and the position of its value, line(first:last).
