@@ -17,6 +17,8 @@ module fuge_sdf_header
   !> Length of the version, the first field of a binary header, and of the whole header.
   integer, parameter :: VERSION_LENGTH = 8
   integer(int64), parameter, public :: BINARY_HEADER_LENGTH = 81_int64
+  !> As many characters of a name as tell it from others.
+  integer, parameter :: NAME_LENGTH = 12
   !> Types of the heights.
   integer, parameter, public :: SDF_INT16 = 5, SDF_INT32 = 6, SDF_DOUBLE = 7
 
@@ -105,7 +107,7 @@ contains
     type(text_file), intent(in) :: file
     type(sdf_header), intent(inout) :: header
     type(fuge_info), intent(inout) :: info
-    character(len=12) :: name
+    character(len=NAME_LENGTH) :: name
     integer :: first, last
 
     call split_entry(file%content(file%first:file%last), name, first, last)
@@ -122,7 +124,7 @@ contains
   !> The name of an entry, in lower case, and the position of its value, line(first:last).
   pure subroutine split_entry(line, name, first, last)
     character(len=*), intent(in) :: line
-    character(len=*), intent(out) :: name
+    character(len=NAME_LENGTH), intent(out) :: name
     integer, intent(out) :: first, last
     integer :: equals
 
