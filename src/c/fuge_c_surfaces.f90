@@ -163,7 +163,7 @@ contains
   subroutine copy_fields(n, count, names, fields, all_names, all_fields, info)
     integer, intent(in) :: n, count
     type(c_ptr), intent(in) :: names, fields
-    character(len=*), allocatable, intent(out) :: all_names(:)
+    character(len=NAME_LENGTH), allocatable, intent(out) :: all_names(:)
     real(c_double), allocatable, intent(out) :: all_fields(:, :)
     type(fuge_info), intent(inout) :: info
     type(c_ptr), pointer :: name(:), field(:)

@@ -152,9 +152,10 @@ contains
     if (.not. info%failed()) call check_finite(spacing(2), 'spacing_y', info)
     if (.not. info%failed()) call check_finite(origin, 'origin', info)
     if (info%failed()) return
-    if (.not. minval(spacing) > 0.0_dp) &
+    if (.not. minval(spacing) > 0.0_dp) then
       call report(info, FUGE_ERR_WIDTH, 'spacing_x = '//text(spacing(1))//', spacing_y = '//text(spacing(2)) &
                   //': both must be > 0')
+    end if
   end subroutine check_grid
 
   !> Refuse fields of another size (FUGE_ERR_SIZE), NaN and infinity (FUGE_ERR_NOT_FINITE), and names that are blank,
@@ -186,16 +187,19 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: j
 
-    if (len_trim(names(k)) < 1 .or. len_trim(names(k)) > NAME_LENGTH) &
+    if (len_trim(names(k)) < 1 .or. len_trim(names(k)) > NAME_LENGTH) then
       call report(info, FUGE_ERR_OPTION, 'the name of field '//index_text(k)//' must have 1 to '//text(NAME_LENGTH) &
                   //' characters')
+    end if
     do j = 1, len_trim(names(k))
-      if (iachar(names(k)(j:j)) < 32 .or. iachar(names(k)(j:j)) == 127) &
+      if (iachar(names(k)(j:j)) < 32 .or. iachar(names(k)(j:j)) == 127) then
         call report(info, FUGE_ERR_OPTION, 'the name of field '//index_text(k)//' has a control character')
+      end if
     end do
     do j = 1, k - 1
-      if (names(j) == names(k)) &
+      if (names(j) == names(k)) then
         call report(info, FUGE_ERR_OPTION, 'fields '//index_text(j)//' and '//index_text(k)//' have the same name')
+      end if
     end do
   end subroutine check_name
 

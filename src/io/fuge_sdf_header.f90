@@ -17,6 +17,8 @@ module fuge_sdf_header
   !> Length of the version, the first field of a binary header, and of the whole header.
   integer, parameter :: VERSION_LENGTH = 8
   integer(int64), parameter, public :: BINARY_HEADER_LENGTH = 81_int64
+  !> As many characters of a name as tell it from others.
+  integer, parameter :: NAME_LENGTH = 12
   !> Types of the heights.
   integer, parameter, public :: SDF_INT16 = 5, SDF_INT32 = 6, SDF_DOUBLE = 7
 
@@ -105,32 +107,24 @@ contains
     type(text_file), intent(in) :: file
     type(sdf_header), intent(inout) :: header
     type(fuge_info), intent(inout) :: info
-    character(len=12) :: name
+    character(len=NAME_LENGTH) :: name
     integer :: first, last
 
     call split_entry(file%content(file%first:file%last), name, first, last)
-    select case (name)
-    case ('numpoints')
-      call take_whole(file, first, last, header%nx, info)
-    case ('numprofiles')
-      call take_whole(file, first, last, header%ny, info)
-    case ('compression')
-      call take_whole(file, first, last, header%compression, info)
-    case ('checktype')
-      call take_whole(file, first, last, header%check_type, info)
-    case ('xscale')
-      call take_real(file, first, last, header%scale_x, info)
-    case ('yscale')
-      call take_real(file, first, last, header%scale_y, info)
-    case ('zscale')
-      call take_real(file, first, last, header%scale_z, info)
-    end select
+    ! Not by cases: gfortran keeps the table of the names as a variable, which threads would share.
+    if (name == 'numpoints') call take_whole(file, first, last, header%nx, info)
+    if (name == 'numprofiles') call take_whole(file, first, last, header%ny, info)
+    if (name == 'compression') call take_whole(file, first, last, header%compression, info)
+    if (name == 'checktype') call take_whole(file, first, last, header%check_type, info)
+    if (name == 'xscale') call take_real(file, first, last, header%scale_x, info)
+    if (name == 'yscale') call take_real(file, first, last, header%scale_y, info)
+    if (name == 'zscale') call take_real(file, first, last, header%scale_z, info)
   end subroutine read_entry
 
   !> The name of an entry, in lower case, and the position of its value, line(first:last).
   pure subroutine split_entry(line, name, first, last)
     character(len=*), intent(in) :: line
-    character(len=*), intent(out) :: name
+    character(len=NAME_LENGTH), intent(out) :: name
     integer, intent(out) :: first, last
     integer :: equals
 

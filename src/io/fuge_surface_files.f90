@@ -145,8 +145,9 @@ contains
 
     call check_finite(spacing, name, info)
     if (info%failed()) return
-    if (.not. spacing >= 0.0_dp) &
+    if (.not. spacing >= 0.0_dp) then
       call report(info, FUGE_ERR_WIDTH, name//' = '//text(spacing)//' is negative: pass 0 if it is unknown')
+    end if
   end subroutine check_spacing
 
 end module fuge_surface_files

@@ -135,7 +135,7 @@ contains
   !> Numbers as text.
   subroutine convert(numbers, fields)
     real(dp), intent(in) :: numbers(:)
-    character(len=*), intent(inout) :: fields(:)
+    character(len=FIELD_LENGTH), intent(inout) :: fields(:)
 
     ! gfortran's run-time library keeps internal units in the list through which `open` walks.
     call lock(LOCK_FILES)

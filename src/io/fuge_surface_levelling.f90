@@ -28,8 +28,9 @@ contains
     integer :: pass
 
     call check_heights(height, info)
-    if (.not. info%failed() .and. form /= FUGE_LEVEL_MEAN .and. form /= FUGE_LEVEL_PLANE) &
+    if (.not. info%failed() .and. form /= FUGE_LEVEL_MEAN .and. form /= FUGE_LEVEL_PLANE) then
       call report(info, FUGE_ERR_OPTION, 'form = '//text(form)//' is unknown: use FUGE_LEVEL_MEAN or FUGE_LEVEL_PLANE')
+    end if
     if (info%failed()) return
     ! Relative to one height, so that an offset costs no digits.
     height = height - height(1, 1)

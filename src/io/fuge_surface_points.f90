@@ -106,9 +106,10 @@ contains
       if (info%failed()) return
     end do
     places = int(axis(1)%count, int64)*int(axis(2)%count, int64)
-    if (places/2_int64 > size(point, 1)) &
+    if (places/2_int64 > size(point, 1)) then
       call report(info, FUGE_ERR_FILE, file%name//': '//text(size(point, 1))//' points are no full grid of ' &
                   //text(axis(1)%count)//' positions x and '//text(axis(2)%count)//' positions y')
+    end if
   end subroutine find_axes
 
   !> Give each point its place in the grid; a second point at a place is refused.

@@ -124,8 +124,9 @@ contains
       column = column + 1
       if (column > form%columns) cycle
       call read_height(line(first:last), values(column), reason)
-      if (separator /= form%separator .and. separator /= SEPARATOR_NONE) &
+      if (separator /= form%separator .and. separator /= SEPARATOR_NONE) then
         call explain_separators(form, separator, reason)
+      end if
       if (allocated(reason)) return
       if (unmeasured == 0 .and. .not. values(column) < NOT_MEASURED) unmeasured = column
     end do

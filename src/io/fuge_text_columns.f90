@@ -17,22 +17,22 @@ module fuge_text_columns
 contains
 
   !> Kind of a character.
-  pure function kind_of(letter) result(class)
+  pure function kind_of(letter) result(letter_kind)
     character, intent(in) :: letter
-    integer :: class
+    integer :: letter_kind
 
     ! By number: gfortran compares characters with a blank by a call of its library.
     select case (iachar(letter))
     case (9, 13, 32)
-      class = BLANK
+      letter_kind = BLANK
     case (iachar(','))
-      class = COMMA
+      letter_kind = COMMA
     case (iachar(';'))
-      class = SEMICOLON
+      letter_kind = SEMICOLON
     case (iachar('#'), iachar('!'))
-      class = COMMENT
+      letter_kind = COMMENT
     case default
-      class = OTHER
+      letter_kind = OTHER
     end select
   end function kind_of
 
@@ -52,13 +52,13 @@ contains
     character(len=*), intent(in) :: line
     integer, intent(inout) :: k
     integer, intent(out) :: first, last, separator
-    integer :: class
+    integer :: letter_kind
 
     first = k
-    class = OTHER
+    letter_kind = OTHER
     do while (k <= len(line))
-      class = kind_of(line(k:k))
-      if (class /= OTHER .and. class /= COMMENT) exit
+      letter_kind = kind_of(line(k:k))
+      if (letter_kind /= OTHER .and. letter_kind /= COMMENT) exit
       k = k + 1
     end do
     last = k - 1
@@ -66,9 +66,9 @@ contains
     separator = SEPARATOR_NONE
     if (k > len(line)) return
     separator = SEPARATOR_BLANK
-    class = kind_of(line(k:k))
-    if (class /= COMMA .and. class /= SEMICOLON) return
-    separator = merge(SEPARATOR_COMMA, SEPARATOR_SEMICOLON, class == COMMA)
+    letter_kind = kind_of(line(k:k))
+    if (letter_kind /= COMMA .and. letter_kind /= SEMICOLON) return
+    separator = merge(SEPARATOR_COMMA, SEPARATOR_SEMICOLON, letter_kind == COMMA)
     k = after_blanks(line, k + 1)
   end subroutine next_column
 
@@ -78,12 +78,12 @@ contains
     character(len=*), intent(in) :: line
     integer, intent(in) :: from
     integer :: k
-    integer :: class
+    integer :: letter_kind
 
     do k = from, len(line)
-      class = kind_of(line(k:k))
-      if (class == BLANK) cycle
-      if (class == COMMENT) exit
+      letter_kind = kind_of(line(k:k))
+      if (letter_kind == BLANK) cycle
+      if (letter_kind == COMMENT) exit
       return
     end do
     k = len(line) + 1

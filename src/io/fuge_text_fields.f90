@@ -219,6 +219,8 @@ contains
     select case (field(k:k))
     case ('e', 'E', 'd', 'D')
       call read_exponent(field, k, number)
+    case default
+      kind = FIELD_WRONG
     end select
     if (k <= len(field)) kind = FIELD_WRONG
   end subroutine read_decimal
