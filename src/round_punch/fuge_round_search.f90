@@ -116,7 +116,7 @@ contains
     call solve_resolved(profile, target, bounds, transform, radius_error, converged, search%steps, info)
     if (info%failed() .or. .not. converged) return
     if (.not. transform%thrust() > 0.0_dp) then
-      if (search%outcome == DISC_NOT_FOUND) search%outcome = DISC_IN_TENSION
+      if (search%outcome == DISC_NOT_FOUND .and. transform%thrust() < 0.0_dp) search%outcome = DISC_IN_TENSION
       search%refused_radius = transform%radius
       return
     end if
@@ -164,9 +164,10 @@ contains
       else
         call find_radius(profile, target, bounds, degree, transform, error, converged, steps, info)
       end if
-      if (info%failed() .or. .not. converged .or. size(transform%powers) > 0) return
+      if (info%failed() .or. .not. converged .or. size(transform%coefficients) == 0) return
       call measure_series_error(profile, transform%slope, sample_positions(profile), difference, info)
-      if (info%failed() .or. difference <= max(SIGN_TOLERANCE*transform%rim_slope(), ERROR_FACTOR*transform%error)) return
+      if (info%failed()) return
+      if (difference <= max(SIGN_TOLERANCE*transform%rim_slope(), ERROR_FACTOR*transform%error)) return
       if (degree >= RAISED_DEGREE) exit
       degree = RAISED_DEGREE
     end do
