@@ -1,8 +1,9 @@
 !> Profiles of round punches as sums of powers of the radius: powers that are no integers, parts that begin at an edge.
 module fuge_power_profile_type
+  use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_smooth_profile_type, only: fuge_smooth_profile
-  use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_WIDTH
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH
   implicit none
   private
 
@@ -24,8 +25,8 @@ module fuge_power_profile_type
 contains
 
   !> `x` the radius, length; `gap` (size(x)) length and `slope` (size(x)) no unit. `status`: FUGE_DONE,
-  !> FUGE_ERR_CALL_ORDER without coefficients or powers, FUGE_ERR_WIDTH for a power below 1, a start below 0, or a start
-  !> with another power than 1 or 2.
+  !> FUGE_ERR_CALL_ORDER without coefficients or powers, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for a power below 1, a start
+  !> below 0, or a start with another power than 1 or 2.
   subroutine evaluate(self, x, gap, slope, status)
     class(fuge_power_profile), intent(in) :: self
     real(dp), intent(in) :: x(:)
@@ -42,6 +43,8 @@ contains
     if (size(self%coefficients) /= size(self%powers)) return
     allocate (start, source=self%all_starts())
     if (size(start) /= size(self%powers)) return
+    status = FUGE_ERR_NOT_FINITE
+    if (.not. (is_finite_everywhere(self%powers) .and. is_finite_everywhere(start))) return
     status = FUGE_ERR_WIDTH
     if (.not. all(self%powers >= 1.0_dp .and. start >= 0.0_dp)) return
     if (any(start > 0.0_dp .and. abs(self%powers - 1.0_dp) > 0.0_dp .and. abs(self%powers - 2.0_dp) > 0.0_dp)) return
