@@ -36,6 +36,8 @@ module fuge_round_search
 
   !> Violations of the sign conditions up to this, or up to so many times the estimated error, are accepted.
   real(dp), parameter :: SIGN_TOLERANCE = 1.0e-10_dp, ERROR_FACTOR = 10.0_dp
+  !> A pressure that may be off by more than the mean is none.
+  real(dp), parameter :: LARGEST_ERROR = 1.0_dp
   !> Radii of the second search: so many equal steps, and halvings of the first one.
   integer, parameter :: EQUAL_STEPS = 64, HALVINGS = 40
   !> The degree of a series that has missed a detail is raised to this one.
@@ -123,6 +125,7 @@ contains
     call contact%set(transform, axis_gap, e_star)
     contact%radius_error = radius_error
     contact%pressure_error = contact%pressure_error + radius_error
+    if (.not. contact%pressure_error <= LARGEST_ERROR) return
     call check_signs(profile, contact, transform, violation, info)
     if (info%failed()) return
     worst = max(violation%tension, violation%penetration)
