@@ -116,12 +116,16 @@ int fuge_solve_round_punch(fuge_smooth_profile profile, void *user, double reach
                            const double *load, const double *approach, const double *radius,
                            fuge_round **contact, char *message, size_t len);
 
-/* The same for the initial gap sum over k < terms of coefficients[k] r^powers[k].
+/* The same for the initial gap sum over k < terms of coefficients[k] (r - starts[k])^powers[k],
+ * each term from r = starts[k] on.
  *   powers  in  >= 1, any: 1 for a cone, 2 for a paraboloid
- * FUGE_ERR_WIDTH for a power below 1. */
+ *   starts  in  >= 0, length; NULL: all 0.  Where one is not 0 the power is 1 or 2
+ * A flat end of radius b with an edge rounded by R is (r - b)^2/(2 R); a ball worn flat there
+ * has b (r - b)/R in addition.
+ * FUGE_ERR_WIDTH for a power below 1, a start < 0, or a start with another power than 1 or 2. */
 int fuge_solve_round_powers(int terms, const double *coefficients, const double *powers,
-                            double reach, double e_star, const double *load,
-                            const double *approach, const double *radius,
+                            const double *starts, double reach, double e_star,
+                            const double *load, const double *approach, const double *radius,
                             fuge_round **contact, char *message, size_t len);
 
 /* Free and set *contact to NULL; NULL and *contact == NULL are fine. */

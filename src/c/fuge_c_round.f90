@@ -50,11 +50,11 @@ contains
     status = report_to_c(info, message, length)
   end function c_solve_round_punch
 
-  !> Eleven arguments, as in the header: the profile, the modulus, what is prescribed, the result, the message.
-  function c_solve_round_powers(terms, coefficients, powers, reach, e_star, load, approach, radius, destination, message, &
-                                length) bind(c, name='fuge_solve_round_powers') result(status)
+  !> Twelve arguments, as in the header: the profile, the modulus, what is prescribed, the result, the message.
+  function c_solve_round_powers(terms, coefficients, powers, starts, reach, e_star, load, approach, radius, &
+                                destination, message, length) bind(c, name='fuge_solve_round_powers') result(status)
     integer(c_int), intent(in), value :: terms
-    type(c_ptr), intent(in), value :: coefficients, powers, load, approach, radius, destination, message
+    type(c_ptr), intent(in), value :: coefficients, powers, starts, load, approach, radius, destination, message
     real(c_double), intent(in), value :: reach, e_star
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
@@ -71,6 +71,10 @@ contains
       allocate (punch%coefficients, source=values)
       call c_f_pointer(powers, values, [terms])
       allocate (punch%powers, source=values)
+      if (c_associated(starts)) then
+        call c_f_pointer(starts, values, [terms])
+        allocate (punch%starts, source=values)
+      end if
       call solve(punch, e_star, load, approach, radius, destination, info)
     end if
     status = report_to_c(info, message, length)

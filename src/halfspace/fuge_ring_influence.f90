@@ -67,8 +67,8 @@ contains
 
   !> The displacement of the surface by forces on rings, anywhere.
   !>
-  !> `radius` (n + 1) and `e_star` as in `fuge_ring_matrix`; `force` (n) the resultants of uniform pressures; `place` >= 0
-  !> distances from the axis, length. Out: `displacement` (size(place)) into the body, length; on a ring it varies.
+  !> `radius` (n + 1) and `e_star` as in `fuge_ring_matrix`; `force` (n) the resultants of uniform pressures; `place`
+  !> distances >= 0 from the axis, length. Out: `displacement` (size(place)) into the body, length; on a ring it varies.
   !> Errors, displacement untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, also for a negative place,
   !> FUGE_ERR_MODULUS, FUGE_ERR_OVERFLOW.
   pure subroutine fuge_ring_displacement(radius, force, e_star, place, displacement, info)

@@ -13,6 +13,7 @@ module fuge_abel_transform
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
   use fuge_power_profile_type, only: fuge_power_profile
+  use fuge_profile_edges, only: edge_depth, edge_rim_slope, edge_thrust, profile_edge
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
   use fuge_smooth_slope_series, only: anchored_interval, expand_slope, slope_series
   use fuge_status, only: fuge_info
@@ -28,11 +29,14 @@ module fuge_abel_transform
   !> Above this argument the gamma function itself might overflow.
   real(dp), parameter :: LARGEST_ARGUMENT = 150.0_dp
 
-  !> g'(t) = sum_k coefficients(k + 1) T_k(2 t/radius - 1) + sum_k factors(k) (t/radius)**(powers(k) - 1).
+  !> g'(t) = sum_k coefficients(k + 1) T_k(2 t/radius - 1) + sum_k factors(k) (t/radius)**(powers(k) - 1), and the
+  !> edges.
   type, public :: abel_transform
     !> Radius of the contact; length.
     real(dp) :: radius = 0.0_dp
     real(dp), allocatable :: coefficients(:), factors(:), powers(:)
+    !> Terms that begin within the contact, in units of its radius.
+    type(profile_edge), allocatable :: edges(:)
     !> g'(0), which is not 0 for a tip.
     real(dp) :: tip = 0.0_dp
     !> The slope f' from which the series was made, without powers.
@@ -66,20 +70,46 @@ contains
     select type (profile)
     class is (fuge_power_profile)
       allocate (transform%coefficients(0))
-      allocate (transform%powers, source=profile%powers)
-      allocate (transform%factors, source=power_factors(profile%coefficients, profile%powers, radius))
+      call set_powers(profile, radius, transform)
     class default
       call expand_slope(profile, anchored_interval(0.0_dp, 0.5_dp*radius, 0.5_dp*radius), tolerance, degrees, &
                         transform%slope, info)
       if (info%failed()) return
       terms = terms_above_noise(transform%slope)
       allocate (transform%coefficients, source=transformed(transform%slope%coefficients(:terms)))
-      allocate (transform%powers(0), transform%factors(0))
+      allocate (transform%powers(0), transform%factors(0), transform%edges(0))
       transform%error = transform%slope%series_error
     end select
     if (abs(transform%tip) <= LEAST_TIP*maxval(abs(transform%slopes([0.5_dp, 1.0_dp])))) transform%tip = 0.0_dp
     call fix_tip(transform%tip, transform%coefficients)
   end subroutine expand_transform
+
+  !> The terms of a profile in closed form; those that begin outside of the contact are left out.
+  pure subroutine set_powers(profile, radius, transform)
+    class(fuge_power_profile), intent(in) :: profile
+    real(dp), intent(in) :: radius
+    type(abel_transform), intent(inout) :: transform
+    real(dp) :: start(size(profile%powers))
+    integer :: k, last
+
+    start = profile%all_starts()
+    allocate (transform%powers, source=pack(profile%powers, .not. start > 0.0_dp))
+    allocate (transform%factors, source=power_factors(pack(profile%coefficients, .not. start > 0.0_dp), &
+                                                      transform%powers, radius))
+    allocate (transform%edges(count(start > 0.0_dp .and. start < radius)))
+    last = 0
+    do k = 1, size(start)
+      if (.not. (start(k) > 0.0_dp .and. start(k) < radius)) cycle
+      last = last + 1
+      associate (edge => transform%edges(last))
+        edge%power = nint(profile%powers(k))
+        edge%start = start(k)/radius
+        edge%rest = (radius - start(k))/radius
+        edge%factor = profile%coefficients(k)
+        if (edge%power == 2) edge%factor = 2.0_dp*radius*edge%factor
+      end associate
+    end do
+  end subroutine set_powers
 
   !> Terms of a series up to the last one above its error: the derivative in g' would magnify what is noise.
   pure function terms_above_noise(series) result(terms)
@@ -156,7 +186,7 @@ contains
     end do
   end function degree_for
 
-  !> g' at `part` (m), 0 to 1, times the radius; no unit.
+  !> g' without the edges at `part` (m), 0 to 1, times the radius; no unit.
   pure function slopes(self, part) result(values)
     class(abel_transform), intent(in) :: self
     real(dp), intent(in) :: part(:)
@@ -179,7 +209,7 @@ contains
     class(abel_transform), intent(in) :: self
     real(dp) :: slope
 
-    slope = sum(self%coefficients) + sum(self%factors)
+    slope = sum(self%coefficients) + sum(self%factors) + sum(edge_rim_slope(self%edges))
   end function rim_slope
 
   !> g(a) over the radius a; no unit.
@@ -189,6 +219,9 @@ contains
     integer :: k
 
     depth = sum(self%factors/self%powers)
+    do k = 1, size(self%edges)
+      depth = depth + edge_depth(self%edges(k))
+    end do
     do k = 0, size(self%coefficients) - 1
       depth = depth + 0.5_dp*self%coefficients(k + 1)*moment(k)
     end do
@@ -201,6 +234,9 @@ contains
     integer :: k
 
     thrust = sum(self%factors/(self%powers + 1.0_dp))
+    do k = 1, size(self%edges)
+      thrust = thrust + edge_thrust(self%edges(k))
+    end do
     do k = 0, size(self%coefficients) - 1
       thrust = thrust + 0.25_dp*self%coefficients(k + 1)*(moment(k) + 0.5_dp*(moment(k + 1) + moment(abs(k - 1))))
     end do

@@ -7,6 +7,7 @@ module fuge_round_certificate
   use fuge_constants, only: PI
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
+  use fuge_profile_edges, only: edge_height, EDGE_NODES
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
   use fuge_status, only: fuge_info
@@ -17,10 +18,12 @@ module fuge_round_certificate
 
   !> Radii where the gap equation is evaluated, and nodes of the quadrature rules, beyond a multiple of the degree.
   integer, parameter :: MORE_POINTS = 12, MORE_NODES = 24
+  !> More nodes for the pressure beside an edge, which may lie close to the rim.
+  integer, parameter :: NODES_FOR_EDGES = 40
   !> The offset keeps the radii off the nodes of a Chebyshev series.
   real(dp), parameter :: OFFSET = 0.39_dp
-  !> Substitutions that make a singular pressure in a tip, and powers that are no integers, smooth enough.
-  integer, parameter :: PRESSURE_POWER = 6, AXIS_POWER = 4
+  !> With the angle node**4 a power that is no integer is smooth enough on the axis.
+  integer, parameter :: AXIS_POWER = 4
   !> Rounding errors of the caller's own numbers that do not count, in units of the last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
 
@@ -65,8 +68,10 @@ contains
     real(dp), intent(in) :: r(:)
     real(dp) :: height(size(r))
     real(dp), dimension(nodes_of(transform)) :: node, weight, angle
-    integer :: k
+    real(dp), dimension(EDGE_NODES) :: edge_node, edge_weight
+    integer :: j, k
 
+    call gauss_rule(edge_node, edge_weight)
     call gauss_rule(node, weight)
     if (size(transform%powers) > 0) then
       weight = real(AXIS_POWER, dp)*node**(AXIS_POWER - 1)*weight
@@ -76,6 +81,10 @@ contains
     do k = 1, size(r)
       height(k) = r(k)*dot_product(weight, transform%slopes(min(1.0_dp, r(k)/transform%radius*sin(angle))) &
                                    *(0.5_dp*PI - angle)*cos(angle))
+      do j = 1, size(transform%edges)
+        height(k) = height(k) + 2.0_dp/PI*transform%radius*edge_height(transform%edges(j), r(k)/transform%radius, &
+                                                                          edge_node, edge_weight)
+      end do
     end do
   end function recovered_heights
 
@@ -84,19 +93,40 @@ contains
     type(fuge_round_contact), intent(in) :: contact
     type(abel_transform), intent(in) :: transform
     real(dp), intent(out) :: load, displacement
-    real(dp), dimension(nodes_of(transform)) :: node, weight, r, pressure
+    real(dp), dimension(nodes_of(transform)) :: node, weight, part, r, pressure
+    real(dp) :: ends(0:size(transform%edges) + 1)
+    integer :: k
 
     call gauss_rule(node, weight)
-    ! r = radius w (2 - w), smooth at the rim, where the pressure has a root; w = node**PRESSURE_POWER.
-    weight = weight*real(PRESSURE_POWER, dp)*node**(PRESSURE_POWER - 1)
-    node = node**PRESSURE_POWER
-    weight = 2.0_dp*(1.0_dp - node)*weight
-    r = node*(2.0_dp - node)
-    ! In units of the mean pressure, which keeps extreme numbers in range.
-    pressure = contact%pressure(contact%radius*r)/(contact%load/contact%radius/contact%radius)
-    load = 2.0_dp*PI*dot_product(weight, r*pressure)
-    displacement = 2.0_dp*dot_product(weight, pressure)
+    ! Smooth at both ends, where the pressure has a root or a logarithm: the part grows like the sixth power there.
+    part = node**6*(462.0_dp - node*(1980.0_dp - node*(3465.0_dp - node*(3080.0_dp - node*(1386.0_dp &
+                                                                                          - 252.0_dp*node)))))
+    weight = weight*2772.0_dp*(node*(1.0_dp - node))**5
+    ends = sorted([0.0_dp, transform%edges%start, 1.0_dp])
+    load = 0.0_dp
+    displacement = 0.0_dp
+    do k = 1, ubound(ends, 1)
+      r = min(1.0_dp, ends(k - 1) + (ends(k) - ends(k - 1))*part)
+      ! In units of the mean pressure, which keeps extreme numbers in range.
+      pressure = contact%pressure(contact%radius*r)/(contact%load/contact%radius/contact%radius)
+      load = load + 2.0_dp*PI*(ends(k) - ends(k - 1))*dot_product(weight, r*pressure)
+      displacement = displacement + 2.0_dp*(ends(k) - ends(k - 1))*dot_product(weight, pressure)
+    end do
   end subroutine integrate_pressure
+
+  !> The values in ascending order.
+  pure function sorted(values) result(ascending)
+    real(dp), intent(in) :: values(:)
+    real(dp) :: ascending(size(values))
+    integer :: k, j
+
+    ascending = values
+    do k = 2, size(values)
+      do j = k, 2, -1
+        if (ascending(j) < ascending(j - 1)) ascending(j - 1:j) = ascending([j, j - 1])
+      end do
+    end do
+  end function sorted
 
   pure function nodes_of(transform) result(nodes)
     type(abel_transform), intent(in) :: transform
@@ -104,6 +134,7 @@ contains
 
     nodes = MORE_NODES + 3*size(transform%coefficients)
     if (size(transform%powers) > 0) nodes = nodes + int(min(400.0_dp, 2.0_dp*maxval(transform%powers)))
+    if (size(transform%edges) > 0) nodes = nodes + NODES_FOR_EDGES
   end function nodes_of
 
 end module fuge_round_certificate

@@ -11,6 +11,7 @@ module fuge_round_contact_type
   use fuge_constants, only: PI
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
+  use fuge_profile_edges, only: edge_displacement, edge_pressure, EDGE_NODES
   implicit none
   private
 
@@ -117,6 +118,7 @@ contains
     integer :: nodes
 
     nodes = size(transform%coefficients)/2 + MORE_NODES
+    if (size(transform%edges) > 0) nodes = EDGE_NODES
     if (size(transform%powers) > 0) nodes = nodes + int(min(200.0_dp, 0.5_dp*maxval(transform%powers)))
   end function nodes_of
 
@@ -128,8 +130,13 @@ contains
     real(dp), intent(in) :: r, node(:), weight(:)
     real(dp) :: integral
     real(dp) :: ratio, length, upper, lower, part(size(node))
+    integer :: k
 
     integral = 0.0_dp
+    do k = 1, size(transform%edges)
+      integral = integral + edge_pressure(transform%edges(k), r/transform%radius, node, weight)
+    end do
+    if (size(transform%coefficients) + size(transform%powers) == 0) return
     ratio = max(r/transform%radius, tiny(1.0_dp))
     length = acosh_of(ratio, (transform%radius - r)/transform%radius)
     upper = length
@@ -183,7 +190,8 @@ contains
     end if
     do k = 1, size(r)
       if (abs(r(k)) > self%radius) then
-        gap(k) = gap(k) + displacement_integral(self%transform, abs(r(k)), node, weight)
+        gap(k) = gap(k) + displacement_integral(self%transform, abs(r(k)), node, weight) &
+                 + edges_displacement(self%transform, abs(r(k)))
       else
         gap(k) = 0.0_dp
       end if
@@ -204,5 +212,22 @@ contains
     part = min(1.0_dp, ratio*sin(angle))
     displacement = 2.0_dp/PI*r*rim_angle*dot_product(weight, transform%slopes(part)*angle*cos(angle))
   end function displacement_integral
+
+  !> What the edges add to it; length.
+  pure function edges_displacement(transform, r) result(displacement)
+    type(abel_transform), intent(in) :: transform
+    real(dp), intent(in) :: r
+    real(dp) :: displacement
+    real(dp), dimension(EDGE_NODES) :: node, weight
+    integer :: k
+
+    displacement = 0.0_dp
+    if (size(transform%edges) == 0) return
+    call gauss_rule(node, weight)
+    do k = 1, size(transform%edges)
+      displacement = displacement + edge_displacement(transform%edges(k), r/transform%radius, node, weight)
+    end do
+    displacement = 2.0_dp/PI*transform%radius*displacement
+  end function edges_displacement
 
 end module fuge_round_contact_type

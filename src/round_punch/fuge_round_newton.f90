@@ -31,6 +31,8 @@ module fuge_round_newton
   !> Newton's method ends after a step this small: the error is its square. Smaller steps than the second may be
   !> rounding.
   real(dp), parameter :: LAST_STEP = 1.0e-10_dp, ROUNDING_STEP = 1.0e-5_dp
+  !> A load or approach that rounding of the radius keeps this far from the one given is not accepted.
+  real(dp), parameter :: LARGEST_ERROR = 1.0e-6_dp
 
 contains
 
@@ -51,7 +53,8 @@ contains
     excess = log(tiny(1.0_dp))
     slope = 0.0_dp
     call expand_transform(profile, radius, merge(FINE_TOLERANCE, COARSE_TOLERANCE, fine), &
-                          [lowest_degree, merge(MAX_DEGREE, max(lowest_degree, COARSE_MAX_DEGREE), fine)], transform, info)
+                          [lowest_degree, merge(MAX_DEGREE, max(lowest_degree, COARSE_MAX_DEGREE), fine)], transform, &
+                          info)
     if (info%failed()) return
     if (target%given == GIVEN_LOAD) then
       reached = transform%thrust()
@@ -66,8 +69,8 @@ contains
   end subroutine measure_radius
 
   !> The radius between `bounds` (2), length, of which the first one carries too little or is 0, and the second one too
-  !> much. `transform` is the one on the radius found, `error` the estimated relative error of the radius. `steps` counts
-  !> the series formed. Errors: those of the profile. Nine arguments: three to say what is wanted, four for how it went.
+  !> much. `transform` is the one on the radius found, `error` the estimated relative error of the radius. `steps`
+  !> counts the series formed. Errors: those of the profile. Nine arguments: what is wanted, and how it went.
   subroutine find_radius(profile, target, bounds, lowest_degree, transform, error, converged, steps, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(round_target), intent(in) :: target
@@ -78,7 +81,7 @@ contains
     logical, intent(out) :: converged
     integer, intent(inout) :: steps
     type(fuge_info), intent(inout) :: info
-    real(dp) :: radius, lower, upper, excess, slope, change, previous
+    real(dp) :: radius, lower, upper, excess, slope, change, previous, size_now
     logical :: fine
     integer :: k
 
@@ -97,16 +100,19 @@ contains
       if (excess < 0.0_dp) lower = radius
       change = 0.0_dp
       if (slope > 0.0_dp) change = -excess/slope
-      converged = fine .and. slope > 0.0_dp .and. (abs(change) <= 4.0_dp*epsilon(change) &
-                                                   .or. (abs(change) <= ROUNDING_STEP .and. previous <= LAST_STEP))
+      ! Close to an edge of the profile the load changes much faster than the radius.
+      size_now = max(abs(change), abs(excess))
+      converged = fine .and. slope > 0.0_dp .and. size_now <= LARGEST_ERROR &
+                  .and. (abs(change) <= 4.0_dp*epsilon(change) &
+                         .or. (size_now <= ROUNDING_STEP .and. previous <= LAST_STEP))
       if (converged) exit
-      if (fine) previous = abs(change)
+      if (fine) previous = size_now
       radius = next_radius(radius, lower, upper, change, slope > 0.0_dp)
       if (.not. radius > 0.0_dp) return
       if (abs(change) <= COARSE_STEP .and. slope > 0.0_dp) fine = .true.
       if (upper <= lower*(1.0_dp + 4.0_dp*epsilon(upper))) fine = .true.
     end do
-    if (converged) error = abs(change) + transform%error/transform%rim_slope()
+    if (converged) error = size_now + transform%error/transform%rim_slope()
   end subroutine find_radius
 
   !> Newton's step where it stays between the bounds; otherwise between them, in the logarithm.

@@ -40,7 +40,8 @@ contains
   !> penetration, by those of series of the gap beside the contact, for which a detail narrower than a 512th of the
   !> profile may be overlooked. info%iterations counts the series formed; info%residual is the certificate.
   !> FUGE_WARN_RESIDUAL: the residual or the estimated error is above the default tolerance of `fuge_options`, as for
-  !> a profile that is not smooth from the axis on; powers that are no integers need a `fuge_power_profile`.
+  !> a profile that is not smooth from the axis on; powers that are no integers, and edges, need a
+  !> `fuge_power_profile`.
   !> Errors, `contact` untouched: FUGE_ERR_UNSUPPORTED if the contact is not one disc or reaches the end of the profile,
   !> with a message that names another engine; FUGE_ERR_OPTION unless one of the three is present;
   !> FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_WIDTH unless lower = 0 < upper, or for a radius that is negative

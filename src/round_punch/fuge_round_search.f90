@@ -36,6 +36,8 @@ module fuge_round_search
 
   !> Violations of the sign conditions up to this, or up to so many times the estimated error, are accepted.
   real(dp), parameter :: SIGN_TOLERANCE = 1.0e-10_dp, ERROR_FACTOR = 10.0_dp
+  !> A pressure that may be off by more than the mean is none.
+  real(dp), parameter :: LARGEST_ERROR = 1.0_dp
   !> Radii of the second search: so many equal steps, and halvings of the first one.
   integer, parameter :: EQUAL_STEPS = 64, HALVINGS = 40
   !> The degree of a series that has missed a detail is raised to this one.
@@ -116,13 +118,14 @@ contains
     call solve_resolved(profile, target, bounds, transform, radius_error, converged, search%steps, info)
     if (info%failed() .or. .not. converged) return
     if (.not. transform%thrust() > 0.0_dp) then
-      if (search%outcome == DISC_NOT_FOUND) search%outcome = DISC_IN_TENSION
+      if (search%outcome == DISC_NOT_FOUND .and. transform%thrust() < 0.0_dp) search%outcome = DISC_IN_TENSION
       search%refused_radius = transform%radius
       return
     end if
     call contact%set(transform, axis_gap, e_star)
     contact%radius_error = radius_error
     contact%pressure_error = contact%pressure_error + radius_error
+    if (.not. contact%pressure_error <= LARGEST_ERROR) return
     call check_signs(profile, contact, transform, violation, info)
     if (info%failed()) return
     worst = max(violation%tension, violation%penetration)
@@ -164,9 +167,10 @@ contains
       else
         call find_radius(profile, target, bounds, degree, transform, error, converged, steps, info)
       end if
-      if (info%failed() .or. .not. converged .or. size(transform%powers) > 0) return
+      if (info%failed() .or. .not. converged .or. size(transform%coefficients) == 0) return
       call measure_series_error(profile, transform%slope, sample_positions(profile), difference, info)
-      if (info%failed() .or. difference <= max(SIGN_TOLERANCE*transform%rim_slope(), ERROR_FACTOR*transform%error)) return
+      if (info%failed()) return
+      if (difference <= max(SIGN_TOLERANCE*transform%rim_slope(), ERROR_FACTOR*transform%error)) return
       if (degree >= RAISED_DEGREE) exit
       degree = RAISED_DEGREE
     end do

@@ -8,6 +8,7 @@ module fuge_round_signs
   use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points
   use fuge_abel_transform, only: abel_transform, expand_transform
   use fuge_kinds, only: dp
+  use fuge_power_profile_type, only: fuge_power_profile
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_newton, only: FINE_TOLERANCE
   use fuge_series_minimum, only: find_minimum
@@ -85,7 +86,7 @@ contains
     logical :: positive
     real(dp) :: least, place
 
-    positive = .not. any(transform%factors < 0.0_dp)
+    positive = .not. (any(transform%factors < 0.0_dp) .or. any(transform%edges%factor < 0.0_dp))
     if (.not. positive .or. size(transform%coefficients) == 0) return
     call find_minimum(transform%coefficients, 0.0_dp, RESOLUTION*transform%thrust(), least, place)
     positive = least >= -RESOLUTION*transform%thrust()
@@ -102,11 +103,12 @@ contains
     real(dp) :: difference, least, place, allowed
     integer :: n
 
-    rises = size(transform%powers) > 0
-    if (rises) then
-      rises = all(transform%factors >= 0.0_dp)
+    select type (profile)
+    class is (fuge_power_profile)
+      rises = all(profile%coefficients >= 0.0_dp)
       return
-    end if
+    end select
+    rises = .false.
     call expand_slope(profile, anchored_interval(0.0_dp, 0.5_dp*profile%upper, 0.5_dp*profile%upper), FINE_TOLERANCE, &
                       [FIRST_DEGREE, MAX_DEGREE], series, info)
     if (info%failed()) return

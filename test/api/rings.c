@@ -63,7 +63,8 @@ static void test_refusals(void) {
   CHECK_STATUS(fuge_ring_matrix(0, RADIUS, E_STAR, FUGE_MEAN, alpha, LDA, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_ring_matrix(N, RADIUS, E_STAR, FUGE_MEAN, alpha, N - 1, NULL, 0), FUGE_ERR_SIZE);
   CHECK_UNTOUCHED(alpha, LDA * N);
-  CHECK_STATUS(fuge_ring_displacement(N, RADIUS, force, E_STAR, 1, &place, &u, message, sizeof message), FUGE_ERR_WIDTH);
+  CHECK_STATUS(fuge_ring_displacement(N, RADIUS, force, E_STAR, 1, &place, &u, message, sizeof message),
+               FUGE_ERR_WIDTH);
   CHECK_CONTAINS(message, "place(0)");
   CHECK_STATUS(fuge_ring_displacement(0, RADIUS, force, E_STAR, 1, &place, &u, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_ring_displacement(N, RADIUS, force, E_STAR, -1, &place, &u, NULL, 0), FUGE_ERR_SIZE);

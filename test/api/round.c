@@ -32,7 +32,8 @@ static void test_sphere(void) {
   fuge_round_report report;
   char message[256] = "old";
   double r[3] = {0.0, 0.3, 1.2}, gap[3], pressure[3];
-  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 3.0, 3.0, &load, NULL, NULL, &contact, message, sizeof message),
+  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 3.0, 3.0, &load, NULL, NULL, &contact,
+                                      message, sizeof message),
                FUGE_DONE);
   CHECK_STRING(message, "");
   CHECK_STATUS(fuge_round_get_report(contact, &report, NULL, 0), FUGE_DONE);
@@ -64,18 +65,35 @@ static void test_powers(void) {
   fuge_round *contact = NULL;
   fuge_round_report report;
   double r = 0.0, pressure;
-  CHECK_STATUS(fuge_solve_round_powers(1, factor, powers, 3.0, 3.0, NULL, &approach, NULL, &contact, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_solve_round_powers(1, factor, powers, NULL, 3.0, 3.0, NULL, &approach, NULL, &contact, NULL, 0),
+               FUGE_DONE);
   CHECK_STATUS(fuge_round_get_report(contact, &report, NULL, 0), FUGE_DONE);
   CHECK_NEAR(report.radius, 0.4 / PI, 1e-14);
   CHECK_NEAR(report.approach, approach, 0.0);
   CHECK_STATUS(fuge_round_get_pressure(contact, 1, &r, &pressure, NULL, 0), FUGE_DONE);
   CHECK(pressure > 1e300);
   fuge_round_free(&contact);
-  CHECK_STATUS(fuge_solve_round_powers(1, &one, powers + 1, 3.0, 3.0, NULL, NULL, &radius, &contact, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_solve_round_powers(1, &one, powers + 1, NULL, 3.0, 3.0, NULL, NULL, &radius, &contact, NULL, 0),
+               FUGE_DONE);
   CHECK_STATUS(fuge_round_get_report(contact, &report, NULL, 0), FUGE_DONE);
   CHECK_NEAR(report.radius, radius, 0.0);
   CHECK_NEAR(report.load, 2.0 * 3.0 * 1.5 / 2.5 * report.approach * radius, 1e-13);
   fuge_round_free(&contact);
+}
+
+/* A flat end of radius b with a rounded edge: with cos(theta) = b/a the approach is 2 a^2 c (sin(theta) - theta
+ * cos(theta)). */
+static void test_edge(void) {
+  const double factor = 0.25, power = 2.0, start = 0.5, radius = 1.0, wrong = 1.5, theta = acos(0.5);
+  fuge_round *contact = NULL;
+  fuge_round_report report;
+  CHECK_STATUS(fuge_solve_round_powers(1, &factor, &power, &start, 3.0, 3.0, NULL, NULL, &radius, &contact, NULL, 0),
+               FUGE_DONE);
+  CHECK_STATUS(fuge_round_get_report(contact, &report, NULL, 0), FUGE_DONE);
+  CHECK_NEAR(report.approach, 0.5 * (sin(theta) - theta * cos(theta)), 1e-15);
+  fuge_round_free(&contact);
+  CHECK_STATUS(fuge_solve_round_powers(1, &factor, &wrong, &start, 3.0, 3.0, NULL, NULL, &radius, &contact, NULL, 0),
+               FUGE_ERR_WIDTH);
 }
 
 static void test_no_load(void) {
@@ -99,21 +117,31 @@ static void test_refusals(void) {
   CHECK_STATUS(fuge_solve_round_punch(dimpled, NULL, 2.0, 1.0, &load, NULL, NULL, &contact, message, sizeof message),
                FUGE_ERR_UNSUPPORTED);
   CHECK_CONTAINS(message, "fuge_ring_matrix");
-  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 20.0, 1.0, &load, NULL, NULL, &contact, message, sizeof message),
+  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 20.0, 1.0, &load, NULL, NULL, &contact,
+                                      message, sizeof message),
                FUGE_ERR_CALLBACK);
   CHECK_CONTAINS(message, "status 5");
-  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 2.0, 1.0, NULL, NULL, NULL, &contact, NULL, 0), FUGE_ERR_OPTION);
-  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 2.0, 1.0, &load, &load, NULL, &contact, NULL, 0), FUGE_ERR_OPTION);
-  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 0.0, 1.0, &load, NULL, NULL, &contact, NULL, 0), FUGE_ERR_WIDTH);
-  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 2.0, 0.0, &load, NULL, NULL, &contact, NULL, 0), FUGE_ERR_MODULUS);
+  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 2.0, 1.0, NULL, NULL, NULL, &contact, NULL, 0),
+               FUGE_ERR_OPTION);
+  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 2.0, 1.0, &load, &load, NULL, &contact, NULL, 0),
+               FUGE_ERR_OPTION);
+  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 0.0, 1.0, &load, NULL, NULL, &contact, NULL, 0),
+               FUGE_ERR_WIDTH);
+  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 2.0, 0.0, &load, NULL, NULL, &contact, NULL, 0),
+               FUGE_ERR_MODULUS);
   CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 2.0, 1.0, &negative, NULL, NULL, &contact, NULL, 0),
                FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_STATUS(fuge_solve_round_punch(NULL, &factor, 2.0, 1.0, &load, NULL, NULL, &contact, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 2.0, 1.0, &load, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_solve_round_powers(1, &factor, &half, 2.0, 1.0, &load, NULL, NULL, &contact, NULL, 0), FUGE_ERR_WIDTH);
-  CHECK_STATUS(fuge_solve_round_powers(0, &factor, &half, 2.0, 1.0, &load, NULL, NULL, &contact, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_solve_round_powers(1, NULL, &half, 2.0, 1.0, &load, NULL, NULL, &contact, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_solve_round_powers(1, &factor, NULL, 2.0, 1.0, &load, NULL, NULL, &contact, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_solve_round_punch(paraboloid, &factor, 2.0, 1.0, &load, NULL, NULL, NULL, NULL, 0),
+               FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_solve_round_powers(1, &factor, &half, NULL, 2.0, 1.0, &load, NULL, NULL, &contact, NULL, 0),
+               FUGE_ERR_WIDTH);
+  CHECK_STATUS(fuge_solve_round_powers(0, &factor, &half, NULL, 2.0, 1.0, &load, NULL, NULL, &contact, NULL, 0),
+               FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_solve_round_powers(1, NULL, &half, NULL, 2.0, 1.0, &load, NULL, NULL, &contact, NULL, 0),
+               FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_solve_round_powers(1, &factor, NULL, NULL, 2.0, 1.0, &load, NULL, NULL, &contact, NULL, 0),
+               FUGE_ERR_POINTER);
   CHECK(contact == NULL);
   CHECK_STATUS(fuge_round_get_report(NULL, &report, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_round_get_pressure(NULL, 1, &x, &value, NULL, 0), FUGE_ERR_POINTER);
@@ -130,6 +158,7 @@ static void test_refusals(void) {
 int main(void) {
   test_sphere();
   test_powers();
+  test_edge();
   test_no_load();
   test_refusals();
   return check_summary();
