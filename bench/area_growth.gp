@@ -32,7 +32,7 @@ set xrange [50:5500]
 set key top left Left reverse samplen 2.5
 set multiplot layout 1,2
 set title 'operator and first solve: time, s'
-set yrange [1e-3:1e4]
+set yrange [1e-3:1e5]
 plot for [c = 1:7] 'area_growth.csv' using 2:(of(word(names, c), $3)) with linespoints lt c title title[c]
 set title 'memory, MB'
 set yrange [1:1e4]

@@ -68,7 +68,7 @@ do for [k = 1:12] {
   if (row == 0) { set xrange [2e-1:1e-17]; every = 4; last = -17; set yrange [5e-6:20] }
   if (row == 1) { set xrange [2e-1:1e-4]; every = 1; last = -4; set yrange [5e-6:20] }
   if (row == 2) { set xrange [2e-1:1e-17]; every = 4; last = -17; set yrange [3e-3:60] }
-  if (row == 3) { set xrange [2e-1:1e-14]; every = 3; last = -14; set yrange [5e-2:100] }
+  if (row == 3) { set xrange [2e-1:1e-14]; every = 3; last = -14; set yrange [1e-2:100] }
   if (k == 10) { set xrange [2e-2:1e-5]; every = 1; last = -5; set yrange [5e-4:200] }
   set xtics ('10^{-1}' 0.1)
   do for [power = -1:last:-every] { set xtics add (sprintf('10^{%d}', power) 10.0**power) }
