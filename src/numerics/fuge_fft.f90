@@ -2,7 +2,8 @@
 !>
 !> An even number of values is transformed as half as many complex numbers, in place: value 2j + 1 is the
 !> imaginary part that belongs to value 2j, and the caller separates the two (fuge_convolution). FFTW plans
-!> that in a small fraction of the time that it takes for real values.
+!> that in a small fraction of the time that it takes for real values. Grids (fuge_grid_convolution) transform many
+!> short lines, each from one buffer to another, which is faster where both stay in cache.
 !>
 !> The whole process shares one planner of FFTW. FFTW's own lock, which the first plan switches
 !> on, covers neither its initialisation nor its number of threads, so this module has a lock for
@@ -18,7 +19,7 @@ module fuge_fft
   implicit none
   private
 
-  public :: good_length, release_buffer
+  public :: allocate_values, good_length, release_buffer
 
   integer(c_int), parameter :: FFTW_MEASURE = 0
   integer(c_int), parameter :: FFTW_ESTIMATE = 64
@@ -40,6 +41,8 @@ module fuge_fft
     integer :: threads = 1
     !> FFTW has chosen the plans by measurement.
     logical :: measured = .false.
+    !> Transforms of packed values from one buffer to another, by `transform_to`, instead of in place.
+    logical :: separate = .false.
     type(c_ptr), private :: forward = c_null_ptr
     !> For values that are not packed.
     type(c_ptr), private :: backward = c_null_ptr
@@ -53,6 +56,7 @@ module fuge_fft
     procedure :: allocate_buffer
     procedure :: transform
     procedure :: transform_back
+    procedure :: transform_to
     procedure, private :: owns_plans
     procedure, private :: own_plans
     procedure, private :: copy
@@ -167,21 +171,25 @@ contains
   !> Plan transforms of `length` >= 1 values.
   !>
   !> `threads` (default 1) share each transform; with `measured` (default .false.) FFTW measures
-  !> which algorithm is fastest, which takes seconds for long transforms.
+  !> which algorithm is fastest, which takes seconds for long transforms. `separate` (default .false.) plans
+  !> for `transform_to`; then `length` must be even.
   !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
-  subroutine set(self, length, info, threads, measured)
+  subroutine set(self, length, info, threads, measured, separate)
     class(fft_plan), intent(inout) :: self
     integer, intent(in) :: length
     type(fuge_info), intent(inout) :: info
     integer, intent(in), optional :: threads
-    logical, intent(in), optional :: measured
+    logical, intent(in), optional :: measured, separate
     type(fft_plan) :: new_plan
 
     new_plan%length = length
     if (present(threads)) new_plan%threads = threads
     if (present(measured)) new_plan%measured = measured
+    if (present(separate)) new_plan%separate = separate
     if (length < 1) then
       call report(info, FUGE_ERR_SIZE, 'length = '//text(length)//': a transform needs at least one value')
+    else if (new_plan%separate .and. mod(length, 2) /= 0) then
+      call report(info, FUGE_ERR_SIZE, 'length = '//text(length)//': pairs of values need an even length')
     else if (new_plan%threads < 1) then
       call report(info, FUGE_ERR_OPTION, 'threads = '//text(new_plan%threads)//': use 1 or more')
     else
@@ -214,7 +222,7 @@ contains
   !> Create both plans while the planner is locked; a plan is null without memory.
   subroutine plan_both_directions(plan)
     type(fft_plan), intent(inout) :: plan
-    type(c_ptr) :: buffer
+    type(c_ptr) :: buffer, other
     integer(c_int) :: before, flags
 
     call fftw_make_planner_thread_safe()
@@ -226,7 +234,13 @@ contains
     buffer = fftw_malloc(3*buffer_bytes(plan%length))
     if (c_associated(buffer)) then
       flags = merge(FFTW_MEASURE, FFTW_ESTIMATE, plan%measured)
-      if (plan%is_packed()) then
+      if (plan%separate) then
+        other = fftw_malloc(buffer_bytes(plan%length))
+        if (c_associated(other)) then
+          plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, other, FORWARD, flags)
+          call fftw_free(other)
+        end if
+      else if (plan%is_packed()) then
         if (plan%length/2 >= LONG .and. .not. plan%measured) flags = flags + FFTW_NO_BUFFERING
         plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, buffer, FORWARD, flags)
       else
@@ -304,6 +318,7 @@ contains
     call self%free()
     self%threads = source%threads
     self%measured = source%measured
+    self%separate = source%separate
     if (.not. source%owns_plans()) return
     self%length = source%length
     self%forward = source%forward
@@ -321,7 +336,7 @@ contains
     type(fft_plan) :: new_plan
     type(fuge_info) :: info
 
-    if (source%length > 0) call new_plan%set(source%length, info, source%threads, source%measured)
+    if (source%length > 0) call new_plan%set(source%length, info, source%threads, source%measured, source%separate)
     call self%move_from(new_plan)
   end subroutine copy
 
@@ -352,6 +367,15 @@ contains
     end if
   end subroutine transform_back
 
+  !> Transform the packed values `from`, which stay as they are, to `to`, by a plan that is `separate`. The inverse is
+  !> that of `transform_back`: the same plan, parts exchanged. Several threads may use a plan at once.
+  subroutine transform_to(self, from, to)
+    class(fft_plan), intent(in) :: self
+    type(c_ptr), intent(in) :: from, to
+
+    call fftw_execute_c2c(self%forward, from, to)
+  end subroutine transform_to
+
   !> Allocate a buffer for one transform, to be released with `release_buffer` if `status` is 0.
   !>
   !> `values`: its contents, 2 (length/2 + 1) real numbers. `status`: 0, FUGE_ERR_CALL_ORDER or
@@ -372,6 +396,20 @@ contains
       if (status == FUGE_DONE) call c_f_pointer(buffer, values, [2*(int(self%length/2, c_size_t) + 1)])
     end if
   end subroutine allocate_buffer
+
+  !> Allocate `columns` lines of `rows` real numbers, aligned for FFTW if `rows` is even; to be released with
+  !> `release_buffer` if `status` is 0, not FUGE_ERR_MEMORY.
+  subroutine allocate_values(rows, columns, buffer, values, status)
+    integer, intent(in) :: rows, columns
+    type(c_ptr), intent(out) :: buffer
+    real(c_double), pointer, contiguous, intent(out) :: values(:, :)
+    integer, intent(out) :: status
+
+    nullify (values)
+    buffer = fftw_malloc(8_c_size_t*int(rows, c_size_t)*int(columns, c_size_t))
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, c_associated(buffer))
+    if (status == FUGE_DONE) call c_f_pointer(buffer, values, [rows, columns])
+  end subroutine allocate_values
 
   subroutine release_buffer(buffer)
     type(c_ptr), intent(in) :: buffer
