@@ -346,8 +346,8 @@ enum {                          /* boundary: what lies beyond the cells */
 int fuge_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
                             fuge_operator **op, char *message, size_t len);
 
-/* Let threads >= 1 threads share each transform of a half-plane operator, which has one when it is
- * created.  Worth while from about 10^5 cells on; not during a solve.  Results change by
+/* Let threads >= 1 threads share each transform of a half-plane operator, or each product of one of
+ * fuge_operator_halfspace, which has one when it is created.  Worth while from about 10^5 cells on; not during a solve.  Results change by
  * rounding only.  FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED for another operator, FUGE_ERR_MEMORY. */
 int fuge_operator_set_threads(fuge_operator *op, int threads, char *message, size_t len);
 

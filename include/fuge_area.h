@@ -41,6 +41,37 @@ int fuge_halfspace_symmetric_matrix(int n, const double *x, const double *y,
                                     int symmetric_y, double *alpha, int lda,
                                     char *message, size_t len);
 
+enum {                          /* boundary, beside FUGE_FREE and FUGE_PERIODIC */
+  FUGE_PERIODIC_X = 2,          /* the cells repeat along x, and beyond them along y is free surface */
+  FUGE_PERIODIC_Y = 3           /* the cells repeat along y, and beyond them along x is free surface */
+};
+
+/* An elastic half-space of nx x ny equal rectangles side by side, by FFT: products in
+ * O(n log n) operations, O(n) memory, n = nx ny.  Point i + nx*j is the cell in column i,
+ * along x, and row j, from 0.
+ *   nx, ny                in   >= 1, any numbers; nx*ny <= INT_MAX
+ *   spacing_x, spacing_y  in   widths of a cell along x and y; length
+ *   e_star                in   as in fuge_halfplane_matrix; force per length^2
+ *   element               in   FUGE_CENTRE or FUGE_MEAN
+ *   boundary              in   FUGE_FREE: the matrix of fuge_halfspace_matrix;
+ *                              FUGE_PERIODIC: the periods are nx*spacing_x and ny*spacing_y,
+ *                              displacements count from the mean of the surface;
+ *                              FUGE_PERIODIC_X, FUGE_PERIODIC_Y: displacements are those of
+ *                              the rows of images but for a constant.  Equal forces along
+ *                              the period displace a half-plane, with the datum at the
+ *                              distance of twice the length of the grid across the period
+ * *op is set on success only.  It takes 10 n bytes for FUGE_FREE, 18 n while it is made, and
+ * 4 n for FUGE_PERIODIC; its products 16 n and 8 n, which it keeps; and a third more with the
+ * coarser grids of its solves.  In a free direction that is no power of 2 up to a quarter
+ * more.  fuge_operator_set_threads works on it; the products are the same to the last
+ * bit.  FUGE_ERR_SIZE also if nx*ny is too large, FUGE_ERR_MEMORY, before anything is
+ * allocated, if the machine has too little; FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH (also for two
+ * spacings with a ratio of more than 1e5), FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT,
+ * FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW. */
+int fuge_operator_halfspace(int nx, int ny, double spacing_x, double spacing_y, double e_star,
+                            int element, int boundary, fuge_operator **op, char *message,
+                            size_t len);
+
 /* ---- Hertz -------------------------------------------------------------- */
 
 /* Contact of two bodies with the initial gap x^2/(2 radius_x) + y^2/(2 radius_y), in closed

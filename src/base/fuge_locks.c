@@ -3,7 +3,7 @@
 
 #include <windows.h>
 
-static SRWLOCK locks[4] = {SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT};
+static SRWLOCK locks[5] = {SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT};
 
 void fuge_lock(int which) { AcquireSRWLockExclusive(&locks[which]); }
 
@@ -13,8 +13,8 @@ void fuge_unlock(int which) { ReleaseSRWLockExclusive(&locks[which]); }
 
 #include <pthread.h>
 
-static pthread_mutex_t locks[4] = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER,
-                                   PTHREAD_MUTEX_INITIALIZER};
+static pthread_mutex_t locks[5] = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER,
+                                   PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER};
 
 void fuge_lock(int which) { pthread_mutex_lock(&locks[which]); }
 

@@ -14,6 +14,8 @@ module fuge_locks
 
   !> The coarser grids that an operator keeps and its solvers share.
   integer(c_int), parameter, public :: LOCK_GRIDS = 2
+  !> Buffers that an operator keeps and its products share; held for a moment only.
+  integer(c_int), parameter, public :: LOCK_BUFFERS = 4
 
   interface
     !> Wait until no other thread holds the lock `which`, then acquire it.

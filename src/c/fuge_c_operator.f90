@@ -3,6 +3,7 @@ module fuge_c_operator
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_loc, c_associated, c_f_pointer
   use fuge_c_types, only: operator_handle, report_to_c, require_count, require_pointer, set_handle, take_handle
   use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
@@ -68,9 +69,12 @@ contains
       select type (surface => handle%operator)
       type is (fuge_halfplane_operator)
         call surface%set_threads(int(threads), info)
+      type is (fuge_halfspace_operator)
+        call surface%set_threads(int(threads), info)
       class default
-        call report(info, FUGE_ERR_UNSUPPORTED, 'only an operator of fuge_operator_halfplane has transforms for ' &
-                    //'several threads: a matrix is multiplied by BLAS, which has threads of its own')
+        call report(info, FUGE_ERR_UNSUPPORTED, 'only operators of fuge_operator_halfplane and ' &
+                    //'fuge_operator_halfspace have transforms for several threads: a matrix is multiplied by BLAS, ' &
+                    //'which has threads of its own')
       end select
     end if
     status = report_to_c(info, message, length)

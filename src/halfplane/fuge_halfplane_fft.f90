@@ -6,11 +6,11 @@
 !> coefficients are pure numbers over e_star.
 module fuge_halfplane_fft
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use, intrinsic :: iso_c_binding, only: c_associated, c_loc, c_null_ptr, c_ptr
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
   use fuge_convolution, only: convolution_kernel, transform_padded
   use fuge_elastic_moduli, only: check_e_star
   use fuge_fft, only: fft_plan, good_length
+  use fuge_grid_store, only: grid_store
   use fuge_halfplane_influence, only: check_element, mean_log, FUGE_CENTRE, FUGE_MEAN
   use fuge_hurwitz_zeta, only: hurwitz_zeta
   use fuge_kinds, only: dp
@@ -33,24 +33,6 @@ module fuge_halfplane_fft
   integer, parameter :: FEWEST_CELLS = 32
   !> A coarser grid of fewer cells is transformed by one thread: starting more would take longer.
   integer, parameter :: FEWEST_FOR_THREADS = 32768
-
-  !> The coarser grids of an operator: element k has cells 2**k times as wide. Made when they are first
-  !> asked for; a coarser grid refers to those of the finest one, which owns them.
-  type :: stored_grid
-    type(fuge_halfplane_operator), pointer :: operator => null()
-  end type stored_grid
-
-  type :: grid_store
-    type(stored_grid), pointer :: grid(:) => null()
-    !> Doublings of the width from the finest grid to this one.
-    integer :: level = 0
-    !> Address of the variable that owns the grids.
-    type(c_ptr) :: owner = c_null_ptr
-  contains
-    procedure :: create
-    procedure :: move_from
-    final :: destroy
-  end type grid_store
 
   !> Equal cells side by side on a half-plane: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes as much memory again.
@@ -119,7 +101,7 @@ contains
     call check_grid(new, info)
     if (.not. info%failed()) call plan_transforms(new, info, threads, measured)
     if (.not. info%failed()) call compute_spectra(new, info)
-    if (.not. info%failed()) call new%coarser%create(n)
+    if (.not. info%failed()) call new%coarser%create(count_coarser(n))
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
 
@@ -137,8 +119,7 @@ contains
     end if
     call self%plan%set(self%plan%length, info, threads, self%plan%measured)
     if (info%failed()) return
-    call destroy(self%coarser)
-    call self%coarser%create(self%cells)
+    call self%coarser%create(count_coarser(self%cells))
   end subroutine set_threads
 
   pure subroutine check_grid(operator, info)
@@ -309,10 +290,10 @@ contains
     self%spacing = source%spacing
     self%e_star = source%e_star
     self%datum_value = source%datum_value
-    call destroy(self%coarser)
+    call self%coarser%clear()
     if (stat /= 0 .or. self%plan%length < 1) return
     self%cells = cells
-    call self%coarser%create(cells)
+    call self%coarser%create(count_coarser(cells))
   end subroutine copy
 
   !> Number of cells n; 0 before `set`.
@@ -433,12 +414,11 @@ contains
     integer :: k
 
     nullify (coarse)
-    if (.not. associated(self%coarser%grid) .or. levels < 1) return
-    k = self%coarser%level + levels
-    if (k > size(self%coarser%grid)) return
+    k = self%coarser%place(levels)
+    if (k < 1) return
     call lock(LOCK_GRIDS)
     if (.not. associated(self%coarser%grid(k)%operator)) call keep_coarser(self, levels, k)
-    if (associated(self%coarser%grid(k)%operator)) coarse => self%coarser%grid(k)%operator
+    coarse => self%coarser%grid(k)%operator
     call unlock(LOCK_GRIDS)
   end subroutine kept_coarser
 
@@ -447,73 +427,30 @@ contains
     class(fuge_halfplane_operator), intent(in) :: self
     integer, intent(in) :: levels, k
     class(fuge_operator), allocatable :: coarse
-    type(stored_grid), pointer :: kept
+    type(fuge_halfplane_operator), pointer :: kept
     integer :: stat
 
     call self%coarsen(levels, coarse)
     if (.not. allocated(coarse)) return
-    kept => self%coarser%grid(k)
-    allocate (kept%operator, stat=stat)
+    allocate (kept, stat=stat)
     if (stat /= 0) return
     select type (coarse)
     type is (fuge_halfplane_operator)
-      call move_contents(kept%operator, coarse)
+      call move_contents(kept, coarse)
     end select
-    call destroy(kept%operator%coarser)
-    kept%operator%coarser%grid => self%coarser%grid
-    kept%operator%coarser%level = k
+    call kept%coarser%refer_to(self%coarser, k)
+    self%coarser%grid(k)%operator => kept
   end subroutine keep_coarser
 
-  !> Room for the coarser grids of `cells` cells; without memory none are kept.
-  subroutine create(self, cells)
-    class(grid_store), intent(inout), target :: self
+  !> How many times `cells` cells can be made twice as wide.
+  pure function count_coarser(cells) result(count)
     integer, intent(in) :: cells
-    integer :: k, stat
+    integer :: count
 
-    k = 0
-    do while ((cells - 1)/2**(k + 1) + 1 >= FEWEST_CELLS)
-      k = k + 1
+    count = 0
+    do while ((cells - 1)/2**(count + 1) + 1 >= FEWEST_CELLS)
+      count = count + 1
     end do
-    allocate (self%grid(k), stat=stat)
-    if (stat == 0) self%owner = c_loc(self%level)
-  end subroutine create
-
-  !> Move the grids from `source`, which has none afterwards.
-  subroutine move_from(self, source)
-    class(grid_store), intent(inout), target :: self, source
-
-    call destroy(self)
-    if (.not. c_associated(source%owner, c_loc(source%level))) return
-    self%grid => source%grid
-    self%level = source%level
-    self%owner = c_loc(self%level)
-    source%owner = c_null_ptr
-    nullify (source%grid)
-  end subroutine move_from
-
-  !> Destroy the grids if this variable owns them; a bitwise copy, and a coarser grid, does not.
-  impure elemental subroutine destroy(self)
-    type(grid_store), intent(inout), target :: self
-    integer :: k
-
-    if (c_associated(self%owner)) then
-      if (c_associated(self%owner, c_loc(self%level))) then
-        do k = 1, size(self%grid)
-          call free_operator(self%grid(k)%operator)
-        end do
-        deallocate (self%grid)
-      end if
-    end if
-    nullify (self%grid)
-    self%owner = c_null_ptr
-    self%level = 0
-  end subroutine destroy
-
-  !> A procedure of its own, because gfortran 12 does not compile it with bounds checks for an element of an array.
-  subroutine free_operator(operator)
-    type(fuge_halfplane_operator), pointer, intent(inout) :: operator
-
-    if (associated(operator)) deallocate (operator)
-  end subroutine free_operator
+  end function count_coarser
 
 end module fuge_halfplane_fft

@@ -33,6 +33,8 @@ module fuge_operator_type
     procedure :: coarsen => no_coarser
     !> What `coarsen` gives, kept and owned by this operator; none by default.
     procedure :: kept_coarser => none_kept
+    !> The same body, but forces and displacements of a part of its cells only; none by default.
+    procedure :: window => no_window
   end type fuge_operator
 
   abstract interface
@@ -108,6 +110,18 @@ contains
     nullify (coarse)
     if (self%points() < 0 .and. levels < 0) allocate (coarse, source=self)
   end subroutine none_kept
+
+  !> `part` has the cells `first`(1) .. `last`(1) of the rows `first`(2) .. `last`(2) of `grid`, numbered anew from
+  !> the first one, and gives exactly the displacements that this operator gives for forces on them only, but perhaps with
+  !> another datum. Its own grid can be coarsened again. Unallocated if there is no such operator, as in this
+  !> default, for cells that do not exist, and without memory.
+  subroutine no_window(self, first, last, part)
+    class(fuge_operator), intent(in) :: self
+    integer, intent(in) :: first(2), last(2)
+    class(fuge_operator), allocatable, intent(out) :: part
+
+    if (self%points() < 0 .and. any(last < first)) allocate (part, source=self)
+  end subroutine no_window
 
   !> 0: `apply` subtracts nothing.
   function no_datum(self) result(datum)

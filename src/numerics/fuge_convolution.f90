@@ -282,14 +282,27 @@ contains
   subroutine convolve(self, plan, x, y, status)
     class(convolution_kernel), intent(in) :: self
     type(fft_plan), intent(in) :: plan
-    real(dp), intent(in), contiguous :: x(:)
-    real(dp), intent(inout), contiguous :: y(:)
+    real(dp), intent(in) :: x(:)
+    real(dp), intent(inout) :: y(:)
+    integer, intent(out) :: status
+
+    status = merge(FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, self%length == 0 .or. plan%length == 0)
+    if (self%length /= plan%length .or. self%length == 0 .or. max(size(x), size(y)) > self%length) return
+    call convolve_values(self, plan, size(x), x, size(y), y, status)
+  end subroutine convolve
+
+  !> As `convolve`, checked. The arrays have an explicit shape, because gfortran copies arrays to pass them as
+  !> contiguous ones.
+  subroutine convolve_values(self, plan, values, x, results, y, status)
+    type(convolution_kernel), intent(in) :: self
+    type(fft_plan), intent(in) :: plan
+    integer, intent(in) :: values, results
+    real(dp), intent(in) :: x(values)
+    real(dp), intent(inout) :: y(results)
     integer, intent(out) :: status
     real(c_double), pointer, contiguous :: work(:)
     type(c_ptr) :: buffer
 
-    status = merge(FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, self%length == 0 .or. plan%length == 0)
-    if (self%length /= plan%length .or. self%length == 0 .or. max(size(x), size(y)) > self%length) return
     call plan%allocate_buffer(buffer, work, status)
     if (status /= FUGE_DONE) return
     work(:size(x)) = x
@@ -314,7 +327,7 @@ contains
       call add_untwisted(self%twist, work, y)
     end if
     call release_buffer(buffer)
-  end subroutine convolve
+  end subroutine convolve_values
 
   !> Multiply the transform of pairs of values, `z` (real and imaginary parts), by the spectrum, and exchange
   !> the parts, as transform_back takes them.

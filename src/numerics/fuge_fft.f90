@@ -57,7 +57,7 @@ module fuge_fft
     procedure :: transform
     procedure :: transform_back
     procedure :: transform_to
-    procedure, private :: owns_plans
+    procedure :: owns_plans
     procedure, private :: own_plans
     procedure, private :: copy
     generic :: assignment(=) => copy

@@ -6,43 +6,26 @@
 !> transforms of the two rows are (z + conj z')/2 and (z - conj z')/2i.
 !>
 !> In a direction that is not periodic ("padded") the circle has 2N >= 2n cells, of which only n hold values and
-!> only n results are wanted. As in fuge_convolution it is split in two circles of N: waves of even number, and
-!> waves of odd number, for which the values are multiplied by exp(-i pi j/N) before the transform and after it by
-!> the conjugate. So neither zeros nor unwanted results are ever transformed, rows of zeros are skipped, and one
-!> plan of N serves padded and cyclic convolutions.
+!> only n results are wanted. It is split in two circles of N (fuge_grid_plan), so that neither zeros nor unwanted
+!> results are ever transformed. Rows of zeros are skipped.
 !>
 !> Columns are copied to a buffer a few at a time, so that each is transformed, multiplied and transformed back in
-!> cache.
+!> cache. Threads share rows, then columns, then rows; each line is computed as by one thread, so that the result is the
+!> same to the last bit.
 module fuge_grid_convolution
-  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr
-  use fuge_constants, only: PI
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_ptr
   use fuge_fft, only: allocate_values, fft_plan, release_buffer
+  use fuge_grid_plan, only: grid_plan, return_rows, stored_waves, take_rows
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_threads, only: run_in_threads
   implicit none
   private
 
   !> Columns in the buffer.
-  integer, parameter :: COLUMNS = 4
+  integer, parameter :: COLUMNS = 16
   !> Rows whose distance in memory is a multiple of so many bytes fall on the same places of the cache.
   integer, parameter :: PAGE = 4096
-
-  !> Transforms of the lines of a grid.
-  type, public :: grid_plan
-    !> nx and ny; 0 before `set`.
-    integer :: cells(2) = 0
-    !> N of each direction.
-    integer :: length(2) = 0
-    type(fft_plan), private :: rows, columns
-    !> cos and sin of pi j/N, j = 0 .. N - 1, (2, N).
-    real(dp), allocatable, private :: row_twist(:, :), column_twist(:, :)
-  contains
-    procedure :: set => set_plan
-    procedure :: transform_even
-    procedure :: copy_from => copy_plan
-    procedure :: move_from => move_plan
-    final :: release_plan
-  end type grid_plan
 
   !> The spectrum of an even kernel.
   type, public :: grid_kernel
@@ -61,154 +44,21 @@ module fuge_grid_convolution
     final :: release_kernel
   end type grid_kernel
 
+  !> One product, for the threads that share it.
+  type :: product_job
+    integer :: cells(2) = 0, length(2) = 0
+    logical :: padded(2) = .false.
+    type(fft_plan), pointer :: rows => null(), columns => null()
+    real(dp), pointer, contiguous :: row_twist(:, :) => null(), column_twist(:, :) => null(), spectrum(:, :) => null()
+    real(dp), pointer, contiguous :: x(:) => null(), y(:) => null()
+    !> Transforms of pairs of rows, and those of which there is nothing to transform.
+    real(c_double), pointer, contiguous :: work(:, :) => null()
+    logical, pointer, contiguous :: zero(:) => null()
+    !> Buffers of a thread: COLUMNS + 2 lines each.
+    real(c_double), pointer, contiguous :: lines(:, :) => null()
+  end type product_job
+
 contains
-
-  !> Plan transforms of `cells` (2) values on circles of `length` (2) >= `cells`, or twice that.
-  !>
-  !> `measured` as in fuge_fft. Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
-  subroutine set_plan(self, cells, length, info, measured)
-    class(grid_plan), intent(inout) :: self
-    integer, intent(in) :: cells(2), length(2)
-    type(fuge_info), intent(inout) :: info
-    logical, intent(in) :: measured
-    type(grid_plan) :: new
-    integer :: stat
-
-    call new%rows%set(2*length(1), info, measured=measured, separate=.true.)
-    if (.not. info%failed()) call new%columns%set(2*length(2), info, measured=measured, separate=.true.)
-    if (info%failed()) return
-    allocate (new%row_twist(2, length(1)), new%column_twist(2, length(2)), stat=stat)
-    if (stat /= 0) then
-      info%status = FUGE_ERR_MEMORY
-      return
-    end if
-    call compute_twist(new%row_twist)
-    call compute_twist(new%column_twist)
-    new%cells = cells
-    new%length = length
-    call self%move_from(new)
-  end subroutine set_plan
-
-  pure subroutine compute_twist(twist)
-    real(dp), intent(out) :: twist(:, :)
-    real(dp) :: angle
-    integer :: j
-
-    do j = 1, size(twist, 2)
-      angle = PI*(real(j - 1, dp)/real(size(twist, 2), dp))
-      twist(:, j) = [cos(angle), sin(angle)]
-    end do
-  end subroutine compute_twist
-
-  !> Replace even sequences by their spectra.
-  !>
-  !> Each column of `lines` (0:m, :) holds the values at the distances 0 .. m on a circle, m = N of 2N `padded`
-  !> cells, or m = N/2 of N; N the length of the plan in `direction` 1 or 2. On return it holds the waves in the
-  !> order of a kernel's spectrum. `status`: 0, FUGE_ERR_SIZE or FUGE_ERR_MEMORY.
-  subroutine transform_even(self, direction, padded, lines, status)
-    class(grid_plan), intent(in) :: self
-    integer, intent(in) :: direction
-    logical, intent(in) :: padded
-    real(dp), intent(inout), contiguous :: lines(0:, :)
-    integer, intent(out) :: status
-
-    status = FUGE_ERR_SIZE
-    if (size(lines, 1) /= stored_waves(self%length(direction), padded)) return
-    if (direction == 1) then
-      call transform_even_lines(self%rows, self%row_twist, padded, lines, status)
-    else
-      call transform_even_lines(self%columns, self%column_twist, padded, lines, status)
-    end if
-  end subroutine transform_even
-
-  !> Two lines at a time: their spectra are real.
-  subroutine transform_even_lines(plan, twist, padded, lines, status)
-    type(fft_plan), intent(in) :: plan
-    real(dp), intent(in), contiguous :: twist(:, :)
-    logical, intent(in) :: padded
-    real(dp), intent(inout), contiguous :: lines(0:, :)
-    integer, intent(out) :: status
-    real(c_double), pointer, contiguous :: z(:, :)
-    type(c_ptr) :: buffer
-    real(dp) :: one, other
-    integer :: half, j, k, n, next
-
-    n = size(twist, 2)
-    half = n/2
-    call allocate_values(2*n, 4, buffer, z, status)
-    if (status /= FUGE_DONE) return
-    do k = 1, size(lines, 2), 2
-      next = min(k + 1, size(lines, 2))
-      do j = 0, n - 1
-        if (padded) then
-          z(2*j + 1:2*j + 2, 1) = [lines(j, k) + lines(n - j, k), lines(j, next) + lines(n - j, next)]
-          one = lines(j, k) - lines(n - j, k)
-          other = lines(j, next) - lines(n - j, next)
-          z(2*j + 1, 2) = twist(1, j + 1)*one + twist(2, j + 1)*other
-          z(2*j + 2, 2) = twist(1, j + 1)*other - twist(2, j + 1)*one
-        else
-          z(2*j + 1:2*j + 2, 1) = [lines(min(j, n - j), k), lines(min(j, n - j), next)]
-        end if
-      end do
-      call plan%transform_to(c_loc(z(1, 1)), c_loc(z(1, 3)))
-      lines(0:half, k) = z(1:2*half + 1:2, 3)
-      lines(0:half, next) = z(merge(1, 2, next == k):2*half + 2:2, 3)
-      if (.not. padded) cycle
-      call plan%transform_to(c_loc(z(1, 2)), c_loc(z(1, 4)))
-      lines(half + 1:n, k) = z(1:2*(n - half) - 1:2, 4)
-      lines(half + 1:n, next) = z(merge(1, 2, next == k):2*(n - half):2, 4)
-    end do
-    call release_buffer(buffer)
-  end subroutine transform_even_lines
-
-  !> How many waves of a direction a spectrum holds.
-  pure function stored_waves(length, padded) result(count)
-    integer, intent(in) :: length
-    logical, intent(in) :: padded
-    integer :: count
-
-    count = merge(length, length/2, padded) + 1
-  end function stored_waves
-
-  subroutine move_plan(self, source)
-    class(grid_plan), intent(inout) :: self, source
-
-    call clear_plan(self)
-    self%cells = source%cells
-    self%length = source%length
-    call self%rows%move_from(source%rows)
-    call self%columns%move_from(source%columns)
-    if (allocated(source%row_twist)) call move_alloc(source%row_twist, self%row_twist)
-    if (allocated(source%column_twist)) call move_alloc(source%column_twist, self%column_twist)
-    source%cells = 0
-    source%length = 0
-  end subroutine move_plan
-
-  !> Plan anew what `source` plans; without memory, or if it plans nothing, the copy plans nothing.
-  subroutine copy_plan(self, source)
-    class(grid_plan), intent(inout) :: self
-    class(grid_plan), intent(in) :: source
-    type(grid_plan) :: new
-    type(fuge_info) :: info
-
-    if (source%cells(1) > 0) call new%set(source%cells, source%length, info, source%rows%measured)
-    call self%move_from(new)
-  end subroutine copy_plan
-
-  subroutine clear_plan(self)
-    class(grid_plan), intent(inout) :: self
-
-    if (allocated(self%row_twist)) deallocate (self%row_twist)
-    if (allocated(self%column_twist)) deallocate (self%column_twist)
-    self%cells = 0
-    self%length = 0
-  end subroutine clear_plan
-
-  impure elemental subroutine release_plan(self)
-    type(grid_plan), intent(inout) :: self
-
-    call clear_plan(self)
-  end subroutine release_plan
 
   !> Set the spectrum of a convolution on the circles of `plan`, `padded` (2) or not.
   !>
@@ -282,39 +132,62 @@ contains
 
   !> y = the convolution of x with the kernel.
   !>
-  !> `plan` of the kernel's lengths; `x` and `y` of its cells, x continued by zeros. Several threads may use kernel and
-  !> plan at once. `status`: 0, or with y unchanged FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
-  subroutine convolve(self, plan, x, y, status)
-    class(grid_kernel), intent(in) :: self
-    type(grid_plan), intent(in) :: plan
-    real(dp), intent(in), contiguous :: x(:)
-    real(dp), intent(inout), contiguous :: y(:)
+  !> `plan` of the kernel's lengths; `x` and `y` of its `n` cells, x continued by zeros; `threads` >= 1. Several threads
+  !> may use kernel and plan at once. `status`: 0, or with y unchanged FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE,
+  !> FUGE_ERR_MEMORY.
+  !> The arrays have an explicit shape, because gfortran copies arrays to pass them as contiguous ones.
+  subroutine convolve(self, plan, n, x, y, threads, status)
+    class(grid_kernel), intent(in), target :: self
+    type(grid_plan), intent(in), target :: plan
+    integer, intent(in) :: n, threads
+    real(dp), intent(in), target :: x(n)
+    real(dp), intent(inout), target :: y(n)
     integer, intent(out) :: status
-    real(c_double), pointer, contiguous :: work(:, :), lines(:, :)
-    type(c_ptr) :: work_buffer, line_buffer
-    logical, allocatable :: zero(:)
-    integer :: nx, pairs, stat
+    type(product_job), target :: job
+    logical, allocatable, target :: zero(:)
+    type(c_ptr) :: rows, lines
+    integer :: stat
 
     status = FUGE_ERR_CALL_ORDER
-    if (.not. allocated(self%spectrum) .or. plan%cells(1) < 1) return
+    if (.not. allocated(self%spectrum) .or. plan%cells(1) < 1 .or. .not. plan%rows%owns_plans()) return
     status = FUGE_ERR_SIZE
-    if (size(x) /= product(plan%cells) .or. size(y) /= size(x)) return
-    nx = plan%cells(1)
-    pairs = (plan%cells(2) + 1)/2
-    allocate (zero(pairs), stat=stat)
+    if (n /= product(plan%cells)) return
+    allocate (zero((plan%cells(2) + 1)/2), stat=stat)
     status = FUGE_ERR_MEMORY
     if (stat /= 0) return
-    call allocate_values(row_stride(plan%length(1), self%padded(1)), pairs, work_buffer, work, status)
+    call describe_job(self, plan, x, y, job)
+    job%zero => zero
+    call take_rows(plan%kept, row_stride(job%length(1), job%padded(1)), size(zero), rows, job%work, status)
     if (status /= FUGE_DONE) return
-    call allocate_values(2*maxval(plan%length) + 2, COLUMNS + 2, line_buffer, lines, status)
+    call allocate_values(2*maxval(plan%length) + 2, (COLUMNS + 2)*threads, lines, job%lines, status)
     if (status == FUGE_DONE) then
-      call transform_rows(self, plan, x, work, zero, lines)
-      call convolve_columns(self, plan, zero, work, lines)
-      call transform_rows_back(self, plan, work, y, lines)
-      call release_buffer(line_buffer)
+      call run_in_threads(threads, transform_rows, c_loc(job))
+      call run_in_threads(threads, convolve_columns, c_loc(job))
+      call run_in_threads(threads, transform_rows_back, c_loc(job))
+      call release_buffer(lines)
     end if
-    call release_buffer(work_buffer)
+    call return_rows(plan%kept, rows)
   end subroutine convolve
+
+  !> What threads need to know. By addresses, because no pointer may be associated with arguments that are read only.
+  subroutine describe_job(kernel, plan, x, y, job)
+    class(grid_kernel), intent(in), target :: kernel
+    type(grid_plan), intent(in), target :: plan
+    real(dp), intent(in), contiguous, target :: x(:)
+    real(dp), intent(inout), contiguous, target :: y(:)
+    type(product_job), intent(inout) :: job
+
+    job%cells = plan%cells
+    job%length = plan%length
+    job%padded = kernel%padded
+    call c_f_pointer(c_loc(plan%rows), job%rows)
+    call c_f_pointer(c_loc(plan%columns), job%columns)
+    call c_f_pointer(c_loc(plan%row_twist), job%row_twist, shape(plan%row_twist))
+    call c_f_pointer(c_loc(plan%column_twist), job%column_twist, shape(plan%column_twist))
+    call c_f_pointer(c_loc(kernel%spectrum), job%spectrum, shape(kernel%spectrum))
+    call c_f_pointer(c_loc(x), job%x, shape(x))
+    call c_f_pointer(c_loc(y), job%y, shape(y))
+  end subroutine describe_job
 
   !> Real numbers from one pair of rows to the next.
   pure function row_stride(length, padded) result(stride)
@@ -326,63 +199,95 @@ contains
     if (mod(8*stride, PAGE) == 0) stride = stride + 8
   end function row_stride
 
-  !> Transform pairs of rows of x; `zero` where there is nothing to transform.
-  subroutine transform_rows(self, plan, x, work, zero, lines)
-    type(grid_kernel), intent(in) :: self
-    type(grid_plan), intent(in) :: plan
-    real(dp), intent(in), contiguous :: x(:)
-    real(c_double), intent(inout), contiguous, target :: work(:, :), lines(:, :)
-    logical, intent(out) :: zero(:)
-    integer :: first, j, nx, p
+  !> The numbers `first` .. `last` out of 0 .. n - 1 of part 0, 1, .. of `parts`.
+  pure subroutine share(n, part, parts, first, last)
+    integer, intent(in) :: n, part, parts
+    integer, intent(out) :: first, last
 
-    nx = plan%cells(1)
-    do p = 1, size(zero)
-      first = 2*(p - 1)*nx
-      if (2*p <= plan%cells(2)) then
-        zero(p) = all(abs(x(first + 1:first + 2*nx)) <= 0.0_dp)
-        if (zero(p)) cycle
-        do j = 1, nx
-          lines(2*j - 1, 1) = x(first + j)
-          lines(2*j, 1) = x(first + nx + j)
-        end do
-      else
-        zero(p) = all(abs(x(first + 1:first + nx)) <= 0.0_dp)
-        if (zero(p)) cycle
-        do j = 1, nx
-          lines(2*j - 1, 1) = x(first + j)
-          lines(2*j, 1) = 0.0_dp
-        end do
-      end if
-      lines(2*nx + 1:2*plan%length(1), 1) = 0.0_dp
-      call plan%rows%transform_to(c_loc(lines), c_loc(work(1, p)))
-      if (.not. self%padded(1)) cycle
-      call twist_line(plan%row_twist, nx, lines(:, 1), lines(:, 2))
-      call plan%rows%transform_to(c_loc(lines(1, 2)), c_loc(work(2*plan%length(1) + 1, p)))
+    first = part*(n/parts) + min(part, mod(n, parts))
+    last = first + n/parts - 1
+    if (part < mod(n, parts)) last = last + 1
+  end subroutine share
+
+  !> Buffers of a thread.
+  subroutine find_lines(job, part, lines)
+    type(product_job), intent(in) :: job
+    integer, intent(in) :: part
+    real(c_double), pointer, contiguous, intent(out) :: lines(:, :)
+
+    lines => job%lines(:, (COLUMNS + 2)*part + 1:(COLUMNS + 2)*(part + 1))
+  end subroutine find_lines
+
+  !> Transform pairs of rows of x.
+  subroutine transform_rows(part, parts, data) bind(c, name='')
+    integer(c_int), intent(in), value :: part, parts
+    type(c_ptr), intent(in), value :: data
+    type(product_job), pointer :: job
+    real(c_double), pointer, contiguous :: lines(:, :)
+    integer :: first, last, n, p
+
+    call c_f_pointer(data, job)
+    call find_lines(job, int(part), lines)
+    call share(size(job%zero), int(part), int(parts), first, last)
+    n = job%length(1)
+    do p = first + 1, last + 1
+      call pack_rows(job, p, lines(:, 1))
+      if (job%zero(p)) cycle
+      call job%rows%transform_to(c_loc(lines), c_loc(job%work(1, p)))
+      if (.not. job%padded(1)) cycle
+      call twist_line(job%row_twist, job%cells(1), lines(:, 1), lines(:, 2))
+      call job%rows%transform_to(c_loc(lines(1, 2)), c_loc(job%work(2*n + 1, p)))
     end do
   end subroutine transform_rows
 
-  !> Transform pairs of rows back to y.
-  subroutine transform_rows_back(self, plan, work, y, lines)
-    type(grid_kernel), intent(in) :: self
-    type(grid_plan), intent(in) :: plan
-    real(c_double), intent(inout), contiguous, target :: work(:, :), lines(:, :)
-    real(dp), intent(inout), contiguous :: y(:)
-    integer :: first, j, nx, p
+  !> Row 2 p - 1 and row 2 p of x as real and imaginary parts, unless both are zero.
+  subroutine pack_rows(job, p, line)
+    type(product_job), intent(inout) :: job
+    integer, intent(in) :: p
+    real(c_double), intent(inout), contiguous :: line(:)
+    integer :: first, j, nx
 
-    nx = plan%cells(1)
-    do p = 1, size(work, 2)
-      call plan%rows%transform_to(c_loc(work(1, p)), c_loc(lines))
-      if (self%padded(1)) then
-        call plan%rows%transform_to(c_loc(work(2*plan%length(1) + 1, p)), c_loc(lines(1, 2)))
-        call add_untwisted(plan%row_twist, nx, lines(:, 2), lines(:, 1))
-      end if
-      first = 2*(p - 1)*nx
+    nx = job%cells(1)
+    first = 2*(p - 1)*nx
+    job%zero(p) = all(abs(job%x(first + 1:first + merge(2, 1, 2*p <= job%cells(2))*nx)) <= 0.0_dp)
+    if (job%zero(p)) return
+    do j = 1, nx
+      line(2*j - 1) = job%x(first + j)
+      line(2*j) = 0.0_dp
+    end do
+    if (2*p <= job%cells(2)) then
       do j = 1, nx
-        y(first + j) = lines(2*j, 1)
+        line(2*j) = job%x(first + nx + j)
       end do
-      if (2*p > plan%cells(2)) cycle
+    end if
+    line(2*nx + 1:2*job%length(1)) = 0.0_dp
+  end subroutine pack_rows
+
+  !> Transform pairs of rows back to y.
+  subroutine transform_rows_back(part, parts, data) bind(c, name='')
+    integer(c_int), intent(in), value :: part, parts
+    type(c_ptr), intent(in), value :: data
+    type(product_job), pointer :: job
+    real(c_double), pointer, contiguous :: lines(:, :)
+    integer :: begin, first, j, last, nx, p
+
+    call c_f_pointer(data, job)
+    call find_lines(job, int(part), lines)
+    call share(size(job%zero), int(part), int(parts), first, last)
+    nx = job%cells(1)
+    do p = first + 1, last + 1
+      call job%rows%transform_to(c_loc(job%work(1, p)), c_loc(lines))
+      if (job%padded(1)) then
+        call job%rows%transform_to(c_loc(job%work(2*job%length(1) + 1, p)), c_loc(lines(1, 2)))
+        call add_untwisted(job%row_twist, nx, lines(:, 2), lines(:, 1))
+      end if
+      begin = 2*(p - 1)*nx
       do j = 1, nx
-        y(first + nx + j) = lines(2*j - 1, 1)
+        job%y(begin + j) = lines(2*j, 1)
+      end do
+      if (2*p > job%cells(2)) cycle
+      do j = 1, nx
+        job%y(begin + nx + j) = lines(2*j - 1, 1)
       end do
     end do
   end subroutine transform_rows_back
@@ -416,25 +321,29 @@ contains
   end subroutine add_untwisted
 
   !> Convolve the columns of all waves along x; the results have real and imaginary parts exchanged.
-  subroutine convolve_columns(self, plan, zero, work, lines)
-    type(grid_kernel), intent(in) :: self
-    type(grid_plan), intent(in) :: plan
-    logical, intent(in) :: zero(:)
-    real(c_double), intent(inout), contiguous, target :: work(:, :), lines(:, :)
-    integer :: circle, first, k, last, most, n
+  subroutine convolve_columns(part, parts, data) bind(c, name='')
+    integer(c_int), intent(in), value :: part, parts
+    type(c_ptr), intent(in), value :: data
+    type(product_job), pointer :: job
+    real(c_double), pointer, contiguous :: lines(:, :)
+    integer :: block, circle, first, from, k, last, most, n, to
 
-    n = plan%length(1)
-    do circle = 0, merge(1, 0, self%padded(1))
+    call c_f_pointer(data, job)
+    call find_lines(job, int(part), lines)
+    n = job%length(1)
+    do circle = 0, merge(1, 0, job%padded(1))
       ! Waves above are the opposites of those below.
       most = merge(n/2, (n - 1)/2, circle == 0)
-      do first = 0, most, COLUMNS
+      call share(most/COLUMNS + 1, int(part), int(parts), from, to)
+      do block = from, to
+        first = COLUMNS*block
         last = min(first + COLUMNS - 1, most)
-        call gather(n, circle, first, last, plan%cells(2), plan%length(2), zero, work, lines)
+        call gather(n, circle, first, last, job%cells(2), job%length(2), job%zero, job%work, lines)
         do k = first, last
-          call convolve_column(plan, self%padded(2), self%spectrum(:, k + circle*(n/2 + 1)), &
-                               lines(:, k - first + 1), lines(:, COLUMNS + 1), lines(:, COLUMNS + 2))
+          call convolve_column(job, k + circle*(n/2 + 1), lines(:, k - first + 1), lines(:, COLUMNS + 1), &
+                               lines(:, COLUMNS + 2))
         end do
-        call scatter(n, circle, first, last, plan%cells(2), lines, work)
+        call scatter(n, circle, first, last, job%cells(2), lines, job%work)
       end do
     end do
   end subroutine convolve_columns
@@ -445,7 +354,7 @@ contains
     integer :: other
 
     if (circle == 0) then
-      other = modulo(n - k, n)
+      other = merge(0, n - k, k == 0)
     else
       other = n - 1 - k
     end if
@@ -479,30 +388,29 @@ contains
     lines(2*rows + 1:2*length, 1:last - first + 1) = 0.0_dp
   end subroutine gather
 
-  !> Convolve one column `f` with the kernel whose spectrum along y is `spectrum`; the result has real and imaginary
-  !> parts exchanged. `t` and `u` are for work.
-  subroutine convolve_column(plan, padded, spectrum, f, t, u)
-    type(grid_plan), intent(in) :: plan
-    logical, intent(in) :: padded
-    real(dp), intent(in), contiguous :: spectrum(0:)
+  !> Convolve the column `f` of wave `k` of the kernel's spectrum; the result has real and imaginary parts exchanged.
+  !> `t` and `u` are for work.
+  subroutine convolve_column(job, k, f, t, u)
+    type(product_job), intent(in) :: job
+    integer, intent(in) :: k
     real(c_double), intent(inout), contiguous, target :: f(:), t(:), u(:)
     integer :: n, rows
 
-    n = plan%length(2)
-    rows = plan%cells(2)
-    call plan%columns%transform_to(c_loc(f), c_loc(t))
-    call multiply_even(n, spectrum(:n/2), t)
-    if (.not. padded) then
-      call plan%columns%transform_to(c_loc(t), c_loc(f))
+    n = job%length(2)
+    rows = job%cells(2)
+    call job%columns%transform_to(c_loc(f), c_loc(t))
+    call multiply_even(n, job%spectrum(:n/2 + 1, k + 1), t)
+    if (.not. job%padded(2)) then
+      call job%columns%transform_to(c_loc(t), c_loc(f))
       return
     end if
-    call plan%columns%transform_to(c_loc(t), c_loc(u))
-    call twist_line(plan%column_twist, rows, f, t)
-    call plan%columns%transform_to(c_loc(t), c_loc(f))
-    call multiply_odd(n, spectrum(n/2 + 1:), f)
-    call plan%columns%transform_to(c_loc(f), c_loc(t))
+    call job%columns%transform_to(c_loc(t), c_loc(u))
+    call twist_line(job%column_twist, rows, f, t)
+    call job%columns%transform_to(c_loc(t), c_loc(f))
+    call multiply_odd(n, job%spectrum(n/2 + 2:, k + 1), f)
+    call job%columns%transform_to(c_loc(f), c_loc(t))
     f(:2*rows) = u(:2*rows)
-    call add_untwisted(plan%column_twist, rows, t, f)
+    call add_untwisted(job%column_twist, rows, t, f)
   end subroutine convolve_column
 
   !> Multiply `n` complex numbers by the spectrum, of which the numbers 0 .. n/2 are given, and exchange their parts.

@@ -1,4 +1,5 @@
 /* Section "half-space" of fuge_area.h. */
+#include <limits.h>
 #include "check.h"
 
 enum { N = 4, LDA = 5 };
@@ -92,11 +93,115 @@ static void test_refusals(void) {
   CHECK_UNTOUCHED(alpha, N * N);
 }
 
+static fuge_solver *ball_on_grid(fuge_operator *op, const double *gap) {
+  fuge_solver *solver = NULL;
+  CHECK_STATUS(fuge_solver_new(op, NULL, &solver, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  return solver;
+}
+
+enum { NX = 9, NY = 7, CELLS = NX * NY };
+
+/* A ball off the middle: the same forces by products, by more threads and by the matrix. */
+static void test_grid(int element) {
+  static double alpha[CELLS * CELLS];
+  double x[CELLS], y[CELLS], width_x[CELLS], width_y[CELLS], gap[CELLS], force[CELLS], again[CELLS], right[CELLS];
+  char message[256] = "old";
+  fuge_operator *op = NULL, *dense = NULL;
+  fuge_solver *solver;
+  for (int k = 0; k < CELLS; k++) {
+    x[k] = 0.5 * (k % NX) - 1.8;
+    y[k] = 0.75 * (k / NX) - 2.0;
+    width_x[k] = 0.5;
+    width_y[k] = 0.75;
+    gap[k] = 0.3 * (x[k] * x[k] + y[k] * y[k]);
+  }
+  CHECK_STATUS(fuge_operator_halfspace(NX, NY, 0.5, 0.75, E_STAR, element, FUGE_FREE, &op, message, sizeof message),
+               FUGE_DONE);
+  CHECK_STRING(message, "");
+  solver = ball_on_grid(op, gap);
+  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_threads(op, 3, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
+  fuge_solver_free(&solver);
+  fuge_operator_free(&op);
+  CHECK_STATUS(fuge_halfspace_matrix(CELLS, x, y, width_x, width_y, E_STAR, element, alpha, CELLS, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_dense(CELLS, alpha, CELLS, &dense, NULL, 0), FUGE_DONE);
+  solver = ball_on_grid(dense, gap);
+  CHECK_STATUS(fuge_get_force(solver, right), FUGE_DONE);
+  fuge_solver_free(&solver);
+  fuge_operator_free(&dense);
+  for (int k = 0; k < CELLS; k++) {
+    CHECK_NEAR(force[k], right[k], 1e-8);
+    CHECK_NEAR(again[k], force[k], 0.0);
+  }
+}
+
+/* All boundaries give an operator, also with one row. */
+static void test_boundaries(void) {
+  for (int boundary = FUGE_FREE; boundary <= FUGE_PERIODIC_Y; boundary++)
+    for (int ny = 1; ny <= 5; ny += 4) {
+      fuge_operator *op = NULL;
+      CHECK_STATUS(fuge_operator_halfspace(6, ny, 1.0, 2.0, E_STAR, FUGE_MEAN, boundary, &op, NULL, 0), FUGE_DONE);
+      CHECK(op != NULL);
+      fuge_operator_free(&op);
+      CHECK(op == NULL);
+    }
+}
+
+typedef struct bad_grid {
+  int nx, ny;
+  double spacing_x, spacing_y, e_star;
+  int element, boundary, status;
+  const char *part;
+} bad_grid;
+
+static const bad_grid BAD_GRIDS[] = {
+  {0, 3, 1, 1, 3, FUGE_MEAN, FUGE_FREE, FUGE_ERR_SIZE, "nx = 0"},
+  {3, -1, 1, 1, 3, FUGE_MEAN, FUGE_PERIODIC, FUGE_ERR_SIZE, "ny = -1"},
+  {65536, 65536, 1, 1, 3, FUGE_MEAN, FUGE_FREE, FUGE_ERR_SIZE, "nx = 65536 times ny = 65536"},
+  {INT_MAX, INT_MAX, 1, 1, 3, FUGE_MEAN, FUGE_PERIODIC, FUGE_ERR_SIZE, "points"},
+  {INT_MAX, 1, 1, 1, 3, FUGE_MEAN, FUGE_FREE, FUGE_ERR_MEMORY, "nx = 2147483647"},
+  {4, 4, 0, 1, 3, FUGE_MEAN, FUGE_FREE, FUGE_ERR_WIDTH, "spacing_x = 0"},
+  {4, 4, 1, -0.5, 3, FUGE_MEAN, FUGE_FREE, FUGE_ERR_WIDTH, "spacing_y = -0.5"},
+  {4, 4, 1, NAN, 3, FUGE_MEAN, FUGE_FREE, FUGE_ERR_NOT_FINITE, "spacing_y = NaN"},
+  {4, 4, 1, 1, INFINITY, FUGE_MEAN, FUGE_FREE, FUGE_ERR_NOT_FINITE, "e_star = Inf"},
+  {4, 4, 1, 1, 0, FUGE_MEAN, FUGE_FREE, FUGE_ERR_MODULUS, "e_star = 0"},
+  {4, 4, 1e-200, 1e-200, 3, FUGE_MEAN, FUGE_FREE, FUGE_ERR_OVERFLOW, "spacing_x"},
+  {4, 4, 1, 1, 3, FUGE_HAT, FUGE_FREE, FUGE_ERR_ELEMENT, "element = 2"},
+  {4, 4, 1, 1, 3, FUGE_MEAN, FUGE_PERIODIC_Y + 1, FUGE_ERR_OPTION, "boundary = 4"}
+};
+
+/* *op stays as it was, the message says what is wrong. */
+static void test_grid_refusals(void) {
+  char place, message[256];
+  fuge_operator *const before = (fuge_operator *)(void *)&place;
+  for (size_t k = 0; k < sizeof BAD_GRIDS / sizeof BAD_GRIDS[0]; k++) {
+    const bad_grid *bad = &BAD_GRIDS[k];
+    fuge_operator *op = before;
+    strcpy(message, "not written");
+    CHECK_STATUS(fuge_operator_halfspace(bad->nx, bad->ny, bad->spacing_x, bad->spacing_y, bad->e_star, bad->element,
+                                         bad->boundary, &op, message, sizeof message), bad->status);
+    CHECK(op == before);
+    CHECK_CONTAINS(message, bad->part);
+  }
+  CHECK_STATUS(fuge_operator_halfspace(4, 4, 1, 1, 3, FUGE_MEAN, FUGE_FREE, NULL, message, sizeof message),
+               FUGE_ERR_POINTER);
+}
+
 int main(void) {
   test_one_square();
   test_four_squares(FUGE_CENTRE);
   test_four_squares(FUGE_MEAN);
   test_folded();
   test_refusals();
+  test_grid(FUGE_CENTRE);
+  test_grid(FUGE_MEAN);
+  test_boundaries();
+  test_grid_refusals();
   return check_summary();
 }

@@ -8,6 +8,7 @@ C     without any interface. Answers by hand.
       CALL REFUSE
       CALL HPLANE
       CALL BYFFT
+      CALL AREA
       CALL WORDS
       CALL VERDCT
       END
@@ -326,6 +327,61 @@ C     Equal forces displace nothing on a periodic surface.
       CALL FUGEFT(2, 1.D0, 100.D0, 1, 0, 1, GAP, -1.D0, F, C, V0, INFO)
       CALL STATUS('FUGEFT, F0 < 0', INFO, -10)
       CALL NUMBER('FUGEFT untouched', F(1), 7.D0, 0.D0)
+      END
+
+C     Four unit squares: by products, on one thread and two, and by the
+C     matrix of the squares themselves, their neighbours and opposites.
+      SUBROUTINE AREA
+      DOUBLE PRECISION GAP(2,2), F(2,2), C(2,2), FM(2,2), CM(2,2), V0,
+     $                 VM, ALPHA(4,4), SELF, SIDE, OPPOS, ESTAR, EPS
+      PARAMETER (SELF=3.525494348078172D0, SIDE=1.038049735904756D0,
+     $           OPPOS=0.72469743813433D0, ESTAR=100.D0, EPS=1.D-10)
+      INTEGER INFO, NTHR, I, J
+      DATA GAP /0.D0, 1.D-3, 2.D-3, 1.D0/
+      DO 20 J = 1, 4
+        DO 10 I = 1, 4
+          ALPHA(I,J) = SIDE/(4.D0*ATAN(1.D0)*ESTAR)
+          IF (I .EQ. J) ALPHA(I,J) = SELF/(4.D0*ATAN(1.D0)*ESTAR)
+          IF (I + J .EQ. 5) ALPHA(I,J) = OPPOS/(4.D0*ATAN(1.D0)*ESTAR)
+   10   CONTINUE
+   20 CONTINUE
+      CALL FUGESV(4, ALPHA, 4, GAP, 3.D0, FM, CM, VM, INFO)
+      CALL STATUS('FUGESV of squares', INFO, 0)
+      DO 50 NTHR = 1, 2
+        CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 0, 0, NTHR, GAP, 3.D0,
+     $              F, C, V0, INFO)
+        CALL STATUS('FUGEFA', INFO, 0)
+        CALL NUMBER('FUGEFA V0', V0, VM, EPS)
+        DO 40 J = 1, 2
+          DO 30 I = 1, 2
+            CALL NUMBER('FUGEFA F', F(I,J), FM(I,J), EPS)
+            CALL NUMBER('FUGEFA C', C(I,J), CM(I,J), EPS)
+   30     CONTINUE
+   40   CONTINUE
+   50 CONTINUE
+      F(1,1) = 7.D0
+      CALL FUGEFA(2, 0, 1.D0, 1.D0, ESTAR, 0, 0, 1, GAP, 3.D0, F, C, V0,
+     $            INFO)
+      CALL STATUS('FUGEFA, NY = 0', INFO, -1)
+      CALL FUGEFA(65536, 65536, 1.D0, 1.D0, ESTAR, 0, 0, 1, GAP, 3.D0,
+     $            F, C, V0, INFO)
+      CALL STATUS('FUGEFA, NX*NY too large', INFO, -1)
+      CALL FUGEFA(2, 2, 1.D0, 0.D0, ESTAR, 0, 0, 1, GAP, 3.D0, F, C, V0,
+     $            INFO)
+      CALL STATUS('FUGEFA, HY = 0', INFO, -4)
+      CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 2, 0, 1, GAP, 3.D0, F, C, V0,
+     $            INFO)
+      CALL STATUS('FUGEFA, NELEM = 2', INFO, -6)
+      CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 0, 4, 1, GAP, 3.D0, F, C, V0,
+     $            INFO)
+      CALL STATUS('FUGEFA, NBOUND = 4', INFO, -14)
+      CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 0, 0, 0, GAP, 3.D0, F, C, V0,
+     $            INFO)
+      CALL STATUS('FUGEFA, NTHR = 0', INFO, -14)
+      CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 0, 0, 1, GAP, -1.D0, F, C,
+     $            V0, INFO)
+      CALL STATUS('FUGEFA, F0 < 0', INFO, -10)
+      CALL NUMBER('FUGEFA untouched', F(1,1), 7.D0, 0.D0)
       END
 
       SUBROUTINE WORDS

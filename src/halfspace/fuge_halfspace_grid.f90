@@ -1,0 +1,147 @@
+!> A uniform grid of rectangles on an elastic half-space: its numbers, what they may be, and coarser grids.
+module fuge_halfspace_grid
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_constants, only: LARGEST_EXPONENT_OF_4
+  use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfplane_influence, only: FUGE_MEAN
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_rectangle_checks, only: check_area_element, check_area_modulus
+  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, &
+    FUGE_ERR_WIDTH
+  implicit none
+  private
+
+  public :: check_grid, coarsened, count_coarser, cyclic, periodic
+
+  !> `boundary`: the cells repeat periodically along x, and beyond them along y the surface is free.
+  integer, parameter, public :: FUGE_PERIODIC_X = 2
+  !> `boundary`: the cells repeat periodically along y, and beyond them along x the surface is free.
+  integer, parameter, public :: FUGE_PERIODIC_Y = 3
+
+  !> A grid of fewer cells is not made by `coarsen`.
+  integer, parameter :: FEWEST_CELLS = 32
+  !> The longer spacing over the shorter one, at most.
+  real(dp), parameter :: LARGEST_RATIO = 1.0e5_dp
+
+  type, public :: halfspace_grid
+    !> nx and ny; 0 before they are set.
+    integer :: cells(2) = 0
+    !> Cells in a period of each direction, 0 if it is not periodic. A window has fewer cells.
+    integer :: period(2) = 0
+    integer :: element = FUGE_MEAN
+    integer :: boundary = FUGE_FREE
+    real(dp) :: spacing(2) = 0.0_dp
+    real(dp) :: e_star = 0.0_dp
+    !> Where a force displaces nothing if the surface is periodic in one direction only: a distance along the other one.
+    real(dp) :: reach = 0.0_dp
+  end type halfspace_grid
+
+contains
+
+  !> Refuse what makes no grid: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION.
+  pure subroutine check_grid(grid, info)
+    type(halfspace_grid), intent(in) :: grid
+    type(fuge_info), intent(inout) :: info
+
+    call check_cells(grid, info)
+    if (.not. info%failed()) call check_options(grid, info)
+  end subroutine check_grid
+
+  !> Refuse numbers and sizes of cells that make no grid.
+  pure subroutine check_cells(grid, info)
+    type(halfspace_grid), intent(in) :: grid
+    type(fuge_info), intent(inout) :: info
+    character, parameter :: AXIS(2) = ['x', 'y']
+    real(dp) :: points
+    integer :: k
+
+    do k = 1, 2
+      if (info%failed()) return
+      if (grid%cells(k) < 1) then
+        call report(info, FUGE_ERR_SIZE, 'n'//AXIS(k)//' = '//text(grid%cells(k))//': at least one cell is needed')
+      else if (.not. ieee_is_finite(grid%spacing(k))) then
+        call report(info, FUGE_ERR_NOT_FINITE, 'spacing_'//AXIS(k)//' = '//text(grid%spacing(k)) &
+                    //' is not a finite number')
+      else if (.not. grid%spacing(k) > 0.0_dp) then
+        call report(info, FUGE_ERR_WIDTH, 'spacing_'//AXIS(k)//' = '//text(grid%spacing(k)) &
+                    //' is not positive: it is the width of a cell along '//AXIS(k))
+      else if (abs(exponent(grid%spacing(k))) > LARGEST_EXPONENT_OF_4) then
+        call report(info, FUGE_ERR_OVERFLOW, 'spacing_'//AXIS(k)//' = '//text(grid%spacing(k)) &
+                    //' is out of range: choose another unit of length')
+      end if
+    end do
+    if (info%failed()) return
+    points = real(grid%cells(1), dp)*real(grid%cells(2), dp)
+    if (points > real(huge(1), dp)) then
+      call report(info, FUGE_ERR_SIZE, 'nx = '//text(grid%cells(1))//' times ny = '//text(grid%cells(2)) &
+                  //' is '//text(points)//' points, more than the largest integer, '//text(huge(1)) &
+                  //': use a coarser grid')
+    else if (maxval(grid%spacing) > LARGEST_RATIO*minval(grid%spacing)) then
+      call report(info, FUGE_ERR_WIDTH, 'spacing_x = '//text(grid%spacing(1))//' and spacing_y = ' &
+                  //text(grid%spacing(2))//': the ratio of the two is at most '//text(LARGEST_RATIO))
+    end if
+  end subroutine check_cells
+
+  pure subroutine check_options(grid, info)
+    type(halfspace_grid), intent(in) :: grid
+    type(fuge_info), intent(inout) :: info
+
+    call check_area_modulus(grid%e_star, info)
+    if (.not. info%failed()) call check_area_element(grid%element, info)
+    if (info%failed()) return
+    if (all(grid%boundary /= [FUGE_FREE, FUGE_PERIODIC, FUGE_PERIODIC_X, FUGE_PERIODIC_Y])) then
+      call report(info, FUGE_ERR_OPTION, 'boundary = '//text(grid%boundary) &
+                  //' is unknown: use FUGE_FREE, FUGE_PERIODIC, FUGE_PERIODIC_X or FUGE_PERIODIC_Y')
+    end if
+  end subroutine check_options
+
+  !> Is the surface periodic in each direction?
+  pure function periodic(grid)
+    type(halfspace_grid), intent(in) :: grid
+    logical :: periodic(2)
+
+    periodic = grid%boundary == FUGE_PERIODIC .or. grid%boundary == [FUGE_PERIODIC_X, FUGE_PERIODIC_Y]
+  end function periodic
+
+  !> Are the cells a whole period in each direction? In the others the circle of a product is longer than the grid.
+  pure function cyclic(grid)
+    type(halfspace_grid), intent(in) :: grid
+    logical :: cyclic(2)
+
+    cyclic = grid%cells == grid%period
+  end function cyclic
+
+  !> Cells 2**`levels` times as wide. In a periodic direction the period is the same, which may make them a little
+  !> narrower. A direction of one cell keeps it.
+  pure function coarsened(grid, levels) result(wider)
+    type(halfspace_grid), intent(in) :: grid
+    integer, intent(in) :: levels
+    type(halfspace_grid) :: wider
+    integer :: k
+
+    wider = grid
+    do k = 1, levels
+      where (wider%cells > 1) wider%spacing = 2.0_dp*wider%spacing
+      wider%cells = (wider%cells - 1)/2 + 1
+      wider%period = (wider%period + 1)/2
+    end do
+    where (periodic(grid)) wider%spacing = grid%spacing*(real(grid%period, dp)/real(max(wider%period, 1), dp))
+  end function coarsened
+
+  !> How many times the grid can be coarsened.
+  pure function count_coarser(grid) result(count)
+    type(halfspace_grid), intent(in) :: grid
+    integer :: count, cells(2)
+
+    count = -1
+    cells = grid%cells
+    do while (real(cells(1), dp)*real(cells(2), dp) >= FEWEST_CELLS)
+      cells = (cells - 1)/2 + 1
+      count = count + 1
+    end do
+    count = max(count, 0)
+  end function count_coarser
+
+end module fuge_halfspace_grid
