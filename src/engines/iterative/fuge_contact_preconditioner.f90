@@ -178,7 +178,9 @@ contains
   end subroutine prepare_levels
 
   !> Create level `number` unless it exists already; it stays empty if the operator has no grid
-  !> so coarse. `stat` is not 0 where memory is short.
+  !> so coarse, and for a grid with rows and columns: on a surface the displacements of a force fall off with the
+  !> distance, so that separate contacts hardly couple, and one level converges faster than two
+  !> (doc/theory.md). `stat` is not 0 where memory is short.
   subroutine create_level(operator, number, level, force, stat)
     class(fuge_operator), intent(in) :: operator
     integer, intent(in) :: number
@@ -187,10 +189,11 @@ contains
     integer, intent(out) :: stat
     class(fuge_operator), pointer :: kept
     class(fuge_operator), allocatable :: coarse
-    integer :: cells
+    integer :: grid(2), cells
 
     stat = 0
-    if (exists(level)) return
+    grid = operator%grid()
+    if (exists(level) .or. all(grid > 1)) return
     cells = (operator%points() - 1)/GROUP**(number - 1) + 1
     call operator%kept_coarser(DOUBLINGS_PER_LEVEL*(number - 1), kept)
     if (associated(kept)) then

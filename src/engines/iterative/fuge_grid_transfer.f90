@@ -1,0 +1,123 @@
+!> Gaps and forces carried between the nested grids of an operator.
+!>
+!> Gaps are restricted to a coarser grid as means over its cells; forces are prolonged to the next
+!> finer grid linearly, in one direction after the other. A direction of one cell stays as it is.
+module fuge_grid_transfer
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  public :: coarser_cells, prolong, restrict_gap
+
+contains
+
+  !> The cells in each direction of a grid whose cells are 2**level times as wide as those of a grid of `cells`.
+  pure function coarser_cells(cells, level) result(coarser)
+    integer, intent(in) :: cells(2), level
+    integer :: coarser(2)
+
+    coarser = (cells - 1)/2**level + 1
+  end function coarser_cells
+
+  !> Prolong forces, in place, to the next finer grid of `cells` in each direction; deallocate them if
+  !> it is not the next one, but a grid in between is missing. Error: FUGE_ERR_MEMORY.
+  !>
+  !> A coarse cell stands for two fine cells in each direction, the last one for a single cell if their
+  !> number is odd. For even numbers the sum of the forces is conserved; forces linear along the grid
+  !> are prolonged exactly but for the first and last cells.
+  pure subroutine prolong(cells, force, info)
+    integer, intent(in) :: cells(2)
+    real(dp), allocatable, intent(inout) :: force(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: wide(:), fine(:)
+    integer :: coarse(2), stat
+
+    coarse = coarser_cells(cells, 1)
+    if (size(force) /= product(coarse)) then
+      deallocate (force)
+      return
+    end if
+    allocate (wide(cells(1)*coarse(2)), fine(product(cells)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the starting forces on '//text(product(cells))//' points')
+      return
+    end if
+    call interpolate_rows(coarse(1), cells(1), coarse(2), force, wide)
+    call interpolate_columns(cells(1), coarse(2), cells(2), wide, fine)
+    call move_alloc(fine, force)
+  end subroutine prolong
+
+  !> Linear interpolation along x between the centres of the coarse cells; each coarse cell carries the
+  !> forces of two fine cells. `coarse` (m, rows), `fine` (n, rows).
+  pure subroutine interpolate_rows(m, n, rows, coarse, fine)
+    integer, intent(in) :: m, n, rows
+    real(dp), intent(in) :: coarse(m, rows)
+    real(dp), intent(out) :: fine(n, rows)
+    integer :: j, k
+
+    if (m == n) then
+      fine = coarse
+      return
+    end if
+    do j = 1, rows
+      do k = 1, m
+        fine(2*k - 1, j) = 0.375_dp*coarse(k, j) + 0.125_dp*coarse(max(k - 1, 1), j)
+        if (2*k <= n) fine(2*k, j) = 0.375_dp*coarse(k, j) + 0.125_dp*coarse(min(k + 1, m), j)
+      end do
+    end do
+  end subroutine interpolate_rows
+
+  !> The same along y: `coarse` (columns, m), `fine` (columns, n).
+  pure subroutine interpolate_columns(columns, m, n, coarse, fine)
+    integer, intent(in) :: columns, m, n
+    real(dp), intent(in) :: coarse(columns, m)
+    real(dp), intent(out) :: fine(columns, n)
+    integer :: k
+
+    if (m == n) then
+      fine = coarse
+      return
+    end if
+    do k = 1, m
+      fine(:, 2*k - 1) = 0.375_dp*coarse(:, k) + 0.125_dp*coarse(:, max(k - 1, 1))
+      if (2*k <= n) fine(:, 2*k) = 0.375_dp*coarse(:, k) + 0.125_dp*coarse(:, min(k + 1, m))
+    end do
+  end subroutine interpolate_columns
+
+  !> Restrict the gaps `gap` of a grid of `cells` in each direction to one whose cells are 2**level times as
+  !> wide (the last ones may be narrower): `coarse` are the means over its cells. Error: FUGE_ERR_MEMORY.
+  pure subroutine restrict_gap(gap, cells, level, coarse, info)
+    real(dp), intent(in) :: gap(:)
+    integer, intent(in) :: cells(2), level
+    real(dp), allocatable, intent(out) :: coarse(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: coarser(2), stat
+
+    coarser = coarser_cells(cells, level)
+    allocate (coarse(product(coarser)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(product(coarser))//' cells')
+    else
+      call average_cells(cells, coarser, 2**level, gap, coarse)
+    end if
+  end subroutine restrict_gap
+
+  !> Means of `fine` (nx, ny) over blocks of `width` x `width` cells.
+  pure subroutine average_cells(cells, coarser, width, fine, coarse)
+    integer, intent(in) :: cells(2), coarser(2), width
+    real(dp), intent(in) :: fine(cells(1), cells(2))
+    real(dp), intent(out) :: coarse(coarser(1), coarser(2))
+    integer :: first(2), last(2), i, j
+
+    do j = 1, coarser(2)
+      do i = 1, coarser(1)
+        first = ([i, j] - 1)*width + 1
+        last = first + min(width - 1, cells - first)
+        coarse(i, j) = sum(fine(first(1):last(1), first(2):last(2)))/real(product(last - first + 1), dp)
+      end do
+    end do
+  end subroutine average_cells
+
+end module fuge_grid_transfer
