@@ -9,7 +9,7 @@
 !> varies within groups of sixteen of its cells, and the next level handles the group means.
 !> doc/theory.md shows that the sum over the levels is symmetric and positive definite.
 module fuge_contact_preconditioner
-  use fuge_contact_segments, only: contact_segments, sum_over
+  use fuge_contact_segments, only: contact_segments, dot_over, sum_over
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_products, only: precondition
@@ -25,6 +25,8 @@ module fuge_contact_preconditioner
   !> With fewer contact segments than this one level is enough: each segment adds only one or two
   !> directions for the conjugate gradients to resolve.
   integer, parameter :: MANY_SEGMENTS = 16
+  !> `uniform` is kept while at most this fraction of the set has changed since it was computed.
+  real(dp), parameter :: CLOSE = 0.05_dp
   !> More levels than any grid has.
   integer, parameter :: MAX_LEVELS = 8
 
@@ -53,13 +55,17 @@ module fuge_contact_preconditioner
     !> Created for the first set with many segments.
     type(preconditioner_level), allocatable, private :: levels(:)
     type(level_force), allocatable, private :: forces(:)
-    !> The contact set, (n).
+    !> The contact set for which `uniform` was computed, (n).
     logical, allocatable, private :: contact(:)
     !> Number of levels used for this set; 0 where the operator has no preconditioner.
     integer, private :: depth = 0
     !> The preconditioner applied to a unit residual on the whole set, (n): forces that displace
-    !> all its points almost equally; and their sum.
+    !> all its points almost equally; and their sum over the present set.
     real(dp), allocatable, private :: uniform(:)
+    !> The present set is not that of `uniform`, but close to it.
+    logical, private :: is_close = .false.
+    !> A residual, (n), allocated if it is needed.
+    real(dp), allocatable, private :: centred(:)
     real(dp), private :: sum_of_uniform = 1.0_dp
     !> Force per length that stands for the preconditioner where the operator has none.
     real(dp), private :: stiffness = 1.0_dp
@@ -72,7 +78,7 @@ module fuge_contact_preconditioner
 
 contains
 
-  !> Prepare for a contact set; does nothing if it is the same set as before.
+  !> Prepare for a contact set; does nothing if it is the same set as before, and little if it is close to it.
   !>
   !> `contact` (n); `compliance` a typical displacement per force, used where the operator has no
   !> preconditioner. Errors: FUGE_ERR_MEMORY; FUGE_ERR_NOT_DEFINITE for a preconditioner that is
@@ -91,10 +97,15 @@ contains
       if (compliance >= tiny(compliance)) self%stiffness = 1.0_dp/compliance
       return
     end if
-    if (self%depth > 0) then
+    if (self%depth > 0 .and. .not. self%is_close) then
       if (all(contact .eqv. self%contact)) return
     end if
     call segments%find(contact, info)
+    if (self%depth == 1 .and. .not. info%failed()) then
+      call keep_uniform(self, segments, contact)
+      if (self%is_close) return
+    end if
+    self%is_close = .false.
     if (.not. info%failed()) call prepare_levels(self, operator, contact, size(segments%first) >= MANY_SEGMENTS, info)
     if (info%failed()) return
     if (self%depth == 1) then
@@ -111,6 +122,27 @@ contains
                   //'on the contact set have the energy '//text(self%sum_of_uniform))
     end if
   end subroutine set
+
+  !> Keep the forces `uniform` of a set for one that is close to it, if there is room for a residual and if
+  !> their sum stays positive.
+  pure subroutine keep_uniform(self, segments, contact)
+    class(contact_preconditioner), intent(inout) :: self
+    type(contact_segments), intent(in) :: segments
+    logical, intent(in) :: contact(:)
+    real(dp) :: total
+    integer :: stat
+
+    self%is_close = real(count(contact .neqv. self%contact), dp) <= CLOSE*real(segments%points, dp)
+    if (.not. self%is_close) return
+    stat = 0
+    if (.not. allocated(self%centred)) then
+      allocate (self%centred(size(contact)), stat=stat)
+      if (stat == 0) self%centred = 0.0_dp
+    end if
+    total = sum_over(segments, self%uniform)
+    self%is_close = stat == 0 .and. total > 0.0_dp
+    if (self%is_close) self%sum_of_uniform = total
+  end subroutine keep_uniform
 
   !> Forces on the contact set whose displacements are close to `residual`; projected to zero sum
   !> if `zero_sum`.
@@ -129,7 +161,10 @@ contains
     integer :: i
 
     factor = 0.0_dp
-    if (self%depth == 1) then
+    if (self%is_close .and. zero_sum) then
+      call center(self, segments, residual)
+      call precondition(operator, self%centred, force, info)
+    else if (self%depth == 1) then
       call precondition(operator, residual, force, info)
     else if (self%depth > 1) then
       self%levels(1)%residual = residual
@@ -147,6 +182,24 @@ contains
       end associate
     end do
   end subroutine apply
+
+  !> The residual less that mean for which `uniform` does no work: with the same projection before and after it the
+  !> preconditioner is symmetric, whatever set `uniform` was computed for (doc/theory.md).
+  pure subroutine center(self, segments, residual)
+    class(contact_preconditioner), intent(inout) :: self
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in), contiguous :: residual(:)
+    real(dp) :: mean
+    integer :: i
+
+    mean = dot_over(segments, residual, self%uniform)/self%sum_of_uniform
+    self%centred = residual
+    do i = 1, size(segments%first)
+      associate (a => segments%first(i), b => segments%last(i))
+        self%centred(a:b) = residual(a:b) - mean
+      end associate
+    end do
+  end subroutine center
 
   !> Store the contact set; with `many_segments` also create the levels that do not exist yet and
   !> count the contact points in their cells.

@@ -28,6 +28,8 @@ module fuge_contact_set_search
   !> The search aims below the tolerance by this factor, because the certificate adds the errors
   !> at two points.
   real(dp), parameter :: SAFETY = 0.4_dp
+  !> On a coarser grid a set is good enough if at most this fraction of its points is wrong.
+  real(dp), parameter :: WRONG_ON_COARSE = 0.01_dp
   !> Block exchanges without a new minimum of wrong points before single exchanges begin; edges
   !> are extrapolated in the first half of them only.
   integer, parameter :: MAX_STALLS = 10
@@ -38,7 +40,7 @@ module fuge_contact_set_search
     real(dp) :: tolerance = COARSE_TOLERANCE
     !> Contact sets allowed, on all grids together.
     integer :: limit = 0
-    !> Accept the first set without wrong points, accurate or not: on a coarser grid its forces
+    !> Accept the first set with few wrong points, accurate or not: on a coarser grid its forces
     !> only start the next one.
     logical :: coarse_grid = .true.
     !> The rigid motion is prescribed and already subtracted from the gaps.
@@ -85,8 +87,8 @@ contains
       call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, to_tolerance, monitor, iterate, info)
       if (info%failed()) exit
       wrong = count_wrong_points(reduced_gap, penetration_noise(settings, iterate), iterate)
+      if (settings%coarse_grid .and. wrong <= WRONG_ON_COARSE*count(iterate%contact)) exit
       if (wrong == 0) then
-        if (settings%coarse_grid) exit
         if (to_tolerance .or. iterate%converged) then
           call confirm_contact_set(operator, settings, reduced_gap, previous_residual, iterate, confirmed, info)
           if (confirmed .or. info%failed()) exit

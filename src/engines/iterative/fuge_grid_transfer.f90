@@ -2,6 +2,8 @@
 !>
 !> Gaps are restricted to a coarser grid as means over its cells; forces are prolonged to the next
 !> finer grid linearly, in one direction after the other. A direction of one cell stays as it is.
+!> On an area open cells stay open: the linear interpolation would add a rim of cells to every contact,
+!> on a rough surface half as many cells as are in contact.
 module fuge_grid_transfer
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
@@ -46,6 +48,7 @@ contains
     end if
     call interpolate_rows(coarse(1), cells(1), coarse(2), force, wide)
     call interpolate_columns(cells(1), coarse(2), cells(2), wide, fine)
+    if (all(cells > 1)) call open_cells(coarse, cells, force, fine)
     call move_alloc(fine, force)
   end subroutine prolong
 
@@ -85,6 +88,20 @@ contains
       if (2*k <= n) fine(:, 2*k) = 0.375_dp*coarse(:, k) + 0.125_dp*coarse(:, min(k + 1, m))
     end do
   end subroutine interpolate_columns
+
+  !> No force on the cells of `fine` (nx, ny) whose cell of `coarse` carries none.
+  pure subroutine open_cells(coarser, cells, coarse, fine)
+    integer, intent(in) :: coarser(2), cells(2)
+    real(dp), intent(in) :: coarse(coarser(1), coarser(2))
+    real(dp), intent(inout) :: fine(cells(1), cells(2))
+    integer :: i, j
+
+    do j = 1, cells(2)
+      do i = 1, cells(1)
+        if (.not. coarse((i + 1)/2, (j + 1)/2) > 0.0_dp) fine(i, j) = 0.0_dp
+      end do
+    end do
+  end subroutine open_cells
 
   !> Restrict the gaps `gap` of a grid of `cells` in each direction to one whose cells are 2**level times as
   !> wide (the last ones may be narrower): `coarse` are the means over its cells. Error: FUGE_ERR_MEMORY.
