@@ -55,6 +55,7 @@ module fuge_halfspace_fft
     procedure :: grid
     procedure :: coarsen
     procedure :: kept_coarser
+    procedure :: free_rim
     procedure :: window
     procedure, private :: copy
     generic :: assignment(=) => copy
@@ -340,6 +341,14 @@ contains
     if (wider%points() < FEWEST_FOR_THREADS) wider%threads = 1
     call prepare(wider, info)
   end subroutine set_wider
+
+  !> True in each direction that is not periodic and has more than one cell.
+  function free_rim(self) result(free)
+    class(fuge_halfspace_operator), intent(in) :: self
+    logical :: free(2)
+
+    free = self%surface%cells > 1 .and. .not. periodic(self%surface)
+  end function free_rim
 
   !> The window of `fuge_operator`: the same coefficients on fewer cells. A window of a periodic surface knows the
   !> forces of all periods.

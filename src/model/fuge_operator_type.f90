@@ -29,6 +29,8 @@ module fuge_operator_type
     procedure :: precondition => copy_displacement
     !> The equal cells of a grid that the points are, in each direction; [0, 0] if they are none.
     procedure :: grid => no_grid
+    !> Does the surface go on beyond the grid, free, in each direction? False by default.
+    procedure :: free_rim => no_free_rim
     !> The same body on wider cells, for nested iteration; none by default.
     procedure :: coarsen => no_coarser
     !> What `coarsen` gives, kept and owned by this operator; none by default.
@@ -88,6 +90,14 @@ contains
 
     cells = min(self%points(), 0)
   end function no_grid
+
+  !> False: points that are no cells have no rim, and the bodies may end with the grid.
+  function no_free_rim(self) result(free)
+    class(fuge_operator), intent(in) :: self
+    logical :: free(2)
+
+    free = self%points() < 0
+  end function no_free_rim
 
   !> `coarse` has 1/2**levels of the cells in each direction of `grid`, rounded up. Each of them replaces
   !> 2**levels by 2**levels cells of this operator, the last one of a direction maybe fewer. Unallocated if

@@ -16,6 +16,7 @@ module fuge_solver_type
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
+  use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_sensitivity, only: find_derivative
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
@@ -412,7 +413,8 @@ contains
     end if
   end subroutine check_iterative
 
-  !> Fill the report from the certificate; a residual above the tolerance is a warning.
+  !> Fill the report from the certificate; a residual above the tolerance is a warning, contact at the rim of a grid
+  !> only a message.
   subroutine certify(operator, problem, solution, tolerance, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -432,6 +434,8 @@ contains
     else if (info%residual > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the tolerance ' &
                   //text(tolerance)//': the operator may be too badly conditioned for double precision')
+    else if (info%status == FUGE_DONE) then
+      call remark_contact_at_rim(operator, solution%force, info)
     end if
   end subroutine certify
 

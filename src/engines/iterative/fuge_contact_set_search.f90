@@ -64,8 +64,8 @@ contains
     type(fuge_info), intent(inout) :: info
     type(contact_preconditioner) :: preconditioner
     real(dp) :: previous_residual
-    integer :: cells(2), wrong, fewest_wrong, stalls_left
-    logical :: to_tolerance, confirmed, in_row, undetermined
+    integer :: cells(2), products, wrong, fewest_wrong, stalls_left
+    logical :: to_tolerance, confirmed, fresh, in_row, undetermined
 
     cells = operator%grid()
     in_row = cells(1) > 0 .and. cells(2) == 1
@@ -75,6 +75,7 @@ contains
     to_tolerance = .false.
     iterate%contact = iterate%force > 0.0_dp
     call make_feasible(operator, iterate, info)
+    fresh = .true.
     do while (.not. info%failed())
       undetermined = has_undetermined_forces(operator, iterate, info)
       if (undetermined .and. .not. info%failed()) then
@@ -84,11 +85,15 @@ contains
         cycle
       end if
       if (info%failed()) exit
+      products = info%products
       call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, to_tolerance, monitor, iterate, info)
       if (info%failed()) exit
+      fresh = fresh .and. info%products == products
       wrong = count_wrong_points(reduced_gap, penetration_noise(settings, iterate), iterate)
       if (settings%coarse_grid .and. wrong <= WRONG_ON_COARSE*count(iterate%contact)) exit
       if (wrong == 0) then
+        ! Without a step the displacements are still those of a product with feasible forces.
+        if (iterate%converged .and. fresh) exit
         if (to_tolerance .or. iterate%converged) then
           call confirm_contact_set(operator, settings, reduced_gap, previous_residual, iterate, confirmed, info)
           if (confirmed .or. info%failed()) exit
@@ -108,6 +113,7 @@ contains
                                  in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
       if (info%failed()) exit
       call make_feasible(operator, iterate, info)
+      fresh = .true.
     end do
     info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
   end subroutine find_contact_set

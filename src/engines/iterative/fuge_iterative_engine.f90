@@ -6,10 +6,12 @@
 module fuge_iterative_engine
   use fuge_complete_contact, only: equal_forces_displace_nothing
   use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_contact_set_search, only: find_contact_set, make_feasible, search_settings
+  use fuge_grid_transfer, only: prolong
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
-  use fuge_nested_grids, only: nested_iteration
+  use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
@@ -46,12 +48,15 @@ contains
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
-    type(search_settings) :: settings
+    type(search_settings) :: coarse_settings, settings
     real(dp), allocatable :: reduced_gap(:)
     real(dp) :: gap_datum, load
 
-    settings%limit = iteration_limit(options, operator%points() + 1)
-    settings%prescribed = .not. problem%is_plain()
+    coarse_settings%limit = iteration_limit(options, operator%points() + 1)
+    coarse_settings%prescribed = .not. problem%is_plain()
+    settings = coarse_settings
+    settings%tolerance = options%tolerance
+    settings%coarse_grid = .false.
     call choose_scaling(problem, gap_datum, load)
     call check_range(problem, info)
     if (.not. info%failed()) call reduce_gap(problem%gap, gap_datum, load, reduced_gap, info)
@@ -61,18 +66,44 @@ contains
       call discard_poor_start(operator, settings%prescribed, reduced_gap, scaled_force, info)
     end if
     if (.not. (info%failed() .or. allocated(scaled_force))) then
-      call nested_iteration(operator, settings, reduced_gap, monitor, scaled_force, info)
+      call start_on_coarser_grids(operator, coarse_settings, settings, reduced_gap, monitor, scaled_force, info)
     end if
     if (.not. info%failed()) then
       call start_iterate(iterate, size(reduced_gap), settings%prescribed, scaled_force, info)
     end if
     if (info%failed()) return
-    settings%tolerance = options%tolerance
-    settings%coarse_grid = .false.
     call find_contact_set(operator, settings, reduced_gap, monitor, iterate, info)
     if (.not. info%failed()) call assemble_solution(operator, reduced_gap, gap_datum, load, iterate, solution, info)
     if (.not. info%failed()) call move_alloc(iterate%force, scaled_force)
   end subroutine solve_by_iteration
+
+  !> Forces to start from, `start`, by coarser grids, and where the contact is small by a window of the finest one.
+  !> `start` stays unallocated where the operator has no coarser grids. Errors: those of nested_iteration.
+  subroutine start_on_coarser_grids(operator, coarse_settings, settings, reduced_gap, monitor, start, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: coarse_settings, settings
+    real(dp), intent(in), contiguous :: reduced_gap(:)
+    class(fuge_monitor), intent(inout) :: monitor
+    real(dp), allocatable, intent(inout) :: start(:)
+    type(fuge_info), intent(inout) :: info
+    type(shared_work) :: work
+    integer :: level
+    logical :: solved
+
+    solved = .false.
+    level = survey_level(operator)
+    call nested_iteration(operator, coarse_settings, reduced_gap, coarsest_level(operator), max(level, 1), monitor, &
+                          start, work, info)
+    if (level > 0 .and. allocated(start) .and. .not. info%failed()) then
+      call solve_in_window(operator, coarse_settings, settings, reduced_gap, level, monitor, start, work, solved, info)
+    end if
+    if (.not. (solved .or. info%failed())) then
+      call nested_iteration(operator, coarse_settings, reduced_gap, level - 1, 1, monitor, start, work, info)
+      if (allocated(start) .and. .not. info%failed()) call prolong(operator%grid(), start, info)
+    end if
+    info%products = info%products + ceiling(work%products/real(size(reduced_gap), dp))
+    info%preconditionings = info%preconditionings + ceiling(work%preconditionings/real(size(reduced_gap), dp))
+  end subroutine start_on_coarser_grids
 
   !> What the iteration subtracts from gaps, the prescribed motion or else the least gap, and what
   !> it divides forces and lengths by: the load, or 1 for a prescribed motion.

@@ -14,60 +14,79 @@ module fuge_nested_grids
   implicit none
   private
 
-  public :: nested_iteration
+  public :: coarsest_level, nested_iteration
+
+  !> Products and preconditionings on parts or coarser grids, each counted as the fraction of its cells.
+  type, public :: shared_work
+    real(dp) :: products = 0.0_dp, preconditionings = 0.0_dp
+  contains
+    procedure :: add => add_work
+  end type shared_work
 
 contains
 
-  !> Forces to start from on the finest grid, by solving on all coarser grids of the operator.
+  !> The level of the grid whose single cell has 2**level cells of the finest grid in its longer direction.
+  function coarsest_level(operator) result(level)
+    class(fuge_operator), intent(in) :: operator
+    integer :: level
+
+    level = digits(max(maxval(operator%grid()), 1)) - 1
+    if (any(operator%grid() < 1)) level = 0
+  end function coarsest_level
+
+  !> Solve on the grids of the operator whose cells are 2**k times as wide, for k from `first` down to `last` >= 1.
   !>
-  !> `settings` those of a coarser grid; `reduced_gap` (n) and `start` (n) scaled as in contact_iterate.
-  !> `start` stays unallocated where the operator has no coarser grids. Products and
-  !> preconditionings on a coarser grid count as fractions of one on the finest. Errors: those of
-  !> find_contact_set, FUGE_ERR_MEMORY.
-  subroutine nested_iteration(operator, settings, reduced_gap, monitor, start, info)
+  !> `settings` those of a coarser grid; `reduced_gap` (n) of the finest grid and `start`, scaled as in contact_iterate.
+  !> `start` in: the forces of grid first + 1, or unallocated; out: those of grid `last`, or of the last one before it that
+  !> the operator has; unallocated if it has none. `work` counts in units of a cell. Errors: those of find_contact_set,
+  !> FUGE_ERR_MEMORY.
+  subroutine nested_iteration(operator, settings, reduced_gap, first, last, monitor, start, work, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
     real(dp), intent(in), contiguous :: reduced_gap(:)
+    integer, intent(in) :: first, last
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: start(:)
+    type(shared_work), intent(inout) :: work
     type(fuge_info), intent(inout) :: info
     class(fuge_operator), allocatable :: coarse
     class(fuge_operator), pointer :: kept
     type(fuge_info) :: coarse_info
-    real(dp) :: products, preconditionings, share
     integer :: finest(2), cells(2), k
 
-    products = 0.0_dp
-    preconditionings = 0.0_dp
     finest = operator%grid()
-    if (any(finest < 1)) finest = [operator%points(), 1]
-    do k = digits(maxval(finest)) - 1, 1, -1
+    do k = first, last, -1
       cells = coarser_cells(finest, k)
       coarse_info = fuge_info(iterations=info%iterations)
       call operator%kept_coarser(k, kept)
       if (associated(kept)) then
-        if (kept%points() /= product(cells)) cycle
+        if (any(kept%grid() /= cells)) cycle
         call solve_on_grid(kept, settings, reduced_gap, finest, k, monitor, start, coarse_info)
       else
         call operator%coarsen(k, coarse)
         if (.not. allocated(coarse)) cycle
-        if (coarse%points() /= product(cells)) cycle
+        if (any(coarse%grid() /= cells)) cycle
         call solve_on_grid(coarse, settings, reduced_gap, finest, k, monitor, start, coarse_info)
       end if
       info%iterations = coarse_info%iterations
-      share = real(product(cells), dp)/real(size(reduced_gap), dp)
-      products = products + share*real(coarse_info%products, dp)
-      preconditionings = preconditionings + share*real(coarse_info%preconditionings, dp)
+      call work%add(product(cells), coarse_info)
       if (coarse_info%failed()) then
         call report(info, coarse_info%status, 'on the grid of '//text(product(cells))//' points: ' &
                     //composed_message(coarse_info))
-        exit
+        return
       end if
     end do
-    if (allocated(start) .and. .not. info%failed()) call prolong(finest, start, info)
-    info%products = info%products + ceiling(products)
-    info%preconditionings = info%preconditionings + ceiling(preconditionings)
   end subroutine nested_iteration
+
+  !> Add the products and preconditionings of `info`, made on `cells` cells.
+  pure subroutine add_work(self, cells, info)
+    class(shared_work), intent(inout) :: self
+    integer, intent(in) :: cells
+    type(fuge_info), intent(in) :: info
+
+    self%products = self%products + real(cells, dp)*real(info%products, dp)
+    self%preconditionings = self%preconditionings + real(cells, dp)*real(info%preconditionings, dp)
+  end subroutine add_work
 
   !> Solve on the grid that is `level` times coarser than the finest one, of `finest` cells in each direction, with the
   !> gaps `finest_gap`. `start` in: the forces of the next coarser grid, if there is one; out: those of this grid.
