@@ -69,7 +69,7 @@ contains
     real(dp) :: difference
     real(dp) :: radius(0:RINGS), gap(RINGS), force(RINGS), opening(RINGS), approach
     real(dp), dimension(0:2*RINGS) :: r, height, slopes
-    real(dp), allocatable :: alpha(:, :)
+    real(dp), allocatable, target :: alpha(:, :)
     type(fuge_info) :: info
     integer :: k, status
 
