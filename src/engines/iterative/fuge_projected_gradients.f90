@@ -24,8 +24,8 @@ module fuge_projected_gradients
   integer, parameter :: EXTRA_ITERATIONS = 20
   !> Upper limit in any case: an operator that needs more needs a preconditioner.
   integer, parameter :: MAX_ITERATIONS = 20000
-  !> Partial maxima are faster than one.
-  integer, parameter :: LANES = 8
+  !> Partial sums and maxima are faster than one.
+  integer, parameter :: LANES = 4
   !> A negative energy below this fraction of the magnitude of its terms is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-10_dp
 
@@ -57,6 +57,8 @@ module fuge_projected_gradients
     !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
     !> the contact set.
     real(dp), allocatable, private :: residual(:), direction(:)
+    !> What rounding left of the mean of the residual over the contact set; part of the motion already.
+    real(dp), private :: residual_mean = 0.0_dp
     !> In turn the preconditioned residual and the displacement by `direction`, (n).
     real(dp), allocatable, private :: work(:)
   end type contact_iterate
@@ -160,6 +162,7 @@ contains
     iterate%residual = 0.0_dp
     where (iterate%contact) iterate%residual = reduced_gap + iterate%displacement
     iterate%motion = 0.0_dp
+    iterate%residual_mean = 0.0_dp
     call project_residual(iterate)
     ! The mean of large numbers is rounded: the second projection removes what is left of it.
     call project_residual(iterate)
@@ -245,35 +248,92 @@ contains
   !> Subtract `step_length` times the search direction from the forces, and update what follows
   !> from them. `mean` is that of the displacements by the direction over the contact set; 0 if the
   !> motion is prescribed.
+  !>
+  !> One pass over all points: the open ones before each segment, then the segment.
   pure subroutine take_step(reduced_gap, step_length, mean, iterate)
     real(dp), intent(in), contiguous :: reduced_gap(:)
     real(dp), intent(in) :: step_length, mean
     type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: least_gap(LANES), largest(LANES), total(LANES), shift
+    integer :: i, first, last
 
-    iterate%displacement = iterate%displacement - step_length*iterate%work
-    call update_force_and_residual(iterate%segments, step_length, mean, iterate%direction, iterate%work, &
-                                   iterate%force, iterate%residual)
+    ! What rounding left of the mean of the residual goes with this step: it must not grow.
+    shift = step_length*mean - iterate%residual_mean
     iterate%motion = iterate%motion - step_length*mean
-    call project_residual(iterate)
-    iterate%penetration = deepest_penetration(reduced_gap, iterate)
+    least_gap = 0.0_dp
+    largest = 0.0_dp
+    total = 0.0_dp
+    last = 0
+    do i = 1, size(iterate%segments%first)
+      first = iterate%segments%first(i)
+      call move_open_points(last + 1, first - 1, step_length, reduced_gap, iterate%motion, iterate%work, &
+                            iterate%displacement, least_gap)
+      last = iterate%segments%last(i)
+      call move_contact_points(first, last, step_length, shift, iterate%direction, iterate%work, iterate%force, &
+                               iterate%displacement, iterate%residual, total, largest)
+    end do
+    call move_open_points(last + 1, size(reduced_gap), step_length, reduced_gap, iterate%motion, iterate%work, &
+                          iterate%displacement, least_gap)
+    if (.not. iterate%prescribed) iterate%residual_mean = sum(total)/real(iterate%segments%points, dp)
+    iterate%residual_norm = maxval(largest)
+    iterate%motion = iterate%motion + iterate%residual_mean
+    iterate%penetration = -minval(least_gap)
   end subroutine take_step
 
-  !> The step of forces and residuals on the contact set. `image` are the displacements by
-  !> `direction`, `mean` is their mean over the set.
-  pure subroutine update_force_and_residual(segments, step_length, mean, direction, image, force, residual)
-    type(contact_segments), intent(in) :: segments
-    real(dp), intent(in) :: step_length, mean
-    real(dp), intent(in), contiguous :: direction(:), image(:)
-    real(dp), intent(inout), contiguous :: force(:), residual(:)
-    integer :: i, k
+  !> The step of the displacements of the open points `first` .. `last`; `least_gap` is lowered to their gaps.
+  !> `image` (n) are the displacements by the search direction.
+  pure subroutine move_open_points(first, last, step_length, reduced_gap, motion, image, displacement, least_gap)
+    integer, intent(in) :: first, last
+    real(dp), intent(in) :: step_length, motion
+    real(dp), intent(in), contiguous :: reduced_gap(:), image(:)
+    real(dp), intent(inout), contiguous :: displacement(:)
+    real(dp), intent(inout) :: least_gap(LANES)
+    real(dp) :: values(LANES)
+    integer :: k
 
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i)
-        force(k) = force(k) - step_length*direction(k)
-        residual(k) = residual(k) - step_length*(image(k) - mean)
-      end do
+    do k = first, last - LANES + 1, LANES
+      values = displacement(k:k + LANES - 1) - step_length*image(k:k + LANES - 1)
+      displacement(k:k + LANES - 1) = values
+      values = (reduced_gap(k:k + LANES - 1) - motion) + values
+      least_gap = merge(values, least_gap, values < least_gap)
     end do
-  end subroutine update_force_and_residual
+    do k = last - modulo(last - first + 1, LANES) + 1, last
+      displacement(k) = displacement(k) - step_length*image(k)
+      least_gap(1) = min(least_gap(1), (reduced_gap(k) - motion) + displacement(k))
+    end do
+  end subroutine move_open_points
+
+  !> The step of forces, displacements and residuals of the contact points `first` .. `last`; `total` gains the
+  !> residuals, `largest` rises to their magnitudes. `image` (n) are the displacements by `direction` (n), of
+  !> which the residuals get what exceeds `shift`.
+  pure subroutine move_contact_points(first, last, step_length, shift, direction, image, force, displacement, &
+                                      residual, total, largest)
+    integer, intent(in) :: first, last
+    real(dp), intent(in) :: step_length, shift
+    real(dp), intent(in), contiguous :: direction(:), image(:)
+    real(dp), intent(inout), contiguous :: force(:), displacement(:), residual(:)
+    real(dp), intent(inout) :: total(LANES), largest(LANES)
+    real(dp) :: values(LANES)
+    integer :: k
+
+    do k = first, last - LANES + 1, LANES
+      force(k:k + LANES - 1) = force(k:k + LANES - 1) - step_length*direction(k:k + LANES - 1)
+      values = step_length*image(k:k + LANES - 1)
+      displacement(k:k + LANES - 1) = displacement(k:k + LANES - 1) - values
+      values = residual(k:k + LANES - 1) - (values - shift)
+      residual(k:k + LANES - 1) = values
+      total = total + values
+      values = abs(values)
+      largest = merge(values, largest, values > largest)
+    end do
+    do k = last - modulo(last - first + 1, LANES) + 1, last
+      force(k) = force(k) - step_length*direction(k)
+      displacement(k) = displacement(k) - step_length*image(k)
+      residual(k) = residual(k) - (step_length*image(k) - shift)
+      total(1) = total(1) + residual(k)
+      largest(1) = max(largest(1), abs(residual(k)))
+    end do
+  end subroutine move_contact_points
 
   !> Move the mean of the residual into the motion, unless that is prescribed: left in the
   !> residual, its rounding error would grow and swamp the rest.
@@ -321,7 +381,7 @@ contains
       deepest = merge(-gap, deepest, -gap > deepest)
     end do
     do k = size(reduced_gap) - modulo(size(reduced_gap), LANES) + 1, size(reduced_gap)
-      depth = max(depth, -deformed_gap(reduced_gap(k), displacement(k), motion))
+      depth = max(depth, -((reduced_gap(k) - motion) + displacement(k)))
     end do
     depth = max(depth, maxval(deepest))
   end function penetration_of_run
