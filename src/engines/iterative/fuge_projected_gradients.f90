@@ -4,7 +4,7 @@
 !> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero.
 module fuge_projected_gradients
   use fuge_contact_preconditioner, only: contact_preconditioner
-  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, dot_over, max_abs_over, sum_over
+  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, max_abs_over, sum_over
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
@@ -127,12 +127,11 @@ contains
         if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
       end if
       call preconditioner%apply(operator, iterate%segments, .not. iterate%prescribed, iterate%residual, iterate%work, &
-                                info)
+                                energy, info)
       if (info%failed()) return
       if (iteration > 0 .and. preconditioned .and. .not. to_tolerance) then
         if (tension_is_decided(iterate)) return
       end if
-      energy = dot_over(iterate%segments, iterate%residual, iterate%work)
       if (.not. energy > 0.0_dp) then
         call check_preconditioner_energy(iterate, energy, info)
         return
@@ -159,8 +158,7 @@ contains
 
     call iterate%segments%find(iterate%contact, info)
     if (info%failed()) return
-    iterate%residual = 0.0_dp
-    where (iterate%contact) iterate%residual = reduced_gap + iterate%displacement
+    call set_residual(reduced_gap, iterate)
     iterate%motion = 0.0_dp
     iterate%residual_mean = 0.0_dp
     call project_residual(iterate)
@@ -172,6 +170,23 @@ contains
     if (iterate%prescribed) offset = operator%datum()*sum(iterate%force)
     iterate%least_magnitude = find_least_magnitude(iterate, offset, reduced_gap, iterate%work)
   end subroutine evaluate_iterate
+
+  !> The residual before its mean is subtracted.
+  pure subroutine set_residual(reduced_gap, iterate)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_iterate), intent(inout) :: iterate
+    integer :: i, last
+
+    last = 0
+    do i = 1, size(iterate%segments%first)
+      iterate%residual(last + 1:iterate%segments%first(i) - 1) = 0.0_dp
+      last = iterate%segments%last(i)
+      associate (a => iterate%segments%first(i))
+        iterate%residual(a:last) = reduced_gap(a:last) + iterate%displacement(a:last)
+      end associate
+    end do
+    iterate%residual(last + 1:) = 0.0_dp
+  end subroutine set_residual
 
   !> The least magnitude as the certificate forms it, over the contact points: |reduced gap +
   !> offset| plus the magnitude of the displacement. Without contact 0, because nothing is rounded.
@@ -391,18 +406,25 @@ contains
   pure function tension_is_decided(iterate) result(decided)
     type(contact_iterate), intent(in) :: iterate
     logical :: decided
-    real(dp) :: force_error, tension
+    real(dp) :: force_error(LANES), tension(LANES), values(LANES)
     integer :: i, k
 
     force_error = 0.0_dp
     tension = 0.0_dp
     do i = 1, size(iterate%segments%first)
-      do k = iterate%segments%first(i), iterate%segments%last(i)
-        force_error = max(force_error, abs(iterate%work(k)))
-        tension = max(tension, iterate%work(k) - iterate%force(k))
+      do k = iterate%segments%first(i), iterate%segments%last(i) - LANES + 1, LANES
+        values = abs(iterate%work(k:k + LANES - 1))
+        force_error = merge(values, force_error, values > force_error)
+        values = iterate%work(k:k + LANES - 1) - iterate%force(k:k + LANES - 1)
+        tension = merge(values, tension, values > tension)
+      end do
+      do k = iterate%segments%last(i) - modulo(iterate%segments%last(i) - iterate%segments%first(i) + 1, LANES) + 1, &
+          iterate%segments%last(i)
+        force_error(1) = max(force_error(1), abs(iterate%work(k)))
+        tension(1) = max(tension(1), iterate%work(k) - iterate%force(k))
       end do
     end do
-    decided = force_error <= DECISIVE*tension
+    decided = maxval(force_error) <= DECISIVE*maxval(tension)
   end function tension_is_decided
 
   !> Gap of a point in the deformed state; negative where the point penetrates. Scaled as in
