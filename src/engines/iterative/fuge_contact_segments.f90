@@ -125,7 +125,8 @@ contains
     total = total + sum(values)
   end subroutine dot_and_sum_over
 
-  !> Subtract `factor` times `x` from `y` over the segments; `inner` = the inner product of `z` and the new `y`; all (n).
+  !> Subtract `factor` times `x` from `y` over the segments; `inner` = the inner product of the new `y` and `z`; all
+  !> (n).
   pure subroutine subtract_and_dot_over(segments, factor, x, y, z, inner)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in) :: factor

@@ -5,6 +5,7 @@
 module fuge_projected_gradients
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, max_abs_over, sum_over
+  use fuge_contact_step, only: deepest_penetration, step_over
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
@@ -24,7 +25,7 @@ module fuge_projected_gradients
   integer, parameter :: EXTRA_ITERATIONS = 20
   !> Upper limit in any case: an operator that needs more needs a preconditioner.
   integer, parameter :: MAX_ITERATIONS = 20000
-  !> Partial sums and maxima are faster than one.
+  !> Partial maxima are faster than one.
   integer, parameter :: LANES = 4
   !> A negative energy below this fraction of the magnitude of its terms is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-10_dp
@@ -164,7 +165,7 @@ contains
     call project_residual(iterate)
     ! The mean of large numbers is rounded: the second projection removes what is left of it.
     call project_residual(iterate)
-    iterate%penetration = deepest_penetration(reduced_gap, iterate)
+    iterate%penetration = deepest_penetration(iterate%segments, reduced_gap, iterate%motion, iterate%displacement)
     call operator%magnitude(iterate%force, iterate%displacement, iterate%work)
     offset = -iterate%motion
     if (iterate%prescribed) offset = operator%datum()*sum(iterate%force)
@@ -263,92 +264,21 @@ contains
   !> Subtract `step_length` times the search direction from the forces, and update what follows
   !> from them. `mean` is that of the displacements by the direction over the contact set; 0 if the
   !> motion is prescribed.
-  !>
-  !> One pass over all points: the open ones before each segment, then the segment.
   pure subroutine take_step(reduced_gap, step_length, mean, iterate)
     real(dp), intent(in), contiguous :: reduced_gap(:)
     real(dp), intent(in) :: step_length, mean
     type(contact_iterate), intent(inout) :: iterate
-    real(dp) :: least_gap(LANES), largest(LANES), total(LANES), shift
-    integer :: i, first, last
+    real(dp) :: shift, total
 
     ! What rounding left of the mean of the residual goes with this step: it must not grow.
     shift = step_length*mean - iterate%residual_mean
     iterate%motion = iterate%motion - step_length*mean
-    least_gap = 0.0_dp
-    largest = 0.0_dp
-    total = 0.0_dp
-    last = 0
-    do i = 1, size(iterate%segments%first)
-      first = iterate%segments%first(i)
-      call move_open_points(last + 1, first - 1, step_length, reduced_gap, iterate%motion, iterate%work, &
-                            iterate%displacement, least_gap)
-      last = iterate%segments%last(i)
-      call move_contact_points(first, last, step_length, shift, iterate%direction, iterate%work, iterate%force, &
-                               iterate%displacement, iterate%residual, total, largest)
-    end do
-    call move_open_points(last + 1, size(reduced_gap), step_length, reduced_gap, iterate%motion, iterate%work, &
-                          iterate%displacement, least_gap)
-    if (.not. iterate%prescribed) iterate%residual_mean = sum(total)/real(iterate%segments%points, dp)
-    iterate%residual_norm = maxval(largest)
+    call step_over(iterate%segments, step_length, shift, reduced_gap, iterate%motion, iterate%direction, iterate%work, &
+                   iterate%force, iterate%displacement, iterate%residual, total, iterate%residual_norm, &
+                   iterate%penetration)
+    if (.not. iterate%prescribed) iterate%residual_mean = total/real(iterate%segments%points, dp)
     iterate%motion = iterate%motion + iterate%residual_mean
-    iterate%penetration = -minval(least_gap)
   end subroutine take_step
-
-  !> The step of the displacements of the open points `first` .. `last`; `least_gap` is lowered to their gaps.
-  !> `image` (n) are the displacements by the search direction.
-  pure subroutine move_open_points(first, last, step_length, reduced_gap, motion, image, displacement, least_gap)
-    integer, intent(in) :: first, last
-    real(dp), intent(in) :: step_length, motion
-    real(dp), intent(in), contiguous :: reduced_gap(:), image(:)
-    real(dp), intent(inout), contiguous :: displacement(:)
-    real(dp), intent(inout) :: least_gap(LANES)
-    real(dp) :: values(LANES)
-    integer :: k
-
-    do k = first, last - LANES + 1, LANES
-      values = displacement(k:k + LANES - 1) - step_length*image(k:k + LANES - 1)
-      displacement(k:k + LANES - 1) = values
-      values = (reduced_gap(k:k + LANES - 1) - motion) + values
-      least_gap = merge(values, least_gap, values < least_gap)
-    end do
-    do k = last - modulo(last - first + 1, LANES) + 1, last
-      displacement(k) = displacement(k) - step_length*image(k)
-      least_gap(1) = min(least_gap(1), (reduced_gap(k) - motion) + displacement(k))
-    end do
-  end subroutine move_open_points
-
-  !> The step of forces, displacements and residuals of the contact points `first` .. `last`; `total` gains the
-  !> residuals, `largest` rises to their magnitudes. `image` (n) are the displacements by `direction` (n), of
-  !> which the residuals get what exceeds `shift`.
-  pure subroutine move_contact_points(first, last, step_length, shift, direction, image, force, displacement, &
-                                      residual, total, largest)
-    integer, intent(in) :: first, last
-    real(dp), intent(in) :: step_length, shift
-    real(dp), intent(in), contiguous :: direction(:), image(:)
-    real(dp), intent(inout), contiguous :: force(:), displacement(:), residual(:)
-    real(dp), intent(inout) :: total(LANES), largest(LANES)
-    real(dp) :: values(LANES)
-    integer :: k
-
-    do k = first, last - LANES + 1, LANES
-      force(k:k + LANES - 1) = force(k:k + LANES - 1) - step_length*direction(k:k + LANES - 1)
-      values = step_length*image(k:k + LANES - 1)
-      displacement(k:k + LANES - 1) = displacement(k:k + LANES - 1) - values
-      values = residual(k:k + LANES - 1) - (values - shift)
-      residual(k:k + LANES - 1) = values
-      total = total + values
-      values = abs(values)
-      largest = merge(values, largest, values > largest)
-    end do
-    do k = last - modulo(last - first + 1, LANES) + 1, last
-      force(k) = force(k) - step_length*direction(k)
-      displacement(k) = displacement(k) - step_length*image(k)
-      residual(k) = residual(k) - (step_length*image(k) - shift)
-      total(1) = total(1) + residual(k)
-      largest(1) = max(largest(1), abs(residual(k)))
-    end do
-  end subroutine move_contact_points
 
   !> Move the mean of the residual into the motion, unless that is prescribed: left in the
   !> residual, its rounding error would grow and swamp the rest.
@@ -361,45 +291,6 @@ contains
     call center_over(iterate%segments, mean, iterate%residual, iterate%residual_norm)
     iterate%motion = iterate%motion + mean
   end subroutine project_residual
-
-  !> The deepest penetration of an open point, 0 if none penetrates: the maximum over the gaps
-  !> between segments.
-  pure function deepest_penetration(reduced_gap, iterate) result(depth)
-    real(dp), intent(in), contiguous :: reduced_gap(:)
-    type(contact_iterate), intent(in) :: iterate
-    real(dp) :: depth
-    integer :: i, first, last
-
-    depth = 0.0_dp
-    do i = 0, size(iterate%segments%first)
-      first = 1
-      last = size(reduced_gap)
-      if (i > 0) first = iterate%segments%last(i) + 1
-      if (i < size(iterate%segments%first)) last = iterate%segments%first(i + 1) - 1
-      if (first > last) cycle
-      depth = max(depth, penetration_of_run(reduced_gap(first:last), iterate%displacement(first:last), iterate%motion))
-    end do
-  end function deepest_penetration
-
-  !> The deepest penetration within one run of open points.
-  pure function penetration_of_run(reduced_gap, displacement, motion) result(depth)
-    real(dp), intent(in), contiguous :: reduced_gap(:), displacement(:)
-    real(dp), intent(in) :: motion
-    real(dp) :: depth
-    real(dp) :: deepest(LANES), gap(LANES)
-    integer :: k
-
-    depth = 0.0_dp
-    deepest = 0.0_dp
-    do k = 1, size(reduced_gap) - LANES + 1, LANES
-      gap = (reduced_gap(k:k + LANES - 1) - motion) + displacement(k:k + LANES - 1)
-      deepest = merge(-gap, deepest, -gap > deepest)
-    end do
-    do k = size(reduced_gap) - modulo(size(reduced_gap), LANES) + 1, size(reduced_gap)
-      depth = max(depth, -((reduced_gap(k) - motion) + displacement(k)))
-    end do
-    depth = max(depth, maxval(deepest))
-  end function penetration_of_run
 
   !> Are the forces accurate enough to tell which of them will be tensile? The preconditioned
   !> residual, in iterate%work, estimates their error.
