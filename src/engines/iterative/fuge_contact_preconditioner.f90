@@ -9,7 +9,7 @@
 !> varies within groups of sixteen of its cells, and the next level handles the group means.
 !> doc/theory.md shows that the sum over the levels is symmetric and positive definite.
 module fuge_contact_preconditioner
-  use fuge_contact_segments, only: contact_segments, dot_over, sum_over
+  use fuge_contact_segments, only: contact_segments, dot_over, subtract_and_dot_over, sum_over
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_products, only: precondition
@@ -64,7 +64,7 @@ module fuge_contact_preconditioner
     real(dp), allocatable, private :: uniform(:)
     !> The present set is not that of `uniform`, but close to it.
     logical, private :: is_close = .false.
-    !> A residual, (n), allocated if it is needed.
+    !> A residual, (n), zero off the present set; allocated if it is needed.
     real(dp), allocatable, private :: centred(:)
     real(dp), private :: sum_of_uniform = 1.0_dp
     !> Force per length that stands for the preconditioner where the operator has none.
@@ -135,10 +135,8 @@ contains
     self%is_close = real(count(contact .neqv. self%contact), dp) <= CLOSE*real(segments%points, dp)
     if (.not. self%is_close) return
     stat = 0
-    if (.not. allocated(self%centred)) then
-      allocate (self%centred(size(contact)), stat=stat)
-      if (stat == 0) self%centred = 0.0_dp
-    end if
+    if (.not. allocated(self%centred)) allocate (self%centred(size(contact)), stat=stat)
+    if (stat == 0) self%centred = 0.0_dp
     total = sum_over(segments, self%uniform)
     self%is_close = stat == 0 .and. total > 0.0_dp
     if (self%is_close) self%sum_of_uniform = total
@@ -148,18 +146,20 @@ contains
   !> if `zero_sum`.
   !>
   !> `segments` those of the contact set; `residual` (n), length, zero off the set; `force` (n),
-  !> undefined off the set. Errors: those of `precondition`.
-  subroutine apply(self, operator, segments, zero_sum, residual, force, info)
+  !> undefined off the set; `energy` their inner product over the set. Errors: those of `precondition`.
+  subroutine apply(self, operator, segments, zero_sum, residual, force, energy, info)
     class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(contact_segments), intent(in) :: segments
     logical, intent(in) :: zero_sum
     real(dp), intent(in), contiguous :: residual(:)
     real(dp), intent(inout), contiguous :: force(:)
+    real(dp), intent(out) :: energy
     type(fuge_info), intent(inout) :: info
     real(dp) :: factor
     integer :: i
 
+    energy = 0.0_dp
     factor = 0.0_dp
     if (self%is_close .and. zero_sum) then
       call center(self, segments, residual)
@@ -169,18 +169,17 @@ contains
     else if (self%depth > 1) then
       self%levels(1)%residual = residual
       call apply_levels(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
-    end if
-    if (info%failed()) return
-    if (self%depth > 0 .and. zero_sum) factor = sum_over(segments, force)/self%sum_of_uniform
-    do i = 1, size(segments%first)
-      associate (a => segments%first(i), b => segments%last(i))
-        if (self%depth > 0) then
-          force(a:b) = force(a:b) - factor*self%uniform(a:b)
-        else
+    else
+      do i = 1, size(segments%first)
+        associate (a => segments%first(i), b => segments%last(i))
           force(a:b) = self%stiffness*residual(a:b)
-        end if
-      end associate
-    end do
+        end associate
+      end do
+      energy = dot_over(segments, residual, force)
+    end if
+    if (info%failed() .or. self%depth == 0) return
+    if (zero_sum) factor = sum_over(segments, force)/self%sum_of_uniform
+    call subtract_and_dot_over(segments, factor, self%uniform, force, residual, energy)
   end subroutine apply
 
   !> The residual less that mean for which `uniform` does no work: with the same projection before and after it the
@@ -193,7 +192,6 @@ contains
     integer :: i
 
     mean = dot_over(segments, residual, self%uniform)/self%sum_of_uniform
-    self%centred = residual
     do i = 1, size(segments%first)
       associate (a => segments%first(i), b => segments%last(i))
         self%centred(a:b) = residual(a:b) - mean

@@ -7,7 +7,7 @@ module fuge_contact_segments
   implicit none
   private
 
-  public :: center_over, dot_and_sum_over, dot_over, max_abs_over, sum_over
+  public :: center_over, dot_and_sum_over, dot_over, max_abs_over, subtract_and_dot_over, sum_over
 
   !> Number of partial sums: several are faster, and more exact, than one.
   integer, parameter :: LANES = 8
@@ -44,13 +44,14 @@ contains
     number = 0
     inside = .false.
     do k = 1, n
-      if (contact(k) .and. .not. inside) then
+      if (contact(k) .eqv. inside) cycle
+      inside = contact(k)
+      if (inside) then
         number = number + 1
         self%first(number) = k
-      else if (inside .and. .not. contact(k)) then
+      else
         self%last(number) = k - 1
       end if
-      inside = contact(k)
     end do
     if (inside) self%last(number) = n
     self%points = sum(self%last - self%first + 1)
@@ -123,6 +124,33 @@ contains
     inner = inner + sum(products)
     total = total + sum(values)
   end subroutine dot_and_sum_over
+
+  !> Subtract `factor` times `x` from `y` over the segments; `inner` = the inner product of the new `y` and `z`; all
+  !> (n).
+  pure subroutine subtract_and_dot_over(segments, factor, x, y, z, inner)
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in) :: factor
+    real(dp), intent(in), contiguous :: x(:), z(:)
+    real(dp), intent(inout), contiguous :: y(:)
+    real(dp), intent(out) :: inner
+    real(dp) :: partial(LANES), values(LANES)
+    integer :: i, k
+
+    inner = 0.0_dp
+    partial = 0.0_dp
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
+        values = y(k:k + LANES - 1) - factor*x(k:k + LANES - 1)
+        y(k:k + LANES - 1) = values
+        partial = partial + values*z(k:k + LANES - 1)
+      end do
+      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
+        y(k) = y(k) - factor*x(k)
+        inner = inner + y(k)*z(k)
+      end do
+    end do
+    inner = inner + sum(partial)
+  end subroutine subtract_and_dot_over
 
   !> Subtract `mean` from `x` (n) over the segments; `largest` is the largest |x| then, 0 if there is none.
   pure subroutine center_over(segments, mean, x, largest)

@@ -4,7 +4,8 @@
 !> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero.
 module fuge_projected_gradients
   use fuge_contact_preconditioner, only: contact_preconditioner
-  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, dot_over, max_abs_over, sum_over
+  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, max_abs_over, sum_over
+  use fuge_contact_step, only: deepest_penetration, step_over
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
@@ -25,7 +26,7 @@ module fuge_projected_gradients
   !> Upper limit in any case: an operator that needs more needs a preconditioner.
   integer, parameter :: MAX_ITERATIONS = 20000
   !> Partial maxima are faster than one.
-  integer, parameter :: LANES = 8
+  integer, parameter :: LANES = 4
   !> A negative energy below this fraction of the magnitude of its terms is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-10_dp
 
@@ -57,6 +58,8 @@ module fuge_projected_gradients
     !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
     !> the contact set.
     real(dp), allocatable, private :: residual(:), direction(:)
+    !> What rounding left of the mean of the residual over the contact set; part of the motion already.
+    real(dp), private :: residual_mean = 0.0_dp
     !> In turn the preconditioned residual and the displacement by `direction`, (n).
     real(dp), allocatable, private :: work(:)
   end type contact_iterate
@@ -125,12 +128,11 @@ contains
         if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
       end if
       call preconditioner%apply(operator, iterate%segments, .not. iterate%prescribed, iterate%residual, iterate%work, &
-                                info)
+                                energy, info)
       if (info%failed()) return
       if (iteration > 0 .and. preconditioned .and. .not. to_tolerance) then
         if (tension_is_decided(iterate)) return
       end if
-      energy = dot_over(iterate%segments, iterate%residual, iterate%work)
       if (.not. energy > 0.0_dp) then
         call check_preconditioner_energy(iterate, energy, info)
         return
@@ -157,18 +159,35 @@ contains
 
     call iterate%segments%find(iterate%contact, info)
     if (info%failed()) return
-    iterate%residual = 0.0_dp
-    where (iterate%contact) iterate%residual = reduced_gap + iterate%displacement
+    call set_residual(reduced_gap, iterate)
     iterate%motion = 0.0_dp
+    iterate%residual_mean = 0.0_dp
     call project_residual(iterate)
     ! The mean of large numbers is rounded: the second projection removes what is left of it.
     call project_residual(iterate)
-    iterate%penetration = deepest_penetration(reduced_gap, iterate)
+    iterate%penetration = deepest_penetration(iterate%segments, reduced_gap, iterate%motion, iterate%displacement)
     call operator%magnitude(iterate%force, iterate%displacement, iterate%work)
     offset = -iterate%motion
     if (iterate%prescribed) offset = operator%datum()*sum(iterate%force)
     iterate%least_magnitude = find_least_magnitude(iterate, offset, reduced_gap, iterate%work)
   end subroutine evaluate_iterate
+
+  !> The residual before its mean is subtracted.
+  pure subroutine set_residual(reduced_gap, iterate)
+    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_iterate), intent(inout) :: iterate
+    integer :: i, last
+
+    last = 0
+    do i = 1, size(iterate%segments%first)
+      iterate%residual(last + 1:iterate%segments%first(i) - 1) = 0.0_dp
+      last = iterate%segments%last(i)
+      associate (a => iterate%segments%first(i))
+        iterate%residual(a:last) = reduced_gap(a:last) + iterate%displacement(a:last)
+      end associate
+    end do
+    iterate%residual(last + 1:) = 0.0_dp
+  end subroutine set_residual
 
   !> The least magnitude as the certificate forms it, over the contact points: |reduced gap +
   !> offset| plus the magnitude of the displacement. Without contact 0, because nothing is rounded.
@@ -249,31 +268,17 @@ contains
     real(dp), intent(in), contiguous :: reduced_gap(:)
     real(dp), intent(in) :: step_length, mean
     type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: shift, total
 
-    iterate%displacement = iterate%displacement - step_length*iterate%work
-    call update_force_and_residual(iterate%segments, step_length, mean, iterate%direction, iterate%work, &
-                                   iterate%force, iterate%residual)
+    ! What rounding left of the mean of the residual goes with this step: it must not grow.
+    shift = step_length*mean - iterate%residual_mean
     iterate%motion = iterate%motion - step_length*mean
-    call project_residual(iterate)
-    iterate%penetration = deepest_penetration(reduced_gap, iterate)
+    call step_over(iterate%segments, step_length, shift, reduced_gap, iterate%motion, iterate%direction, iterate%work, &
+                   iterate%force, iterate%displacement, iterate%residual, total, iterate%residual_norm, &
+                   iterate%penetration)
+    if (.not. iterate%prescribed) iterate%residual_mean = total/real(iterate%segments%points, dp)
+    iterate%motion = iterate%motion + iterate%residual_mean
   end subroutine take_step
-
-  !> The step of forces and residuals on the contact set. `image` are the displacements by
-  !> `direction`, `mean` is their mean over the set.
-  pure subroutine update_force_and_residual(segments, step_length, mean, direction, image, force, residual)
-    type(contact_segments), intent(in) :: segments
-    real(dp), intent(in) :: step_length, mean
-    real(dp), intent(in), contiguous :: direction(:), image(:)
-    real(dp), intent(inout), contiguous :: force(:), residual(:)
-    integer :: i, k
-
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i)
-        force(k) = force(k) - step_length*direction(k)
-        residual(k) = residual(k) - step_length*(image(k) - mean)
-      end do
-    end do
-  end subroutine update_force_and_residual
 
   !> Move the mean of the residual into the motion, unless that is prescribed: left in the
   !> residual, its rounding error would grow and swamp the rest.
@@ -287,62 +292,30 @@ contains
     iterate%motion = iterate%motion + mean
   end subroutine project_residual
 
-  !> The deepest penetration of an open point, 0 if none penetrates: the maximum over the gaps
-  !> between segments.
-  pure function deepest_penetration(reduced_gap, iterate) result(depth)
-    real(dp), intent(in), contiguous :: reduced_gap(:)
-    type(contact_iterate), intent(in) :: iterate
-    real(dp) :: depth
-    integer :: i, first, last
-
-    depth = 0.0_dp
-    do i = 0, size(iterate%segments%first)
-      first = 1
-      last = size(reduced_gap)
-      if (i > 0) first = iterate%segments%last(i) + 1
-      if (i < size(iterate%segments%first)) last = iterate%segments%first(i + 1) - 1
-      if (first > last) cycle
-      depth = max(depth, penetration_of_run(reduced_gap(first:last), iterate%displacement(first:last), iterate%motion))
-    end do
-  end function deepest_penetration
-
-  !> The deepest penetration within one run of open points.
-  pure function penetration_of_run(reduced_gap, displacement, motion) result(depth)
-    real(dp), intent(in), contiguous :: reduced_gap(:), displacement(:)
-    real(dp), intent(in) :: motion
-    real(dp) :: depth
-    real(dp) :: deepest(LANES), gap(LANES)
-    integer :: k
-
-    depth = 0.0_dp
-    deepest = 0.0_dp
-    do k = 1, size(reduced_gap) - LANES + 1, LANES
-      gap = (reduced_gap(k:k + LANES - 1) - motion) + displacement(k:k + LANES - 1)
-      deepest = merge(-gap, deepest, -gap > deepest)
-    end do
-    do k = size(reduced_gap) - modulo(size(reduced_gap), LANES) + 1, size(reduced_gap)
-      depth = max(depth, -deformed_gap(reduced_gap(k), displacement(k), motion))
-    end do
-    depth = max(depth, maxval(deepest))
-  end function penetration_of_run
-
   !> Are the forces accurate enough to tell which of them will be tensile? The preconditioned
   !> residual, in iterate%work, estimates their error.
   pure function tension_is_decided(iterate) result(decided)
     type(contact_iterate), intent(in) :: iterate
     logical :: decided
-    real(dp) :: force_error, tension
+    real(dp) :: force_error(LANES), tension(LANES), values(LANES)
     integer :: i, k
 
     force_error = 0.0_dp
     tension = 0.0_dp
     do i = 1, size(iterate%segments%first)
-      do k = iterate%segments%first(i), iterate%segments%last(i)
-        force_error = max(force_error, abs(iterate%work(k)))
-        tension = max(tension, iterate%work(k) - iterate%force(k))
+      do k = iterate%segments%first(i), iterate%segments%last(i) - LANES + 1, LANES
+        values = abs(iterate%work(k:k + LANES - 1))
+        force_error = merge(values, force_error, values > force_error)
+        values = iterate%work(k:k + LANES - 1) - iterate%force(k:k + LANES - 1)
+        tension = merge(values, tension, values > tension)
+      end do
+      do k = iterate%segments%last(i) - modulo(iterate%segments%last(i) - iterate%segments%first(i) + 1, LANES) + 1, &
+          iterate%segments%last(i)
+        force_error(1) = max(force_error(1), abs(iterate%work(k)))
+        tension(1) = max(tension(1), iterate%work(k) - iterate%force(k))
       end do
     end do
-    decided = force_error <= DECISIVE*tension
+    decided = maxval(force_error) <= DECISIVE*maxval(tension)
   end function tension_is_decided
 
   !> Gap of a point in the deformed state; negative where the point penetrates. Scaled as in
