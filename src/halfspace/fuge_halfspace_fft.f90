@@ -5,7 +5,8 @@ module fuge_halfspace_fft
   use fuge_grid_plan, only: fast_length, grid_plan
   use fuge_grid_store, only: grid_store
   use fuge_halfplane_fft, only: FUGE_FREE
-  use fuge_halfspace_grid, only: check_grid, coarsened, count_coarser, cyclic, halfspace_grid, periodic
+  use fuge_halfspace_grid, only: check_grid, coarsened, count_coarser, cyclic, halfspace_grid, periodic, &
+    term_length
   use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
@@ -17,8 +18,8 @@ module fuge_halfspace_fft
   implicit none
   private
 
-  !> On a periodic surface of the shorter period L, the terms of a displacement by the forces f are about this times
-  !> the sum of |f|/(e_star L).
+  !> On a periodic surface the terms of a displacement by the forces f are about this times the sum of |f|/(e_star L),
+  !> L being the `term_length`.
   real(dp), parameter :: MEAN_TERM = 0.4_dp
   !> A coarser grid of fewer cells is multiplied by one thread: starting more would take longer.
   integer, parameter :: FEWEST_FOR_THREADS = 65536
@@ -267,12 +268,10 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
-    real(dp) :: period
 
     magnitude = maxval(abs(displacement))
     if (self%surface%boundary == FUGE_FREE) return
-    period = minval(self%surface%spacing*self%surface%period, mask=periodic(self%surface))
-    magnitude = max(magnitude, MEAN_TERM*sum(abs(force))/(self%surface%e_star*period))
+    magnitude = max(magnitude, MEAN_TERM*sum(abs(force))/(self%surface%e_star*term_length(self%surface)))
   end subroutine halfspace_magnitude
 
   !> True after `set`.

@@ -12,7 +12,7 @@ module fuge_halfspace_grid
   implicit none
   private
 
-  public :: check_grid, coarsened, count_coarser, cyclic, periodic
+  public :: check_grid, coarsened, count_coarser, cyclic, periodic, term_length
 
   !> `boundary`: the cells repeat periodically along x, and beyond them along y the surface is free.
   integer, parameter, public :: FUGE_PERIODIC_X = 2
@@ -112,6 +112,23 @@ contains
 
     cyclic = grid%cells == grid%period
   end function cyclic
+
+  !> The length L for which the terms of the displacement by the forces f on a surface with a period are about the sum of
+  !> |f|/(e_star L): the extent across the direction whose longest wave has the largest terms. One cell has no waves.
+  pure function term_length(grid) result(length)
+    type(halfspace_grid), intent(in) :: grid
+    real(dp) :: length
+    real(dp) :: extent(2)
+    integer :: count(2), k
+
+    count = merge(grid%period, grid%cells, periodic(grid))
+    extent = count*grid%spacing
+    length = maxval(extent)
+    do k = 1, 2
+      if (count(k) < 2) cycle
+      if (all(periodic(grid)) .or. .not. grid%period(k) > 0) length = min(length, extent(3 - k))
+    end do
+  end function term_length
 
   !> Cells 2**`levels` times as wide. In a periodic direction the period is the same, which may make them a little
   !> narrower. A direction of one cell keeps it.

@@ -193,6 +193,51 @@ static void test_grid_refusals(void) {
                FUGE_ERR_POINTER);
 }
 
+/* An error leaves problem and results as they were; a load that is set again gives the same forces. */
+static void test_grid_problems(void) {
+  double gap[CELLS], bad[CELLS], force[CELLS], again[CELLS], derivative[CELLS], approach, load;
+  fuge_operator *op = NULL;
+  fuge_solver *solver;
+  char message[256];
+  for (int k = 0; k < CELLS; k++) {
+    const int i = k % NX, j = k / NX;
+    gap[k] = 0.05 * ((i - 3) * (i - 3) + (j - 4) * (j - 4));
+    bad[k] = k == NX + 2 ? NAN : gap[k];
+    derivative[k] = SENTINEL;
+  }
+  CHECK_STATUS(fuge_operator_halfspace(NX, NY, 0.5, 0.75, E_STAR, FUGE_MEAN, FUGE_PERIODIC, &op, NULL, 0), FUGE_DONE);
+  solver = ball_on_grid(op, gap);
+  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
+  CHECK_STATUS(fuge_set_gap(solver, NULL, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_set_gap(solver, bad, NULL), FUGE_ERR_NOT_FINITE);
+  CHECK_STATUS(fuge_set_load(solver, -2.0), FUGE_ERR_NO_EQUILIBRIUM);
+  CHECK_STATUS(fuge_set_load(solver, NAN), FUGE_ERR_NOT_FINITE);
+  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, derivative, NULL, NULL), FUGE_ERR_UNSUPPORTED);
+  CHECK_UNTOUCHED(derivative, CELLS);
+  CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
+  for (int k = 0; k < CELLS; k++) CHECK_NEAR(again[k], force[k], 0.0);
+  CHECK_STATUS(fuge_set_approach(solver, approach), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_resultant(solver, &load), FUGE_DONE);
+  CHECK_NEAR(load, 2.0, 1e-7);
+  /* The mean gap is less than 1: nothing holds a periodic surface there. */
+  CHECK_STATUS(fuge_set_approach(solver, 2.0), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_NO_EQUILIBRIUM);
+  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_CONTAINS(message, "periodic surface");
+  CHECK_STATUS(fuge_get_force(solver, again), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
+  for (int k = 0; k < CELLS; k++) CHECK_NEAR(again[k], force[k], 1e-8);
+  /* Two stops need a matrix. */
+  CHECK_STATUS(fuge_set_gap(solver, gap, gap), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_ERR_UNSUPPORTED);
+  fuge_solver_free(&solver);
+  fuge_operator_free(&op);
+}
+
 int main(void) {
   test_one_square();
   test_four_squares(FUGE_CENTRE);
@@ -203,5 +248,6 @@ int main(void) {
   test_grid(FUGE_MEAN);
   test_boundaries();
   test_grid_refusals();
+  test_grid_problems();
   return check_summary();
 }
