@@ -267,12 +267,14 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
-    real(dp) :: period
+    real(dp) :: largest, period
 
-    magnitude = maxval(abs(displacement))
-    if (self%surface%boundary == FUGE_FREE) return
-    period = minval(self%surface%spacing*self%surface%period, mask=periodic(self%surface))
-    magnitude = max(magnitude, MEAN_TERM*sum(abs(force))/(self%surface%e_star*period))
+    largest = maxval(abs(displacement))
+    if (self%surface%boundary /= FUGE_FREE) then
+      period = minval(self%surface%spacing*self%surface%period, mask=periodic(self%surface))
+      largest = max(largest, MEAN_TERM*sum(abs(force))/(self%surface%e_star*period))
+    end if
+    magnitude = largest
   end subroutine halfspace_magnitude
 
   !> True after `set`.
