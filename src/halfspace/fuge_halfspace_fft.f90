@@ -268,10 +268,13 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
+    real(dp) :: largest
 
-    magnitude = maxval(abs(displacement))
-    if (self%surface%boundary == FUGE_FREE) return
-    magnitude = max(magnitude, MEAN_TERM*sum(abs(force))/(self%surface%e_star*term_length(self%surface)))
+    largest = maxval(abs(displacement))
+    if (self%surface%boundary /= FUGE_FREE) then
+      largest = max(largest, MEAN_TERM*sum(abs(force))/(self%surface%e_star*term_length(self%surface)))
+    end if
+    magnitude = largest
   end subroutine halfspace_magnitude
 
   !> True after `set`.
