@@ -58,8 +58,6 @@ module fuge_projected_gradients
     !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
     !> the contact set.
     real(dp), allocatable, private :: residual(:), direction(:)
-    !> What rounding left of the mean of the residual over the contact set; part of the motion already.
-    real(dp), private :: residual_mean = 0.0_dp
     !> In turn the preconditioned residual and the displacement by `direction`, (n).
     real(dp), allocatable, private :: work(:)
   end type contact_iterate
@@ -161,7 +159,6 @@ contains
     if (info%failed()) return
     call set_residual(reduced_gap, iterate)
     iterate%motion = 0.0_dp
-    iterate%residual_mean = 0.0_dp
     call project_residual(iterate)
     ! The mean of large numbers is rounded: the second projection removes what is left of it.
     call project_residual(iterate)
@@ -268,16 +265,17 @@ contains
     real(dp), intent(in), contiguous :: reduced_gap(:)
     real(dp), intent(in) :: step_length, mean
     type(contact_iterate), intent(inout) :: iterate
-    real(dp) :: shift, total
+    real(dp) :: rest, total
 
-    ! What rounding left of the mean of the residual goes with this step: it must not grow.
-    shift = step_length*mean - iterate%residual_mean
     iterate%motion = iterate%motion - step_length*mean
-    call step_over(iterate%segments, step_length, shift, reduced_gap, iterate%motion, iterate%direction, iterate%work, &
+    call step_over(iterate%segments, step_length, step_length*mean, reduced_gap, iterate%motion, iterate%direction, iterate%work, &
                    iterate%force, iterate%displacement, iterate%residual, total, iterate%residual_norm, &
                    iterate%penetration)
-    if (.not. iterate%prescribed) iterate%residual_mean = total/real(iterate%segments%points, dp)
-    iterate%motion = iterate%motion + iterate%residual_mean
+    if (iterate%prescribed) return
+    ! What rounding leaves of the mean would grow, and without a preconditioner change the sum of the forces.
+    rest = total/real(iterate%segments%points, dp)
+    call center_over(iterate%segments, rest, iterate%residual, iterate%residual_norm)
+    iterate%motion = iterate%motion + rest
   end subroutine take_step
 
   !> Move the mean of the residual into the motion, unless that is prescribed: left in the
