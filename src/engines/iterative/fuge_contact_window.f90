@@ -149,6 +149,7 @@ contains
 
     call box%gather(reduced_gap, gap, info)
     if (info%failed()) return
+    if (.not. settings%prescribed) gap = gap - minval(gap)
     part_info = fuge_info(iterations=info%iterations)
     call nested_iteration(part, coarse_settings, gap, coarsest_level(part), 1, monitor, start, work, part_info)
     if (allocated(start) .and. .not. part_info%failed()) call prolong(box%extent(), start, part_info)

@@ -103,6 +103,8 @@ contains
 
     call restrict_gap(finest_gap, finest, level, reduced_gap, info)
     if (info%failed()) return
+    ! Means may all be far above the least gap of the finest grid: beside them small displacements would be rounding.
+    if (.not. settings%prescribed) reduced_gap = reduced_gap - minval(reduced_gap)
     if (allocated(start)) call prolong(coarser_cells(finest, level), start, info)
     if (.not. info%failed()) call start_iterate(iterate, size(reduced_gap), settings%prescribed, start, info)
     if (.not. info%failed()) call find_contact_set(operator, settings, reduced_gap, monitor, iterate, info)

@@ -163,9 +163,14 @@ contains
     ! The mean of large numbers is rounded: the second projection removes what is left of it.
     call project_residual(iterate)
     iterate%penetration = deepest_penetration(iterate%segments, reduced_gap, iterate%motion, iterate%displacement)
-    call operator%magnitude(iterate%force, iterate%displacement, iterate%work)
     offset = -iterate%motion
     if (iterate%prescribed) offset = operator%datum()*sum(iterate%force)
+    if (iterate%prescribed) then
+      ! As in the certificate, without the displacement by the datum, which cancels against the motion.
+      call operator%magnitude(iterate%force, iterate%displacement - offset, iterate%work)
+    else
+      call operator%magnitude(iterate%force, iterate%displacement, iterate%work)
+    end if
     iterate%least_magnitude = find_least_magnitude(iterate, offset, reduced_gap, iterate%work)
   end subroutine evaluate_iterate
 
