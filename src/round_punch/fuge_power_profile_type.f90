@@ -58,6 +58,7 @@ contains
     end do
   end subroutine evaluate
 
+  !> The starts, or zeros if there are none; of the size of the powers.
   pure function all_starts(self) result(start)
     class(fuge_power_profile), intent(in) :: self
     real(dp), allocatable :: start(:)
