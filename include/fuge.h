@@ -41,7 +41,8 @@
  * global state.
  *
  * MESSAGES.  A message says what is wrong, where, and how to mend it; it is empty when all
- * is well.  A call on a solver or a body leaves its message there, for fuge_solver_message
+ * is well, but for a remark of a solve with status 0 whose contact reaches the rim of a free
+ * grid of fuge_operator_halfspace: the grid is too small unless the bodies end there.  A call on a solver or a body leaves its message there, for fuge_solver_message
  * and fuge_body_message.  Every other call that can refuse its data has `message` and `len`
  * as its last arguments: at most len bytes are written, always ended by NUL.  A buffer of
  * FUGE_MESSAGE_LENGTH + 1 bytes holds every message.  NULL, or len = 0, if no message is

@@ -11,7 +11,8 @@ module fuge_rim_contact
 
 contains
 
-  !> Add a message to `info`, whose status stays as it is, if a point at a free rim of the grid carries force; `force` (n).
+  !> Add a message to `info`, whose status stays as it is, if a point at a free rim of the grid carries force;
+  !> `force` (n).
   subroutine remark_contact_at_rim(operator, force, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: force(:)
@@ -22,8 +23,8 @@ contains
     if (.not. any(operator%free_rim()) .or. size(force) /= product(cells)) return
     call count_rim_points(cells, operator%free_rim(), force, count, first)
     if (count == 0) return
-    call report(info, info%status, 'the contact reaches the rim of the grid at '//text(count)//' point(s), the first is ' &
-                //index_text(first)//': if the bodies do not end there, the grid is too small')
+    call report(info, info%status, 'the contact reaches the rim of the grid at '//text(count) &
+                //' point(s), the first is '//index_text(first)//': if the bodies do not end there, the grid is too small')
   end subroutine remark_contact_at_rim
 
   !> How many points at the rims of the directions `free` carry force, and the first one.

@@ -68,7 +68,7 @@ contains
   !>
   !> `operator` displacements per force, `problem` gaps and load, `options` as in `fuge_options` (defaults when
   !> absent). `monitor` hears of each iteration and may cancel; without a load there are none. On return info%status
-  !> is FUGE_DONE, FUGE_WARN_RESIDUAL with the residual in the message, FUGE_WARN_NOT_UNIQUE where alpha is singular
+  !> is FUGE_DONE, with a message only if the contact reaches the rim of a free grid, FUGE_WARN_RESIDUAL with the residual in the message, FUGE_WARN_NOT_UNIQUE where alpha is singular
   !> on the contact (the forces are then one of many possible) or the contact does not resist a mode (its motion is
   !> then one of many possible, and the forces are unique), or an error that leaves `solution` untouched:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,

@@ -59,7 +59,8 @@ contains
   !> contact_iterate; `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the
   !> finest grid, otherwise unchanged, because the window would be too large or the operator has none, nor that coarser
   !> grid. Errors: those of find_contact_set, FUGE_ERR_MEMORY.
-  subroutine solve_in_window(operator, coarse_settings, settings, reduced_gap, level, monitor, start, work, solved, info)
+  subroutine solve_in_window(operator, coarse_settings, settings, reduced_gap, level, monitor, start, work, solved, &
+                             info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: coarse_settings, settings
     real(dp), intent(in), contiguous :: reduced_gap(:)

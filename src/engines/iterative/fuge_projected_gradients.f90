@@ -273,8 +273,8 @@ contains
     real(dp) :: rest, total
 
     iterate%motion = iterate%motion - step_length*mean
-    call step_over(iterate%segments, step_length, step_length*mean, reduced_gap, iterate%motion, iterate%direction, iterate%work, &
-                   iterate%force, iterate%displacement, iterate%residual, total, iterate%residual_norm, &
+    call step_over(iterate%segments, step_length, step_length*mean, reduced_gap, iterate%motion, iterate%direction, &
+                   iterate%work, iterate%force, iterate%displacement, iterate%residual, total, iterate%residual_norm, &
                    iterate%penetration)
     if (iterate%prescribed) return
     ! What rounding leaves of the mean would grow, and without a preconditioner change the sum of the forces.
