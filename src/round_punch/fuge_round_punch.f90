@@ -8,21 +8,20 @@ module fuge_round_punch
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_options_type, only: fuge_options
   use fuge_round_certificate, only: certify_round
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_newton, only: round_target, GIVEN_APPROACH, GIVEN_LOAD, GIVEN_RADIUS
   use fuge_round_search, only: disc_search, find_disc, DISC_AT_RIM, DISC_FOUND, DISC_IN_TENSION, DISC_PENETRATED
+  use fuge_smooth_accuracy, only: report_accuracy
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
   use fuge_smooth_samples, only: lowest_position
   use fuge_status, only: fuge_info, report, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, &
-    FUGE_ERR_UNSUPPORTED, FUGE_ERR_WIDTH, FUGE_WARN_RESIDUAL
+    FUGE_ERR_UNSUPPORTED, FUGE_ERR_WIDTH
   implicit none
   private
 
   public :: fuge_solve_round_punch
 
-  type(fuge_options), parameter :: DEFAULTS = fuge_options()
   !> Rounding errors of a gap, in units of the last place.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
   character(len=*), parameter :: OTHER_ENGINES = ': use rings, fuge_ring_matrix, with the active set'
@@ -178,23 +177,11 @@ contains
     class(fuge_smooth_profile), intent(in) :: profile
     type(disc_search), intent(in) :: search
     type(fuge_info), intent(inout) :: info
-    real(dp) :: worst
 
     call certify_round(profile, search%contact, search%transform, info%residual, info)
     if (info%failed()) return
-    worst = max(search%contact%radius_error, search%contact%pressure_error)
-    info%residual = max(info%residual, search%violation%tension, search%violation%penetration)
-    if (info%residual <= DEFAULTS%tolerance .and. search%violation%undecided > DEFAULTS%tolerance) then
-      info%residual = search%violation%undecided
-      call report(info, FUGE_WARN_RESIDUAL, 'penetration beside the contact is excluded down to ' &
-                  //text(search%violation%undecided)//' only: the profile is not smooth there')
-    else if (info%residual > DEFAULTS%tolerance) then
-      call report(info, FUGE_WARN_RESIDUAL, 'the residual is '//text(info%residual)//', the estimated error ' &
-                  //text(worst)//': the profile is not smooth in the contact, or its slope is not that of its gap')
-    else if (worst > DEFAULTS%tolerance) then
-      call report(info, FUGE_WARN_RESIDUAL, 'the estimated error is '//text(worst) &
-                  //': the profile is not smooth in the contact')
-    end if
+    call report_accuracy(max(search%contact%radius_error, search%contact%pressure_error), &
+                         max(search%violation%tension, search%violation%penetration), search%violation%undecided, info)
   end subroutine certify_search
 
   !> Refuse: report why there is no single disc, and which engine to use.

@@ -10,7 +10,7 @@ module fuge_smooth_punch
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_options_type, only: fuge_options
+  use fuge_smooth_accuracy, only: report_accuracy
   use fuge_smooth_certificate, only: certify_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_newton, only: load_case
@@ -19,13 +19,12 @@ module fuge_smooth_punch
   use fuge_smooth_search, only: find_contact_interval, interval_search, INTERVAL_FOUND, INTERVAL_IN_TENSION, &
     INTERVAL_PENETRATED, INTERVAL_AT_END
   use fuge_status, only: fuge_info, report, FUGE_ERR_WIDTH, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
-    FUGE_ERR_UNSUPPORTED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
+    FUGE_ERR_UNSUPPORTED, FUGE_WARN_NOT_UNIQUE
   implicit none
   private
 
   public :: fuge_solve_smooth_punch
 
-  type(fuge_options), parameter :: DEFAULTS = fuge_options()
   character(len=*), parameter :: OTHER_ENGINES = &
     ': use the half-plane operator on a grid, with FUGE_ITERATIVE or the active set'
 
@@ -149,23 +148,11 @@ contains
     class(fuge_smooth_profile), intent(in) :: profile
     type(interval_search), intent(in) :: search
     type(fuge_info), intent(inout) :: info
-    real(dp) :: worst
 
     call certify_contact(profile, search%contact, info%residual, info)
     if (info%failed()) return
-    worst = max(search%contact%end_error, search%contact%pressure_error)
-    info%residual = max(info%residual, search%violation%tension, search%violation%penetration)
-    if (info%residual <= DEFAULTS%tolerance .and. search%violation%undecided > DEFAULTS%tolerance) then
-      info%residual = search%violation%undecided
-      call report(info, FUGE_WARN_RESIDUAL, 'penetration beside the contact is excluded down to ' &
-                  //text(search%violation%undecided)//' only: the profile is not smooth there')
-    else if (info%residual > DEFAULTS%tolerance) then
-      call report(info, FUGE_WARN_RESIDUAL, 'the residual is '//text(info%residual)//', the estimated error ' &
-                  //text(worst)//': the profile is not smooth in the contact, or its slope is not that of its gap')
-    else if (worst > DEFAULTS%tolerance) then
-      call report(info, FUGE_WARN_RESIDUAL, 'the estimated error is '//text(worst) &
-                  //': the profile is not smooth in the contact')
-    end if
+    call report_accuracy(max(search%contact%end_error, search%contact%pressure_error), &
+                         max(search%violation%tension, search%violation%penetration), search%violation%undecided, info)
   end subroutine certify_search
 
   !> Refuse: report why there is no single interval, and which engine to use.
