@@ -15,7 +15,7 @@
 module fuge_grid_convolution
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_ptr
   use fuge_fft, only: allocate_values, fft_plan, release_buffer
-  use fuge_grid_plan, only: grid_plan, return_rows, stored_waves, take_rows
+  use fuge_grid_plan, only: grid_plan, return_rows, stored_waves, take_rows, taken_rows
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_threads, only: run_in_threads
@@ -145,7 +145,8 @@ contains
     integer, intent(out) :: status
     type(product_job), target :: job
     logical, allocatable, target :: zero(:)
-    type(c_ptr) :: rows, lines
+    type(taken_rows) :: rows
+    type(c_ptr) :: lines
     integer :: stat
 
     status = FUGE_ERR_CALL_ORDER

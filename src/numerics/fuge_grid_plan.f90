@@ -25,6 +25,15 @@ module fuge_grid_plan
     logical :: busy = .false.
   end type kept_rows
 
+  !> Room that a product has taken until it returns it.
+  type, public :: taken_rows
+    private
+    type(c_ptr) :: buffer = c_null_ptr
+    !> It is the kept room, not one of the product's own. The address cannot tell: another thread may be changing that
+    !> of the kept room.
+    logical :: is_kept = .false.
+  end type taken_rows
+
   !> Transforms of the lines of a grid.
   type, public :: grid_plan
     !> nx and ny; 0 before `set`.
@@ -249,51 +258,59 @@ contains
 
   !> `rows` lines of `stride` real numbers: the kept ones, or new ones if another thread uses those. `status`: 0 or
   !> FUGE_ERR_MEMORY.
-  subroutine take_rows(kept, stride, rows, buffer, work, status)
+  subroutine take_rows(kept, stride, rows, taken, work, status)
     type(kept_rows), pointer, intent(in) :: kept
     integer, intent(in) :: stride, rows
-    type(c_ptr), intent(out) :: buffer
+    type(taken_rows), intent(out) :: taken
     real(c_double), pointer, contiguous, intent(out) :: work(:, :)
     integer, intent(out) :: status
-    logical :: mine
 
     call lock(LOCK_BUFFERS)
-    mine = .not. kept%busy
-    if (mine) kept%busy = .true.
+    taken%is_kept = .not. kept%busy
+    if (taken%is_kept) kept%busy = .true.
     call unlock(LOCK_BUFFERS)
-    if (mine .and. kept%stride >= stride) then
-      buffer = kept%buffer
-      call c_f_pointer(buffer, work, [stride, rows])
-      status = FUGE_DONE
+    if (.not. taken%is_kept) then
+      call allocate_values(stride, rows, taken%buffer, work, status)
       return
     end if
-    if (mine .and. kept%stride > 0) then
-      call release_buffer(kept%buffer)
-      kept%stride = 0
-      kept%buffer = c_null_ptr
-    end if
-    call allocate_values(stride, rows, buffer, work, status)
-    if (.not. mine) return
-    kept%buffer = buffer
+    call widen(kept, stride, rows, status)
     if (status == FUGE_DONE) then
-      kept%stride = stride
+      taken%buffer = kept%buffer
+      call c_f_pointer(kept%buffer, work, [stride, rows])
     else
-      kept%busy = .false.
+      call return_rows(kept, taken)
     end if
   end subroutine take_rows
 
-  !> After `take_rows`.
-  subroutine return_rows(kept, buffer)
-    type(kept_rows), pointer, intent(in) :: kept
-    type(c_ptr), intent(in) :: buffer
+  !> Let kept room have lines of `stride` numbers. `status` as in `take_rows`.
+  subroutine widen(kept, stride, rows, status)
+    type(kept_rows), intent(inout) :: kept
+    integer, intent(in) :: stride, rows
+    integer, intent(out) :: status
+    real(c_double), pointer, contiguous :: work(:, :)
 
-    if (c_associated(buffer, kept%buffer)) then
+    status = FUGE_DONE
+    if (kept%stride >= stride) return
+    if (kept%stride > 0) call release_buffer(kept%buffer)
+    kept%stride = 0
+    kept%buffer = c_null_ptr
+    call allocate_values(stride, rows, kept%buffer, work, status)
+    if (status == FUGE_DONE) kept%stride = stride
+  end subroutine widen
+
+  !> After `take_rows`.
+  subroutine return_rows(kept, taken)
+    type(kept_rows), pointer, intent(in) :: kept
+    type(taken_rows), intent(inout) :: taken
+
+    if (taken%is_kept) then
       call lock(LOCK_BUFFERS)
       kept%busy = .false.
       call unlock(LOCK_BUFFERS)
     else
-      call release_buffer(buffer)
+      call release_buffer(taken%buffer)
     end if
+    taken = taken_rows()
   end subroutine return_rows
 
 end module fuge_grid_plan
