@@ -328,6 +328,42 @@ int fuge_operator_set_preconditioner(fuge_operator *op, fuge_apply preconditione
 int fuge_operator_set_diagonal(fuge_operator *op, const double *diagonal,
                                char *message, size_t len);
 
+/* Points that are equal cells of a grid, for callback operators only and not during a solve:
+ * with the two calls that follow, or one of them, a callback operator needs as few products as
+ * those of grids have.  The solution is that of apply alone, to the tolerance.
+ *   nx, ny  in  cells in a row, and rows; point i + nx*j is the cell i of row j, from 0; ny = 1
+ *               for cells side by side on a line
+ * Another grid than before forgets what those calls have set.  FUGE_ERR_SIZE unless
+ * nx*ny = n. */
+int fuge_operator_set_grid(fuge_operator *op, int nx, int ny, char *message, size_t len);
+
+/* The coarser grid, from which a solve gets the forces to start with: coarse is the same body,
+ * or one similar to it, on cells twice as wide in both directions, (nx + 1)/2 x (ny + 1)/2 of
+ * them, rounded down.  Each replaces 2 x 2 cells of op, the last one of a row or column of an
+ * odd number fewer; a direction of one cell keeps it.  coarse is another callback operator,
+ * with a grid and a preconditioner (if op has one), and a coarser one in turn, down to about 32
+ * cells; or one of fuge_operator_halfplane or fuge_operator_halfspace, which makes all coarser
+ * ones itself.  coarse is not copied: free it after the solves with op.
+ * FUGE_ERR_CALL_ORDER before fuge_operator_set_grid, FUGE_ERR_SIZE for another grid. */
+int fuge_operator_set_coarser(fuge_operator *op, const fuge_operator *coarse,
+                              char *message, size_t len);
+
+/* A similar body that the library knows: auxiliary, of fuge_operator_halfplane or
+ * fuge_operator_halfspace, has the cells of op, and its displacements are close to those of
+ * apply, such as those of the body without its layers.  op gets its grid; where none has been
+ * set for op, its preconditioner and its coarser grids; its windows for contacts that fill a
+ * small part of the grid; and the size of the terms by which the residual is judged.  The
+ * closer the bodies, the fewer products.  auxiliary is not copied: free it after the solves
+ * with op.  FUGE_ERR_SIZE for other cells, FUGE_ERR_UNSUPPORTED for another operator. */
+int fuge_operator_set_auxiliary(fuge_operator *op, const fuge_operator *auxiliary,
+                                char *message, size_t len);
+
+/* The constant that apply leaves out of all coefficients: it returns u = (A - datum) f, and the
+ * library adds datum times the sum of the forces.  0 at first.  A large constant left in A,
+ * such as that of a soft support, costs u its digits, and a residual relative to it says
+ * little.  For callback operators only, not during a solve; length per force. */
+int fuge_operator_set_datum(fuge_operator *op, double datum, char *message, size_t len);
+
 enum {                          /* boundary: what lies beyond the cells */
   FUGE_FREE = 0,                /* a surface without pressure */
   FUGE_PERIODIC = 1             /* the cells repeat periodically, with the period n*spacing */
