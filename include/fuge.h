@@ -358,11 +358,18 @@ int fuge_operator_set_coarser(fuge_operator *op, const fuge_operator *coarse,
 int fuge_operator_set_auxiliary(fuge_operator *op, const fuge_operator *auxiliary,
                                 char *message, size_t len);
 
-/* The constant that apply leaves out of all coefficients: it returns u = (A - datum) f, and the
- * library adds datum times the sum of the forces.  0 at first.  A large constant left in A,
- * such as that of a soft support, costs u its digits, and a residual relative to it says
- * little.  For callback operators only, not during a solve; length per force. */
-int fuge_operator_set_datum(fuge_operator *op, double datum, char *message, size_t len);
+/* What products do not show of the coefficients of A, for callback operators only and not
+ * during a solve; length per force, 0 at first.
+ *   datum  in  a constant that apply leaves out of all coefficients: it returns
+ *              u = (A - datum) f, and the library adds datum times the sum of the forces.  A
+ *              large one left in A, such as that of a soft support, costs u its digits
+ *   mean   in  mean of |alpha_ij - datum|, such as that of the displacements by one force of
+ *              1; 0 if unknown.  Where displacements are small beside their terms, as on a
+ *              periodic surface in nearly complete contact, the residual is judged by the
+ *              terms, mean times the sum of the forces: without it solves go on for longer
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION for mean < 0. */
+int fuge_operator_set_coefficients(fuge_operator *op, double datum, double mean,
+                                   char *message, size_t len);
 
 enum {                          /* boundary: what lies beyond the cells */
   FUGE_FREE = 0,                /* a surface without pressure */

@@ -36,8 +36,8 @@ module fuge_c_callback
     procedure(c_apply), pointer, nopass :: inverse => null()
     real(dp), allocatable :: diagonal(:)
     type(c_ptr) :: user = c_null_ptr
-    !> The constant that the product leaves out of all coefficients.
-    real(dp) :: left_out = 0.0_dp
+    !> The constant that the product leaves out of all coefficients, and the mean magnitude of the others; 0 if unknown.
+    real(dp) :: left_out = 0.0_dp, mean_term = 0.0_dp
     !> Cells in each direction of the grid that the points are; 0 if they are none.
     integer :: cells(2) = 0
     !> The caller's operators of the cells twice as wide, and of the same cells on a similar body. The first makes
@@ -195,7 +195,7 @@ contains
     datum = self%left_out
   end function datum
 
-  !> That of the auxiliary operator, if there is one: it may know more than the largest displacement.
+  !> The largest displacement, or what the auxiliary operator knows; at least the mean of the terms.
   subroutine callback_magnitude(self, force, displacement, magnitude)
     class(callback_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
@@ -206,6 +206,7 @@ contains
     else
       magnitude = maxval(abs(displacement))
     end if
+    if (self%mean_term > 0.0_dp) magnitude = max(magnitude, self%mean_term*sum(abs(force)))
   end subroutine callback_magnitude
 
   function has_preconditioner(self) result(preconditioned)

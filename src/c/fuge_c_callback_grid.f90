@@ -1,5 +1,5 @@
 !> C bindings, section "operators": what the caller may tell of a callback operator, so that it needs as few products
-!> as the operators of grids: its cells, coarser grids, a similar body, the constant that its products leave out.
+!> as the operators of grids: its cells, coarser grids, a similar body, and of its coefficients what the products do not show.
 module fuge_c_callback_grid
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
@@ -9,8 +9,8 @@ module fuge_c_callback_grid
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE, &
-    FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, &
+    FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
@@ -82,8 +82,8 @@ contains
     if (all(cells == 1)) then
       call report(info, FUGE_ERR_SIZE, 'op has one cell: there is no coarser grid')
     else if (any(coarse < 1)) then
-      call report(info, FUGE_ERR_SIZE, 'the cells of coarse are not known: it has to be an operator of a grid, or one ' &
-                  //'of fuge_operator_callback after fuge_operator_set_grid')
+      call report(info, FUGE_ERR_SIZE, 'the cells of coarse are not known: it has to be an operator of a grid, or ' &
+                  //'one of fuge_operator_callback after fuge_operator_set_grid')
     else if (any(coarse /= fitting)) then
       call report(info, FUGE_ERR_SIZE, 'coarse has '//grid_text(coarse)//' cells: cells twice as wide as the ' &
                   //grid_text(cells)//' of op are '//grid_text(fitting))
@@ -145,20 +145,36 @@ contains
     end if
   end subroutine check_auxiliary
 
-  function c_set_datum(operator, datum, message, length) bind(c, name='fuge_operator_set_datum') result(status)
+  function c_set_coefficients(operator, datum, mean, message, length) &
+    bind(c, name='fuge_operator_set_coefficients') result(status)
     type(c_ptr), intent(in), value :: operator, message
-    real(c_double), intent(in), value :: datum
+    real(c_double), intent(in), value :: datum, mean
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(callback_operator), pointer :: callback
     type(fuge_info) :: info
 
     call find_callback(operator, 'a datum', callback, info)
-    if (.not. info%failed() .and. .not. ieee_is_finite(datum)) then
-      call report(info, FUGE_ERR_NOT_FINITE, 'datum = '//text(real(datum, dp))//' is not a finite number')
+    call require_finite(datum, 'datum', info)
+    call require_finite(mean, 'mean', info)
+    if (.not. info%failed() .and. mean < 0.0_c_double) then
+      call report(info, FUGE_ERR_OPTION, 'mean = '//text(real(mean, dp))//': the mean of magnitudes is not negative')
     end if
-    if (.not. info%failed()) callback%left_out = datum
+    if (.not. info%failed()) then
+      callback%left_out = datum
+      callback%mean_term = mean
+    end if
     status = report_to_c(info, message, length)
-  end function c_set_datum
+  end function c_set_coefficients
+
+  !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE), unless an error is known already.
+  pure subroutine require_finite(value, name, info)
+    real(c_double), intent(in) :: value
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. ieee_is_finite(value)) return
+    call report(info, FUGE_ERR_NOT_FINITE, name//' = '//text(real(value, dp))//' is not a finite number')
+  end subroutine require_finite
 
 end module fuge_c_callback_grid

@@ -30,10 +30,11 @@ static int repeats(grid g, int boundary) { return g.boundary == FUGE_PERIODIC ||
 /* One more grid; its products leave out the datum. */
 static void add_level(int nx, int ny, double spacing_x, double spacing_y, grid g, surface *s) {
   const int k = s->levels++;
+  const double mean = ny == 0 && g.boundary == FUGE_PERIODIC ? 0.41132 : 0.0;
   s->reference[k] = reference_new(nx, ny, spacing_x, spacing_y, g.element, g.boundary);
   CHECK(s->reference[k] != NULL);
   CHECK_STATUS(fuge_operator_callback(nx * rows(ny), reference_apply, s->reference[k], &s->op[k], NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_datum(s->op[k], reference_datum(s->reference[k]), NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_set_coefficients(s->op[k], reference_datum(s->reference[k]), mean, NULL, 0), FUGE_DONE);
   if (ny == 0)
     CHECK_STATUS(fuge_operator_halfplane(nx, spacing_x, 1.0, g.element, g.boundary, &s->same[k], NULL, 0), FUGE_DONE);
   else
@@ -154,14 +155,14 @@ static void compare_loads(surface *s, grid g, double width, double first, double
   free(gap);
 }
 
-/* With grids of the caller's own: the same up to half a surface in contact.  Beyond, the library knows of periodic
- * surfaces that their displacements are small beside their terms; the caller says it by an auxiliary operator. */
+/* With grids of the caller's own.  Beyond half of a periodic surface in contact displacements are small beside their
+ * terms: the caller tells of it by the mean coefficient of a half-plane, or by auxiliary operators. */
 static void test_own_grids(grid g) {
   const double width = 2.0 / (g.nx > g.ny ? g.nx : g.ny);
   surface s;
   make_surface(g, width, &s);
   set_own_grids(g, &s);
-  compare_loads(&s, g, width, 3e-3, 1.0);
+  compare_loads(&s, g, width, 3e-3, g.ny == 0 ? 1e2 : 1.0);
   for (int k = 0; k < s.levels; k++)
     CHECK_STATUS(fuge_operator_set_auxiliary(s.op[k], s.same[k], NULL, 0), FUGE_DONE);
   compare_loads(&s, g, width, 30.0, 1e2);
@@ -277,7 +278,8 @@ static fuge_operator *callback(int n) {
 
 static void check_grid(fuge_operator *op, int nx, int ny, int status, const char *part) {
   CHECK_STATUS(fuge_operator_set_grid(op, nx, ny, message, sizeof message), status);
-  CHECK_CONTAINS(message, part);
+  if (status == FUGE_DONE) CHECK_STRING(message, part);
+  else CHECK_CONTAINS(message, part);
 }
 
 static void test_grid_refusals(void) {
@@ -300,7 +302,8 @@ static void test_grid_refusals(void) {
 
 static void check_coarser(fuge_operator *op, const fuge_operator *coarse, int status, const char *part) {
   CHECK_STATUS(fuge_operator_set_coarser(op, coarse, message, sizeof message), status);
-  CHECK_CONTAINS(message, part);
+  if (status == FUGE_DONE) CHECK_STRING(message, part);
+  else CHECK_CONTAINS(message, part);
 }
 
 static void test_coarser_refusals(void) {
@@ -331,7 +334,8 @@ static void test_coarser_refusals(void) {
 
 static void check_auxiliary(fuge_operator *op, const fuge_operator *auxiliary, int status, const char *part) {
   CHECK_STATUS(fuge_operator_set_auxiliary(op, auxiliary, message, sizeof message), status);
-  CHECK_CONTAINS(message, part);
+  if (status == FUGE_DONE) CHECK_STRING(message, part);
+  else CHECK_CONTAINS(message, part);
 }
 
 static void test_auxiliary_refusals(void) {
@@ -385,18 +389,24 @@ static void test_forgotten(void) {
   fuge_operator_free(&op);
 }
 
+static void check_coefficients(fuge_operator *op, double datum, double mean, int status, const char *part) {
+  CHECK_STATUS(fuge_operator_set_coefficients(op, datum, mean, message, sizeof message), status);
+  if (status == FUGE_DONE) CHECK_STRING(message, part);
+  else CHECK_CONTAINS(message, part);
+}
+
 /* A load moves the body by the datum times its sum, and a prescribed approach takes account of it. */
 static void test_datum(void) {
   static const double gap[3] = {0.0, 0.0, 0.0};
   double approach, load;
   fuge_operator *op = callback(3), *dense = NULL;
   CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &dense, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_datum(NULL, 1.0, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_operator_set_datum(dense, 1.0, message, sizeof message), FUGE_ERR_UNSUPPORTED);
-  CHECK_CONTAINS(message, "takes a datum");
-  CHECK_STATUS(fuge_operator_set_datum(op, 5.0, message, sizeof message), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_datum(op, NAN, message, sizeof message), FUGE_ERR_NOT_FINITE);
-  CHECK_CONTAINS(message, "datum = NaN");
+  check_coefficients(NULL, 1.0, 0.0, FUGE_ERR_POINTER, "op is NULL");
+  check_coefficients(dense, 1.0, 0.0, FUGE_ERR_UNSUPPORTED, "takes a datum");
+  check_coefficients(op, 5.0, 0.0, FUGE_DONE, "");
+  check_coefficients(op, NAN, 1.0, FUGE_ERR_NOT_FINITE, "datum = NaN");
+  check_coefficients(op, 1.0, INFINITY, FUGE_ERR_NOT_FINITE, "mean = Inf");
+  check_coefficients(op, 1.0, -1e-9, FUGE_ERR_OPTION, "mean = -1");
   fuge_solver *solver = solver_of(op, gap);
   CHECK_STATUS(fuge_set_load(solver, 6.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
@@ -420,15 +430,18 @@ static const grid GRIDS[] = {
   {999, 0, FUGE_MEAN, FUGE_PERIODIC}, {31, 0, FUGE_MEAN, FUGE_FREE}, {1, 0, FUGE_MEAN, FUGE_FREE},
   {64, 64, FUGE_MEAN, FUGE_FREE}, {64, 64, FUGE_CENTRE, FUGE_PERIODIC}, {61, 47, FUGE_CENTRE, FUGE_FREE},
   {45, 63, FUGE_MEAN, FUGE_PERIODIC}, {33, 64, FUGE_MEAN, FUGE_PERIODIC_X}, {32, 51, FUGE_CENTRE, FUGE_PERIODIC_Y},
-  {1, 300, FUGE_MEAN, FUGE_FREE}, {300, 1, FUGE_CENTRE, FUGE_FREE}
+  {1, 300, FUGE_MEAN, FUGE_FREE}, {20, 24, FUGE_CENTRE, FUGE_PERIODIC}, {300, 1, FUGE_CENTRE, FUGE_FREE}
 };
 
-int main(void) {
+/* With an argument: small grids only. */
+int main(int argc, char **argv) {
+  (void)argv;
   for (size_t k = 0; k < sizeof GRIDS / sizeof GRIDS[0]; k++) {
+    if (argc > 1 && GRIDS[k].nx * rows(GRIDS[k].ny) > 500) continue;
     test_own_grids(GRIDS[k]);
     test_auxiliary(GRIDS[k]);
   }
-  test_window();
+  if (argc == 1) test_window();
   test_similar_body();
   test_grid_refusals();
   test_coarser_refusals();
