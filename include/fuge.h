@@ -329,8 +329,8 @@ int fuge_operator_set_diagonal(fuge_operator *op, const double *diagonal,
                                char *message, size_t len);
 
 /* Points that are equal cells of a grid, for callback operators only and not during a solve:
- * with the two calls that follow, or one of them, a callback operator needs as few products as
- * those of grids have.  The solution is that of apply alone, to the tolerance.
+ * with one of the two calls that follow a callback operator needs as few products as the
+ * built-in operators of grids.  The solution is that of apply alone, to the tolerance.
  *   nx, ny  in  cells in a row, and rows; point i + nx*j is the cell i of row j, from 0; ny = 1
  *               for cells side by side on a line
  * Another grid than before forgets what those calls have set.  FUGE_ERR_SIZE unless
@@ -353,8 +353,10 @@ int fuge_operator_set_coarser(fuge_operator *op, const fuge_operator *coarse,
  * apply, such as those of the body without its layers.  op gets its grid; where none has been
  * set for op, its preconditioner and its coarser grids; its windows for contacts that fill a
  * small part of the grid; and the size of the terms by which the residual is judged.  The
- * closer the bodies, the fewer products.  auxiliary is not copied: free it after the solves
- * with op.  FUGE_ERR_SIZE for other cells, FUGE_ERR_UNSUPPORTED for another operator. */
+ * closer the bodies, the fewer products; it pays as long as the force of one cell displaces it
+ * less than about four times as far as on auxiliary.  auxiliary is not copied: free it after
+ * the solves with op.  FUGE_ERR_SIZE for other cells, FUGE_ERR_UNSUPPORTED for another
+ * operator. */
 int fuge_operator_set_auxiliary(fuge_operator *op, const fuge_operator *auxiliary,
                                 char *message, size_t len);
 
