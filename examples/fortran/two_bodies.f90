@@ -13,13 +13,13 @@
 !>
 !> + for the first punch, - for the second one; K the complete elliptic integral of the first
 !> kind, D the distance at which a line load displaces nothing.
-!> At last both by FFT: a grid of cells from the first punch to the second one, those between the punches excluded, 2**18
-!> cells under the faces. The table two_bodies.csv has the approaches over the distance and over the force.
+!> At last some of these scenes by FFT: a grid of cells from the first punch to the second one, 2**18 of them under the
+!> faces and those between the punches excluded. The table two_bodies.csv has the approaches over the distance and over the force.
 program two_bodies
   use example_output, only: create_file
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_halfplane_operator, &
-    fuge_info, fuge_interval, fuge_problem, fuge_solution, fuge_solver, FUGE_MEAN
+  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, &
+    fuge_halfplane_operator, fuge_info, fuge_interval, fuge_problem, fuge_solution, fuge_solver, FUGE_MEAN
   implicit none
 
   !> N, mm; cells of each punch.
