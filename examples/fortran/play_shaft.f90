@@ -12,8 +12,8 @@ module play_shaft
   !> A liner of 1 mm, 3000 N/mm2, that touches the shaft on a width of 10 mm: force per length and compression.
   real(dp), parameter, public :: LINER_STIFFNESS = 3.0e4_dp
 
-  !> Displacements of the shaft, clamped at x = 0, by forces on n equal cells from `first` to `last`, and of the liner by
-  !> the force on the cell itself: A = B + 1/(k h). Its products take a few operations for each cell.
+  !> Displacements of the shaft, clamped at x = 0, by forces on n equal cells from `first` to `last`, and of the liner
+  !> by the force on the cell itself: A = B + 1/(k h). Its products take a few operations for each cell.
   type, extends(fuge_operator), public :: lined_shaft
     integer :: n = 0
     real(dp) :: first = 0.0_dp, last = 0.0_dp

@@ -14,7 +14,8 @@
 !> + for the first punch, - for the second one; K the complete elliptic integral of the first
 !> kind, D the distance at which a line load displaces nothing.
 !> At last some of these scenes by FFT: a grid of cells from the first punch to the second one, 2**18 of them under the
-!> faces and those between the punches excluded. The table two_bodies.csv has the approaches over the distance and over the force.
+!> faces and those between the punches excluded.
+!> The table two_bodies.csv has the approaches over the distance and over the force.
 program two_bodies
   use example_output, only: create_file
   use, intrinsic :: iso_fortran_env, only: int64
