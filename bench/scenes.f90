@@ -3,7 +3,8 @@
 !>
 !>     scenes [sizes]     n cells of the half-plane; n x n of the half-space where the size is written nxn
 !>
-!> Prints rows of a table for each size. Scenes alternate, and the least time of each counts, because other programs may
+!> Prints a table with a column for each size: products + preconditionings and the time, in milliseconds or over that of
+!> the scene compared with, then the largest residual. Scenes alternate, and the least time of each counts, because other programs may
 !> run. Each solve is from scratch, operators are set before.
 program scenes
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
@@ -28,15 +29,19 @@ program scenes
   end type scene
 
   character(len=20) :: argument
+  !> The lines of the table.
+  character(len=400), allocatable :: lines(:)
+  real(dp) :: largest_residual
   integer :: k
 
   if (command_argument_count() == 0) error stop 'name sizes, such as 4096 or 256x256'
-  print '(a)', '| scene | products + preconditioner | over the first | time | over the first | residual |'
-  print '(a)', '| --- | ---: | ---: | ---: | ---: | ---: |'
+  largest_residual = 0.0_dp
   do k = 1, command_argument_count()
     call get_command_argument(k, argument)
     call measure(trim(argument))
   end do
+  print '(a)', (trim(lines(k))//' |', k=1, size(lines))
+  print '(a,es8.1)', 'Largest residual:', largest_residual
 
 contains
 
@@ -67,7 +72,7 @@ contains
       call make_scenes(x, y, .true., all)
       call run(area, all)
     end if
-    call show(size_text, all)
+    call append_column(size_text, all)
   end subroutine measure
 
   !> Centres of n cells of one width from -1 to 1.
@@ -222,18 +227,31 @@ contains
     what%seconds = min(what%seconds, now - begin)
   end subroutine solve
 
-  subroutine show(size_text, all)
+  !> Append a column to the table.
+  subroutine append_column(size_text, all)
     character(len=*), intent(in) :: size_text
     type(scene), intent(in) :: all(:)
+    character(len=40) :: cell
     integer :: j
 
+    if (.not. allocated(lines)) then
+      allocate (lines(size(all) + 2))
+      lines(:2) = ['| scene', '| ---  ']
+      lines(3:) = '| '//all%name
+    end if
+    lines(1) = trim(lines(1))//' | '//size_text
+    lines(2) = trim(lines(2))//' | ---:'
     do j = 1, size(all)
       associate (this => all(j), first => all(all(j)%reference))
-        print '(5a,i0,a,i0,a,f5.2,a,f9.1,a,f5.2,a,es7.0,a)', '| ', trim(this%name), ', ', size_text, ' | ', &
-          this%products, ' + ', this%preconditionings, ' | ', real(this%products, dp)/real(first%products, dp), ' | ', &
-          1.0e3_dp*this%seconds, ' ms | ', this%seconds/first%seconds, ' | ', this%residual, ' |'
+        if (this%reference == j) then
+          write (cell, '(i0,a,i0,a,f0.1,a)') this%products, ' + ', this%preconditionings, ', ', 1.0e3_dp*this%seconds, ' ms'
+        else
+          write (cell, '(i0,a,i0,a,f4.2)') this%products, ' + ', this%preconditionings, ', ', this%seconds/first%seconds
+        end if
+        lines(j + 2) = trim(lines(j + 2))//' | '//trim(cell)
+        largest_residual = max(largest_residual, this%residual)
       end associate
     end do
-  end subroutine show
+  end subroutine append_column
 
 end program scenes
