@@ -299,7 +299,8 @@ contains
       end do
     end if
     chosen = maxloc(closing, dim=1)
-    force(chosen) = max(maxval(abs(force)), tiny(1.0_dp))
+    if (.not. maxval(abs(force)) > 0.0_dp) force = 1.0_dp
+    force(chosen) = maxval(abs(force))
     where (closing < closing(chosen)) force = 0.0_dp
     scene%load = 'at the edge'
   end subroutine move_forces_to_edge
@@ -355,7 +356,7 @@ contains
     real(dp), intent(in) :: length
     type(engine_scene), intent(inout) :: scene
     real(dp), allocatable :: modes(:, :)
-    real(dp) :: share
+    real(dp) :: arm, share
     integer :: j, m
 
     if (.not. chance(seed, 0.3_dp)) return
@@ -365,7 +366,9 @@ contains
     share = merge(1.0_dp, 0.5_dp, chance(seed, 0.3_dp))
     do j = 1, m
       scene%problem%prescribed(j) = chance(seed, share)
-      scene%problem%motion(j) = length*uniform(seed, -1.0_dp, 2.0_dp)/max(maxval(abs(modes(:, j))), tiny(1.0_dp))
+      arm = maxval(abs(modes(:, j)))
+      if (.not. arm > 1.0e-12_dp) arm = 1.0_dp
+      scene%problem%motion(j) = length*uniform(seed, -1.0_dp, 2.0_dp)/arm
     end do
     if (m < 1) return
     if (any([(is_prescribed(scene%problem, j), j=1, m)])) scene%load = trim(scene%load)//', prescribed'
