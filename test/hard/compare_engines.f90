@@ -1,13 +1,13 @@
 !> Solves random scenes by the active set and by the iteration, and prints where they disagree.
 !>
-!> compare_engines [last] [first] [method]: scenes `first` to `last`, by default 1 to 10000; `method` 1 compares the
-!> tableau with the active set instead of the iteration (3). With first = last it prints the scene and both answers. It
-!> ends with an error if there is a disagreement.
+!> compare_engines [last] [first] [tableau|steps]: scenes `first` to `last`, by default 1 to 10000; `tableau` compares the
+!> tableau with the active set instead of the iteration; with `steps` one solver of the iteration follows a sequence of
+!> loads. With first = last it prints the scene and both answers. It ends with an error if there is a disagreement.
 program compare_engines
   use, intrinsic :: iso_fortran_env, only: output_unit
-  use engine_judge, only: engine_verdict, judge_scene, solve_scene_by
+  use engine_judge, only: engine_verdict, judge_scene, judge_steps, solve_scene_by
   use engine_scene_type, only: engine_scene
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_ITERATIVE
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
   use random_scenes, only: draw_scene
   implicit none
 
@@ -23,13 +23,15 @@ contains
   subroutine run()
     integer :: first, last, method, number, faults, statuses(LOWEST:HIGHEST)
     real(dp) :: dearest(3, LISTED), spread_of(3)
+    character(len=8) :: word
     type(engine_verdict) :: verdict
     type(engine_scene) :: scene
     type(fuge_info) :: info(2)
 
     last = argument(1, 10000)
     first = argument(2, 1)
-    method = argument(3, FUGE_ITERATIVE)
+    call get_command_argument(3, word)
+    method = merge(FUGE_TABLEAU, FUGE_ITERATIVE, word == 'tableau')
     faults = 0
     statuses = 0
     dearest = 0.0_dp
@@ -38,7 +40,11 @@ contains
       //'                     fault'
     do number = first, last
       call draw_scene(number, scene)
-      call judge_scene(scene, [FUGE_ACTIVE_SET, method], verdict, info)
+      if (word == 'steps') then
+        call judge_steps(scene, verdict, info)
+      else
+        call judge_scene(scene, [FUGE_ACTIVE_SET, method], verdict, info)
+      end if
       statuses(verdict%status(1)) = statuses(verdict%status(1)) + 1
       if (verdict%fault /= '') faults = faults + 1
       if (verdict%fault /= '') write (output_unit, '(i6,i5,6(1x,a))') number, verdict%points, scene%body, &
@@ -61,7 +67,7 @@ contains
     call get_command_argument(position, word)
     if (len_trim(word) < 1) return
     read (word, *, iostat=stat) argument
-    if (stat /= 0) error stop 'compare_engines [last] [first] [method]: whole numbers'
+    if (stat /= 0) error stop 'compare_engines [last] [first] [tableau|steps]'
   end function argument
 
   !> Keep the scenes with the most products for each point.

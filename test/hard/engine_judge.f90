@@ -5,14 +5,14 @@
 module engine_judge
   use engine_scene_type, only: engine_scene
   use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    fuge_solver, FUGE_DONE, FUGE_ITERATIVE, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL, FUGE_ERR_NO_EQUILIBRIUM, &
-    FUGE_ERR_NOT_DEFINITE
+    fuge_solver, FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ITERATIVE, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL, &
+    FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE
   use fuge_number_text, only: text
   use general_reference, only: general_violation, is_excluded, is_prescribed, modes_of, play_of
   implicit none
   private
 
-  public :: judge_scene, solve_scene_by, compare_answers
+  public :: judge_scene, judge_steps, solve_scene_by
 
   !> The residual that an answer without a warning may have, and the one by the tests' own equations.
   real(dp), parameter :: MOST_RESIDUAL = 1.0e-10_dp
@@ -65,14 +65,58 @@ contains
     call compare_answers(scene, solution, info, verdict)
   end subroutine judge_scene
 
+  !> As `judge_scene`, for a sequence of loads that one solver of the iteration follows from step to step: the scene, up by
+  !> 5 %, without the load of the first mode, and the scene again. `info` is that of the last step compared.
+  subroutine judge_steps(scene, verdict, info)
+    type(engine_scene), intent(inout) :: scene
+    type(engine_verdict), intent(out) :: verdict
+    type(fuge_info), intent(out) :: info(2)
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution(2)
+    type(fuge_problem) :: problem
+    integer :: step
+
+    problem = scene%problem
+    do step = 1, 4
+      scene%problem = problem
+      if (step == 2) call raise_loads(scene%problem)
+      if (step == 3 .and. size(problem%resultant) > 0) scene%problem%resultant(1) = 0.0_dp
+      call solve_scene_by(scene, FUGE_ACTIVE_SET, solution(1), info(1))
+      call solve_scene_with(solver, scene, FUGE_ITERATIVE, solution(2), info(2))
+      call compare_answers(scene, solution, info, verdict)
+      if (verdict%fault == '') cycle
+      verdict%details = 'step '//text(step)//': '//verdict%details
+      return
+    end do
+  end subroutine judge_steps
+
+  !> Loads and prescribed motions of 1.05 times their size.
+  pure subroutine raise_loads(problem)
+    type(fuge_problem), intent(inout) :: problem
+
+    problem%resultant = 1.05_dp*problem%resultant
+    if (allocated(problem%motion)) problem%motion = 1.05_dp*problem%motion
+  end subroutine raise_loads
+
   !> Solve by one engine; the iteration gets the operator if there is one.
   subroutine solve_scene_by(scene, method, solution, info)
     type(engine_scene), intent(in) :: scene
     integer, intent(in) :: method
     type(fuge_solution), intent(out) :: solution
     type(fuge_info), intent(out) :: info
-    type(fuge_dense_operator) :: operator
     type(fuge_solver) :: solver
+
+    call solve_scene_with(solver, scene, method, solution, info)
+  end subroutine solve_scene_by
+
+  !> Solve by a solver that may have solved other scenes.
+  subroutine solve_scene_with(solver, scene, method, solution, info)
+    type(fuge_solver), intent(inout) :: solver
+    type(engine_scene), intent(in) :: scene
+    integer, intent(in) :: method
+    type(fuge_solution), intent(out) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_dense_operator) :: operator
     real(dp), allocatable, target :: matrix(:, :)
 
     if (method == FUGE_ITERATIVE .and. allocated(scene%operator)) then
@@ -83,7 +127,7 @@ contains
     call operator%set(matrix, info)
     if (info%failed()) return
     call solver%solve(operator, scene%problem, solution, info, fuge_options(method))
-  end subroutine solve_scene_by
+  end subroutine solve_scene_with
 
   !> Compare status, message, residuals, forces, gaps and cost, and name the first fault. The second answer is that of
   !> the iteration.

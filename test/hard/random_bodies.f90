@@ -12,8 +12,9 @@ module random_bodies
 
   public :: draw_body
 
-  !> Largest number of points of a matrix, of cells in a direction of a grid.
-  integer, parameter :: MOST_POINTS = 80, MOST_CELLS = 24
+  !> Largest number of points of a matrix, of cells in a direction of a grid on a half-space and on a half-plane: enough
+  !> for coarser grids.
+  integer, parameter :: MOST_POINTS = 80, MOST_CELLS = 24, MOST_IN_A_ROW = 500
 
 contains
 
@@ -325,6 +326,7 @@ contains
     integer :: boundary, element, n
 
     n = draw_size(seed)
+    if (chance(seed, 0.2_dp)) n = MOST_POINTS + one_of(seed, MOST_IN_A_ROW - MOST_POINTS)
     boundary = merge(FUGE_FREE, FUGE_PERIODIC, chance(seed, 0.5_dp))
     element = merge(FUGE_CENTRE, FUGE_MEAN, chance(seed, 0.3_dp))
     call draw_positions(seed, n, scene)
