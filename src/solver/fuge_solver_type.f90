@@ -7,7 +7,7 @@ module fuge_solver_type
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
-  use fuge_iterative_engine, only: solve_by_iteration
+  use fuge_iterative_engine, only: is_general, solve_by_iteration
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_matrix_operator, only: fuge_dense_operator
@@ -377,7 +377,9 @@ contains
     real(dp) :: load
     logical :: warm
 
-    call check_iterative(problem, options, info)
+    call check_iterative(options, info)
+    if (info%failed()) return
+    if (is_general(problem)) call make_canonical(problem, self%canonical, info)
     if (info%failed()) return
     load = PRESCRIBED_APPROACH
     if (problem%is_plain()) load = problem%resultant(1)
@@ -387,29 +389,25 @@ contains
              .and. abs(load - self%last_load) <= WARM_RANGE*abs(self%last_load)
       if (.not. warm) deallocate (self%scaled_force)
     end if
-    call solve_by_iteration(operator, problem, options, monitor, self%scaled_force, solution, info)
+    call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%scaled_force, solution, info)
     ! Do not retry a solve that the operator or the monitor has ended.
     if (warm .and. any(info%status == [FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW])) then
       ! Status and message only: the counts go on.
       call report(info, FUGE_DONE, '')
       if (allocated(self%scaled_force)) deallocate (self%scaled_force)
-      call solve_by_iteration(operator, problem, options, monitor, self%scaled_force, solution, info)
+      call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%scaled_force, solution, info)
     end if
     if (.not. info%failed()) self%last_load = load
   end subroutine run_iteration
 
   !> Refuse what the iteration does not solve (FUGE_ERR_UNSUPPORTED).
-  pure subroutine check_iterative(problem, options, info)
-    type(fuge_problem), intent(in) :: problem
+  pure subroutine check_iterative(options, info)
     type(fuge_options), intent(in) :: options
     type(fuge_info), intent(inout) :: info
 
     if (options%keep_history) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'only the tableau keeps a history, and it needs a dense operator: ' &
                   //'leave keep_history out')
-    else if (allocated(problem%modes) .or. allocated(problem%gap_upper) .or. allocated(problem%excluded)) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration solves one-sided contact under one load or with a ' &
-                  //'prescribed approach: use FUGE_ACTIVE_SET with a dense operator')
     end if
   end subroutine check_iterative
 
