@@ -4,7 +4,8 @@
 !> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero. With other rigid modes
 !> the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, find_penetration
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, find_penetration, &
+    is_accurate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, max_abs_over
@@ -61,7 +62,7 @@ contains
     iterate%direction = 0.0_dp
     previous = 1.0_dp
     do iteration = 0, limit
-      iterate%converged = iterate%residual_norm <= tolerance*iterate%least_magnitude
+      iterate%converged = is_accurate(iterate, tolerance)
       if (iterate%converged .or. iteration == limit) return
       if (iteration > 0 .and. .not. to_tolerance) then
         if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
