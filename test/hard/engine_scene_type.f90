@@ -21,6 +21,8 @@ module engine_scene_type
     !> The body, the modes, the stops and the load in words.
     character(len=28) :: body = '', motions = '', stops = '', load = ''
     real(dp), allocatable :: alpha(:, :)
+    !> May some forces store no energy?
+    logical :: singular = .false.
     !> The operator of the iteration; unallocated: the matrix.
     class(fuge_operator), allocatable :: operator
     !> Positions of the points, (n), of size about 1.

@@ -88,7 +88,7 @@ contains
     allocate (products_only :: scene%operator)
     select type (operator => scene%operator)
     type is (products_only)
-      if (chance(seed, 0.3_dp)) operator%constant = scene%alpha(1, 1)*uniform(seed, -1.0_dp, 1.0_dp)
+      if (chance(seed, 0.3_dp)) operator%constant = uniform(seed, 0.0_dp, 1.0_dp)*minval(scene%alpha)
       allocate (operator%matrix, source=scene%alpha - operator%constant)
     end select
     scene%body = trim(scene%body)//', products'
@@ -251,6 +251,7 @@ contains
     scene%x = scene%x(origin)
     scene%y = scene%y(origin)
     scene%body = 'duplicates'
+    scene%singular = .true.
   end subroutine draw_duplicates
 
   !> B B^T of a random rank.
@@ -271,6 +272,7 @@ contains
     scene%alpha = matmul(b, transpose(b))
     scene%alpha = 0.5_dp*(scene%alpha + transpose(scene%alpha))/real(n, dp)
     scene%body = 'low rank'
+    scene%singular = .true.
   end subroutine draw_low_rank
 
   !> Springs in a row that are fixed nowhere, whole numbers: equal forces displace nothing.
@@ -293,6 +295,7 @@ contains
       scene%alpha(k + 1, k) = -spring(1)
     end do
     scene%body = 'free chain'
+    scene%singular = .true.
   end subroutine draw_chain
 
   !> B B^T + n I in whole numbers: ties.
@@ -338,6 +341,7 @@ contains
       call operator%set(n, 1.0_dp/real(n, dp), 1.0_dp/softness, info, element, boundary)
     end select
     call tabulate(scene%operator, scene%alpha)
+    scene%singular = boundary == FUGE_PERIODIC
     scene%body = merge('half-plane FFT, free    ', 'half-plane FFT, periodic', boundary == FUGE_FREE)
   end subroutine draw_halfplane_grid
 
@@ -369,6 +373,7 @@ contains
                         BOUNDARIES(kind))
     end select
     call tabulate(scene%operator, scene%alpha)
+    scene%singular = BOUNDARIES(kind) == FUGE_PERIODIC
     scene%body = NAMES(kind)
   end subroutine draw_halfspace_grid
 

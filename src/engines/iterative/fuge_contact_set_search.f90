@@ -7,7 +7,7 @@
 module fuge_contact_set_search
   use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_complete_contact, only: equal_forces_displace_nothing
-  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, is_accurate, make_feasible
+  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, is_accurate, make_feasible, rounding_force
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
@@ -36,6 +36,8 @@ module fuge_contact_set_search
   !> Block exchanges without a new minimum of wrong points before single exchanges begin; edges
   !> are extrapolated in the first half of them only.
   integer, parameter :: MAX_STALLS = 10
+  !> Tensions up to so many units in the last place of the largest force are rounding in any case.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
 
   !> What is required of the search on one grid.
   type, public :: search_settings
@@ -188,7 +190,7 @@ contains
     if (allocated(scene%modes) .and. .not. info%failed()) then
       call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
       ! With several modes a point without force may be the one that resists a motion.
-      iterate%tension_noise = SAFETY**2*settings%tolerance*maxval(abs(iterate%force))
+      iterate%tension_noise = max(tension_by_rounding(settings, iterate), rounding_force(scene, iterate))
     end if
     if (info%failed()) return
     call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
@@ -246,6 +248,21 @@ contains
 
     noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding
   end function penetration_noise
+
+  !> Tensions up to this are rounding. They are taken out in the end, so that they may not displace by more than the
+  !> tolerance allows.
+  pure function tension_by_rounding(settings, iterate) result(noise)
+    type(search_settings), intent(in) :: settings
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: noise
+    real(dp) :: largest
+
+    largest = maxval(abs(iterate%force))
+    noise = SAFETY**2*settings%tolerance*largest
+    if (noise*iterate%softness > penetration_noise(settings, iterate)) then
+      noise = max(penetration_noise(settings, iterate)/iterate%softness, ROUNDINGS*epsilon(noise)*largest)
+    end if
+  end function tension_by_rounding
 
   !> Primal active-set method (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974,
   !> chapter 23), which exchanges one point at a time and lowers the energy.

@@ -4,8 +4,8 @@
 !> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero. With other rigid modes
 !> the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, find_penetration, &
-    is_accurate
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
+    find_least_magnitude, find_penetration, is_accurate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, max_abs_over
@@ -63,6 +63,11 @@ contains
     previous = 1.0_dp
     do iteration = 0, limit
       iterate%converged = is_accurate(iterate, tolerance)
+      if (.not. iterate%converged .and. measured_again(scene, iteration, limit)) then
+        ! The forces at the start may have been others, even none.
+        call find_least_magnitude(operator, scene, iterate)
+        iterate%converged = is_accurate(iterate, tolerance)
+      end if
       if (iterate%converged .or. iteration == limit) return
       if (iteration > 0 .and. .not. to_tolerance) then
         if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
@@ -88,6 +93,18 @@ contains
       end if
     end do
   end subroutine run_projected_gradients
+
+  !> Is the length that residuals are compared with to be measured anew before this iteration? At the end, and seldom
+  !> before; with one translation the load gives it its size from the start.
+  pure function measured_again(scene, iteration, limit)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: iteration, limit
+    logical :: measured_again
+
+    measured_again = iteration == limit
+    if (.not. scene%is_simple()) measured_again = measured_again .or. (iteration > 1 &
+                                                                       .and. iand(iteration, iteration - 1) == 0)
+  end function measured_again
 
   !> The preconditioned residual, iterate%work, projected to forces without resultants, and its `energy`. Errors: those
   !> of the preconditioner.
@@ -141,6 +158,10 @@ contains
     step_length = 0.0_dp
     call compute_displacement(operator, counts_datum(scene, iterate), iterate%direction, iterate%work, info)
     if (info%failed()) return
+    if (allocated(scene%modes)) then
+      iterate%softness = max(iterate%softness, maxval(abs(iterate%work)) &
+                             /max(max_abs_over(iterate%segments, iterate%direction), tiny(curvature)))
+    end if
     if (allocated(scene%modes)) call remove_rigid_motion(iterate, rigid_motion)
     call dot_and_sum_over(iterate%segments, iterate%direction, iterate%work, curvature, total)
     if (curvature > 0.0_dp) then
