@@ -11,6 +11,8 @@ module fuge_iterated_set
     !> The least of the smallest values that conjugate gradients found on contact sets, as in fuge_lanczos_values; 0
     !> before any step.
     real(dp) :: smallest_value = 0.0_dp
+    !> What the preconditioner made of a small residual there; force per length.
+    real(dp) :: amplification = 0.0_dp
     !> The tolerance of the solve, which derivatives share.
     real(dp) :: tolerance = 0.0_dp
   end type iterated_set

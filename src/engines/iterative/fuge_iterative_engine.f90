@@ -88,7 +88,10 @@ contains
     if (.not. info%failed()) call start_iterate(iterate, scene, scaled_force, info)
     if (info%failed()) return
     ! A start that needs no step tells nothing of the operator.
-    if (warm) iterate%smallest_value = last%smallest_value
+    if (warm) then
+      iterate%smallest_value = last%smallest_value
+      iterate%amplification = last%amplification
+    end if
     call find_contact_set(operator, settings, scene, monitor, iterate, info)
     if (.not. info%failed()) call keep_states(iterate, last, info)
     if (info%failed()) return
@@ -100,6 +103,7 @@ contains
     if (info%failed()) return
     call move_alloc(iterate%force, scaled_force)
     last%smallest_value = iterate%smallest_value
+    last%amplification = iterate%amplification
     last%tolerance = options%tolerance
   end subroutine solve_by_iteration
 

@@ -18,11 +18,13 @@ module fuge_projected_gradients
   implicit none
   private
 
-  public :: precondition_residual, run_projected_gradients
+  public :: run_projected_gradients
 
   !> The contact set can be judged once the errors of the forces are below this fraction of the
   !> largest tension, or those of the gaps below this fraction of the deepest penetration.
   real(dp), parameter :: DECISIVE = 0.2_dp
+  !> What the preconditioner makes of residuals is measured where they are within this factor of the tolerance.
+  real(dp), parameter :: NEARLY = 100.0_dp
   !> Exact conjugate gradients need as many iterations as there are points; rounded ones
   !> several times as many where alpha is badly conditioned.
   integer, parameter :: ITERATIONS_PER_POINT = 10
@@ -74,6 +76,9 @@ contains
       end if
       call precondition_residual(operator, scene, preconditioner, iterate, energy, info)
       if (info%failed()) return
+      if (iteration == 0 .or. is_accurate(iterate, NEARLY*tolerance)) then
+        iterate%amplification = max_abs_over(iterate%segments, iterate%work)/iterate%residual_norm
+      end if
       if (iteration > 0 .and. preconditioned .and. .not. to_tolerance) then
         if (tension_is_decided(scene, iterate, DECISIVE)) return
       end if
