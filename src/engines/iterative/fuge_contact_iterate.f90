@@ -53,6 +53,8 @@ module fuge_contact_iterate
     real(dp) :: tension_noise = 0.0_dp
     !> With modes: the largest displacement by forces of size 1, of all products so far; length per force.
     real(dp) :: softness = 0.0_dp
+    !> Do forces of the set that store no energy grow for ever, so that there is no solution?
+    logical :: unbounded = .false.
     !> Did run_projected_gradients reduce the residual to its tolerance?
     logical :: converged = .false.
     !> The least of the smallest values of `lanczos` so far; 0 before any step.

@@ -14,11 +14,12 @@ module fuge_contact_set_search
   use fuge_force_error, only: estimated_force_error
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_projected_gradients, only: run_projected_gradients
-  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_ITERATION_LIMIT, &
+    FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
     penetrated_stop
   implicit none
@@ -132,7 +133,7 @@ contains
     logical :: undetermined
 
     undetermined = .false.
-    if (.not. iterate%prescribed .or. allocated(scene%modes)) return
+    if (.not. (iterate%prescribed .and. scene%is_simple())) return
     if (all(iterate%contact)) undetermined = equal_forces_displace_nothing(operator, info)
   end function has_undetermined_forces
 
@@ -193,6 +194,11 @@ contains
     if (info%failed()) return
     call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
                                  iterate, info)
+    if (iterate%unbounded .and. .not. (settings%coarse_grid .or. info%failed())) then
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular, and there is no solution: forces that store ' &
+                  //'no energy, the largest at point '//index_text(maxloc(abs(iterate%direction), dim=1)) &
+                  //', cannot move the points to their stops; free the rigid motion that can, or change the gaps')
+    end if
     if (info%failed()) return
     info%iterations = info%iterations + 1
     if (.not. settings%coarse_grid) call note_smallest_value(iterate)

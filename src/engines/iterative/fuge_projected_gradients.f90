@@ -11,6 +11,7 @@ module fuge_projected_gradients
   use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, max_abs_over
   use fuge_contact_step, only: step_over
   use fuge_kinds, only: dp
+  use fuge_null_direction, only: find_softness, leave_null_direction, stores_no_energy
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_DEFINITE
@@ -57,6 +58,7 @@ contains
     logical :: preconditioned
 
     iterate%converged = .false.
+    iterate%unbounded = .false.
     preconditioned = operator%has_preconditioner()
     call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
@@ -87,7 +89,7 @@ contains
         return
       end if
       call update_direction(iterate%segments, energy/previous, iterate%work, iterate%direction)
-      call advance_along_direction(operator, scene, energy, iterate, step_length, info)
+      call advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
       if (.not. step_length > 0.0_dp) return
       if (iteration == 0) call iterate%lanczos%restart()
       call iterate%lanczos%add(step_length, energy/previous)
@@ -147,13 +149,13 @@ contains
 
   !> Go to the minimum of the energy along the search direction.
   !>
-  !> `energy` is the inner product of the residual and the preconditioned residual;
-  !> `step_length` is 0 where the curvature is not positive, or after an error. Errors: those of
+  !> `energy` is the inner product of the residual and the preconditioned residual, `tolerance` as for
+  !> `run_projected_gradients`; `step_length` is 0 where the curvature is not positive, or after an error. Errors: those of
   !> the operator, FUGE_ERR_NOT_DEFINITE.
-  subroutine advance_along_direction(operator, scene, energy, iterate, step_length, info)
+  subroutine advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
-    real(dp), intent(in) :: energy
+    real(dp), intent(in) :: tolerance, energy
     type(contact_iterate), intent(inout) :: iterate
     real(dp), intent(out) :: step_length
     type(fuge_info), intent(inout) :: info
@@ -163,13 +165,13 @@ contains
     step_length = 0.0_dp
     call compute_displacement(operator, counts_datum(scene, iterate), iterate%direction, iterate%work, info)
     if (info%failed()) return
-    if (allocated(scene%modes)) then
-      iterate%softness = max(iterate%softness, maxval(abs(iterate%work)) &
-                             /max(max_abs_over(iterate%segments, iterate%direction), tiny(curvature)))
-    end if
+    if (iterate%prescribed) call find_softness(operator, scene, iterate, info)
+    if (info%failed()) return
     if (allocated(scene%modes)) call remove_rigid_motion(iterate, rigid_motion)
     call dot_and_sum_over(iterate%segments, iterate%direction, iterate%work, curvature, total)
-    if (curvature > 0.0_dp) then
+    if (iterate%prescribed .and. stores_no_energy(iterate, curvature)) then
+      call leave_null_direction(scene, tolerance, energy, iterate)
+    else if (curvature > 0.0_dp) then
       step_length = energy/curvature
       if (iterate%prescribed) total = 0.0_dp
       call take_step(scene, step_length, total/real(iterate%segments%points, dp), iterate)
