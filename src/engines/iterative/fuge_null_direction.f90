@@ -19,8 +19,8 @@ module fuge_null_direction
   real(dp), parameter :: ROUNDINGS = 64.0_dp
   !> Forces of a direction below this fraction of its largest one are what it has of others.
   real(dp), parameter :: NO_FORCE = 1.0e-4_dp
-  !> A step along the direction goes this far beyond the forces that there are.
-  real(dp), parameter :: FAR = 1.0e5_dp
+  !> A step along the direction goes this fraction of the forces beyond the first zero.
+  real(dp), parameter :: BEYOND = 1.0e-3_dp
 
 contains
 
@@ -76,35 +76,55 @@ contains
     end do
   end function total_force
 
-  !> May forces of the set go against the search direction for ever, because none of them changes its sign?
-  pure function is_unbounded(scene, iterate) result(unbounded)
+  !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search direction;
+  !> nothing where it is tied.
+  pure function loss_at(scene, iterate, k) result(loss)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
-    logical :: unbounded
-    real(dp) :: least, pull
-    integer :: k
+    integer, intent(in) :: k
+    real(dp) :: loss
 
-    unbounded = .true.
-    least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
-    do k = 1, size(iterate%contact)
-      if (.not. iterate%contact(k)) cycle
-      pull = iterate%direction(k)
-      if (allocated(iterate%at_upper)) pull = merge(-pull, pull, iterate%at_upper(k))
-      if (pull > least .and. .not. scene%is_tied(k)) unbounded = .false.
-    end do
-  end function is_unbounded
+    loss = 0.0_dp
+    if (.not. iterate%contact(k) .or. scene%is_tied(k)) return
+    loss = sign_at(iterate, k)*iterate%direction(k)
+  end function loss_at
 
-  !> Go against the search direction, which stores no energy, so far that forces change their sign; iterate%unbounded if
-  !> none does. Not where it does no work beyond rounding, `energy` being that for a step of 1: the mean residual is
-  !> below `tolerance` times the lengths of the scene.
+  !> The sign of a force at the stop where point `k` is.
+  pure function sign_at(iterate, k) result(sign_of_force)
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    real(dp) :: sign_of_force
+
+    sign_of_force = 1.0_dp
+    if (.not. allocated(iterate%at_upper)) return
+    if (iterate%at_upper(k)) sign_of_force = -1.0_dp
+  end function sign_at
+
+  !> Go against the search direction, which stores no energy, until a force has changed its sign, unless one has already;
+  !> iterate%unbounded if none ever does. Not where it does no work beyond rounding, `energy` being that for a step of 1:
+  !> the mean residual is below `tolerance` times the lengths of the scene.
   pure subroutine leave_null_direction(scene, tolerance, energy, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: tolerance, energy
     type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: force, least, loss, step_length
+    integer :: k
 
     if (energy <= (tolerance*length_of(scene, iterate) + iterate%rounding)*total_force(iterate)) return
-    iterate%unbounded = is_unbounded(scene, iterate)
-    if (.not. iterate%unbounded) iterate%force = iterate%force - step_along_null(scene, iterate)*iterate%direction
+    iterate%unbounded = .true.
+    least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
+    step_length = huge(step_length)
+    do k = 1, size(iterate%contact)
+      loss = loss_at(scene, iterate, k)
+      if (.not. loss > least) cycle
+      iterate%unbounded = .false.
+      force = sign_at(iterate, k)*iterate%force(k)
+      if (force < -iterate%tension_noise) return
+      step_length = min(step_length, max(force, 0.0_dp)/loss)
+    end do
+    if (iterate%unbounded) return
+    step_length = step_length + BEYOND*force_scale(scene, iterate)/max_abs_over(iterate%segments, iterate%direction)
+    iterate%force = iterate%force - step_length*iterate%direction
   end subroutine leave_null_direction
 
   !> The largest of gaps, plays and displacements by the resultants. Not of the displacements by the forces, which may
@@ -119,17 +139,14 @@ contains
     if (allocated(scene%balance)) length = max(length, iterate%softness*maxval(abs(scene%balance)))
   end function length_of
 
-  !> The step after which the forces of the direction are large beside all others.
-  pure function step_along_null(scene, iterate) result(step_length)
+  !> The size of the forces, or of those that would close the gaps.
+  pure function force_scale(scene, iterate) result(force)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
-    real(dp) :: step_length
     real(dp) :: force
 
     force = maxval(abs(iterate%force))
-    if (iterate%softness > 0.0_dp) force = max(force, iterate%residual_norm/iterate%softness)
-    if (allocated(scene%balance)) force = max(force, maxval(abs(scene%balance)))
-    step_length = FAR*force/max(max_abs_over(iterate%segments, iterate%direction), tiny(force))
-  end function step_along_null
+    if (.not. force > 0.0_dp .and. iterate%softness > 0.0_dp) force = length_of(scene, iterate)/iterate%softness
+  end function force_scale
 
 end module fuge_null_direction
