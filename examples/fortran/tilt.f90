@@ -7,9 +7,9 @@
 !> F and M. The flat punch stays in full contact up to e = a/2 and then lifts off; the rounded
 !> one, y = x**2/(2 R), rolls until its contact reaches the corner. Beyond e = a both would
 !> tip over. Everything is per unit depth and compared with the exact answer.
-!> First 400 cells with a matrix, for every eccentricity; then some of these scenes again with 262144 cells by FFT: the
-!> problem is the same, only the operator is another.
-!> For the picture it writes tilt_length.csv and tilt_pressure.csv.
+!> First 400 cells with a matrix, for every eccentricity; then some of these scenes again by FFT, with up to 262144
+!> cells: the problem is the same, only the operator is another.
+!> For the picture it writes tilt_length.csv, tilt_pressure.csv and tilt_error.csv.
 program tilt
   use example_output, only: create_file
   use, intrinsic :: iso_fortran_env, only: int64
@@ -20,6 +20,8 @@ program tilt
 
   !> N, mm.
   integer, parameter :: CELLS = 400, FINE_CELLS = 2**18
+  !> By FFT also 4, 16, .. times fewer cells.
+  integer, parameter :: SIZES = 7
   real(dp), parameter :: HALF_FACE = 10.0_dp, E_STAR = 1.0e5_dp, LOAD = 5.0e3_dp
   real(dp), parameter :: PI = acos(-1.0_dp)
   !> As long as it does not reach a corner, the contact of the rounded punch covers 0.4 of the face.
@@ -56,7 +58,7 @@ contains
     call all_eccentricities(operator, x, 'rounded', 1.0_dp/RADIUS, file)
     close (file)
     call write_pressures(operator, x)
-    call repeat_by_fft(operator, x)
+    call repeat_by_fft(operator)
     call tip_over(operator, x)
   end subroutine run
 
@@ -107,65 +109,80 @@ contains
     end do
   end subroutine all_eccentricities
 
-  !> Scenes of both punches by the matrix and with many more cells by FFT, each from scratch.
-  subroutine repeat_by_fft(operator, x)
+  !> Scenes of both punches by the matrix and by FFT, with up to FINE_CELLS cells, each from scratch.
+  subroutine repeat_by_fft(operator)
     type(fuge_dense_operator), intent(in) :: operator
-    real(dp), intent(in) :: x(:)
-    type(fuge_halfplane_operator) :: fine
+    type(fuge_halfplane_operator) :: grids(SIZES)
     type(fuge_info) :: info
     real(dp), parameter :: ECCENTRICITIES(3) = [0.25_dp, 0.5_dp, 0.72_dp]
-    real(dp), allocatable :: fine_x(:)
-    integer :: j
+    integer :: file, j, n
 
-    allocate (fine_x(FINE_CELLS))
-    fine_x = centres(FINE_CELLS)
-    call fine%set(FINE_CELLS, width_of(fine_x), E_STAR, info, element=FUGE_MEAN)
-    if (info%failed()) error stop 'no operator'
+    do j = 1, SIZES
+      n = FINE_CELLS/4**(SIZES - j)
+      call grids(j)%set(n, 2.0_dp*HALF_FACE/real(n, dp), E_STAR, info, element=FUGE_MEAN)
+      if (info%failed()) error stop 'no operator'
+    end do
+    call create_file('tilt_error.csv', 1, file)
+    write (file, '(a)') 'punch,eccentricity/a,cells,error of the rotation,of the approach,of the pressure'
     print '(/,2(a,i0),a)', 'The same with ', CELLS, ' cells and a matrix, and with ', FINE_CELLS, ' cells by FFT'
     print '(a)', '           e/a      cells  contact from .. to [mm]  rotation [mrad]  approach [mm]  middle [N/mm2]' &
       //'  products  time [s]'
     do j = 1, size(ECCENTRICITIES)
-      call repeat_scene('flat', ECCENTRICITIES(j)*HALF_FACE, 0.0_dp, operator, x, fine, fine_x)
+      call repeat_scene('flat', ECCENTRICITIES(j)*HALF_FACE, 0.0_dp, operator, grids, file)
     end do
     do j = 1, size(ECCENTRICITIES)
-      call repeat_scene('rounded', ECCENTRICITIES(j)*HALF_FACE, 1.0_dp/RADIUS, operator, x, fine, fine_x)
+      call repeat_scene('rounded', ECCENTRICITIES(j)*HALF_FACE, 1.0_dp/RADIUS, operator, grids, file)
     end do
+    close (file)
   end subroutine repeat_by_fft
 
-  subroutine repeat_scene(name, eccentricity, curvature, operator, x, fine, fine_x)
+  !> One scene by the matrix and on all grids, of which the last one is printed; the errors of all go to the file.
+  subroutine repeat_scene(name, eccentricity, curvature, operator, grids, file)
     character(len=*), intent(in) :: name
-    real(dp), intent(in) :: eccentricity, curvature, x(:), fine_x(:)
-    class(fuge_operator), intent(in) :: operator, fine
-    type(contact) :: exact
+    real(dp), intent(in) :: eccentricity, curvature
+    type(fuge_dense_operator), intent(in) :: operator
+    type(fuge_halfplane_operator), intent(in) :: grids(:)
+    integer, intent(in) :: file
+    type(contact) :: exact, found
+    integer :: k
 
     exact = exact_contact(eccentricity, curvature)
     print '(a8,f6.2,a11,1x,2f12.6,2f16.7,f16.4)', name, eccentricity/HALF_FACE, 'exact', exact%middle - exact%half, &
       exact%middle + exact%half, 1.0e3_dp*exact%rotation, exact%approach, exact%pressure
-    call press_and_show(operator, x, eccentricity, curvature, exact)
-    call press_and_show(fine, fine_x, eccentricity, curvature, exact)
+    call press_once(operator, eccentricity, curvature, .true., found)
+    do k = 1, size(grids)
+      call press_once(grids(k), eccentricity, curvature, k == size(grids), found)
+      write (file, '(a,'','',f6.3,'','',i0,3('','',es12.4))') name, eccentricity/HALF_FACE, grids(k)%points(), &
+        abs(found%rotation/exact%rotation - 1.0_dp), abs(found%approach/exact%approach - 1.0_dp), &
+        abs(found%pressure/exact%pressure - 1.0_dp)
+      if (grids(k)%points() >= CELLS) call compare(found, exact, width_of(centres(grids(k)%points())))
+    end do
   end subroutine repeat_scene
 
-  !> Solve one scene from scratch and print a line of the table.
-  subroutine press_and_show(operator, x, eccentricity, curvature, exact)
+  !> Solve one scene from scratch; a line of the table if `is_shown`.
+  subroutine press_once(operator, eccentricity, curvature, is_shown, found)
     class(fuge_operator), intent(in) :: operator
-    real(dp), intent(in) :: x(:), eccentricity, curvature
-    type(contact), intent(in) :: exact
+    real(dp), intent(in) :: eccentricity, curvature
+    logical, intent(in) :: is_shown
+    type(contact), intent(out) :: found
+    real(dp), allocatable :: x(:)
     type(fuge_problem) :: problem
     type(fuge_solver) :: solver
     type(fuge_solution) :: solution
-    type(contact) :: found
     integer :: products
     integer(int64) :: start, finish, rate
 
+    allocate (x(operator%points()))
+    x = centres(size(x))
     problem = punch(x, curvature)
     call system_clock(start, rate)
     call press(operator, problem, eccentricity, solver, solution, products)
     call system_clock(finish)
     found = contact_of(solution, x)
-    print '(i25,1x,2f12.6,2f16.7,f16.4,i10,f10.3)', size(x), found%middle - found%half, found%middle + found%half, &
-      1.0e3_dp*found%rotation, found%approach, found%pressure, products, real(finish - start, dp)/real(rate, dp)
-    call compare(found, exact, width_of(x))
-  end subroutine press_and_show
+    if (is_shown) print '(i25,1x,2f12.6,2f16.7,f16.4,i10,f10.3)', size(x), found%middle - found%half, &
+      found%middle + found%half, 1.0e3_dp*found%rotation, found%approach, found%pressure, products, &
+      real(finish - start, dp)/real(rate, dp)
+  end subroutine press_once
 
   !> Initial gap x**2 curvature/2; the load is set later.
   function punch(x, curvature) result(problem)
