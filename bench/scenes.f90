@@ -3,7 +3,7 @@
 !>
 !>     scenes [sizes]     n cells of the half-plane; n x n of the half-space where the size is written nxn
 !>
-!> Prints a table with a column for each size: products + preconditionings and the time, in milliseconds or over that of
+!> Prints a table with a column for each size: products + preconditionings and the time, in microseconds or over that of
 !> the scene compared with, then the largest residual. Scenes alternate, and the least time of each counts, because other programs may
 !> run. Each solve is from scratch, operators are set before.
 program scenes
@@ -244,7 +244,7 @@ contains
     do j = 1, size(all)
       associate (this => all(j), first => all(all(j)%reference))
         if (this%reference == j) then
-          write (cell, '(i0,a,i0,a,f0.1,a)') this%products, ' + ', this%preconditionings, ', ', 1.0e3_dp*this%seconds, ' ms'
+          write (cell, '(i0,a,i0,a,i0,a)') this%products, ' + ', this%preconditionings, ', ', nint(1.0e6_dp*this%seconds), ' us'
         else
           write (cell, '(i0,a,i0,a,f4.2)') this%products, ' + ', this%preconditionings, ', ', this%seconds/first%seconds
         end if
