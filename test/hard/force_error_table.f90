@@ -20,8 +20,8 @@ contains
     trials = 500
     call get_command_argument(1, word)
     if (len_trim(word) > 0) read (word, *) trials
-    write (output_unit, '(a)') '| problem | condition | answers | largest error | below 1/30 | 1/30 .. 1/3 | 1/3 .. 3 ' &
-      //'| 3 .. 100 | above 100 | silent | false |'
+    write (output_unit, '(a)') '| problem | condition | answers | largest error | below 1/30 | 1/30 .. 1/3 | 1/3 .. 3' &
+      //' | 3 .. 100 | above 100 | silent | false |'
     write (output_unit, '(a)') '| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |'
     do kind = 1, KINDS
       do decimals = 2, 16, 2

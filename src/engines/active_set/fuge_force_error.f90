@@ -34,8 +34,8 @@ module fuge_force_error
 
 contains
 
-  !> The largest error of a force relative to the largest force, an estimate: what refinement has left, and what rounding
-  !> means that it does not see. At most 1, where no digit is known; 0 without forces.
+  !> The largest error of a force relative to the largest force, an estimate: what refinement has left, and what
+  !> rounding means that it does not see. At most 1, where no digit is known; 0 without forces.
   !>
   !> `canonical`, `alpha` and `factor` those of the `solution` of `problem`, in which a refinement has left its error;
   !> `motion` (m) in the given modes.
@@ -65,8 +65,8 @@ contains
   !> The largest change of a force by the rounding of modes and of prescribed motions, an estimate: one solve with the
   !> factor of the contact set, unless that set is large and a bound small.
   !>
-  !> `length` (n): what such rounding leaves open of each gap; not allocated if nothing. Modes whose entries are 0 or one
-  !> other value are exact.
+  !> `length` (n): what such rounding leaves open of each gap; not allocated if nothing. Modes whose entries are 0 or
+  !> one other value are exact.
   subroutine error_by_modes(canonical, factor, problem, motion, solution, error, length)
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
@@ -121,8 +121,8 @@ contains
 
   !> A bound of the change of a force by changes of the gaps up to `length` and of the canonical loads by `load_change`:
   !> before refinement the forces had the error that rounding makes of all terms of the equations, and these changes are
-  !> compared with those terms. LARGEST where there is nothing to compare with, as of bodies with loads of their own, or no digit was
-  !> right.
+  !> compared with those terms. LARGEST where there is nothing to compare with, as of bodies with loads of their own, or
+  !> where no digit was right.
   pure function bound_by_refinement(canonical, problem, motion, solution, length, load_change) result(bound)
     type(canonical_problem), intent(in) :: canonical
     type(fuge_problem), intent(in) :: problem
