@@ -29,8 +29,7 @@
  * w = F_0.  alpha has to be positive definite on the forces with R^T f = 0 in the free
  * motions.  The forces are then unique.  A free motion that no contact resists (w = 0, or a
  * body about to tip) is not: the solution has one of the possible values, with
- * FUGE_WARN_NOT_UNIQUE.  General problems need a dense operator, for the active set or the
- * tableau; the iteration takes the paper's problem and a prescribed translation.
+ * FUGE_WARN_NOT_UNIQUE.  Every engine solves every problem of this form.
  *
  * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda].  Points, rows,
  * degrees of freedom and modes count from 0, in messages too, unless an argument says
@@ -554,9 +553,10 @@ int fuge_get_resultant(const fuge_solver *s, double *resultant);  /* m: R^T f; o
  * not change: the changes of force and gap (n each) and of v_0 (motion, 1) for a change of
  * the gaps (n; NULL for none) and of the load.  gap and motion may be NULL.  With gap_change
  * NULL and load_change 1 the contact stiffness is 1/motion; a unit gap_change at k gives
- * column k of the sensitivity to the gaps.  Each call costs four triangular solves.
- * FUGE_ERR_CALL_ORDER also after a solve with zero load; FUGE_ERR_SIZE unless m = 1;
- * FUGE_ERR_UNSUPPORTED unless the operator is dense. */
+ * column k of the sensitivity to the gaps.  After a dense engine each call costs four
+ * triangular solves, after the iteration products on the contact set, to the tolerance of the
+ * solve.  FUGE_ERR_CALL_ORDER also after a solve with zero load; FUGE_ERR_SIZE unless m = 1;
+ * FUGE_ERR_NO_EQUILIBRIUM where the contact does not resist what the changes load. */
 int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double load_change,
                         double *force, double *gap, double *motion);
 

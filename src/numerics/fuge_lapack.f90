@@ -4,8 +4,8 @@ module fuge_lapack
   implicit none
   private
 
-  public :: ddot, dgelsy, dgemm, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dsyev, dsymv, &
-    dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
+  public :: ddot, dgelsy, dgemm, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dpttrs, dsyev, &
+    dsymv, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
 
   interface
     !> x.y.
@@ -108,6 +108,16 @@ module fuge_lapack
       real(dp), intent(inout) :: b(ldb, *)
       integer, intent(out) :: info
     end subroutine dpotrs
+
+    !> Solve with the factors L D L^T of a symmetric positive definite tridiagonal matrix: `d` (n) the diagonal of D,
+    !> `e` (n - 1) the elements of L below its unit diagonal.
+    subroutine dpttrs(n, nrhs, d, e, b, ldb, info)
+      import :: dp
+      integer, intent(in) :: n, nrhs, ldb
+      real(dp), intent(in) :: d(*), e(*)
+      real(dp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dpttrs
 
     !> Eigenvalues, ascending, and eigenvectors of a symmetric matrix.
     subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)

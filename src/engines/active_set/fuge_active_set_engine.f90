@@ -15,7 +15,7 @@ module fuge_active_set_engine
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NOT_DEFINITE
   use fuge_unbounded_forces, only: forces_are_unbounded
-  use fuge_unresisted_motions, only: find_unresisted_motion
+  use fuge_unresisted_motions, only: report_unresisted_motion
   use fuge_working_set, only: working_set
   implicit none
   private
@@ -114,20 +114,5 @@ contains
                 //'energy, the largest at point '//index_text(maxloc(abs(solution%force), dim=1)) &
                 //', cannot move the points to their stops; free the rigid motion that can, or change the gaps')
   end subroutine refuse_unbounded
-
-  !> Warn of a motion that the contact does not resist, by the mode that dominates it.
-  subroutine report_unresisted_motion(canonical, solution, info)
-    type(canonical_problem), intent(in) :: canonical
-    type(contact_solution), intent(in) :: solution
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: motion(size(canonical%load))
-
-    if (size(motion) < 1) return
-    call find_unresisted_motion(canonical, solution, motion)
-    if (.not. any(abs(motion) > 0.0_dp)) return
-    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not resist motion ' &
-                //index_text(canonical%dominant_mode(motion)) &
-                //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
-  end subroutine report_unresisted_motion
 
 end module fuge_active_set_engine

@@ -5,11 +5,13 @@ module fuge_unresisted_motions
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text
   use fuge_pivoted_qr, only: orthogonal_complement
+  use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE
   implicit none
   private
 
-  public :: find_unresisted_motion, find_unresisted_basis, is_resisted, without_unresisted
+  public :: find_unresisted_motion, find_unresisted_basis, is_resisted, report_unresisted_motion, without_unresisted
 
   !> Rows of the modes that differ by less than this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
@@ -46,6 +48,21 @@ contains
       if (any(abs(motion) > 0.0_dp)) return
     end do
   end subroutine find_unresisted_motion
+
+  !> Warn of a motion that the contact does not resist, by the mode that dominates it.
+  subroutine report_unresisted_motion(canonical, solution, info)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_solution), intent(in) :: solution
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: motion(size(canonical%load))
+
+    if (size(motion) < 1) return
+    call find_unresisted_motion(canonical, solution, motion)
+    if (.not. any(abs(motion) > 0.0_dp)) return
+    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not resist motion ' &
+                //index_text(canonical%dominant_mode(motion)) &
+                //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
+  end subroutine report_unresisted_motion
 
   !> Points (n) that are tied, or that carry more force than rounding makes.
   pure function carries_force(canonical, solution) result(carries)

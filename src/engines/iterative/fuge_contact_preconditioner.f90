@@ -9,11 +9,14 @@
 !> varies within groups of sixteen of its cells, and the next level handles the group means.
 !> doc/theory.md shows that the sum over the levels is symmetric and positive definite.
 module fuge_contact_preconditioner
-  use fuge_contact_segments, only: contact_segments, dot_over, subtract_and_dot_over, sum_over
+  use fuge_contact_segments, only: contact_segments, dot_over, max_abs_over, subtract_and_dot_over, &
+    sum_over
   use fuge_kinds, only: dp
+  use fuge_mode_projection, only: mode_projection
   use fuge_number_text, only: text
   use fuge_operator_products, only: precondition
   use fuge_operator_type, only: fuge_operator
+  use fuge_rigid_images, only: rigid_images
   use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
@@ -27,6 +30,8 @@ module fuge_contact_preconditioner
   integer, parameter :: MANY_SEGMENTS = 16
   !> `uniform` is kept while at most this fraction of the set has changed since it was computed.
   real(dp), parameter :: CLOSE = 0.05_dp
+  !> A negative energy below this fraction of the magnitude of its terms is rounding.
+  real(dp), parameter :: ROUNDING = 1.0e-10_dp
   !> More levels than any grid has.
   integer, parameter :: MAX_LEVELS = 8
 
@@ -62,52 +67,63 @@ module fuge_contact_preconditioner
     !> The preconditioner applied to a unit residual on the whole set, (n): forces that displace
     !> all its points almost equally; and their sum over the present set.
     real(dp), allocatable, private :: uniform(:)
+    !> `uniform` is that of the present set.
+    logical, private :: has_uniform = .false.
     !> The present set is not that of `uniform`, but close to it.
     logical, private :: is_close = .false.
     !> A residual, (n), zero off the present set; allocated if it is needed.
     real(dp), allocatable, private :: centred(:)
     real(dp), private :: sum_of_uniform = 1.0_dp
+    !> What stands for `uniform` where there are several rigid modes.
+    type(rigid_images), private :: rigid
     !> Force per length that stands for the preconditioner where the operator has none.
     real(dp), private :: stiffness = 1.0_dp
+    logical, private :: has_stiffness = .false.
     !> Applications on coarser levels, each counted as its fraction of one on the finest.
     real(dp) :: coarse_share = 0.0_dp
   contains
     procedure :: set
+    procedure :: set_modes
     procedure :: apply
+    procedure :: apply_with_modes
   end type contact_preconditioner
 
 contains
 
   !> Prepare for a contact set; does nothing if it is the same set as before, and little if it is close to it.
   !>
-  !> `contact` (n); `compliance` a typical displacement per force, used where the operator has no
-  !> preconditioner. Errors: FUGE_ERR_MEMORY; FUGE_ERR_NOT_DEFINITE for a preconditioner that is
-  !> not positive definite; those of `precondition`.
-  subroutine set(self, operator, contact, compliance, info)
+  !> `contact` (n); `zero_sum` whether it will be applied with zero sums; `compliance` a typical displacement per force,
+  !> used where the operator has no preconditioner. Errors: FUGE_ERR_MEMORY; FUGE_ERR_NOT_DEFINITE for a preconditioner
+  !> that is not positive definite; those of `precondition`.
+  subroutine set(self, operator, contact, zero_sum, compliance, info)
     class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     logical, intent(in) :: contact(:)
+    logical, intent(in) :: zero_sum
     real(dp), intent(in) :: compliance
     type(fuge_info), intent(inout) :: info
     type(contact_segments) :: segments
 
     if (.not. operator%has_preconditioner()) then
-      ! Only avoids overflow: conjugate gradients do not depend on a factor.
-      self%stiffness = 1.0_dp
-      if (compliance >= tiny(compliance)) self%stiffness = 1.0_dp/compliance
+      ! Only avoids overflow: conjugate gradients do not depend on a factor. The first one is kept, so that what they
+      ! find on one set can be compared with another.
+      if (self%has_stiffness .or. .not. compliance >= tiny(compliance)) return
+      self%stiffness = 1.0_dp/compliance
+      self%has_stiffness = .true.
       return
     end if
-    if (self%depth > 0 .and. .not. self%is_close) then
+    if (self%depth > 0 .and. .not. self%is_close .and. (self%has_uniform .or. .not. zero_sum)) then
       if (all(contact .eqv. self%contact)) return
     end if
     call segments%find(contact, info)
-    if (self%depth == 1 .and. .not. info%failed()) then
+    if (self%depth == 1 .and. self%has_uniform .and. zero_sum .and. .not. info%failed()) then
       call keep_uniform(self, segments, contact)
       if (self%is_close) return
     end if
     self%is_close = .false.
     if (.not. info%failed()) call prepare_levels(self, operator, contact, size(segments%first) >= MANY_SEGMENTS, info)
-    if (info%failed()) return
+    self%has_uniform = zero_sum
+    if (info%failed() .or. .not. zero_sum) return
     if (self%depth == 1) then
       call precondition_unit(operator, contact, self%uniform, info)
     else
@@ -142,6 +158,47 @@ contains
     if (self%is_close) self%sum_of_uniform = total
   end subroutine keep_uniform
 
+  !> After `set`, prepare for the rigid motions of the set; does little if it is close to that of the last time.
+  !>
+  !> `projection` and `segments` those of the set `contact` (n). Errors: FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, those
+  !> of `precondition`.
+  subroutine set_modes(self, operator, projection, segments, contact, info)
+    class(contact_preconditioner), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(mode_projection), intent(in) :: projection
+    type(contact_segments), intent(in) :: segments
+    logical, intent(in) :: contact(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: j, stat
+
+    if (self%depth == 0) return
+    if (self%rigid%fits(projection%rank, contact, CLOSE)) then
+      call self%rigid%measure(segments, stat)
+      if (stat == 0) return
+    end if
+    self%rigid = rigid_images()
+    stat = 0
+    if (.not. allocated(self%centred)) allocate (self%centred(size(contact)), stat=stat)
+    if (stat == 0) allocate (self%rigid%basis(size(contact), projection%rank), &
+                             self%rigid%images(size(contact), projection%rank), &
+                             self%rigid%contact(size(contact)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(contact))//' points')
+      return
+    end if
+    self%rigid%contact = contact
+    do j = 1, projection%rank
+      self%rigid%basis(:, j) = projection%basis(:, j)
+      self%centred = merge(projection%basis(:, j), 0.0_dp, contact)
+      call apply_unprojected(self, operator, segments, self%centred, self%rigid%images(:, j), info)
+      if (info%failed()) return
+    end do
+    self%centred = 0.0_dp
+    call self%rigid%measure(segments, stat)
+    if (stat /= 0) call report(info, FUGE_ERR_NOT_DEFINITE, 'the preconditioner of the operator is not positive ' &
+                               //'definite: rigid displacements of the contact set have no energy')
+  end subroutine set_modes
+
   !> Forces on the contact set whose displacements are close to `residual`; projected to zero sum
   !> if `zero_sum`.
   !>
@@ -157,14 +214,66 @@ contains
     real(dp), intent(out) :: energy
     type(fuge_info), intent(inout) :: info
     real(dp) :: factor
-    integer :: i
 
     energy = 0.0_dp
-    factor = 0.0_dp
     if (self%is_close .and. zero_sum) then
       call center(self, segments, residual)
       call precondition(operator, self%centred, force, info)
-    else if (self%depth == 1) then
+    else
+      call apply_unprojected(self, operator, segments, residual, force, info)
+    end if
+    if (info%failed()) return
+    if (self%depth == 0 .or. .not. zero_sum) then
+      energy = dot_over(segments, residual, force)
+      return
+    end if
+    factor = sum_over(segments, force)/self%sum_of_uniform
+    call subtract_and_dot_over(segments, factor, self%uniform, force, residual, energy)
+  end subroutine apply
+
+  !> As `apply`, projected to forces without resultants in the modes of `projection`; after `set_modes`.
+  subroutine apply_with_modes(self, operator, segments, projection, residual, force, energy, info)
+    class(contact_preconditioner), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(contact_segments), intent(in) :: segments
+    type(mode_projection), intent(in) :: projection
+    real(dp), intent(in), contiguous :: residual(:)
+    real(dp), intent(inout), contiguous :: force(:)
+    real(dp), intent(out) :: energy
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: parts(:)
+    real(dp) :: largest
+
+    energy = 0.0_dp
+    if (self%depth == 0) then
+      call apply_unprojected(self, operator, segments, residual, force, info)
+    else
+      self%centred = residual
+      call self%rigid%project_residual(segments, self%centred)
+      call apply_unprojected(self, operator, segments, self%centred, force, info)
+      if (.not. info%failed()) call self%rigid%project_force(segments, force)
+    end if
+    if (info%failed()) return
+    ! What rounding leaves of resultants would add up.
+    largest = max_abs_over(segments, force)
+    allocate (parts(size(projection%basis, 2)))
+    call projection%components(segments, force, parts)
+    call projection%subtract_on(segments, parts, force)
+    energy = dot_over(segments, residual, force)
+    if (energy < 0.0_dp .and. abs(energy) <= ROUNDING*largest*max_abs_over(segments, residual)) energy = 0.0_dp
+  end subroutine apply_with_modes
+
+  !> The preconditioner of the set, without a projection. `residual` (n) is zero off the set, `force` (n) undefined there.
+  subroutine apply_unprojected(self, operator, segments, residual, force, info)
+    class(contact_preconditioner), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in), contiguous :: residual(:)
+    real(dp), intent(inout), contiguous :: force(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: i
+
+    if (self%depth == 1) then
       call precondition(operator, residual, force, info)
     else if (self%depth > 1) then
       self%levels(1)%residual = residual
@@ -175,12 +284,8 @@ contains
           force(a:b) = self%stiffness*residual(a:b)
         end associate
       end do
-      energy = dot_over(segments, residual, force)
     end if
-    if (info%failed() .or. self%depth == 0) return
-    if (zero_sum) factor = sum_over(segments, force)/self%sum_of_uniform
-    call subtract_and_dot_over(segments, factor, self%uniform, force, residual, energy)
-  end subroutine apply
+  end subroutine apply_unprojected
 
   !> The residual less that mean for which `uniform` does no work: with the same projection before and after it the
   !> preconditioner is symmetric, whatever set `uniform` was computed for (doc/theory.md).

@@ -5,23 +5,26 @@
 !> stop making progress, a primal active-set method exchanges one point at a time: it lowers the
 !> energy in each step and so terminates.
 module fuge_contact_set_search
-  use fuge_blocking_step, only: step_to_blocking
+  use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_complete_contact, only: equal_forces_displace_nothing
+  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, is_accurate, make_feasible
   use fuge_contact_preconditioner, only: contact_preconditioner
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
+  use fuge_contact_scene, only: contact_scene
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_force_error, only: estimated_force_error
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: ITERATIONS_PER_ROW
-  use fuge_projected_gradients, only: compute_displacement, contact_iterate, deformed_gap, evaluate_iterate, &
-    run_projected_gradients
-  use fuge_set_exchange, only: exchange, exchange_extrapolated
+  use fuge_projected_gradients, only: run_projected_gradients
   use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
+  use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
+    penetrated_stop
   implicit none
   private
 
-  public :: find_contact_set, make_feasible
+  public :: find_contact_set, states_of
 
   !> Relative residual required on a coarser grid, which only provides a starting point.
   real(dp), parameter :: COARSE_TOLERANCE = 1.0e-4_dp
@@ -43,22 +46,20 @@ module fuge_contact_set_search
     !> Accept the first set with few wrong points, accurate or not: on a coarser grid its forces
     !> only start the next one.
     logical :: coarse_grid = .true.
-    !> The rigid motion is prescribed and already subtracted from the gaps.
-    logical :: prescribed = .false.
   end type search_settings
 
 contains
 
   !> Find the contact set of one grid and its forces.
   !>
-  !> `reduced_gap` (n), scaled as in contact_iterate; `iterate` in: forces to start from; out: forces,
+  !> `iterate` in: forces to start from; out: forces,
   !> displacements, contact set and motion. Counts contact sets, products and preconditionings in
   !> `info`. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
-  subroutine find_contact_set(operator, settings, reduced_gap, monitor, iterate, info)
+  subroutine find_contact_set(operator, settings, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
@@ -73,29 +74,29 @@ contains
     stalls_left = MAX_STALLS
     previous_residual = huge(previous_residual)
     to_tolerance = .false.
-    iterate%contact = iterate%force > 0.0_dp
-    call make_feasible(operator, iterate, info)
+    call choose_contact(scene, iterate)
+    call make_feasible(operator, scene, iterate, info)
     fresh = .true.
     do while (.not. info%failed())
-      undetermined = has_undetermined_forces(operator, iterate, info)
+      undetermined = has_undetermined_forces(operator, scene, iterate, info)
       if (undetermined .and. .not. info%failed()) then
-        call solve_complete_contact(operator, settings, preconditioner, reduced_gap, monitor, iterate, info)
+        call solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
         if (info%failed() .or. all(iterate%contact)) exit
         stalls_left = stalls_left - 1
         cycle
       end if
       if (info%failed()) exit
       products = info%products
-      call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, to_tolerance, monitor, iterate, info)
+      call solve_on_contact_set(operator, settings, preconditioner, scene, to_tolerance, monitor, iterate, info)
       if (info%failed()) exit
       fresh = fresh .and. info%products == products
-      wrong = count_wrong_points(reduced_gap, penetration_noise(settings, iterate), iterate)
+      wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
       if (settings%coarse_grid .and. wrong <= WRONG_ON_COARSE*count(iterate%contact)) exit
       if (wrong == 0) then
         ! Without a step the displacements are still those of a product with feasible forces.
         if (iterate%converged .and. fresh) exit
         if (to_tolerance .or. iterate%converged) then
-          call confirm_contact_set(operator, settings, reduced_gap, previous_residual, iterate, confirmed, info)
+          call confirm_contact_set(operator, settings, scene, previous_residual, iterate, confirmed, info)
           if (confirmed .or. info%failed()) exit
         end if
         to_tolerance = .true.
@@ -106,28 +107,30 @@ contains
       if (wrong < fewest_wrong) stalls_left = MAX_STALLS
       fewest_wrong = min(fewest_wrong, wrong)
       if (stalls_left < 0) then
-        call exchange_single_points(operator, settings, preconditioner, reduced_gap, monitor, iterate, info)
+        call exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
         exit
       end if
-      call exchange_wrong_points(reduced_gap, penetration_noise(settings, iterate), &
+      call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
                                  in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
       if (info%failed()) exit
-      call make_feasible(operator, iterate, info)
+      call make_feasible(operator, scene, iterate, info)
       fresh = .true.
     end do
+    if (.not. (settings%coarse_grid .or. info%failed())) iterate%force_error = estimated_force_error(iterate)
     info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
   end subroutine find_contact_set
 
   !> Is the contact complete and its forces undetermined, because the motion is prescribed and equal
   !> forces displace nothing? Errors: those of equal_forces_displace_nothing.
-  function has_undetermined_forces(operator, iterate, info) result(undetermined)
+  function has_undetermined_forces(operator, scene, iterate, info) result(undetermined)
     class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     type(fuge_info), intent(inout) :: info
     logical :: undetermined
 
     undetermined = .false.
-    if (.not. iterate%prescribed) return
+    if (.not. iterate%prescribed .or. allocated(scene%modes)) return
     if (all(iterate%contact)) undetermined = equal_forces_displace_nothing(operator, info)
   end function has_undetermined_forces
 
@@ -137,35 +140,35 @@ contains
   !> The points whose forces are above the mean stay: those in contact under the least load. If the
   !> grid is a coarser one whose mean gap is closed, the contact stays complete, under the least load
   !> that closes it.
-  subroutine solve_complete_contact(operator, settings, preconditioner, reduced_gap, monitor, iterate, info)
+  subroutine solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
     type(contact_preconditioner), intent(inout) :: preconditioner
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
 
     iterate%prescribed = .false.
-    call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, .false., monitor, iterate, info)
+    call solve_on_contact_set(operator, settings, preconditioner, scene, .false., monitor, iterate, info)
     iterate%prescribed = .true.
     if (info%failed()) return
-    if (settings%coarse_grid .and. .not. sum(reduced_gap) > 0.0_dp) then
+    if (settings%coarse_grid .and. .not. sum(scene%gap) > 0.0_dp) then
       iterate%force = iterate%force - minval(iterate%force)
     else
       iterate%force = iterate%force - sum(iterate%force)/real(size(iterate%force), dp)
       iterate%contact = iterate%force > 0.0_dp
-      call make_feasible(operator, iterate, info)
+      call make_feasible(operator, scene, iterate, info)
     end if
   end subroutine solve_complete_contact
 
   !> Solve for the forces of the present contact set, which counts as one iteration: to the
   !> tolerance if `to_tolerance`, else until the set can be judged.
-  subroutine solve_on_contact_set(operator, settings, preconditioner, reduced_gap, to_tolerance, monitor, iterate, info)
+  subroutine solve_on_contact_set(operator, settings, preconditioner, scene, to_tolerance, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
     type(contact_preconditioner), intent(inout) :: preconditioner
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     logical, intent(in) :: to_tolerance
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
@@ -178,12 +181,19 @@ contains
                   //'max_iterations (0 allows '//text(ITERATIONS_PER_ROW)//' for each point)')
       return
     end if
-    call preconditioner%set(operator, iterate%contact, maxval(abs(iterate%displacement)), info)
+    call preconditioner%set(operator, iterate%contact, .not. iterate%prescribed, maxval(abs(iterate%displacement)), &
+                            info)
+    if (allocated(scene%modes) .and. .not. info%failed()) then
+      call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
+      ! With several modes a point without force may be the one that resists a motion.
+      iterate%tension_noise = SAFETY**2*settings%tolerance*maxval(abs(iterate%force))
+    end if
     if (info%failed()) return
-    call run_projected_gradients(operator, preconditioner, reduced_gap, SAFETY*settings%tolerance, to_tolerance, &
+    call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
                                  iterate, info)
     if (info%failed()) return
     info%iterations = info%iterations + 1
+    if (.not. settings%coarse_grid) call note_smallest_value(iterate)
     relative = 0.0_dp
     if (iterate%residual_norm > 0.0_dp) then
       relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
@@ -192,62 +202,36 @@ contains
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine solve_on_contact_set
 
-  !> Number of points in the contact set with a tensile force and of open points that penetrate by
-  !> more than `noise`.
-  pure function count_wrong_points(reduced_gap, noise, iterate) result(wrong)
-    real(dp), intent(in) :: reduced_gap(:), noise
-    type(contact_iterate), intent(in) :: iterate
-    integer :: wrong
-
-    wrong = count(iterate%contact .and. iterate%force < 0.0_dp) &
-            + count(.not. iterate%contact &
-                    .and. deformed_gap(reduced_gap, iterate%displacement, iterate%motion) < -noise)
-  end function count_wrong_points
-
-  !> Tensile points leave the contact set, points that penetrate by more than `noise` join it; with
-  !> `extrapolate` more leave and fewer join, as fuge_set_exchange explains. Error: FUGE_ERR_MEMORY.
-  subroutine exchange_wrong_points(reduced_gap, noise, extrapolate, iterate, info)
-    real(dp), intent(in) :: reduced_gap(:), noise
-    logical, intent(in) :: extrapolate
+  !> Keep the smallest value that conjugate gradients have found on any set.
+  subroutine note_smallest_value(iterate)
     type(contact_iterate), intent(inout) :: iterate
-    type(fuge_info), intent(inout) :: info
-    logical, allocatable :: tensile(:), penetrating(:)
-    integer :: stat
+    real(dp) :: value
 
-    ! Allocated here only: during the products the operator may need the memory.
-    allocate (tensile(size(reduced_gap)), penetrating(size(reduced_gap)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(reduced_gap))//' points')
-      return
-    end if
-    tensile = iterate%contact .and. iterate%force < 0.0_dp
-    penetrating = .not. iterate%contact .and. deformed_gap(reduced_gap, iterate%displacement, iterate%motion) < -noise
-    if (extrapolate) then
-      call exchange_extrapolated(tensile, penetrating, iterate%contact)
-    else
-      call exchange(tensile, penetrating, iterate%contact)
-    end if
-  end subroutine exchange_wrong_points
+    value = iterate%lanczos%smallest()
+    if (.not. value > 0.0_dp) return
+    if (iterate%smallest_value > 0.0_dp) value = min(value, iterate%smallest_value)
+    iterate%smallest_value = value
+  end subroutine note_smallest_value
 
   !> Confirm a contact set without wrong points by a fresh product, because displacements and
   !> residuals updated by recurrence drift.
   !>
   !> `confirmed` if the residual is within the tolerance, or has not halved since the last
   !> confirmation, `previous_residual`: then only rounding is left, and the certificate decides.
-  subroutine confirm_contact_set(operator, settings, reduced_gap, previous_residual, iterate, confirmed, info)
+  subroutine confirm_contact_set(operator, settings, scene, previous_residual, iterate, confirmed, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     real(dp), intent(inout) :: previous_residual
     type(contact_iterate), intent(inout) :: iterate
     logical, intent(out) :: confirmed
     type(fuge_info), intent(inout) :: info
 
     confirmed = .false.
-    call make_feasible(operator, iterate, info)
-    if (.not. info%failed()) call evaluate_iterate(operator, reduced_gap, iterate, info)
+    call make_feasible(operator, scene, iterate, info)
+    if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
-    confirmed = iterate%residual_norm <= SAFETY*settings%tolerance*iterate%least_magnitude &
+    confirmed = is_accurate(iterate, SAFETY*settings%tolerance) &
                 .or. .not. iterate%residual_norm < 0.5_dp*previous_residual
     previous_residual = iterate%residual_norm
   end subroutine confirm_contact_set
@@ -258,30 +242,8 @@ contains
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: noise
 
-    noise = SAFETY**2*settings%tolerance*iterate%least_magnitude
+    noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding
   end function penetration_noise
-
-  !> Make the forces feasible: zero off the contact set, nowhere tensile and, unless the motion is
-  !> prescribed, of sum 1. Recompute their displacements. Errors: those of the operator.
-  subroutine make_feasible(operator, iterate, info)
-    class(fuge_operator), intent(in) :: operator
-    type(contact_iterate), intent(inout) :: iterate
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: total
-
-    where (iterate%contact)
-      iterate%force = max(iterate%force, 0.0_dp)
-    else where
-      iterate%force = 0.0_dp
-    end where
-    total = sum(iterate%force)
-    if (total > 0.0_dp .and. .not. iterate%prescribed) then
-      iterate%force = iterate%force/total
-    else if (.not. iterate%prescribed) then
-      where (iterate%contact) iterate%force = 1.0_dp/real(count(iterate%contact), dp)
-    end if
-    call compute_displacement(operator, iterate%prescribed, iterate%force, iterate%displacement, info)
-  end subroutine make_feasible
 
   !> Primal active-set method (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974,
   !> chapter 23), which exchanges one point at a time and lowers the energy.
@@ -290,76 +252,89 @@ contains
   !> tensile: that point leaves. At the solution the point of deepest penetration joins. Stop when
   !> no point penetrates, or when the equations of the set can no longer be solved to the
   !> tolerance: penetrations are then rounding. doc/theory.md shows why it terminates.
-  subroutine exchange_single_points(operator, settings, preconditioner, reduced_gap, monitor, iterate, info)
+  subroutine exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
     type(contact_preconditioner), intent(inout) :: preconditioner
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: feasible(:)
+    real(dp), allocatable :: feasible(:), noise(:)
     logical, allocatable :: locked(:), tied(:)
     integer, allocatable :: state(:)
-    integer :: newest, n, stat
+    integer :: k, newest, n, stat
 
-    n = size(reduced_gap)
-    allocate (feasible(n), locked(n), tied(n), state(n), stat=stat)
+    n = size(scene%gap)
+    allocate (feasible(n), noise(n), locked(n), tied(n), state(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the active-set method on '//text(n)//' points')
       return
     end if
     locked = .false.
-    tied = .false.
+    tied = [(scene%is_tied(k), k=1, n)]
     newest = 0
-    call make_feasible(operator, iterate, info)
-    iterate%contact = iterate%force > 0.0_dp
+    call make_feasible(operator, scene, iterate, info)
+    if (allocated(scene%modes) .and. .not. info%failed()) call step_from_balance(scene, tied, iterate)
+    call choose_contact(scene, iterate)
+    if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
     do while (.not. info%failed())
       feasible = iterate%force
-      call solve_on_contact_set(operator, settings, preconditioner, reduced_gap, .true., monitor, iterate, info)
+      call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)
       if (info%failed()) exit
-      if (any(iterate%contact .and. iterate%force <= 0.0_dp)) then
-        state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
-        call step_to_blocking(iterate%force, spread(0.0_dp, 1, n), tied, state, feasible, newest, locked)
+      noise = iterate%tension_noise
+      state = states_of(iterate)
+      if (any(is_tensile(iterate%force, noise, state, tied))) then
+        call step_to_blocking(iterate%force, noise, tied, state, feasible, newest, locked)
         iterate%contact = state /= FUGE_OPEN
         iterate%force = feasible
       else
         if (newest > 0) locked = locked .and. locked(newest)
-        newest = deepest_open_point(reduced_gap, iterate, penetration_noise(settings, iterate), locked)
+        newest = deepest_open_point(scene, iterate, penetration_noise(settings, iterate), locked)
         if (newest == 0 .or. .not. iterate%converged) exit
         iterate%contact(newest) = .true.
+        if (allocated(iterate%at_upper)) iterate%at_upper(newest) = penetrated_stop(scene, 0.0_dp, iterate, newest) < 0
         ! What penetrates a contact complete but for one point is rounding.
-        if (has_undetermined_forces(operator, iterate, info)) then
+        if (has_undetermined_forces(operator, scene, iterate, info)) then
           iterate%contact(newest) = .false.
           exit
         end if
       end if
-      if (.not. info%failed()) call make_feasible(operator, iterate, info)
+      if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
     end do
-    if (.not. info%failed()) call make_feasible(operator, iterate, info)
-    if (.not. info%failed()) call evaluate_iterate(operator, reduced_gap, iterate, info)
+    if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
+    if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
   end subroutine exchange_single_points
 
-  !> The open point, of those not locked, that penetrates most, by more than `noise`; 0 if there
-  !> is none.
-  pure function deepest_open_point(reduced_gap, iterate, noise, locked) result(deepest)
-    real(dp), intent(in) :: reduced_gap(:)
-    type(contact_iterate), intent(in) :: iterate
-    real(dp), intent(in) :: noise
-    logical, intent(in) :: locked(:)
-    integer :: deepest
-    real(dp) :: gap, least_gap
-    integer :: k
+  !> Forces with the resultants but perhaps of the wrong sign become feasible ones: a step towards them from
+  !> scene%balance, until the first force changes its sign.
+  pure subroutine step_from_balance(scene, tied, iterate)
+    type(contact_scene), intent(in) :: scene
+    logical, intent(in) :: tied(:)
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: force(size(tied)), noise(size(tied))
+    logical :: locked(size(tied))
+    integer :: state(size(tied))
 
-    deepest = 0
-    least_gap = -noise
-    do k = 1, size(reduced_gap)
-      if (iterate%contact(k) .or. locked(k)) cycle
-      gap = deformed_gap(reduced_gap(k), iterate%displacement(k), iterate%motion)
-      if (gap >= least_gap) cycle
-      deepest = k
-      least_gap = gap
-    end do
-  end function deepest_open_point
+    force = scene%balance
+    noise = 0.0_dp
+    locked = .false.
+    state = states_of(iterate)
+    ! Where the balance is at the other stop, or open, it decides.
+    where (abs(force) > 0.0_dp) state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, force > 0.0_dp)
+    if (any(is_tensile(iterate%force, noise, state, tied))) then
+      call step_to_blocking(iterate%force, noise, tied, state, force, 0, locked)
+      iterate%force = force
+    end if
+  end subroutine step_from_balance
+
+  !> The states of the points, (n).
+  pure function states_of(iterate) result(state)
+    type(contact_iterate), intent(in) :: iterate
+    integer :: state(size(iterate%contact))
+
+    state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
+    if (allocated(iterate%at_upper)) where (iterate%contact .and. iterate%at_upper) state = FUGE_AT_UPPER_STOP
+  end function states_of
 
 end module fuge_contact_set_search

@@ -5,6 +5,8 @@
 !> contact reaches its rim. Its forces are the start of the search on the whole grid, which then needs
 !> one product to see that no point outside the window touches.
 module fuge_contact_window
+  use fuge_contact_iterate, only: contact_iterate, start_iterate
+  use fuge_contact_scene, only: contact_scene
   use fuge_contact_set_search, only: find_contact_set, search_settings
   use fuge_grid_transfer, only: coarser_cells, prolong
   use fuge_kinds, only: dp
@@ -12,7 +14,6 @@ module fuge_contact_window
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_projected_gradients, only: contact_iterate, start_iterate
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -55,15 +56,15 @@ contains
 
   !> Forces to start from, `start`, solved on a window of the finest grid.
   !>
-  !> `coarse_settings` those of coarser grids, `settings` those of the finest one; `reduced_gap` (n) as in
-  !> contact_iterate; `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the
+  !> `coarse_settings` those of coarser grids, `settings` those of the finest one; `scene` a simple
+  !> one; `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the
   !> finest grid, otherwise unchanged, because the window would be too large or the operator has none, nor that coarser
   !> grid. Errors: those of find_contact_set, FUGE_ERR_MEMORY.
-  subroutine solve_in_window(operator, coarse_settings, settings, reduced_gap, level, monitor, start, work, solved, &
+  subroutine solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, &
                              info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: coarse_settings, settings
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     integer, intent(in) :: level
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: start(:)
@@ -84,7 +85,7 @@ contains
       if (.not. is_worthwhile(box)) return
       call operator%window(box%first, box%last, part)
       if (.not. allocated(part)) return
-      call solve_on_part(part, coarse_settings, settings, box, reduced_gap, monitor, force, work, info)
+      call solve_on_part(part, coarse_settings, settings, box, scene, monitor, force, work, info)
       if (info%failed()) return
       call grow(box, force, grown)
       if (.not. grown) exit
@@ -135,28 +136,30 @@ contains
 
   !> Solve on the window `part`: nested iteration on its own coarser grids, then to the tolerance. `force`: those of its
   !> cells.
-  subroutine solve_on_part(part, coarse_settings, settings, box, reduced_gap, monitor, force, work, info)
+  subroutine solve_on_part(part, coarse_settings, settings, box, scene, monitor, force, work, info)
     class(fuge_operator), intent(in) :: part
     type(search_settings), intent(in) :: coarse_settings, settings
     type(cell_box), intent(in) :: box
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(out) :: force(:)
     type(shared_work), intent(inout) :: work
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
-    real(dp), allocatable :: gap(:), start(:)
+    type(contact_scene) :: part_scene
+    real(dp), allocatable :: start(:)
     type(fuge_info) :: part_info
 
-    call box%gather(reduced_gap, gap, info)
+    part_scene%prescribed = scene%prescribed
+    call box%gather(scene%gap, part_scene%gap, info)
     if (info%failed()) return
-    if (.not. settings%prescribed) gap = gap - minval(gap)
+    if (.not. scene%prescribed) part_scene%gap = part_scene%gap - minval(part_scene%gap)
     part_info = fuge_info(iterations=info%iterations)
-    call nested_iteration(part, coarse_settings, gap, coarsest_level(part), 1, monitor, start, work, part_info)
+    call nested_iteration(part, coarse_settings, part_scene, coarsest_level(part), 1, monitor, start, work, part_info)
     if (allocated(start) .and. .not. part_info%failed()) call prolong(box%extent(), start, part_info)
-    if (.not. part_info%failed()) call start_iterate(iterate, size(gap), settings%prescribed, start, part_info)
-    if (.not. part_info%failed()) call find_contact_set(part, settings, gap, monitor, iterate, part_info)
-    call work%add(size(gap), part_info)
+    if (.not. part_info%failed()) call start_iterate(iterate, part_scene, start, part_info)
+    if (.not. part_info%failed()) call find_contact_set(part, settings, part_scene, monitor, iterate, part_info)
+    call work%add(part%points(), part_info)
     part_info%products = info%products
     part_info%preconditionings = info%preconditionings
     info = part_info

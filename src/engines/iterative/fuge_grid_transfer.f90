@@ -11,7 +11,7 @@ module fuge_grid_transfer
   implicit none
   private
 
-  public :: coarser_cells, prolong, restrict_gap
+  public :: coarser_cells, prolong, restrict
 
 contains
 
@@ -98,15 +98,17 @@ contains
 
     do j = 1, cells(2)
       do i = 1, cells(1)
-        if (.not. coarse((i + 1)/2, (j + 1)/2) > 0.0_dp) fine(i, j) = 0.0_dp
+        associate (force => coarse((i + 1)/2, (j + 1)/2))
+          if (.not. (force > 0.0_dp .or. (force < 0.0_dp .and. fine(i, j) < 0.0_dp))) fine(i, j) = 0.0_dp
+        end associate
       end do
     end do
   end subroutine open_cells
 
-  !> Restrict the gaps `gap` of a grid of `cells` in each direction to one whose cells are 2**level times as
+  !> Restrict `values` of a grid of `cells` in each direction to one whose cells are 2**level times as
   !> wide (the last ones may be narrower): `coarse` are the means over its cells. Error: FUGE_ERR_MEMORY.
-  pure subroutine restrict_gap(gap, cells, level, coarse, info)
-    real(dp), intent(in) :: gap(:)
+  pure subroutine restrict(values, cells, level, coarse, info)
+    real(dp), intent(in) :: values(:)
     integer, intent(in) :: cells(2), level
     real(dp), allocatable, intent(out) :: coarse(:)
     type(fuge_info), intent(inout) :: info
@@ -117,9 +119,9 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(product(coarser))//' cells')
     else
-      call average_cells(cells, coarser, 2**level, gap, coarse)
+      call average_cells(cells, coarser, 2**level, values, coarse)
     end if
-  end subroutine restrict_gap
+  end subroutine restrict
 
   !> Means of `fine` (nx, ny) over blocks of `width` x `width` cells.
   pure subroutine average_cells(cells, coarser, width, fine, coarse)

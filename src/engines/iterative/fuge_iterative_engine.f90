@@ -4,11 +4,16 @@
 !> to start from (fuge_nested_grids); the contact set search on the finest grid improves them to
 !> the tolerance (fuge_contact_set_search).
 module fuge_iterative_engine
+  use fuge_canonical_problem, only: canonical_problem
   use fuge_complete_contact, only: equal_forces_displace_nothing
   use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_contact_iterate, only: contact_iterate, deformed_gap, evaluate_iterate, make_feasible, start_iterate
+  use fuge_contact_scene, only: contact_scene
+  use fuge_contact_set_search, only: find_contact_set, search_settings, states_of
   use fuge_contact_window, only: solve_in_window, survey_level
-  use fuge_contact_set_search, only: find_contact_set, make_feasible, search_settings
+  use fuge_general_scene, only: assemble_general, set_general_scene
   use fuge_grid_transfer, only: prolong
+  use fuge_iterated_set, only: iterated_set
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
@@ -16,12 +21,13 @@ module fuge_iterative_engine
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_projected_gradients, only: contact_iterate, deformed_gap, evaluate_iterate, start_iterate
+  use fuge_scene_scaling, only: scene_scaling
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW
+  use fuge_wrong_points, only: choose_contact
   implicit none
   private
 
-  public :: solve_by_iteration
+  public :: is_general, solve_by_iteration
 
   !> The forces of the last solve are a good start if residual and penetration are below this
   !> fraction of the least magnitude.
@@ -32,57 +38,114 @@ module fuge_iterative_engine
 
 contains
 
+  !> Does the problem have rigid modes of its own, play or exclusions? Then `solve_by_iteration` needs its canonical form.
+  pure function is_general(problem)
+    type(fuge_problem), intent(in) :: problem
+    logical :: is_general
+
+    is_general = allocated(problem%modes) .or. allocated(problem%gap_upper) .or. allocated(problem%excluded)
+  end function is_general
+
   !> Solve a contact problem by iteration.
   !>
-  !> `problem` checked; plain with a load > 0, or with its one motion, the approach, prescribed.
+  !> `problem` checked; if plain, with a load > 0; `canonical` its canonical form, if it is general.
   !> `scaled_force` (n), if allocated, are forces to start from, divided by the load if there is
-  !> one; on return those of the solution. `solution` may be unallocated; it is written only on
-  !> success. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE,
+  !> one; on return those of the solution. `last` the set of the last solve with this operator, on return that of this
+  !> one. `solution` may be unallocated; it is written only on success. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE,
   !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
-  subroutine solve_by_iteration(operator, problem, options, monitor, scaled_force, solution, info)
+  subroutine solve_by_iteration(operator, problem, canonical, options, monitor, scaled_force, last, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: scaled_force(:)
+    type(iterated_set), intent(inout) :: last
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
+    type(contact_scene) :: scene
+    type(scene_scaling) :: scaling
     type(search_settings) :: coarse_settings, settings
-    real(dp), allocatable :: reduced_gap(:)
-    real(dp) :: gap_datum, load
+    logical :: warm
 
     coarse_settings%limit = iteration_limit(options, operator%points() + 1)
-    coarse_settings%prescribed = .not. problem%is_plain()
     settings = coarse_settings
     settings%tolerance = options%tolerance
     settings%coarse_grid = .false.
-    call choose_scaling(problem, gap_datum, load)
-    call check_range(problem, info)
-    if (.not. info%failed()) call reduce_gap(problem%gap, gap_datum, load, reduced_gap, info)
-    if (info%failed()) return
-    if (settings%prescribed) call check_approach(operator, problem%motion(1), reduced_gap, info)
-    if (allocated(scaled_force) .and. .not. info%failed()) then
-      call discard_poor_start(operator, settings%prescribed, reduced_gap, scaled_force, info)
-    end if
-    if (.not. (info%failed() .or. allocated(scaled_force))) then
-      call start_on_coarser_grids(operator, coarse_settings, settings, reduced_gap, monitor, scaled_force, info)
-    end if
-    if (.not. info%failed()) then
-      call start_iterate(iterate, size(reduced_gap), settings%prescribed, scaled_force, info)
+    if (is_general(problem)) then
+      call set_general_scene(problem, canonical, scene, scaling, info)
+    else
+      call set_simple_scene(problem, scene, scaling, info)
     end if
     if (info%failed()) return
-    call find_contact_set(operator, settings, reduced_gap, monitor, iterate, info)
-    if (.not. info%failed()) call assemble_solution(operator, reduced_gap, gap_datum, load, iterate, solution, info)
-    if (.not. info%failed()) call move_alloc(iterate%force, scaled_force)
+    call check_approach(operator, problem, scene, info)
+    if (allocated(scaled_force) .and. .not. info%failed()) call discard_poor_start(operator, scene, scaled_force, info)
+    warm = allocated(scaled_force)
+    if (.not. (info%failed() .or. warm)) then
+      call start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, scaled_force, info)
+    end if
+    if (.not. info%failed()) call start_iterate(iterate, scene, scaled_force, info)
+    if (info%failed()) return
+    ! A start that needs no step tells nothing of the operator.
+    if (warm) then
+      iterate%smallest_value = last%smallest_value
+      iterate%amplification = last%amplification
+    end if
+    call find_contact_set(operator, settings, scene, monitor, iterate, info)
+    if (.not. info%failed()) call keep_states(iterate, last, info)
+    if (info%failed()) return
+    if (is_general(problem)) then
+      call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    else
+      call assemble_simple(operator, scene, scaling, iterate, solution, info)
+    end if
+    if (info%failed()) return
+    call move_alloc(iterate%force, scaled_force)
+    last%smallest_value = iterate%smallest_value
+    last%amplification = iterate%amplification
+    last%tolerance = options%tolerance
   end subroutine solve_by_iteration
+
+  !> Keep the contact set for derivatives. Error: FUGE_ERR_MEMORY.
+  pure subroutine keep_states(iterate, last, info)
+    type(contact_iterate), intent(in) :: iterate
+    type(iterated_set), intent(inout) :: last
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    stat = 0
+    if (allocated(last%state)) then
+      if (size(last%state) /= size(iterate%contact)) deallocate (last%state)
+    end if
+    if (.not. allocated(last%state)) allocate (last%state(size(iterate%contact)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(iterate%contact))//' points')
+    else
+      last%state = states_of(iterate)
+    end if
+  end subroutine keep_states
+
+  !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points. Errors:
+  !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  pure subroutine set_simple_scene(problem, scene, scaling, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(inout) :: scene
+    type(scene_scaling), intent(out) :: scaling
+    type(fuge_info), intent(inout) :: info
+
+    scene%prescribed = .not. problem%is_plain()
+    call choose_scaling(problem, scaling)
+    call check_range(problem, info)
+    if (.not. info%failed()) call reduce_gap(problem%gap, scaling, scene%gap, info)
+  end subroutine set_simple_scene
 
   !> Forces to start from, `start`, by coarser grids, and where the contact is small by a window of the finest one.
   !> `start` stays unallocated where the operator has no coarser grids. Errors: those of nested_iteration.
-  subroutine start_on_coarser_grids(operator, coarse_settings, settings, reduced_gap, monitor, start, info)
+  subroutine start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, start, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: coarse_settings, settings
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: start(:)
     type(fuge_info), intent(inout) :: info
@@ -91,38 +154,39 @@ contains
     logical :: solved
 
     solved = .false.
-    level = survey_level(operator)
-    call nested_iteration(operator, coarse_settings, reduced_gap, coarsest_level(operator), max(level, 1), monitor, &
+    level = 0
+    if (scene%is_simple()) level = survey_level(operator)
+    call nested_iteration(operator, coarse_settings, scene, coarsest_level(operator), max(level, 1), monitor, &
                           start, work, info)
     if (level > 0 .and. allocated(start) .and. .not. info%failed()) then
-      call solve_in_window(operator, coarse_settings, settings, reduced_gap, level, monitor, start, work, solved, info)
+      call solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, info)
     end if
     if (.not. (solved .or. info%failed())) then
-      call nested_iteration(operator, coarse_settings, reduced_gap, level - 1, 1, monitor, start, work, info)
+      call nested_iteration(operator, coarse_settings, scene, level - 1, 1, monitor, start, work, info)
       if (allocated(start) .and. .not. info%failed()) call prolong(operator%grid(), start, info)
     end if
-    info%products = info%products + ceiling(work%products/real(size(reduced_gap), dp))
-    info%preconditionings = info%preconditionings + ceiling(work%preconditionings/real(size(reduced_gap), dp))
+    info%products = info%products + ceiling(work%products/real(size(scene%gap), dp))
+    info%preconditionings = info%preconditionings + ceiling(work%preconditionings/real(size(scene%gap), dp))
   end subroutine start_on_coarser_grids
 
   !> What the iteration subtracts from gaps, the prescribed motion or else the least gap, and what
   !> it divides forces and lengths by: the load, or 1 for a prescribed motion.
-  pure subroutine choose_scaling(problem, gap_datum, load)
+  pure subroutine choose_scaling(problem, scaling)
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(out) :: gap_datum, load
+    type(scene_scaling), intent(out) :: scaling
 
     if (problem%is_plain()) then
-      gap_datum = minval(problem%gap)
-      load = problem%resultant(1)
+      scaling%gap_datum = minval(problem%gap)
+      scaling%load = problem%resultant(1)
     else
-      gap_datum = problem%motion(1)
-      load = 1.0_dp
+      scaling%gap_datum = problem%motion(1)
     end if
   end subroutine choose_scaling
 
   !> reduced_gap = (gap - gap_datum)/load, both gaps (n). Error: FUGE_ERR_MEMORY.
-  pure subroutine reduce_gap(gap, gap_datum, load, reduced_gap, info)
-    real(dp), intent(in) :: gap(:), gap_datum, load
+  pure subroutine reduce_gap(gap, scaling, reduced_gap, info)
+    real(dp), intent(in) :: gap(:)
+    type(scene_scaling), intent(in) :: scaling
     real(dp), allocatable, intent(out) :: reduced_gap(:)
     type(fuge_info), intent(inout) :: info
     integer :: stat
@@ -131,73 +195,84 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(size(gap))//' points')
     else
-      reduced_gap = (gap - gap_datum)/load
+      reduced_gap = (gap - scaling%gap_datum)/scaling%load
     end if
   end subroutine reduce_gap
 
   !> Forces, gaps and motion in the units of the problem. Error: FUGE_ERR_MEMORY.
-  subroutine assemble_solution(operator, reduced_gap, gap_datum, load, iterate, solution, info)
+  subroutine assemble_simple(operator, scene, scaling, iterate, solution, info)
     class(fuge_operator), intent(in) :: operator
-    real(dp), intent(in) :: reduced_gap(:), gap_datum, load
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: force(:), gap(:), motion(:)
     integer :: n, stat
 
-    n = size(reduced_gap)
+    n = size(scene%gap)
     allocate (force(n), gap(n), motion(1), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
       return
     end if
     where (iterate%force <= ROUNDINGS*epsilon(1.0_dp)*maxval(iterate%force)) iterate%force = 0.0_dp
-    force = load*iterate%force
-    gap = load*max(deformed_gap(reduced_gap, iterate%displacement, iterate%motion), 0.0_dp)
+    force = scaling%load*iterate%force
+    gap = scaling%load*max(deformed_gap(scene%gap, iterate%displacement, iterate%motion), 0.0_dp)
     where (iterate%contact) gap = 0.0_dp
-    motion = gap_datum
-    if (.not. iterate%prescribed) motion = (load*iterate%motion + operator%datum()*sum(force)) + gap_datum
+    motion = scaling%gap_datum
+    if (.not. iterate%prescribed) then
+      motion = (scaling%load*iterate%motion + operator%datum()*sum(force)) + scaling%gap_datum
+    end if
     call move_alloc(force, solution%force)
     call move_alloc(gap, solution%gap)
     call move_alloc(motion, solution%motion)
-  end subroutine assemble_solution
+  end subroutine assemble_simple
 
-  !> Refuse an approach at which the mean gap is closed, or open by no more than the rounding of the
+  !> Refuse prescribed motions at which the mean gap is closed, or open by no more than the rounding of the
   !> gaps, where equal forces displace nothing, as on a periodic surface: no forces resist it, or
   !> any equal ones do. Errors: FUGE_ERR_NO_EQUILIBRIUM, those of equal_forces_displace_nothing.
-  subroutine check_approach(operator, approach, reduced_gap, info)
+  subroutine check_approach(operator, problem, scene, info)
     class(fuge_operator), intent(in) :: operator
-    real(dp), intent(in) :: approach
-    real(dp), intent(in) :: reduced_gap(:)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
     type(fuge_info), intent(inout) :: info
-    real(dp) :: mean
+    real(dp) :: largest, mean
 
-    mean = sum(reduced_gap)/real(size(reduced_gap), dp)
-    if (mean > ROUNDINGS*epsilon(mean)*max(abs(approach), maxval(abs(reduced_gap)))) return
+    if (.not. scene%is_simple() .or. .not. scene%prescribed) return
+    mean = sum(scene%gap)/real(size(scene%gap), dp)
+    largest = max(maxval(abs(scene%gap)), maxval(abs(problem%gap)))
+    if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), maxval(abs(scene%gap)))
+    if (mean > ROUNDINGS*epsilon(mean)*largest) return
     if (.not. equal_forces_displace_nothing(operator, info)) return
     if (info%failed()) return
-    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
-                //'hold the approach '//text(approach)//', at which the mean gap is closed: prescribe less than ' &
-                //text(approach + mean)//', or a load')
+    if (allocated(problem%modes)) then
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
+                  //'hold the prescribed motions, at which the mean gap is closed by '//text(-mean) &
+                  //': prescribe less, or resultants')
+    else
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
+                  //'hold the approach '//text(problem%motion(1))//', at which the mean gap is closed: prescribe less ' &
+                  //'than '//text(problem%motion(1) + mean)//', or a load')
+    end if
   end subroutine check_approach
 
   !> Deallocate forces to start from, `scaled_force` (n), that are far from the solution:
-  !> coarser grids, if the points are cells in a row, provide a better start. Errors:
+  !> coarser grids, if the points are cells of a grid, provide a better start. Errors:
   !> FUGE_ERR_MEMORY, those of the operator.
-  subroutine discard_poor_start(operator, prescribed, reduced_gap, scaled_force, info)
+  subroutine discard_poor_start(operator, scene, scaled_force, info)
     class(fuge_operator), intent(in) :: operator
-    logical, intent(in) :: prescribed
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     real(dp), allocatable, intent(inout) :: scaled_force(:)
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
 
     if (any(operator%grid() < 1)) return
-    call start_iterate(iterate, size(scaled_force), prescribed, scaled_force, info)
+    call start_iterate(iterate, scene, scaled_force, info)
     if (info%failed()) return
-    iterate%contact = scaled_force > 0.0_dp
-    call make_feasible(operator, iterate, info)
-    if (.not. info%failed()) call evaluate_iterate(operator, reduced_gap, iterate, info)
+    call choose_contact(scene, iterate)
+    call make_feasible(operator, scene, iterate, info)
+    if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
     if (max(iterate%residual_norm, iterate%penetration) > GOOD_START*iterate%least_magnitude) deallocate (scaled_force)
   end subroutine discard_poor_start

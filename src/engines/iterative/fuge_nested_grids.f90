@@ -3,13 +3,14 @@
 !>
 !> fuge_grid_transfer carries gaps to a coarser grid and forces to the next finer one.
 module fuge_nested_grids
+  use fuge_contact_iterate, only: clip_forces, contact_iterate, start_iterate
+  use fuge_contact_scene, only: coarser_scene, contact_scene
   use fuge_contact_set_search, only: find_contact_set, search_settings
-  use fuge_grid_transfer, only: coarser_cells, prolong, restrict_gap
+  use fuge_grid_transfer, only: coarser_cells, prolong
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_projected_gradients, only: contact_iterate, start_iterate
   use fuge_status, only: composed_message, fuge_info, report
   implicit none
   private
@@ -40,10 +41,10 @@ contains
   !> `start` in: the forces of grid first + 1, or unallocated; out: those of grid `last`, or of the last one before it that
   !> the operator has; unallocated if it has none. `work` counts in units of a cell. Errors: those of find_contact_set,
   !> FUGE_ERR_MEMORY.
-  subroutine nested_iteration(operator, settings, reduced_gap, first, last, monitor, start, work, info)
+  subroutine nested_iteration(operator, settings, scene, first, last, monitor, start, work, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
-    real(dp), intent(in), contiguous :: reduced_gap(:)
+    type(contact_scene), intent(in) :: scene
     integer, intent(in) :: first, last
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: start(:)
@@ -61,12 +62,12 @@ contains
       call operator%kept_coarser(k, kept)
       if (associated(kept)) then
         if (any(kept%grid() /= cells)) cycle
-        call solve_on_grid(kept, settings, reduced_gap, finest, k, monitor, start, coarse_info)
+        call solve_on_grid(kept, settings, scene, finest, k, monitor, start, coarse_info)
       else
         call operator%coarsen(k, coarse)
         if (.not. allocated(coarse)) cycle
         if (any(coarse%grid() /= cells)) cycle
-        call solve_on_grid(coarse, settings, reduced_gap, finest, k, monitor, start, coarse_info)
+        call solve_on_grid(coarse, settings, scene, finest, k, monitor, start, coarse_info)
       end if
       info%iterations = coarse_info%iterations
       call work%add(product(cells), coarse_info)
@@ -88,27 +89,36 @@ contains
     self%preconditionings = self%preconditionings + real(cells, dp)*real(info%preconditionings, dp)
   end subroutine add_work
 
-  !> Solve on the grid that is `level` times coarser than the finest one, of `finest` cells in each direction, with the
-  !> gaps `finest_gap`. `start` in: the forces of the next coarser grid, if there is one; out: those of this grid.
-  subroutine solve_on_grid(operator, settings, finest_gap, finest, level, monitor, start, info)
+  !> Solve on the grid that is `level` times coarser than the finest one, of `finest` cells in each direction, with its
+  !> `scene`. `start` in: the forces of the next coarser grid, if there is one; out: those of this grid, unallocated
+  !> where its cells cannot carry the resultants.
+  subroutine solve_on_grid(operator, settings, scene, finest, level, monitor, start, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
-    real(dp), intent(in), contiguous :: finest_gap(:)
+    type(contact_scene), intent(in) :: scene
     integer, intent(in) :: finest(2), level
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: start(:)
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
-    real(dp), allocatable :: reduced_gap(:)
+    type(contact_scene) :: coarse
+    logical :: possible
 
-    call restrict_gap(finest_gap, finest, level, reduced_gap, info)
+    call coarser_scene(scene, finest, level, coarse, possible, info)
     if (info%failed()) return
+    if (.not. possible) then
+      if (allocated(start)) deallocate (start)
+      return
+    end if
     ! Means may all be far above the least gap of the finest grid: beside them small displacements would be rounding.
-    if (.not. settings%prescribed) reduced_gap = reduced_gap - minval(reduced_gap)
+    if (.not. scene%prescribed) coarse%gap = coarse%gap - minval(coarse%gap)
     if (allocated(start)) call prolong(coarser_cells(finest, level), start, info)
-    if (.not. info%failed()) call start_iterate(iterate, size(reduced_gap), settings%prescribed, start, info)
-    if (.not. info%failed()) call find_contact_set(operator, settings, reduced_gap, monitor, iterate, info)
-    if (.not. info%failed()) call move_alloc(iterate%force, start)
+    if (.not. info%failed()) call start_iterate(iterate, coarse, start, info)
+    if (.not. info%failed()) call find_contact_set(operator, settings, coarse, monitor, iterate, info)
+    if (info%failed()) return
+    ! Tensile forces that a coarse grid leaves help to interpolate, but with play would start at the wrong stop.
+    if (allocated(coarse%play)) call clip_forces(coarse, iterate)
+    call move_alloc(iterate%force, start)
   end subroutine solve_on_grid
 
 end module fuge_nested_grids

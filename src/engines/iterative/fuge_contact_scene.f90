@@ -1,0 +1,183 @@
+!> The contact problem of one grid as the iteration solves it, and the same problem on a coarser grid.
+!>
+!> Most problems have one translation, free or prescribed, and one-sided contact everywhere: what else a scene has is
+!> allocated only where it has it.
+module fuge_contact_scene
+  use fuge_equilibrium, only: find_equilibrium
+  use fuge_grid_transfer, only: coarser_cells, restrict
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  public :: coarser_scene
+
+  !> c = gap + A f - modes q, modes^T f = load, between the stops 0 <= c <= play. Gaps, plays and forces are divided by a
+  !> load. Points that are excluded have the gap OUT_OF_REACH.
+  type, public :: contact_scene
+    !> Initial gaps less their datum or the displacements by prescribed motions, (n).
+    real(dp), allocatable :: gap(:)
+    !> No translation with the resultant 1 is free.
+    logical :: prescribed = .false.
+    !> Play, (n), huge where one-sided; not allocated: one-sided everywhere.
+    real(dp), allocatable :: play(:)
+    !> Points that take no part in the contact, (n); not allocated: none.
+    logical, allocatable :: excluded(:)
+    !> Free rigid modes (n, m) and their resultants (m), with `prescribed`; not allocated: none.
+    real(dp), allocatable :: modes(:, :), load(:)
+    !> Forces at few points that are in equilibrium with `load`, (n).
+    real(dp), allocatable :: balance(:)
+    !> The modes contain a translation, which absorbs the operator's datum.
+    logical :: absorbs_datum = .false.
+  contains
+    procedure :: is_simple
+    procedure :: is_tied
+  end type contact_scene
+
+  !> No displacement closes this gap.
+  real(dp), parameter, public :: OUT_OF_REACH = 0.01_dp*huge(1.0_dp)
+
+contains
+
+  !> One translation, free or prescribed, and one-sided contact at all points?
+  pure function is_simple(self)
+    class(contact_scene), intent(in) :: self
+    logical :: is_simple
+
+    is_simple = .not. (allocated(self%modes) .or. allocated(self%play) .or. allocated(self%excluded))
+  end function is_simple
+
+  !> Does the gap of point `k` stay zero, whatever its force?
+  pure function is_tied(self, k)
+    class(contact_scene), intent(in) :: self
+    integer, intent(in) :: k
+    logical :: is_tied
+
+    is_tied = .false.
+    if (.not. allocated(self%play)) return
+    is_tied = self%play(k) <= 0.0_dp
+    if (allocated(self%excluded)) is_tied = is_tied .and. .not. self%excluded(k)
+  end function is_tied
+
+  !> The scene on the grid whose cells are 2**level times as wide as those of `finest`, with means over the points of
+  !> a cell that take part. `possible` is false if no forces there carry the resultants. Error: FUGE_ERR_MEMORY.
+  subroutine coarser_scene(scene, finest, level, coarse, possible, info)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: finest(2), level
+    type(contact_scene), intent(out) :: coarse
+    logical, intent(out) :: possible
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: share(:)
+
+    possible = .true.
+    coarse%prescribed = scene%prescribed
+    coarse%absorbs_datum = scene%absorbs_datum
+    if (scene%is_simple()) then
+      call restrict(scene%gap, finest, level, coarse%gap, info)
+      return
+    end if
+    call restrict_share(scene, finest, level, share, info)
+    if (.not. info%failed()) call restrict_part(scene, scene%gap, finest, level, share, coarse%gap, info)
+    if (.not. info%failed()) call restrict_play(scene, finest, level, share, coarse%play, info)
+    if (.not. info%failed()) call restrict_modes(scene, finest, level, share, coarse, info)
+    if (info%failed()) return
+    if (allocated(scene%excluded)) then
+      coarse%excluded = .not. share > 0.0_dp
+      where (coarse%excluded) coarse%gap = OUT_OF_REACH
+    end if
+    if (allocated(coarse%modes)) call find_balance(coarse, possible)
+  end subroutine coarser_scene
+
+  !> `share`: the fraction of the points of each coarse cell that take part.
+  pure subroutine restrict_share(scene, finest, level, share, info)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: finest(2), level
+    real(dp), allocatable, intent(out) :: share(:)
+    type(fuge_info), intent(inout) :: info
+
+    if (allocated(scene%excluded)) then
+      call restrict(merge(0.0_dp, 1.0_dp, scene%excluded), finest, level, share, info)
+    else
+      allocate (share(product(coarser_cells(finest, level))))
+      share = 1.0_dp
+    end if
+  end subroutine restrict_share
+
+  !> `coarse`: the means of `values` (n) over the points that take part, 0 in cells without any.
+  pure subroutine restrict_part(scene, values, finest, level, share, coarse, info)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in), contiguous :: values(:)
+    integer, intent(in) :: finest(2), level
+    real(dp), intent(in) :: share(:)
+    real(dp), allocatable, intent(out) :: coarse(:)
+    type(fuge_info), intent(inout) :: info
+
+    if (allocated(scene%excluded)) then
+      call restrict(merge(0.0_dp, values, scene%excluded), finest, level, coarse, info)
+      if (.not. info%failed()) where (share > 0.0_dp) coarse = coarse/share
+    else
+      call restrict(values, finest, level, coarse, info)
+    end if
+  end subroutine restrict_part
+
+  !> The mean play where all points of a cell have an upper stop, else huge.
+  pure subroutine restrict_play(scene, finest, level, share, play, info)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: finest(2), level
+    real(dp), intent(in) :: share(:)
+    real(dp), allocatable, intent(out) :: play(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: endless(:)
+
+    if (.not. allocated(scene%play)) return
+    associate (one_sided => scene%play >= huge(1.0_dp))
+      call restrict_part(scene, merge(1.0_dp, 0.0_dp, one_sided), finest, level, share, endless, info)
+      if (.not. info%failed()) call restrict_part(scene, merge(0.0_dp, scene%play, one_sided), finest, level, share, &
+                                                  play, info)
+    end associate
+    if (.not. info%failed()) where (endless > 0.0_dp) play = huge(1.0_dp)
+  end subroutine restrict_play
+
+  !> The mean displacement of each cell by a motion, and the same resultants.
+  pure subroutine restrict_modes(scene, finest, level, share, coarse, info)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: finest(2), level
+    real(dp), intent(in) :: share(:)
+    type(contact_scene), intent(inout) :: coarse
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: mode(:)
+    integer :: j, stat
+
+    if (.not. allocated(scene%modes)) return
+    allocate (coarse%modes(size(share), size(scene%load)), coarse%load(size(scene%load)), coarse%balance(size(share)), &
+              stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(size(share))//' cells')
+      return
+    end if
+    coarse%load = scene%load
+    do j = 1, size(scene%load)
+      call restrict_part(scene, scene%modes(:, j), finest, level, share, mode, info)
+      if (info%failed()) return
+      coarse%modes(:, j) = mode
+    end do
+  end subroutine restrict_modes
+
+  !> Forces in equilibrium with the resultants; `possible` if there are any.
+  subroutine find_balance(scene, possible)
+    type(contact_scene), intent(inout) :: scene
+    logical, intent(out) :: possible
+    real(dp) :: remainder(size(scene%load))
+    logical, allocatable :: pushes(:), pulls(:)
+
+    allocate (pushes(size(scene%gap)), pulls(size(scene%gap)))
+    pushes = .true.
+    if (allocated(scene%excluded)) pushes = .not. scene%excluded
+    pulls = .false.
+    if (allocated(scene%play)) pulls = pushes .and. scene%play < huge(1.0_dp)
+    call find_equilibrium(scene%modes, scene%load, pushes, pulls, scene%balance, remainder)
+    possible = .not. any(abs(remainder) > 0.0_dp)
+  end subroutine find_balance
+
+end module fuge_contact_scene

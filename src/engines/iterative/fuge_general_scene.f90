@@ -1,0 +1,205 @@
+!> Scenes with rigid modes of their own, play, ties or exclusions: from the canonical problem to the scene that the
+!> iteration solves, and back to forces, gaps and motions in the caller's modes.
+module fuge_general_scene
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_contact_iterate, only: contact_iterate, deformed_gap
+  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_set_search, only: states_of
+  use fuge_contact_solution, only: allocate_solution, contact_solution
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_scene_scaling, only: scene_scaling
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_unresisted_motions, only: report_unresisted_motion
+  implicit none
+  private
+
+  public :: assemble_general, set_general_scene
+
+  !> Forces up to this many units in the last place of the largest one are rounding.
+  real(dp), parameter :: ROUNDINGS = 4.0_dp
+
+contains
+
+  !> The scene of a general problem. `canonical` belongs to it, without its matrix. Errors: FUGE_ERR_MEMORY,
+  !> FUGE_ERR_OVERFLOW.
+  subroutine set_general_scene(problem, canonical, scene, scaling, info)
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_scene), intent(inout) :: scene
+    type(scene_scaling), intent(out) :: scaling
+    type(fuge_info), intent(inout) :: info
+    integer :: m, n, stat
+
+    n = size(canonical%gap)
+    m = size(canonical%load)
+    if (canonical%largest_load() > 0.0_dp) scaling%load = canonical%largest_load()
+    if (canonical%has_translation .and. .not. all(canonical%excluded)) then
+      scaling%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
+    end if
+    scene%prescribed = .not. is_loaded_translation(problem, canonical)
+    scene%absorbs_datum = canonical%has_translation
+    call check_range(canonical, scaling, info)
+    if (info%failed()) return
+    allocate (scene%gap(n), stat=stat)
+    if (stat == 0 .and. any(canonical%excluded)) allocate (scene%excluded(n), stat=stat)
+    if (stat == 0 .and. any(canonical%upper < huge(1.0_dp))) allocate (scene%play(n), stat=stat)
+    if (stat == 0 .and. scene%prescribed .and. m > 0) then
+      allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
+    end if
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps and modes of '//text(n)//' points')
+      return
+    end if
+    scene%gap = (canonical%gap - scaling%gap_datum)/scaling%load
+    if (allocated(scene%play)) then
+      scene%play = canonical%upper
+      where (canonical%upper < huge(1.0_dp)) scene%play = canonical%upper/scaling%load
+    end if
+    if (allocated(scene%excluded)) then
+      scene%excluded = canonical%excluded
+      where (canonical%excluded) scene%gap = OUT_OF_REACH
+    end if
+    if (allocated(scene%modes)) then
+      scene%modes = canonical%modes
+      if (allocated(scene%excluded)) where (spread(canonical%excluded, 2, m)) scene%modes = 0.0_dp
+      scene%load = canonical%load/scaling%load
+      scene%balance = canonical%feasible_force/scaling%load
+    end if
+  end subroutine set_general_scene
+
+  !> Is there one free translation with a load, and no upper stop? Its forces push, and have the load for their sum.
+  pure function is_loaded_translation(problem, canonical) result(loaded)
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
+    logical :: loaded
+
+    loaded = size(canonical%load) == 1 .and. .not. (allocated(problem%modes) .or. any(canonical%upper < huge(1.0_dp)))
+    if (loaded) loaded = canonical%load(1) > 0.0_dp
+  end function is_loaded_translation
+
+  !> Refuse gaps so large that their squares overflow, after division by the load (FUGE_ERR_OVERFLOW).
+  pure subroutine check_range(canonical, scaling, info)
+    type(canonical_problem), intent(in) :: canonical
+    type(scene_scaling), intent(in) :: scaling
+    type(fuge_info), intent(inout) :: info
+    integer :: excess
+
+    if (all(canonical%excluded)) return
+    excess = exponent(maxval(abs(canonical%gap - scaling%gap_datum), mask=.not. canonical%excluded)) &
+             - exponent(scaling%load)
+    if (2*excess > LARGEST_EXPONENT) call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess) &
+      //' times the resultants: choose units in which they are nearer to each other')
+  end subroutine check_range
+
+  !> Forces, gaps and motions in the units of the problem and in its modes, with a warning where the contact does not
+  !> resist a motion. Error: FUGE_ERR_MEMORY.
+  subroutine assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(contact_solution) :: found
+    real(dp), allocatable :: motion(:)
+    integer :: stat
+
+    call allocate_solution(size(scene%gap), size(canonical%load), found, info)
+    if (info%failed()) return
+    allocate (motion(problem%mode_count()), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
+      return
+    end if
+    found%state = states_of(iterate)
+    call drop_rounding(scene, found%state, iterate)
+    found%force = scaling%load*iterate%force
+    call set_gaps(scene, scaling, canonical%upper, iterate, found)
+    if (allocated(scene%modes)) then
+      found%motion = scaling%load*iterate%rigid_motion
+    else
+      found%motion = scaling%load*iterate%motion
+    end if
+    if (canonical%has_translation) then
+      found%motion(1) = (found%motion(1) + operator%datum()*sum(found%force)) + scaling%gap_datum
+    end if
+    call report_unresisted_motion(canonical, found, info)
+    call canonical%to_given_modes(prescribed_values(problem), found%motion, motion)
+    if (allocated(scene%excluded)) call set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, &
+                                                         iterate, found)
+    call move_alloc(found%force, solution%force)
+    call move_alloc(found%gap, solution%gap)
+    call move_alloc(motion, solution%motion)
+  end subroutine assemble_general
+
+  !> Forces that are rounding, or that pull at their stop by rounding, become zero.
+  pure subroutine drop_rounding(scene, state, iterate)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: state(:)
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: least
+    integer :: k
+
+    least = max(ROUNDINGS*epsilon(least)*maxval(abs(iterate%force)), 0.0_dp)
+    do k = 1, size(state)
+      if (abs(iterate%force(k)) <= least) iterate%force(k) = 0.0_dp
+      if (iterate%force(k)*real(state(k), dp) < 0.0_dp .and. .not. scene%is_tied(k)) iterate%force(k) = 0.0_dp
+    end do
+  end subroutine drop_rounding
+
+  !> Gaps between the stops, in the units of the problem, as is the play `upper` (n).
+  pure subroutine set_gaps(scene, scaling, upper, iterate, found)
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
+    real(dp), intent(in) :: upper(:)
+    type(contact_iterate), intent(in) :: iterate
+    type(contact_solution), intent(inout) :: found
+    integer :: k
+
+    do k = 1, size(scene%gap)
+      if (scene%gap(k) >= OUT_OF_REACH) cycle
+      found%gap(k) = scaling%load*max(deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion), 0.0_dp)
+      if (found%state(k) == FUGE_AT_LOWER_STOP) found%gap(k) = 0.0_dp
+      found%gap(k) = min(found%gap(k), upper(k))
+      if (found%state(k) == FUGE_AT_UPPER_STOP) found%gap(k) = upper(k)
+    end do
+  end subroutine set_gaps
+
+  !> c = g + A f - R q at the points that are excluded; `motion` q (m) in the modes R of the problem.
+  subroutine set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, iterate, found)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
+    real(dp), intent(in) :: motion(:)
+    type(contact_iterate), intent(inout) :: iterate
+    type(contact_solution), intent(inout) :: found
+
+    if (allocated(scene%modes)) then
+      iterate%displacement = iterate%displacement + matmul(scene%modes, iterate%rigid_motion)
+    end if
+    iterate%displacement = scaling%load*iterate%displacement
+    if (scene%absorbs_datum .or. .not. scene%prescribed) then
+      iterate%displacement = iterate%displacement + operator%datum()*sum(found%force)
+    end if
+    call canonical%set_excluded_gaps_from(iterate%displacement, problem%gap, motion, found%gap)
+  end subroutine set_excluded_gaps
+
+  !> The prescribed motions, zero where free, (m).
+  pure function prescribed_values(problem) result(values)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: values(problem%mode_count())
+
+    values = 0.0_dp
+    if (allocated(problem%prescribed)) where (problem%prescribed) values = problem%motion
+  end function prescribed_values
+
+end module fuge_general_scene

@@ -1,0 +1,93 @@
+!> What conjugate gradients tell of the system that they solve.
+!>
+!> Their coefficients are the factors L D L^T of the matrix of Lanczos: its eigenvalues approach those of the
+!> preconditioned system (G. H. Golub, C. F. Van Loan, Matrix Computations, 4th edition, 2013, section 11.3).
+module fuge_lanczos_values
+  use fuge_kinds, only: dp
+  use fuge_lapack, only: dpttrs
+  implicit none
+  private
+
+  !> So many inverse iterations find the smallest value well enough for an estimate.
+  integer, parameter :: INVERSE_ITERATIONS = 6
+  !> Steps for which there is room at first.
+  integer, parameter :: FIRST_ROOM = 64
+
+  !> The coefficients of one run, step by step.
+  type, public :: lanczos_values
+    private
+    integer :: steps = 0
+    !> D, and the elements of L below its unit diagonal.
+    real(dp), allocatable :: pivots(:), below(:)
+  contains
+    procedure :: restart
+    procedure :: add
+    procedure :: smallest
+  end type lanczos_values
+
+contains
+
+  !> Forget the steps of the last run.
+  pure subroutine restart(self)
+    class(lanczos_values), intent(inout) :: self
+
+    self%steps = 0
+  end subroutine restart
+
+  !> The next step: its length, and the energy of its residual over that of the step before. Without memory it is left out.
+  pure subroutine add(self, step_length, ratio)
+    class(lanczos_values), intent(inout) :: self
+    real(dp), intent(in) :: step_length, ratio
+    integer :: stat
+
+    stat = 0
+    if (.not. allocated(self%pivots)) allocate (self%pivots(FIRST_ROOM), self%below(FIRST_ROOM), stat=stat)
+    if (stat == 0) call enlarge(self, stat)
+    if (stat /= 0) return
+    self%steps = self%steps + 1
+    self%pivots(self%steps) = 1.0_dp/step_length
+    ! The element below the pivot of the step before.
+    if (self%steps > 1) self%below(self%steps - 1) = sqrt(ratio)
+  end subroutine add
+
+  !> Twice the room where it is full.
+  pure subroutine enlarge(self, stat)
+    class(lanczos_values), intent(inout) :: self
+    integer, intent(out) :: stat
+    real(dp), allocatable :: pivots(:), below(:)
+
+    stat = 0
+    if (self%steps < size(self%pivots)) return
+    allocate (pivots(2*self%steps), below(2*self%steps), stat=stat)
+    if (stat /= 0) return
+    pivots(:self%steps) = self%pivots
+    below(:self%steps) = self%below
+    call move_alloc(pivots, self%pivots)
+    call move_alloc(below, self%below)
+  end subroutine enlarge
+
+  !> An estimate of the smallest eigenvalue; 0 without steps.
+  function smallest(self) result(value)
+    class(lanczos_values), intent(in) :: self
+    real(dp) :: value
+    real(dp), allocatable :: vector(:, :)
+    real(dp) :: growth
+    integer :: k, n, stat
+
+    value = 0.0_dp
+    n = self%steps
+    if (n < 1) return
+    allocate (vector(n, 1), stat=stat)
+    if (stat /= 0) return
+    vector = 1.0_dp/sqrt(real(n, dp))
+    growth = 0.0_dp
+    do k = 1, INVERSE_ITERATIONS
+      call dpttrs(n, 1, self%pivots, self%below, vector, n, stat)
+      growth = norm2(vector)
+      if (.not. (growth > 0.0_dp .and. growth <= huge(growth))) return
+      vector = vector/growth
+    end do
+    value = 1.0_dp/growth
+  end function smallest
+
+end module fuge_lanczos_values
