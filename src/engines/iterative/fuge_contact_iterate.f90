@@ -57,7 +57,7 @@ module fuge_contact_iterate
     logical :: unbounded = .false.
     !> Did run_projected_gradients reduce the residual to its tolerance?
     logical :: converged = .false.
-    !> The least of the smallest values of `lanczos` so far; 0 before any step.
+    !> The least of the smallest values of `lanczos` on this contact set; 0 before any step.
     real(dp) :: smallest_value = 0.0_dp
     !> The largest preconditioned residual over the largest residual, of one that is nearly small enough; force per
     !> length; 0 before any step.

@@ -11,7 +11,7 @@ module fuge_contact_set_search
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
-  use fuge_force_error, only: estimated_force_error
+  use fuge_iteration_error, only: estimated_force_error
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_number_text, only: index_text, text
@@ -116,6 +116,7 @@ contains
       call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
                                  in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
       if (info%failed()) exit
+      iterate%smallest_value = 0.0_dp
       call make_feasible(operator, scene, iterate, info)
       fresh = .true.
     end do
@@ -210,7 +211,7 @@ contains
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine solve_on_contact_set
 
-  !> Keep the smallest value that conjugate gradients have found on any set.
+  !> Keep the smallest value that conjugate gradients have found on this set.
   subroutine note_smallest_value(iterate)
     type(contact_iterate), intent(inout) :: iterate
     real(dp) :: value
@@ -323,6 +324,7 @@ contains
           exit
         end if
       end if
+      iterate%smallest_value = 0.0_dp
       if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
     end do
     if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)

@@ -104,6 +104,7 @@ contains
     call move_alloc(iterate%force, scaled_force)
     last%smallest_value = iterate%smallest_value
     last%amplification = iterate%amplification
+    info%force_error = iterate%force_error
     last%tolerance = options%tolerance
   end subroutine solve_by_iteration
 

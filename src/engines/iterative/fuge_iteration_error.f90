@@ -3,7 +3,7 @@
 !> The residual is a backward error: where the operator is nearly singular on the contact, small residuals belong to
 !> large errors. Divided by the smallest value of Lanczos, the preconditioned residual bounds the error in the norm of the
 !> preconditioner (doc/theory.md).
-module fuge_force_error
+module fuge_iteration_error
   use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_segments, only: max_abs_over
   use fuge_kinds, only: dp
@@ -34,4 +34,4 @@ contains
     error = merge(error/iterate%smallest_value/largest, 1.0_dp, error < iterate%smallest_value*largest)
   end function estimated_force_error
 
-end module fuge_force_error
+end module fuge_iteration_error
