@@ -17,12 +17,14 @@ module fuge_iterative_engine
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
+    FUGE_WARN_NOT_UNIQUE
   use fuge_wrong_points, only: choose_contact
   implicit none
   private
@@ -100,6 +102,7 @@ contains
     else
       call assemble_simple(operator, scene, scaling, iterate, solution, info)
     end if
+    if (.not. info%failed()) call report_repeated_points(operator, scene, iterate, info)
     if (info%failed()) return
     call move_alloc(iterate%force, scaled_force)
     last%smallest_value = iterate%smallest_value
@@ -126,6 +129,20 @@ contains
       last%state = states_of(iterate)
     end if
   end subroutine keep_states
+
+  !> Warn of two contact points that are the same one twice. Errors: those of the operator.
+  subroutine report_repeated_points(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    type(fuge_info), intent(inout) :: info
+    integer :: pair(2)
+
+    call find_repeated_points(operator, scene, iterate, pair, info)
+    if (info%failed() .or. pair(1) < 1) return
+    call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact, where points '//index_text(pair(1)) &
+                //' and '//index_text(pair(2))//' move together: gaps and motions are unique, the forces are not')
+  end subroutine report_repeated_points
 
   !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points. Errors:
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
