@@ -62,8 +62,6 @@ module fuge_contact_iterate
     !> The largest preconditioned residual over the largest residual, of one that is nearly small enough; force per
     !> length; 0 before any step.
     real(dp) :: amplification = 0.0_dp
-    !> The estimated error of the forces over the largest of them.
-    real(dp) :: force_error = 0.0_dp
     !> The coefficients of the conjugate gradients of the last call that made steps.
     type(lanczos_values) :: lanczos
     !> The rigid motions on the contact set.

@@ -11,7 +11,6 @@ module fuge_contact_set_search
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
-  use fuge_iteration_error, only: estimated_force_error
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_number_text, only: index_text, text
@@ -120,7 +119,6 @@ contains
       call make_feasible(operator, scene, iterate, info)
       fresh = .true.
     end do
-    if (.not. (settings%coarse_grid .or. info%failed())) iterate%force_error = estimated_force_error(iterate)
     info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
   end subroutine find_contact_set
 
