@@ -71,6 +71,8 @@ module fuge_contact_iterate
     !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
     !> the contact set.
     real(dp), allocatable :: residual(:), direction(:)
+    !> Forces at the start of the last run of conjugate gradients, (n); allocated where they may grow without bound.
+    real(dp), allocatable :: start(:)
     !> In turn the preconditioned residual and the displacement by `direction`, (n).
     real(dp), allocatable :: work(:)
   end type contact_iterate
@@ -91,6 +93,7 @@ contains
     allocate (iterate%force(n), iterate%displacement(n), iterate%contact(n), iterate%residual(n), &
               iterate%direction(n), iterate%work(n), stat=stat)
     if (stat == 0 .and. allocated(scene%play)) allocate (iterate%at_upper(n), stat=stat)
+    if (stat == 0 .and. scene%prescribed) allocate (iterate%start(n), stat=stat)
     if (stat == 0 .and. allocated(scene%modes)) allocate (iterate%rigid_motion(size(scene%load)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')

@@ -23,6 +23,7 @@ module fuge_iterative_engine
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
     FUGE_WARN_NOT_UNIQUE
@@ -70,6 +71,7 @@ contains
     type(contact_scene) :: scene
     type(scene_scaling) :: scaling
     type(search_settings) :: coarse_settings, settings
+    logical :: repeated
     logical :: warm
 
     coarse_settings%limit = iteration_limit(options, operator%points() + 1)
@@ -98,25 +100,30 @@ contains
     call find_contact_set(operator, settings, scene, monitor, iterate, info)
     if (.not. info%failed()) call keep_states(iterate, last, info)
     if (info%failed()) return
-    call judge_forces(operator, scene, iterate, info)
+    call judge_forces(operator, scene, iterate, repeated, info)
+    if (info%failed()) return
     if (is_general(problem)) then
       call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
     else
       call assemble_simple(operator, scene, scaling, iterate, solution, info)
     end if
     if (info%failed()) return
+    if (repeated) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
     call move_alloc(iterate%force, scaled_force)
     last%smallest_value = iterate%smallest_value
     last%amplification = iterate%amplification
     last%tolerance = options%tolerance
   end subroutine solve_by_iteration
 
-  !> Estimate the error of the forces, and warn where they are not unique.
-  subroutine judge_forces(operator, scene, iterate, info)
+  !> Estimate the error of the forces, and whether two points are `repeated`: then they are not unique. Errors: those of
+  !> the operator.
+  subroutine judge_forces(operator, scene, iterate, repeated, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
+    logical, intent(out) :: repeated
     type(fuge_info), intent(inout) :: info
+    integer :: pair(2)
     real(dp), allocatable :: no_modes(:, :)
     real(dp) :: compliance
 
@@ -127,7 +134,12 @@ contains
       compliance = operator%least_pair_compliance(iterate%contact, no_modes)
     end if
     info%force_error = estimated_force_error(iterate, compliance)
-    if (.not. compliance > 0.0_dp) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
+    repeated = .not. compliance > 0.0_dp
+    ! A preconditioner is close to an inverse.
+    if (compliance < huge(compliance)) return
+    if (operator%has_preconditioner()) return
+    call find_repeated_points(operator, scene, iterate, pair, info)
+    repeated = pair(1) > 0
   end subroutine judge_forces
 
   !> Keep the contact set for derivatives. Error: FUGE_ERR_MEMORY.
