@@ -111,10 +111,12 @@ contains
       call assemble_simple(operator, scene, scaling, iterate, solution, info)
     end if
     if (info%failed()) return
-    call history%store(problem, solution)
     last%smallest_value = iterate%smallest_value
     last%amplification = iterate%amplification
     last%tolerance = options%tolerance
+    ! The history needs memory of its own.
+    call discard(iterate)
+    call history%store(problem, solution)
   end subroutine solve_by_iteration
 
   !> Estimate the error of the forces, and warn where they are not unique.
@@ -170,6 +172,8 @@ contains
 
     call history%predict(problem, start)
     if (.not. allocated(start)) return
+    ! Forces of another order of magnitude are no start, and their squares would overflow.
+    if (2*(exponent(maxval(abs(start))) - exponent(scaling%load)) > LARGEST_EXPONENT) return
     start = start/scaling%load
     call start_iterate(iterate, scene, start, info)
     if (info%failed()) return

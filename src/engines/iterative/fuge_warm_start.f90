@@ -97,10 +97,9 @@ contains
       call self%forget()
       return
     end if
-    if (allocated(problem%gap_upper)) then
-      step%values = solution%force
-    else
-      step%values = merge(solution%force, -max(solution%gap, 0.0_dp), abs(solution%force) > 0.0_dp)
+    step%values = solution%force
+    if (.not. allocated(problem%gap_upper)) then
+      where (.not. abs(solution%force) > 0.0_dp) step%values = -max(solution%gap, 0.0_dp)
     end if
     do j = 1, size(step%resultant)
       if (.not. is_held(problem, j)) then
