@@ -100,9 +100,10 @@ contains
     if (iterate%at_upper(k)) sign_of_force = -1.0_dp
   end function sign_at
 
-  !> Go against the search direction, which stores no energy, until a force has changed its sign, unless one has already;
-  !> iterate%unbounded if none ever does. Not where it does no work beyond rounding, `energy` being that for a step of 1:
-  !> the mean residual is below `tolerance` times the lengths of the scene.
+  !> Go from the forces at the start against the search direction, which stores no energy, until a force has changed its
+  !> sign, unless one has already; iterate%unbounded if none ever does. Not where the direction does no work beyond
+  !> rounding: `energy` is its work for a step of 1, and the mean residual in it is at most `tolerance` times the lengths
+  !> of the scene.
   pure subroutine leave_null_direction(scene, tolerance, energy, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: tolerance, energy
@@ -112,6 +113,8 @@ contains
 
     if (energy <= (tolerance*length_of(scene, iterate) + iterate%rounding)*total_force(iterate)) return
     iterate%unbounded = .true.
+    ! On the way here they have grown.
+    iterate%force = iterate%start
     least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
     step_length = huge(step_length)
     do k = 1, size(iterate%contact)

@@ -59,6 +59,7 @@ contains
 
     iterate%converged = .false.
     iterate%unbounded = .false.
+    if (iterate%prescribed) iterate%start = iterate%force
     preconditioned = operator%has_preconditioner()
     call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
