@@ -66,11 +66,22 @@ contains
     end if
     if (allocated(scene%modes)) then
       scene%modes = canonical%modes
-      if (allocated(scene%excluded)) where (spread(canonical%excluded, 2, m)) scene%modes = 0.0_dp
+      if (allocated(scene%excluded)) call clear_rows(canonical%excluded, scene%modes)
       scene%load = canonical%load/scaling%load
       scene%balance = canonical%feasible_force/scaling%load
     end if
   end subroutine set_general_scene
+
+  !> No motion displaces the points marked in `excluded` (n).
+  pure subroutine clear_rows(excluded, modes)
+    logical, intent(in) :: excluded(:)
+    real(dp), intent(inout) :: modes(:, :)
+    integer :: j
+
+    do j = 1, size(modes, 2)
+      where (excluded) modes(:, j) = 0.0_dp
+    end do
+  end subroutine clear_rows
 
   !> Is there one free translation with a load, and no upper stop? Its forces push, and have the load for their sum.
   pure function is_loaded_translation(problem, canonical) result(loaded)
@@ -153,7 +164,7 @@ contains
     end do
   end subroutine drop_rounding
 
-  !> Gaps between the stops, in the units of the problem, as is the play `upper` (n).
+  !> Gaps between the stops, in the units of the problem, as is the play `upper` (n); 0 at points that are excluded.
   pure subroutine set_gaps(scene, scaling, upper, iterate, found)
     type(contact_scene), intent(in) :: scene
     type(scene_scaling), intent(in) :: scaling
@@ -163,6 +174,7 @@ contains
     integer :: k
 
     do k = 1, size(scene%gap)
+      found%gap(k) = 0.0_dp
       if (scene%gap(k) >= OUT_OF_REACH) cycle
       found%gap(k) = scaling%load*max(deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion), 0.0_dp)
       if (found%state(k) == FUGE_AT_LOWER_STOP) found%gap(k) = 0.0_dp
