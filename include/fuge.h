@@ -29,8 +29,7 @@
  * w = F_0.  alpha has to be positive definite on the forces with R^T f = 0 in the free
  * motions.  The forces are then unique.  A free motion that no contact resists (w = 0, or a
  * body about to tip) is not: the solution has one of the possible values, with
- * FUGE_WARN_NOT_UNIQUE.  General problems need a dense operator, for the active set or the
- * tableau; the iteration takes the paper's problem and a prescribed translation.
+ * FUGE_WARN_NOT_UNIQUE.  Every engine solves every problem of this form.
  *
  * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda].  Points, rows,
  * degrees of freedom and modes count from 0, in messages too, unless an argument says
@@ -279,14 +278,22 @@ enum {                          /* kind of an edge; all but the first are edges 
  *                    width/2 if it starts on the axis.  An interval that touches the axis
  *                    comes out whole, left = -right, any other one at x > 0 only.
  *                    0: the model of fuge_halfplane_matrix
- *   capacity    in   length of the four arrays, each of which may be NULL
+ *   capacity    in   length of the six arrays, each of which may be NULL
  *   left, right out  the edges, from left to right; length
+ *   left_error, right_error  out  estimates of their errors, to an order of magnitude; length.
+ *                    The width of a cell for an edge that is not refined
  *   left_kind, right_kind  out  FUGE_EDGE_...
  *   count       out  number of intervals, of which the first capacity are written
- * FUGE_ERR_GRID if the grid is not uniform. */
+ * The forces have to be more accurate than others need them: those of a solve to the tolerance
+ * t put the edges of a contact of N cells wrong by up to about t sqrt(N)/2 of the half width.
+ * Beyond N = 600 that is more than the error of third order, for the default t = 1e-10.  With
+ * fuge_options.tolerance = 1e-13 the edges are as exact as the grid allows, and a solve takes
+ * about a tenth longer.  The estimates see both errors, and where the gap is not smooth from
+ * cell to cell.  FUGE_ERR_GRID if the grid is not uniform. */
 int fuge_contact_edges(int n, const double *x, const double *width, const double *force,
                        int element, int symmetric, int capacity, double *left, double *right,
-                       int *left_kind, int *right_kind, int *count, char *message, size_t len);
+                       double *left_error, double *right_error, int *left_kind,
+                       int *right_kind, int *count, char *message, size_t len);
 
 /* ---- operators ---------------------------------------------------------- */
 
@@ -327,6 +334,51 @@ int fuge_operator_set_preconditioner(fuge_operator *op, fuge_apply preconditione
  * are copied; length per force.  FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_DEFINITE for one <= 0. */
 int fuge_operator_set_diagonal(fuge_operator *op, const double *diagonal,
                                char *message, size_t len);
+
+/* Points that are equal cells of a grid, for callback operators only and not during a solve:
+ * with one of the two calls that follow a callback operator needs as few products as the
+ * built-in operators of grids.  The solution is that of apply alone, to the tolerance.
+ *   nx, ny  in  cells in a row, and rows; point i + nx*j is the cell i of row j, from 0; ny = 1
+ *               for cells side by side on a line
+ * Another grid than before forgets what those calls have set.  FUGE_ERR_SIZE unless
+ * nx*ny = n. */
+int fuge_operator_set_grid(fuge_operator *op, int nx, int ny, char *message, size_t len);
+
+/* The coarser grid, from which a solve gets the forces to start with: coarse is the same body,
+ * or one similar to it, on cells twice as wide in both directions, (nx + 1)/2 x (ny + 1)/2 of
+ * them, rounded down.  Each replaces 2 x 2 cells of op, the last one of a row or column of an
+ * odd number fewer; a direction of one cell keeps it.  coarse is another callback operator,
+ * with a grid and a preconditioner (if op has one), and a coarser one in turn, down to about 32
+ * cells; or one of fuge_operator_halfplane or fuge_operator_halfspace, which makes all coarser
+ * ones itself.  coarse is not copied: free it after the solves with op.
+ * FUGE_ERR_CALL_ORDER before fuge_operator_set_grid, FUGE_ERR_SIZE for another grid. */
+int fuge_operator_set_coarser(fuge_operator *op, const fuge_operator *coarse,
+                              char *message, size_t len);
+
+/* A similar body that the library knows: auxiliary, of fuge_operator_halfplane or
+ * fuge_operator_halfspace, has the cells of op, and its displacements are close to those of
+ * apply, such as those of the body without its layers.  op gets its grid; where none has been
+ * set for op, its preconditioner and its coarser grids; its windows for contacts that fill a
+ * small part of the grid; and the size of the terms by which the residual is judged.  The
+ * closer the bodies, the fewer products; it pays as long as the force of one cell displaces it
+ * less than about four times as far as on auxiliary.  auxiliary is not copied: free it after
+ * the solves with op.  FUGE_ERR_SIZE for other cells, FUGE_ERR_UNSUPPORTED for another
+ * operator. */
+int fuge_operator_set_auxiliary(fuge_operator *op, const fuge_operator *auxiliary,
+                                char *message, size_t len);
+
+/* What products do not show of the coefficients of A, for callback operators only and not
+ * during a solve; length per force, 0 at first.
+ *   datum  in  a constant that apply leaves out of all coefficients: it returns
+ *              u = (A - datum) f, and the library adds datum times the sum of the forces.  A
+ *              large one left in A, such as that of a soft support, costs u its digits
+ *   mean   in  mean of |alpha_ij - datum|, such as that of the displacements by one force of
+ *              1; 0 if unknown.  Where displacements are small beside their terms, as on a
+ *              periodic surface in nearly complete contact, the residual is judged by the
+ *              terms, mean times the sum of the forces: without it solves go on for longer
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION for mean < 0. */
+int fuge_operator_set_coefficients(fuge_operator *op, double datum, double mean,
+                                   char *message, size_t len);
 
 enum {                          /* boundary: what lies beyond the cells */
   FUGE_FREE = 0,                /* a surface without pressure */
@@ -501,9 +553,10 @@ int fuge_get_resultant(const fuge_solver *s, double *resultant);  /* m: R^T f; o
  * not change: the changes of force and gap (n each) and of v_0 (motion, 1) for a change of
  * the gaps (n; NULL for none) and of the load.  gap and motion may be NULL.  With gap_change
  * NULL and load_change 1 the contact stiffness is 1/motion; a unit gap_change at k gives
- * column k of the sensitivity to the gaps.  Each call costs four triangular solves.
- * FUGE_ERR_CALL_ORDER also after a solve with zero load; FUGE_ERR_SIZE unless m = 1;
- * FUGE_ERR_UNSUPPORTED unless the operator is dense. */
+ * column k of the sensitivity to the gaps.  After a dense engine each call costs four
+ * triangular solves, after the iteration products on the contact set, to the tolerance of the
+ * solve.  FUGE_ERR_CALL_ORDER also after a solve with zero load; FUGE_ERR_SIZE unless m = 1;
+ * FUGE_ERR_NO_EQUILIBRIUM where the contact does not resist what the changes load. */
 int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double load_change,
                         double *force, double *gap, double *motion);
 

@@ -4,9 +4,10 @@
  *
  * The scene of examples/fortran/rough.f90: a self-affine profile with the period 1, E* = 1,
  * cells a power of two.  fuge knows the half-plane by two functions only: the product
- * u = A f, here by FFTW, and an inverse of it, which saves many products.  Replace them by
- * those of a layer, a viscoelastic body, a finite element model.  The built-in operator
- * solves the same scene: forces have to agree.  limit > 0: cancel a solve after so many
+ * u = A f, here by FFTW, and an inverse of it; and because its cells form a grid, by the same
+ * functions on coarser grids.  Each saves many products.  Replace them by those of a layer, a
+ * viscoelastic body, a finite element model.  The built-in operator solves the same scene:
+ * forces have to agree, and the products are as many.  limit > 0: cancel a solve after so many
  * iterations. */
 #include <fftw3.h>
 #include <math.h>
@@ -19,6 +20,7 @@
 static const double PI = 3.14159265358979323846;
 static const double HURST = 0.8, SLOPE = 0.1;
 enum { LONGEST = 4, SHORTEST = 16, SEED = 2026 };   /* period/4 to 16 cells */
+enum { MOST_GRIDS = 32, FEWEST_CELLS = 32 };
 
 /* ---- the operator: what user points to ----------------------------------- */
 
@@ -107,6 +109,38 @@ static void free_half_plane(half_plane *body) {
   fftw_free(body->wave);
 }
 
+static char message[FUGE_MESSAGE_LENGTH + 1];
+
+/* Mean size of the coefficients, from the displacements by one force.  In nearly complete contact
+ * displacements are small beside these terms, and can be no more exact than they are. */
+static double mean_coefficient(half_plane *body) {
+  double *force = reserve(body->n, sizeof *force), *displacement = reserve(body->n, sizeof *force), sum = 0.0;
+  memset(force, 0, (size_t)body->n * sizeof *force);
+  force[0] = 1.0;
+  product(body->n, force, displacement, body);
+  for (int k = 0; k < body->n; k++) sum += fabs(displacement[k]);
+  fftw_free(force);
+  fftw_free(displacement);
+  return sum / body->n;
+}
+
+/* The half-plane on n cells, op[0], and on n/2, n/4, ... cells of the same period, from which
+ * solves get their start.  grids: how many have been made, whatever the status. */
+static int make_own_operators(int n, half_plane *body, fuge_operator **op, int *grids) {
+  int status = FUGE_DONE;
+  for (*grids = 0; n >= FEWEST_CELLS && status == FUGE_DONE; n /= 2) {
+    int k = (*grids)++;
+    make_half_plane(n, &body[k]);
+    status = fuge_operator_callback(n, product, &body[k], &op[k], message, sizeof message);
+    if (status == FUGE_DONE) status = fuge_operator_set_preconditioner(op[k], preconditioner, message, sizeof message);
+    if (status == FUGE_DONE) status = fuge_operator_set_coefficients(op[k], 0.0, mean_coefficient(&body[k]), message,
+                                                                     sizeof message);
+    if (status == FUGE_DONE) status = fuge_operator_set_grid(op[k], n, 1, message, sizeof message);
+    if (status == FUGE_DONE && k > 0) status = fuge_operator_set_coarser(op[k - 1], op[k], message, sizeof message);
+  }
+  return status;
+}
+
 /* ---- the profile --------------------------------------------------------- */
 
 /* "Minimal standard" generator, as in the Fortran example: the same profile. */
@@ -141,8 +175,6 @@ static int watch(int iteration, double residual, int contacts, void *user) {
   if (limit > 0) fprintf(stderr, "  iteration %d: residual %.1e, %d cells touch\n", iteration, residual, contacts);
   return limit > 0 && iteration >= limit;
 }
-
-static char message[FUGE_MESSAGE_LENGTH + 1];
 
 /* Prints what went wrong, if anything did.  solver: NULL if the call has written to message. */
 static int explain(int status, const fuge_solver *solver) {
@@ -217,27 +249,26 @@ int main(int argc, char **argv) {
     fprintf(stderr, "usage: c_rough [cells, a power of two from 1024 on [limit]]\n");
     return EXIT_FAILURE;
   }
-  half_plane body;
-  make_half_plane(n, &body);
-  double *gap = reserve(n, sizeof *gap);
-  make_gap(&body, gap);
-
-  fuge_operator *own = NULL, *builtin = NULL;
+  static half_plane body[MOST_GRIDS];
+  fuge_operator *own[MOST_GRIDS] = {NULL}, *builtin = NULL;
   fuge_solver *own_solver = NULL, *builtin_solver = NULL;
-  int status = fuge_operator_callback(n, product, &body, &own, message, sizeof message);
-  if (status == FUGE_DONE) status = fuge_operator_set_preconditioner(own, preconditioner, message, sizeof message);
+  double *gap = reserve(n, sizeof *gap);
+  int grids, status = make_own_operators(n, body, own, &grids);
   if (status == FUGE_DONE) status = fuge_operator_halfplane(n, 1.0 / n, 1.0, FUGE_MEAN, FUGE_PERIODIC, &builtin,
                                                             message, sizeof message);
   explain(status, NULL);
-  if (status == FUGE_DONE) status = prepare(own, gap, &limit, &own_solver);
+  if (status == FUGE_DONE) make_gap(&body[0], gap);
+  if (status == FUGE_DONE) status = prepare(own[0], gap, &limit, &own_solver);
   if (status == FUGE_DONE) status = prepare(builtin, gap, &limit, &builtin_solver);
   if (status == FUGE_DONE) status = all_loads(n, own_solver, builtin_solver);
 
   fuge_solver_free(&own_solver);
   fuge_solver_free(&builtin_solver);
-  fuge_operator_free(&own);
   fuge_operator_free(&builtin);
+  for (int k = 0; k < grids; k++) {
+    fuge_operator_free(&own[k]);
+    free_half_plane(&body[k]);
+  }
   fftw_free(gap);
-  free_half_plane(&body);
   return status == FUGE_DONE ? EXIT_SUCCESS : EXIT_FAILURE;
 }

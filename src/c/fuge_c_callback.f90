@@ -1,4 +1,5 @@
-!> C bindings, section "operators": products by a function of the caller.
+!> C bindings, section "operators": products by a function of the caller. What the library may know of the
+!> operator beside its products, a grid above all, is set by `fuge_c_callback_grid`.
 module fuge_c_callback
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_funptr, c_size_t, c_f_pointer, &
@@ -14,6 +15,8 @@ module fuge_c_callback
   implicit none
   private
 
+  public :: find_callback
+
   abstract interface
     !> fuge_apply of fuge.h: `output` from `input`, both n long; nonzero is a failure.
     function c_apply(n, input, output, user) bind(c) result(status)
@@ -26,18 +29,32 @@ module fuge_c_callback
     end function c_apply
   end interface
 
-  type, extends(fuge_operator) :: callback_operator
+  type, extends(fuge_operator), public :: callback_operator
     integer :: n = 0
     procedure(c_apply), pointer, nopass :: product => null()
-    !> The preconditioner is one of these two, or there is none.
+    !> The preconditioner is one of these two, else that of `auxiliary`, or there is none.
     procedure(c_apply), pointer, nopass :: inverse => null()
     real(dp), allocatable :: diagonal(:)
     type(c_ptr) :: user = c_null_ptr
+    !> The constant that the product leaves out of all coefficients, and the mean magnitude of the others; 0 if unknown.
+    real(dp) :: left_out = 0.0_dp, mean_term = 0.0_dp
+    !> Cells in each direction of the grid that the points are; 0 if they are none.
+    integer :: cells(2) = 0
+    !> The caller's operators of the cells twice as wide, and of the same cells on a similar body. The first makes
+    !> the coarser grids if it is there, else the second does.
+    type(operator_handle), pointer :: coarser => null(), auxiliary => null()
   contains
     procedure :: points
     procedure :: apply
+    procedure :: datum
+    procedure :: magnitude => callback_magnitude
     procedure :: has_preconditioner
     procedure :: precondition
+    procedure :: grid
+    procedure :: free_rim
+    procedure :: coarsen
+    procedure :: kept_coarser
+    procedure :: window
   end type callback_operator
 
 contains
@@ -76,7 +93,7 @@ contains
     type(callback_operator), pointer :: callback
     type(fuge_info) :: info
 
-    call find_callback(operator, callback, info)
+    call find_callback(operator, 'a preconditioner', callback, info)
     call require_pointer(inverse, 'preconditioner', info)
     if (.not. info%failed()) then
       callback%inverse => procedure_at(inverse)
@@ -96,7 +113,7 @@ contains
     type(fuge_info) :: info
     integer :: stat
 
-    call find_callback(operator, callback, info)
+    call find_callback(operator, 'a preconditioner', callback, info)
     call require_pointer(diagonal, 'diagonal', info)
     if (.not. info%failed()) then
       call c_f_pointer(diagonal, values, [callback%n])
@@ -127,9 +144,10 @@ contains
     end do
   end subroutine check_diagonal
 
-  !> The callback operator behind a handle; FUGE_ERR_POINTER, FUGE_ERR_UNSUPPORTED for another.
-  subroutine find_callback(operator, callback, info)
+  !> The callback operator behind a handle; FUGE_ERR_POINTER, FUGE_ERR_UNSUPPORTED for another. `what` it is to get.
+  subroutine find_callback(operator, what, callback, info)
     type(c_ptr), intent(in) :: operator
+    character(len=*), intent(in) :: what
     type(callback_operator), pointer, intent(out) :: callback
     type(fuge_info), intent(inout) :: info
     type(operator_handle), pointer :: handle
@@ -142,8 +160,8 @@ contains
     type is (callback_operator)
       callback => known
     class default
-      call report(info, FUGE_ERR_UNSUPPORTED, 'only an operator of fuge_operator_callback takes a preconditioner: a ' &
-                  //'matrix needs none, and fuge_operator_halfplane has its own')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'only an operator of fuge_operator_callback takes '//what//': a ' &
+                  //'matrix needs none, and those of grids have their own')
     end select
   end subroutine find_callback
 
@@ -170,11 +188,32 @@ contains
     call call_back(self%product, force, displacement, self%user, status)
   end subroutine apply
 
+  function datum(self)
+    class(callback_operator), intent(in) :: self
+    real(dp) :: datum
+
+    datum = self%left_out
+  end function datum
+
+  !> The largest displacement, or what the auxiliary operator knows; at least the mean of the terms.
+  subroutine callback_magnitude(self, force, displacement, magnitude)
+    class(callback_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:), displacement(:)
+    real(dp), intent(out) :: magnitude(:)
+
+    if (associated(self%auxiliary)) then
+      call self%auxiliary%operator%magnitude(force, displacement, magnitude)
+    else
+      magnitude = maxval(abs(displacement))
+    end if
+    if (self%mean_term > 0.0_dp) magnitude = max(magnitude, self%mean_term*sum(abs(force)))
+  end subroutine callback_magnitude
+
   function has_preconditioner(self) result(preconditioned)
     class(callback_operator), intent(in) :: self
     logical :: preconditioned
 
-    preconditioned = associated(self%inverse) .or. allocated(self%diagonal)
+    preconditioned = associated(self%inverse) .or. allocated(self%diagonal) .or. associated(self%auxiliary)
   end function has_preconditioner
 
   subroutine precondition(self, displacement, force, status)
@@ -186,10 +225,64 @@ contains
     if (allocated(self%diagonal)) then
       force = displacement/self%diagonal
       status = FUGE_DONE
-    else
+    else if (associated(self%inverse)) then
       call call_back(self%inverse, displacement, force, self%user, status)
+    else
+      call self%auxiliary%operator%precondition(displacement, force, status)
     end if
   end subroutine precondition
+
+  function grid(self) result(cells)
+    class(callback_operator), intent(in) :: self
+    integer :: cells(2)
+
+    cells = self%cells
+  end function grid
+
+  function free_rim(self) result(free)
+    class(callback_operator), intent(in) :: self
+    logical :: free(2)
+
+    free = .false.
+    if (associated(self%auxiliary)) free = self%auxiliary%operator%free_rim()
+  end function free_rim
+
+  !> None: those of the caller are kept.
+  subroutine coarsen(self, levels, coarse)
+    class(callback_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    class(fuge_operator), allocatable, intent(out) :: coarse
+
+    if (associated(self%coarser) .or. .not. associated(self%auxiliary)) return
+    call self%auxiliary%operator%coarsen(levels, coarse)
+  end subroutine coarsen
+
+  !> Each coarser operator of the caller knows the next one. There is no end of them only if two had the same cells,
+  !> which `fuge_operator_set_coarser` refuses.
+  recursive subroutine kept_coarser(self, levels, coarse)
+    class(callback_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    class(fuge_operator), pointer, intent(out) :: coarse
+
+    nullify (coarse)
+    if (levels < 1) return
+    if (associated(self%coarser) .and. levels == 1) then
+      coarse => self%coarser%operator
+    else if (associated(self%coarser)) then
+      call self%coarser%operator%kept_coarser(levels - 1, coarse)
+    else if (associated(self%auxiliary)) then
+      call self%auxiliary%operator%kept_coarser(levels, coarse)
+    end if
+  end subroutine kept_coarser
+
+  !> A window of the auxiliary operator: its forces are only the start on the whole grid.
+  subroutine window(self, first, last, part)
+    class(callback_operator), intent(in) :: self
+    integer, intent(in) :: first(2), last(2)
+    class(fuge_operator), allocatable, intent(out) :: part
+
+    if (associated(self%auxiliary)) call self%auxiliary%operator%window(first, last, part)
+  end subroutine window
 
   !> The callback gets a copy, so that one which writes to its input harms nobody. The output starts
   !> as NaN, so that `fuge_operator_products` sees a value that the callback forgets.

@@ -9,11 +9,13 @@ module fuge_c_edges
 
 contains
 
-  !> Fourteen arguments, as in the header: cells and forces, an array for each part of an interval, the message.
-  function c_contact_edges(n, x, width, force, element, symmetric, capacity, left, right, left_kind, right_kind, &
-                           number, message, length) bind(c, name='fuge_contact_edges') result(status)
+  !> Sixteen arguments, as in the header: cells and forces, an array for each part of an interval, the message.
+  function c_contact_edges(n, x, width, force, element, symmetric, capacity, left, right, left_error, right_error, &
+                           left_kind, right_kind, number, message, length) &
+    bind(c, name='fuge_contact_edges') result(status)
     integer(c_int), intent(in), value :: n, element, symmetric, capacity
-    type(c_ptr), intent(in), value :: x, width, force, left, right, left_kind, right_kind, number, message
+    type(c_ptr), intent(in), value :: x, width, force, left, right, left_error, right_error, left_kind, right_kind
+    type(c_ptr), intent(in), value :: number, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     real(c_double), pointer :: centre(:), breadth(:), forces(:)
@@ -38,6 +40,8 @@ contains
     count = min(size(intervals), int(capacity))
     call copy_reals(intervals(:count)%left, left)
     call copy_reals(intervals(:count)%right, right)
+    call copy_reals(intervals(:count)%left_error, left_error)
+    call copy_reals(intervals(:count)%right_error, right_error)
     call copy_integers(intervals(:count)%left_kind, left_kind)
     call copy_integers(intervals(:count)%right_kind, right_kind)
     call copy_integers([size(intervals)], number)

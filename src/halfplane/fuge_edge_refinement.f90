@@ -1,12 +1,7 @@
 !> Edges of contact on a half-plane, to third order in the cell width.
 !>
-!> The contact set gives an edge to half a cell; the forces give it more exactly. Let the
-!> cells from an edge inwards be j = 0, 1, .. For a smooth gap their forces f_j satisfy, apart
-!> from the influence of the far edge, a Toeplitz system on the half-line. Its symbol has a
-!> Wiener-Hopf factorisation (M. G. Krein, Amer. Math. Soc. Transl. 22, 1962), and the
-!> convolution of f with the coefficients of one factor is a polynomial in j. Four cells give
-!> the coefficients of the polynomial, and these the pressure at a distance s from the
-!> *effective edge*, where s = (j + `ORIGIN`) h:
+!> The contact set gives an edge to half a cell; the forces give it more exactly. `fuge_edge_expansion` finds the
+!> pressure at a distance s from the *effective edge* from the forces of four cells,
 !>
 !>     p = D s^(-3/2) + K s^(-1/2) + L s^(1/2) + M s^(3/2) + ..
 !>
@@ -15,8 +10,9 @@
 !> -K/2 times the eigensolution with s^(-3/2), which is known for one interval; from this
 !> follows the shift for which K = 0. See doc/theory.md, "Edges of the contact".
 module fuge_edge_refinement
-  use fuge_constants, only: PI
-  use fuge_halfplane_influence, only: check_halfplane, FUGE_CENTRE, FUGE_HAT
+  use fuge_edge_expansion, only: edge_expansion, effective_edge, pressure_expansion, shift_error, CELLS, JUDGED, &
+    SMALLEST_L
+  use fuge_halfplane_influence, only: check_halfplane
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
@@ -40,25 +36,16 @@ module fuge_edge_refinement
   type, public :: fuge_interval
     !> Positions of the edges; length.
     real(dp) :: left = 0.0_dp, right = 0.0_dp
+    !> Estimates of their errors, to an order of magnitude; length. The width of a cell if they are not refined.
+    real(dp) :: left_error = 0.0_dp, right_error = 0.0_dp
     !> Kinds of the edges: FUGE_EDGE_REFINED or why an edge is not refined.
     integer :: left_kind = FUGE_EDGE_FEW_CELLS, right_kind = FUGE_EDGE_FEW_CELLS
     !> Numbers of the first and the last cell, from 1.
     integer :: first = 0, last = 0
   end type fuge_interval
 
-  !> Cells from which an edge is computed, and the fewest of an interval: with only four, both
-  !> edges would be computed from the same cells.
-  integer, parameter :: CELLS = 4
+  !> The fewest cells of an interval: with only four, both edges would be computed from the same cells.
   integer, parameter :: FEWEST = CELLS + 1
-
-  !> First coefficients of the Wiener-Hopf factor, for FUGE_CENTRE and for the other two
-  !> elements, which have the same matrix; and the distance of the centre of cell 0 from the
-  !> effective edge, in cells. Computed from the symbols by quadrature, which
-  !> test_edge_refinement repeats; public for that test.
-  real(dp), parameter, public :: FACTOR(CELLS, 2) = reshape([ &
-    1.0_dp, 0.5740070068596145_dp, 0.4143161456561956_dp, 0.3418239079354555_dp, &
-    1.0_dp, 0.6514640003861043_dp, 0.4519323409169976_dp, 0.3701790118360726_dp], [CELLS, 2])
-  real(dp), parameter, public :: ORIGIN(2) = [0.32534677144_dp, 0.38494788139_dp]
 
   !> For a smooth gap the true edge lies within about half a cell of `TYPICAL`, counted outwards
   !> from the edge of the cell: otherwise the cell would pull or the next one overlap. A shift
@@ -66,13 +53,13 @@ module fuge_edge_refinement
   !> on five cells, is 0.62.
   real(dp), parameter :: TYPICAL = -0.15_dp, REACH = 0.85_dp
 
+  !> The neglected influence of other contacts, and of corners, shifts an edge by about BY_OTHERS over the number of
+  !> cells in the contact, and one that faces another contact by BY_FACING over that of open cells between, in cells.
+  !> From the tests.
+  real(dp), parameter :: BY_OTHERS = 0.1_dp, BY_FACING = 0.3_dp
+
   !> Largest error of centres and widths, in cells.
   real(dp), parameter :: PLACE_TOLERANCE = 1.0e-6_dp
-
-  !> Coefficients D, K, L and M of the pressure near an effective edge, with h = 1.
-  type :: expansion
-    real(dp) :: d, k, l, m
-  end type expansion
 
 contains
 
@@ -95,6 +82,11 @@ contains
   !>   a corner;
   !> - FUGE_EDGE_GRID_END: contact reaches the last cell of the grid.
   !>
+  !> Forces of a solve to the tolerance t put an edge of a contact of N cells up to about t sqrt(N)/2 of its half width
+  !> wrong. Beyond some 600 cells that is more than the error of third order for the default t = 1e-10; 1e-13 suffices
+  !> on any grid, and a solve takes a tenth longer. The errors of `intervals` are estimates of both, from how smoothly
+  !> the forces near an edge follow each other; also where the gap is not smooth in the scale of the cells.
+  !>
   !> The grid is not taken as periodic. Without forces there are no intervals.
   !> Errors, `intervals` untouched: those of `fuge_halfplane_matrix` for the cells;
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE for `force`; FUGE_ERR_GRID unless the grid is uniform.
@@ -114,7 +106,7 @@ contains
 
     intervals = contact_runs(force)
     do k = 1, size(intervals)
-      call find_edges(x, width(1), force, element, folded, intervals(k))
+      call find_edges(x, width(1), force, element, folded, distances(intervals, k, x, width(1), folded), intervals(k))
     end do
   end subroutine fuge_contact_edges
 
@@ -184,29 +176,61 @@ contains
     end do
   end function contact_runs
 
-  !> Complete an interval that has its `first` and `last` cell.
-  pure subroutine find_edges(x, h, force, element, folded, interval)
+  !> Distances of interval k from the next ones on its left and on its right, the mirror image in a folded problem one
+  !> of them, in cells of width `h`; huge if there are none.
+  pure function distances(intervals, k, x, h, folded) result(distance)
+    type(fuge_interval), intent(in) :: intervals(:)
+    integer, intent(in) :: k
+    real(dp), intent(in) :: x(:), h
+    logical, intent(in) :: folded
+    real(dp) :: distance(2)
+
+    distance = huge(distance)
+    if (k > 1) then
+      distance(1) = real(intervals(k)%first - intervals(k - 1)%last - 1, dp)
+    else if (folded .and. .not. touches_axis(intervals(k), x, h)) then
+      distance(1) = 2.0_dp*(x(intervals(k)%first)/h) - 1.0_dp
+    end if
+    if (k < size(intervals)) distance(2) = real(intervals(k + 1)%first - intervals(k)%last - 1, dp)
+    if (folded .and. touches_axis(intervals(k), x, h)) distance(1) = distance(2)
+  end function distances
+
+  !> In a folded problem: is the interval one with its mirror image?
+  pure function touches_axis(interval, x, h)
+    type(fuge_interval), intent(in) :: interval
+    real(dp), intent(in) :: x(:), h
+    logical :: touches_axis
+
+    touches_axis = interval%first == 1 .and. x(1) < 0.75_dp*h
+  end function touches_axis
+
+  !> Complete an interval that has its `first` and `last` cell, with the `distance` of the next ones on either side.
+  pure subroutine find_edges(x, h, force, element, folded, distance, interval)
     real(dp), intent(in) :: x(:), h, force(:)
     integer, intent(in) :: element
     logical, intent(in) :: folded
+    real(dp), intent(in) :: distance(2)
     type(fuge_interval), intent(inout) :: interval
-    real(dp) :: outward(2)
+    real(dp) :: error(2), outward(2)
     integer :: kind(2)
 
     interval%right = x(interval%last) + 0.5_dp*h
     kind = FUGE_EDGE_FEW_CELLS
     if (interval%last == size(x)) kind(2) = FUGE_EDGE_GRID_END
-    if (folded .and. interval%first == 1 .and. x(1) < 0.75_dp*h) then
+    if (folded .and. touches_axis(interval, x, h)) then
       interval%left = -interval%right
       kind(1) = kind(2)
-      call refine_run(unfolded_forces(force(:interval%last), is_on_axis(x(1), h)), element, outward, kind)
+      call refine_run(unfolded_forces(force(:interval%last), is_on_axis(x(1), h)), element, distance, outward, error, &
+                      kind)
     else
       interval%left = x(interval%first) - 0.5_dp*h
       if (interval%first == 1) kind(1) = FUGE_EDGE_GRID_END
-      call refine_run(force(interval%first:interval%last), element, outward, kind)
+      call refine_run(force(interval%first:interval%last), element, distance, outward, error, kind)
     end if
     interval%left = interval%left - h*outward(1)
     interval%right = interval%right + h*outward(2)
+    interval%left_error = h*error(1)
+    interval%right_error = h*error(2)
     interval%left_kind = kind(1)
     interval%right_kind = kind(2)
   end subroutine find_edges
@@ -226,25 +250,29 @@ contains
     end if
   end function unfolded_forces
 
-  !> How far the left and the right edge lie outside of the cells of `force`, in cells. On entry
-  !> `kind` is FUGE_EDGE_GRID_END for an edge that must not be refined.
-  pure subroutine refine_run(force, element, outward, kind)
+  !> How far the left and the right edge lie outside of the cells of `force`, and the `error` of that, in cells. On
+  !> entry `kind` is FUGE_EDGE_GRID_END for an edge that must not be refined; `distance` in cells.
+  pure subroutine refine_run(force, element, distance, outward, error, kind)
     real(dp), intent(in) :: force(:)
     integer, intent(in) :: element
-    real(dp), intent(out) :: outward(2)
+    real(dp), intent(in) :: distance(2)
+    real(dp), intent(out) :: outward(2), error(2)
     integer, intent(inout) :: kind(2)
-    type(expansion) :: edges(2)
+    type(edge_expansion) :: edges(2)
     real(dp) :: effective, length, shift(2)
     logical :: regular(2)
-    integer :: n, edge
+    integer :: n, m, edge
 
     outward = 0.0_dp
+    error = 1.0_dp
     n = size(force)
     if (n < FEWEST) return
+    m = min(n, JUDGED)
     edges(1) = pressure_expansion(force(:CELLS)/maxval(force), element)
     edges(2) = pressure_expansion(force(n:n - CELLS + 1:-1)/maxval(force), element)
-    ! From the edge of the cell outwards to the effective edge.
-    effective = ORIGIN(element_column(element)) - 0.5_dp
+    error(1) = shift_error(force(:m)/maxval(force), element, edges(1))
+    error(2) = shift_error(force(n:n - m + 1:-1)/maxval(force), element, edges(2))
+    effective = effective_edge(element)
     length = real(n, dp) + 2.0_dp*effective
 
     ! An edge that is not refined is the edge of the cell.
@@ -257,23 +285,26 @@ contains
       if (.not. regular(edge)) cycle
       outward(edge) = effective + corrected_shift(edges(edge), edges(3 - edge), shift(3 - edge), length, &
                                                     regular(3 - edge))
+      error(edge) = error(edge) + BY_FACING/distance(edge)
+      if (.not. regular(3 - edge) .or. any(distance < huge(distance))) error(edge) = error(edge) + BY_OTHERS/real(n, dp)
       if (within_reach(outward(edge))) cycle
       outward(edge) = 0.0_dp
       kind(edge) = FUGE_EDGE_SINGULAR
     end do
+    where (kind /= FUGE_EDGE_REFINED) error = 1.0_dp
+    error = min(error, 1.0_dp)
   end subroutine refine_run
 
   !> Shift d of the true edge from the effective one to first order, in cells: p ~ L sqrt(s + d) =
   !> L s^(1/2) + (L d/2) s^(-1/2) + .. Unchanged where the edge is singular.
   pure subroutine estimate_shift(edge, effective, shift, kind)
-    type(expansion), intent(in) :: edge
+    type(edge_expansion), intent(in) :: edge
     real(dp), intent(in) :: effective
     real(dp), intent(inout) :: shift
     integer, intent(out) :: kind
 
     kind = FUGE_EDGE_SINGULAR
-    ! The largest force is 1: a smaller L is rounding.
-    if (edge%l <= sqrt(epsilon(edge%l))) return
+    if (edge%l <= SMALLEST_L) return
     if (.not. within_reach(effective + 2.0_dp*edge%k/edge%l)) return
     kind = FUGE_EDGE_REFINED
     shift = 2.0_dp*edge%k/edge%l
@@ -293,7 +324,7 @@ contains
   !> The eigensolution of an interval of length l is s^(-3/2) (1 - s/l)^(-1/2) at its
   !> own edge, and (1/l) s'^(-1/2) at the far one.
   pure function corrected_shift(edge, far, far_shift, length, regular) result(shift)
-    type(expansion), intent(in) :: edge, far
+    type(edge_expansion), intent(in) :: edge, far
     real(dp), intent(in) :: far_shift, length
     logical, intent(in) :: regular
     real(dp) :: shift, far_k, k
@@ -304,77 +335,5 @@ contains
     shift = 2.0_dp*k/edge%l
     shift = shift + shift**2*(0.75_dp*edge%m/edge%l - 0.125_dp/length)
   end function corrected_shift
-
-  !> The column of `FACTOR` for an element.
-  pure function element_column(element)
-    integer, intent(in) :: element
-    integer :: element_column
-
-    element_column = 2
-    if (element == FUGE_CENTRE) element_column = 1
-  end function element_column
-
-  !> The pressure near an edge, from the forces of the first cells there.
-  !>
-  !> With z = exp(-zeta) the factor behaves like zeta^(-1/2) (1 + factor_bend zeta^2/2), and a_k is the
-  !> coefficient of zeta^-k in the generating function of the polynomial, sum_k b_k (1 - z)^-k;
-  !> `ORIGIN` accounts for exp(zeta/2). zeta^(1/2 - k) stands for s^(k - 3/2)/Gamma(k - 1/2). The
-  !> force of a cell is p - curvature p''.
-  pure function pressure_expansion(force, element) result(edge)
-    real(dp), intent(in) :: force(CELLS)
-    integer, intent(in) :: element
-    type(expansion) :: edge
-    real(dp) :: b(CELLS), a(0:3), factor_bend, curvature
-
-    b = newton_coefficients(series_product(force, FACTOR(:, element_column(element))))
-    a(0) = (b(2) + b(3))/24.0_dp
-    a(1) = b(1) + b(2)/2.0_dp + 3.0_dp*b(3)/8.0_dp + 5.0_dp*b(4)/16.0_dp
-    a(2) = b(2) + b(3) + 23.0_dp*b(4)/24.0_dp
-    a(3) = b(3) + 1.5_dp*b(4)
-
-    factor_bend = 1.0_dp/12.0_dp
-    if (element == FUGE_CENTRE) factor_bend = 1.0_dp/24.0_dp
-    curvature = 1.0_dp/24.0_dp
-    if (element == FUGE_HAT) curvature = 1.0_dp/12.0_dp
-    a(0:1) = a(0:1) + (curvature - 0.5_dp*factor_bend)*a(2:3)
-
-    edge%d = -a(0)/(2.0_dp*sqrt(PI))
-    edge%k = a(1)/sqrt(PI)
-    edge%l = 2.0_dp*a(2)/sqrt(PI)
-    edge%m = 4.0_dp*a(3)/(3.0_dp*sqrt(PI))
-  end function pressure_expansion
-
-  !> Product of two power series, to the order of `f`.
-  pure function series_product(f, g) result(product)
-    real(dp), intent(in) :: f(:), g(:)
-    real(dp) :: product(size(f))
-    integer :: j
-
-    do j = 1, size(f)
-      product(j) = dot_product(f(:j), g(j:1:-1))
-    end do
-  end function series_product
-
-  !> Coefficients b_k of q(j) = sum_k b_k binomial(j + k - 1, k - 1), from q(0), q(1), ..:
-  !> Newton's backward differences of the polynomial at j = -1.
-  pure function newton_coefficients(q) result(b)
-    real(dp), intent(in) :: q(:)
-    real(dp) :: b(size(q))
-    integer :: j, k
-
-    b = q
-    ! Forward differences at 0 first.
-    do k = 2, size(q)
-      do j = size(q), k, -1
-        b(j) = b(j) - b(j - 1)
-      end do
-    end do
-    ! E^-1 once for the value at -1, and once more for each order of backward difference.
-    do k = 1, size(q)
-      do j = size(q) - 1, k, -1
-        b(j) = b(j) - b(j + 1)
-      end do
-    end do
-  end function newton_coefficients
 
 end module fuge_edge_refinement

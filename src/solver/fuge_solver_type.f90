@@ -7,6 +7,7 @@ module fuge_solver_type
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
+  use fuge_iterated_set, only: iterated_set
   use fuge_iterative_engine, only: is_general, solve_by_iteration
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -18,6 +19,7 @@ module fuge_solver_type
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_sensitivity, only: find_derivative
+  use fuge_set_derivative, only: find_derivative_by_products
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
     FUGE_ERR_OVERFLOW
@@ -52,6 +54,11 @@ module fuge_solver_type
     type(working_set), private :: set
     !> Forces of the last iterative solve, divided by its load, and that load.
     real(dp), allocatable, private :: scaled_force(:)
+    type(iterated_set), private :: last
+    !> The last solve was by the iteration.
+    logical, private :: solved_by_products = .false.
+    !> The last problem of the iteration needed its canonical form; otherwise, whether its approach was prescribed.
+    logical, private :: last_is_general = .false., last_is_prescribed = .false.
     real(dp), private :: last_load = 0.0_dp
   contains
     procedure :: solve
@@ -135,6 +142,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     self%found_factor = .false.
+    self%solved_by_products = .false.
     call run_engine(self, operator, problem, options, monitor, solution, info)
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
   end subroutine solve_and_certify
@@ -179,15 +187,44 @@ contains
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(out) :: info
 
+    call check_changes(self, operator%points(), gap_change, load_change, info)
+    if (info%failed()) return
+    if (self%solved_by_products) then
+      call differentiate_by_products(self, operator, gap_change, load_change, change, info)
+      return
+    end if
     select type (operator)
     class is (fuge_dense_operator)
-      call check_changes(self, operator%points(), gap_change, load_change, info)
-      if (.not. info%failed()) call find_derivative(self%canonical, operator, self%factor, self%state, gap_change, &
-                                                    load_change, change, info)
+      call find_derivative(self%canonical, operator, self%factor, self%state, gap_change, load_change, change, info)
     class default
-      call report(info, FUGE_ERR_UNSUPPORTED, 'derivatives need the coefficients of a dense operator')
+      call report(info, FUGE_ERR_CALL_ORDER, 'the last solve was with a matrix, not with this operator')
     end select
   end subroutine derivative_by_loads
+
+  !> The derivative after the iteration, which keeps no canonical form of problems with one translation.
+  subroutine differentiate_by_products(self, operator, gap_change, load_change, change, info)
+    class(fuge_solver), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(inout) :: info
+    type(canonical_problem) :: canonical
+    type(fuge_problem) :: problem
+
+    if (self%last_is_general) then
+      call find_derivative_by_products(operator, self%canonical, self%last%state, self%last%tolerance, gap_change, &
+                                       load_change, change, info)
+      return
+    end if
+    call set_problem(0.0_dp*gap_change, 1.0_dp, problem, info)
+    if (info%failed()) return
+    problem%prescribed = [self%last_is_prescribed]
+    problem%motion = [0.0_dp]
+    call make_canonical(problem, canonical, info)
+    if (.not. info%failed()) call find_derivative_by_products(operator, canonical, self%last%state, &
+                                                              self%last%tolerance, gap_change, load_change, change, &
+                                                              info)
+  end subroutine differentiate_by_products
 
   !> Refuse changes that fit no solution of n points.
   pure subroutine check_changes(self, n, gap_change, load_change, info)
@@ -196,15 +233,24 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_info), intent(inout) :: info
 
-    if (.not. (self%has_solution .and. allocated(self%state))) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load by a dense engine: solve first, ' &
-                  //'not by FUGE_ITERATIVE')
-    else if (size(gap_change) /= n .or. size(self%state) /= n) then
+    integer :: modes, points
+
+    points = 0
+    modes = self%canonical%mode_count()
+    if (self%solved_by_products) then
+      if (.not. self%last_is_general) modes = 1
+      if (allocated(self%last%state)) points = size(self%last%state)
+    else if (allocated(self%state)) then
+      points = size(self%state)
+    end if
+    if (.not. self%has_solution .or. points < 1) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
+    else if (size(gap_change) /= n .or. points /= n) then
       call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
-                  //text(n)//' points and the last solution '//text(size(self%state)))
-    else if (size(load_change) /= self%canonical%mode_count()) then
+                  //text(n)//' points and the last solution '//text(points))
+    else if (size(load_change) /= modes) then
       call report(info, FUGE_ERR_SIZE, 'load_change has '//text(size(load_change))//' value(s), the last problem ' &
-                  //text(self%canonical%mode_count())//' motion(s)')
+                  //text(modes)//' motion(s)')
     else
       call check_finite(gap_change, 'gap_change', info)
       if (.not. info%failed()) call check_finite(load_change, 'load_change', info)
@@ -379,7 +425,9 @@ contains
 
     call check_iterative(options, info)
     if (info%failed()) return
-    if (is_general(problem)) call make_canonical(problem, self%canonical, info)
+    self%last_is_general = is_general(problem)
+    self%last_is_prescribed = .not. (self%last_is_general .or. problem%is_plain())
+    if (self%last_is_general) call make_canonical(problem, self%canonical, info)
     if (info%failed()) return
     load = PRESCRIBED_APPROACH
     if (problem%is_plain()) load = problem%resultant(1)
@@ -389,15 +437,20 @@ contains
              .and. abs(load - self%last_load) <= WARM_RANGE*abs(self%last_load)
       if (.not. warm) deallocate (self%scaled_force)
     end if
-    call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%scaled_force, solution, info)
+    call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%scaled_force, &
+                            self%last, solution, info)
     ! Do not retry a solve that the operator or the monitor has ended.
     if (warm .and. any(info%status == [FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW])) then
       ! Status and message only: the counts go on.
       call report(info, FUGE_DONE, '')
       if (allocated(self%scaled_force)) deallocate (self%scaled_force)
-      call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%scaled_force, solution, info)
+      call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%scaled_force, &
+                            self%last, solution, info)
     end if
-    if (.not. info%failed()) self%last_load = load
+    if (info%failed()) return
+    self%last_load = load
+    self%solved_by_products = .true.
+    self%has_solution = .true.
   end subroutine run_iteration
 
   !> Refuse what the iteration does not solve (FUGE_ERR_UNSUPPORTED).

@@ -19,20 +19,26 @@ static void press(double *x, double *width, double *force) {
 }
 
 static void test_cylinder(void) {
-  double x[N], width[N], force[N], left[MOST], right[MOST];
+  double x[N], width[N], force[N], left[MOST], right[MOST], left_error[MOST], right_error[MOST];
   int left_kind[MOST] = {-1, -1, -1}, right_kind[MOST] = {-1, -1, -1}, count = -1;
   char message[256] = "old";
   press(x, width, force);
   fill(left, MOST);
   fill(right, MOST);
-  CHECK_STATUS(fuge_contact_edges(N, x, width, force, FUGE_CENTRE, 0, MOST, left, right, left_kind, right_kind,
-                                  &count, message, sizeof message), FUGE_DONE);
+  fill(left_error, MOST);
+  fill(right_error, MOST);
+  CHECK_STATUS(fuge_contact_edges(N, x, width, force, FUGE_CENTRE, 0, MOST, left, right, left_error, right_error,
+                                  left_kind, right_kind, &count, message, sizeof message), FUGE_DONE);
   CHECK_INT(count, 1);
   CHECK_STRING(message, "");
   CHECK_NEAR(left[0], 0.013 - 1.0, 1e-3 * H);
   CHECK_NEAR(right[0], 0.013 + 1.0, 1e-3 * H);
   CHECK_INT(left_kind[0], FUGE_EDGE_REFINED);
   CHECK_INT(right_kind[0], FUGE_EDGE_REFINED);
+  CHECK(left_error[0] >= fabs(left[0] - (0.013 - 1.0)) && left_error[0] < 1e-2 * H);
+  CHECK(right_error[0] >= fabs(right[0] - (0.013 + 1.0)) && right_error[0] < 1e-2 * H);
+  CHECK_UNTOUCHED(left_error + 1, MOST - 1);
+  CHECK_UNTOUCHED(right_error + 1, MOST - 1);
   CHECK_UNTOUCHED(left + 1, MOST - 1);
   CHECK_UNTOUCHED(right + 1, MOST - 1);
   CHECK_INT(left_kind[1], -1);
@@ -43,20 +49,23 @@ static void test_cylinder(void) {
 static void test_kinds(void) {
   static const double x[6] = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5}, width[6] = {1, 1, 1, 1, 1, 1};
   static const double force[6] = {1, 0, 2, 2, 0, 1};
-  double left[MOST], right[MOST];
+  double left[MOST], right[MOST], left_error[MOST], right_error[MOST];
   int left_kind[MOST], right_kind[MOST], count = -1;
-  CHECK_STATUS(fuge_contact_edges(6, x, width, force, FUGE_HAT, 1, MOST, left, right, left_kind, right_kind,
-                                  &count, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_contact_edges(6, x, width, force, FUGE_HAT, 1, MOST, left, right, left_error, right_error,
+                                  left_kind, right_kind, &count, NULL, 0), FUGE_DONE);
   CHECK_INT(count, 3);
   CHECK_NEAR(left[0], -1.0, 0.0);
   CHECK_NEAR(right[0], 1.0, 0.0);
   CHECK_NEAR(left[1], 2.0, 0.0);
   CHECK_NEAR(right[2], 6.0, 0.0);
+  /* An edge that is not refined is known to a cell. */
+  CHECK_NEAR(left_error[1], 1.0, 0.0);
+  CHECK_NEAR(right_error[2], 1.0, 0.0);
   CHECK_INT(left_kind[0], FUGE_EDGE_FEW_CELLS);
   CHECK_INT(left_kind[2], FUGE_EDGE_FEW_CELLS);
   CHECK_INT(right_kind[2], FUGE_EDGE_GRID_END);
-  CHECK_STATUS(fuge_contact_edges(6, x, width, force, FUGE_HAT, 0, MOST, left, right, left_kind, right_kind,
-                                  &count, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_contact_edges(6, x, width, force, FUGE_HAT, 0, MOST, left, right, left_error, right_error,
+                                  left_kind, right_kind, &count, NULL, 0), FUGE_DONE);
   CHECK_NEAR(left[0], 0.0, 0.0);
   CHECK_INT(left_kind[0], FUGE_EDGE_GRID_END);
 }
@@ -70,11 +79,18 @@ static void test_singular(void) {
     width[k] = 1.0;
     force[k] = k % 8 ? pow(k - 4, 2) + 1.0 : 0.0;
   }
-  CHECK_STATUS(fuge_contact_edges(9, x, width, force, FUGE_CENTRE, 0, 1, &left, &right, &left_kind, NULL, &count,
-                                  NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_contact_edges(9, x, width, force, FUGE_CENTRE, 0, 1, &left, &right, NULL, NULL, &left_kind, NULL,
+                                  &count, NULL, 0), FUGE_DONE);
   CHECK_INT(left_kind, FUGE_EDGE_SINGULAR);
   CHECK_NEAR(left, 0.5, 0.0);
   CHECK_NEAR(right, 7.5, 0.0);
+}
+
+/* The left edges only. */
+static int left_edges(int n, const double *x, const double *width, const double *force, int element, int capacity,
+                      double *left, int *count, char *message, size_t len) {
+  return fuge_contact_edges(n, x, width, force, element, 0, capacity, left, NULL, NULL, NULL, NULL, NULL, count,
+                            message, len);
 }
 
 /* Only as much as there is room for, and only what is wanted. */
@@ -83,13 +99,11 @@ static void test_capacity(void) {
   double left[MOST];
   int count = -1;
   fill(left, MOST);
-  CHECK_STATUS(fuge_contact_edges(5, x, width, force, FUGE_MEAN, 0, 2, left, NULL, NULL, NULL, &count, NULL, 0),
-               FUGE_DONE);
+  CHECK_STATUS(left_edges(5, x, width, force, FUGE_MEAN, 2, left, &count, NULL, 0), FUGE_DONE);
   CHECK_INT(count, 3);
   CHECK_NEAR(left[1], 1.5, 0.0);
   CHECK_UNTOUCHED(left + 2, 1);
-  CHECK_STATUS(fuge_contact_edges(5, x, width, force, FUGE_MEAN, 0, 0, NULL, NULL, NULL, NULL, &count, NULL, 0),
-               FUGE_DONE);
+  CHECK_STATUS(left_edges(5, x, width, force, FUGE_MEAN, 0, NULL, &count, NULL, 0), FUGE_DONE);
   CHECK_INT(count, 3);
 }
 
@@ -99,25 +113,16 @@ static void test_refusals(void) {
   int count = -7;
   char message[256] = "";
   fill(&left, 1);
-  CHECK_STATUS(fuge_contact_edges(0, x, width, width, 0, 0, 1, &left, NULL, NULL, NULL, &count, NULL, 0),
-               FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_contact_edges(2, x, width, width, 0, 0, -1, &left, NULL, NULL, NULL, &count, NULL, 0),
-               FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_contact_edges(2, NULL, width, width, 0, 0, 1, &left, NULL, NULL, NULL, &count, NULL, 0),
-               FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_contact_edges(2, x, NULL, width, 0, 0, 1, &left, NULL, NULL, NULL, &count, NULL, 0),
-               FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_contact_edges(2, x, width, NULL, 0, 0, 1, &left, NULL, NULL, NULL, &count, NULL, 0),
-               FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_contact_edges(2, x, width, width, 0, 0, 1, &left, NULL, NULL, NULL, NULL, message, sizeof message),
-               FUGE_ERR_POINTER);
+  CHECK_STATUS(left_edges(0, x, width, width, 0, 1, &left, &count, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(left_edges(2, x, width, width, 0, -1, &left, &count, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(left_edges(2, NULL, width, width, 0, 1, &left, &count, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(left_edges(2, x, NULL, width, 0, 1, &left, &count, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(left_edges(2, x, width, NULL, 0, 1, &left, &count, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(left_edges(2, x, width, width, 0, 1, &left, NULL, message, sizeof message), FUGE_ERR_POINTER);
   CHECK_CONTAINS(message, "count is NULL");
-  CHECK_STATUS(fuge_contact_edges(2, x, width, force, 0, 0, 1, &left, NULL, NULL, NULL, &count, NULL, 0),
-               FUGE_ERR_NOT_FINITE);
-  CHECK_STATUS(fuge_contact_edges(2, x, width, width, 9, 0, 1, &left, NULL, NULL, NULL, &count, NULL, 0),
-               FUGE_ERR_ELEMENT);
-  CHECK_STATUS(fuge_contact_edges(2, uneven, width, width, 0, 0, 1, &left, NULL, NULL, NULL, &count, message,
-                                  sizeof message), FUGE_ERR_GRID);
+  CHECK_STATUS(left_edges(2, x, width, force, 0, 1, &left, &count, NULL, 0), FUGE_ERR_NOT_FINITE);
+  CHECK_STATUS(left_edges(2, x, width, width, 9, 1, &left, &count, NULL, 0), FUGE_ERR_ELEMENT);
+  CHECK_STATUS(left_edges(2, uneven, width, width, 0, 1, &left, &count, message, sizeof message), FUGE_ERR_GRID);
   CHECK_CONTAINS(message, "cell 1");
   CHECK_UNTOUCHED(&left, 1);
   CHECK_INT(count, -7);

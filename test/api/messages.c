@@ -103,8 +103,8 @@ static int matrix_unequal(char *message, size_t len) {
 }
 
 static int edges_grid(char *message, size_t len) {
-  return fuge_contact_edges(2, X, UNEQUAL, ONES, FUGE_MEAN, 0, 4, reals, reals + 4, ints, ints + 4, ints + 8, message,
-                            len);
+  return fuge_contact_edges(2, X, UNEQUAL, ONES, FUGE_MEAN, 0, 4, reals, reals + 4, reals + 8, reals + 12, ints,
+                            ints + 4, ints + 8, message, len);
 }
 
 static int operator_hole(char *message, size_t len) { return fuge_operator_dense(2, HOLE, 2, &op, message, len); }

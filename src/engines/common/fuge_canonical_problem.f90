@@ -68,6 +68,7 @@ module fuge_canonical_problem
     procedure :: has_bodies
     procedure :: transform_change
     procedure :: set_excluded_gaps
+    procedure :: set_excluded_gaps_from
     procedure :: dominant_mode
   end type canonical_problem
 
@@ -299,6 +300,20 @@ contains
       end associate
     end do
   end subroutine set_excluded_gaps
+
+  !> As `set_excluded_gaps`, from the displacements A f (n).
+  pure subroutine set_excluded_gaps_from(self, displacement, gap, motion, gap_out)
+    class(canonical_problem), intent(in) :: self
+    real(dp), intent(in) :: displacement(:), gap(:), motion(:)
+    real(dp), intent(inout) :: gap_out(:)
+    integer :: k
+
+    do k = 1, size(self%excluded_points)
+      associate (point => self%excluded_points(k))
+        gap_out(point) = (gap(point) + displacement(point)) - sum(self%excluded_rows(k, :)*motion)
+      end associate
+    end do
+  end subroutine set_excluded_gaps_from
 
   !> Find forces in equilibrium, or report that there are none.
   subroutine require_equilibrium(problem, canonical, info)

@@ -14,7 +14,10 @@ module fuge_contact_iterate
   private
 
   public :: clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_penetration, &
-    make_feasible, project_residual, start_iterate
+    is_accurate, make_feasible, project_residual, start_iterate
+
+  !> Units in the last place by which gaps less rigid displacements may be rounded.
+  real(dp), parameter :: ROUNDINGS = 2.0_dp
 
   !> Forces with their contact set and their errors. Under a load, forces and lengths are divided
   !> by the load; with a prescribed motion they are not scaled.
@@ -41,10 +44,20 @@ module fuge_contact_iterate
     !> Residuals are compared with this length: the least magnitude at a contact point, as in the
     !> certificate (|gap less rigid motion| plus the magnitude of the displacement).
     real(dp) :: least_magnitude = 0.0_dp
+    !> Lengths up to this are rounding of the gaps and of rigid displacements, beside which there may be no others; 0
+    !> where there are no modes.
+    real(dp) :: rounding = 0.0_dp
     !> Tensions up to this are rounding.
     real(dp) :: tension_noise = 0.0_dp
     !> Did run_projected_gradients reduce the residual to its tolerance?
     logical :: converged = .false.
+    !> The least of the smallest values of `lanczos` so far; 0 before any step.
+    real(dp) :: smallest_value = 0.0_dp
+    !> The largest preconditioned residual over the largest residual, of one that is nearly small enough; force per
+    !> length; 0 before any step.
+    real(dp) :: amplification = 0.0_dp
+    !> The estimated error of the forces over the largest of them.
+    real(dp) :: force_error = 0.0_dp
     !> The coefficients of the conjugate gradients of the last call that made steps.
     type(lanczos_values) :: lanczos
     !> The rigid motions on the contact set.
@@ -286,6 +299,7 @@ contains
       do j = 1, size(iterate%rigid_motion)
         rigid = rigid + iterate%rigid_motion(j)*scene%modes(:, j)
       end do
+      iterate%rounding = ROUNDINGS*epsilon(offset)*largest_term(scene, iterate)
       call operator%magnitude(iterate%force, (iterate%displacement + rigid) - offset, iterate%work)
       iterate%work = abs((scene%gap - rigid) + offset) + iterate%work
       iterate%least_magnitude = least_over(iterate%segments, iterate%work)
@@ -297,6 +311,30 @@ contains
       iterate%least_magnitude = least_sum(iterate%segments, -iterate%motion, scene%gap, iterate%work)
     end if
   end subroutine find_least_magnitude
+
+  !> The largest sum of the terms of a gap and a rigid displacement on the contact set.
+  pure function largest_term(scene, iterate) result(largest)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: largest
+    integer :: i, k
+
+    largest = 0.0_dp
+    do i = 1, size(iterate%segments%first)
+      do k = iterate%segments%first(i), iterate%segments%last(i)
+        largest = max(largest, abs(scene%gap(k)) + sum(abs(scene%modes(k, :)*iterate%rigid_motion)))
+      end do
+    end do
+  end function largest_term
+
+  !> Is the residual within `tolerance`, relative to the least magnitude, or rounding?
+  pure function is_accurate(iterate, tolerance)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: tolerance
+    logical :: is_accurate
+
+    is_accurate = iterate%residual_norm <= tolerance*iterate%least_magnitude + iterate%rounding
+  end function is_accurate
 
   !> The least of |gap + offset| + magnitude over the segments, 0 if there are none; `gap`, `magnitude` (n).
   pure function least_sum(segments, offset, gap, magnitude) result(least)

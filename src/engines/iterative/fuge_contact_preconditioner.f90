@@ -78,6 +78,7 @@ module fuge_contact_preconditioner
     type(rigid_images), private :: rigid
     !> Force per length that stands for the preconditioner where the operator has none.
     real(dp), private :: stiffness = 1.0_dp
+    logical, private :: has_stiffness = .false.
     !> Applications on coarser levels, each counted as its fraction of one on the finest.
     real(dp) :: coarse_share = 0.0_dp
   contains
@@ -104,9 +105,11 @@ contains
     type(contact_segments) :: segments
 
     if (.not. operator%has_preconditioner()) then
-      ! Only avoids overflow: conjugate gradients do not depend on a factor.
-      self%stiffness = 1.0_dp
-      if (compliance >= tiny(compliance)) self%stiffness = 1.0_dp/compliance
+      ! Only avoids overflow: conjugate gradients do not depend on a factor. The first one is kept, so that what they
+      ! find on one set can be compared with another.
+      if (self%has_stiffness .or. .not. compliance >= tiny(compliance)) return
+      self%stiffness = 1.0_dp/compliance
+      self%has_stiffness = .true.
       return
     end if
     if (self%depth > 0 .and. .not. self%is_close .and. (self%has_uniform .or. .not. zero_sum)) then

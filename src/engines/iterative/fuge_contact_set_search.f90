@@ -7,10 +7,11 @@
 module fuge_contact_set_search
   use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_complete_contact, only: equal_forces_displace_nothing
-  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, make_feasible
+  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, is_accurate, make_feasible
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_force_error, only: estimated_force_error
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_number_text, only: text
@@ -115,6 +116,7 @@ contains
       call make_feasible(operator, scene, iterate, info)
       fresh = .true.
     end do
+    if (.not. (settings%coarse_grid .or. info%failed())) iterate%force_error = estimated_force_error(iterate)
     info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
   end subroutine find_contact_set
 
@@ -191,6 +193,7 @@ contains
                                  iterate, info)
     if (info%failed()) return
     info%iterations = info%iterations + 1
+    if (.not. settings%coarse_grid) call note_smallest_value(iterate)
     relative = 0.0_dp
     if (iterate%residual_norm > 0.0_dp) then
       relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
@@ -198,6 +201,17 @@ contains
     call tell_monitor(monitor, info%iterations, relative, count(iterate%contact), status)
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine solve_on_contact_set
+
+  !> Keep the smallest value that conjugate gradients have found on any set.
+  subroutine note_smallest_value(iterate)
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: value
+
+    value = iterate%lanczos%smallest()
+    if (.not. value > 0.0_dp) return
+    if (iterate%smallest_value > 0.0_dp) value = min(value, iterate%smallest_value)
+    iterate%smallest_value = value
+  end subroutine note_smallest_value
 
   !> Confirm a contact set without wrong points by a fresh product, because displacements and
   !> residuals updated by recurrence drift.
@@ -217,7 +231,7 @@ contains
     call make_feasible(operator, scene, iterate, info)
     if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
-    confirmed = iterate%residual_norm <= SAFETY*settings%tolerance*iterate%least_magnitude &
+    confirmed = is_accurate(iterate, SAFETY*settings%tolerance) &
                 .or. .not. iterate%residual_norm < 0.5_dp*previous_residual
     previous_residual = iterate%residual_norm
   end subroutine confirm_contact_set
@@ -228,7 +242,7 @@ contains
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: noise
 
-    noise = SAFETY**2*settings%tolerance*iterate%least_magnitude
+    noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding
   end function penetration_noise
 
   !> Primal active-set method (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974,

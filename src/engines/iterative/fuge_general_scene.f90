@@ -156,7 +156,8 @@ contains
     end if
     call report_unresisted_motion(canonical, found, info)
     call canonical%to_given_modes(prescribed_values(problem), found%motion, motion)
-    if (allocated(scene%excluded)) call set_excluded_gaps(operator, problem, scene, scaling, motion, iterate, found)
+    if (allocated(scene%excluded)) call set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, &
+                                                         iterate, found)
     call move_alloc(found%force, solution%force)
     call move_alloc(found%gap, solution%gap)
     call move_alloc(motion, solution%motion)
@@ -197,29 +198,24 @@ contains
   end subroutine set_gaps
 
   !> c = g + A f - R q at the points that are excluded; `motion` q (m) in the modes R of the problem.
-  subroutine set_excluded_gaps(operator, problem, scene, scaling, motion, iterate, found)
+  subroutine set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, iterate, found)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
     type(contact_scene), intent(in) :: scene
     type(scene_scaling), intent(in) :: scaling
     real(dp), intent(in) :: motion(:)
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_iterate), intent(inout) :: iterate
     type(contact_solution), intent(inout) :: found
-    real(dp) :: shift
-    integer :: k
 
-    shift = 0.0_dp
-    if (scene%absorbs_datum .or. .not. scene%prescribed) shift = operator%datum()*sum(found%force)
-    do k = 1, size(scene%gap)
-      if (.not. scene%excluded(k)) cycle
-      ! The modes of the scene are zero here, so that no rigid displacement was subtracted.
-      found%gap(k) = problem%gap(k) + (scaling%load*iterate%displacement(k) + shift)
-      if (allocated(problem%modes)) then
-        found%gap(k) = found%gap(k) - dot_product(problem%modes(k, :), motion)
-      else
-        found%gap(k) = found%gap(k) - motion(1)
-      end if
-    end do
+    if (allocated(scene%modes)) then
+      iterate%displacement = iterate%displacement + matmul(scene%modes, iterate%rigid_motion)
+    end if
+    iterate%displacement = scaling%load*iterate%displacement
+    if (scene%absorbs_datum .or. .not. scene%prescribed) then
+      iterate%displacement = iterate%displacement + operator%datum()*sum(found%force)
+    end if
+    call canonical%set_excluded_gaps_from(iterate%displacement, problem%gap, motion, found%gap)
   end subroutine set_excluded_gaps
 
   !> The prescribed motions, zero where free, (m).

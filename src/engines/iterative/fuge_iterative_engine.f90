@@ -9,10 +9,11 @@ module fuge_iterative_engine
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_contact_iterate, only: contact_iterate, deformed_gap, evaluate_iterate, make_feasible, start_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_set_search, only: find_contact_set, search_settings
+  use fuge_contact_set_search, only: find_contact_set, search_settings, states_of
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_general_scene, only: assemble_general, set_general_scene
   use fuge_grid_transfer, only: prolong
+  use fuge_iterated_set, only: iterated_set
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
@@ -49,22 +50,24 @@ contains
   !>
   !> `problem` checked; if plain, with a load > 0; `canonical` its canonical form, if it is general.
   !> `scaled_force` (n), if allocated, are forces to start from, divided by the load if there is
-  !> one; on return those of the solution. `solution` may be unallocated; it is written only on
-  !> success. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE,
+  !> one; on return those of the solution. `last` the set of the last solve with this operator, on return that of this
+  !> one. `solution` may be unallocated; it is written only on success. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE,
   !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
-  subroutine solve_by_iteration(operator, problem, canonical, options, monitor, scaled_force, solution, info)
+  subroutine solve_by_iteration(operator, problem, canonical, options, monitor, scaled_force, last, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(inout) :: scaled_force(:)
+    type(iterated_set), intent(inout) :: last
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
     type(contact_scene) :: scene
     type(scene_scaling) :: scaling
     type(search_settings) :: coarse_settings, settings
+    logical :: warm
 
     coarse_settings%limit = iteration_limit(options, operator%points() + 1)
     settings = coarse_settings
@@ -78,20 +81,50 @@ contains
     if (info%failed()) return
     call check_approach(operator, problem, scene, info)
     if (allocated(scaled_force) .and. .not. info%failed()) call discard_poor_start(operator, scene, scaled_force, info)
-    if (.not. (info%failed() .or. allocated(scaled_force))) then
+    warm = allocated(scaled_force)
+    if (.not. (info%failed() .or. warm)) then
       call start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, scaled_force, info)
     end if
     if (.not. info%failed()) call start_iterate(iterate, scene, scaled_force, info)
     if (info%failed()) return
+    ! A start that needs no step tells nothing of the operator.
+    if (warm) then
+      iterate%smallest_value = last%smallest_value
+      iterate%amplification = last%amplification
+    end if
     call find_contact_set(operator, settings, scene, monitor, iterate, info)
+    if (.not. info%failed()) call keep_states(iterate, last, info)
     if (info%failed()) return
     if (is_general(problem)) then
       call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
     else
       call assemble_simple(operator, scene, scaling, iterate, solution, info)
     end if
-    if (.not. info%failed()) call move_alloc(iterate%force, scaled_force)
+    if (info%failed()) return
+    call move_alloc(iterate%force, scaled_force)
+    last%smallest_value = iterate%smallest_value
+    last%amplification = iterate%amplification
+    last%tolerance = options%tolerance
   end subroutine solve_by_iteration
+
+  !> Keep the contact set for derivatives. Error: FUGE_ERR_MEMORY.
+  pure subroutine keep_states(iterate, last, info)
+    type(contact_iterate), intent(in) :: iterate
+    type(iterated_set), intent(inout) :: last
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    stat = 0
+    if (allocated(last%state)) then
+      if (size(last%state) /= size(iterate%contact)) deallocate (last%state)
+    end if
+    if (.not. allocated(last%state)) allocate (last%state(size(iterate%contact)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(iterate%contact))//' points')
+    else
+      last%state = states_of(iterate)
+    end if
+  end subroutine keep_states
 
   !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points. Errors:
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.

@@ -4,7 +4,8 @@
 !> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero. With other rigid modes
 !> the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, find_penetration
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, find_penetration, &
+    is_accurate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, max_abs_over
@@ -17,11 +18,13 @@ module fuge_projected_gradients
   implicit none
   private
 
-  public :: precondition_residual, run_projected_gradients
+  public :: run_projected_gradients
 
   !> The contact set can be judged once the errors of the forces are below this fraction of the
   !> largest tension, or those of the gaps below this fraction of the deepest penetration.
   real(dp), parameter :: DECISIVE = 0.2_dp
+  !> What the preconditioner makes of residuals is measured where they are within this factor of the tolerance.
+  real(dp), parameter :: NEARLY = 100.0_dp
   !> Exact conjugate gradients need as many iterations as there are points; rounded ones
   !> several times as many where alpha is badly conditioned.
   integer, parameter :: ITERATIONS_PER_POINT = 10
@@ -61,13 +64,16 @@ contains
     iterate%direction = 0.0_dp
     previous = 1.0_dp
     do iteration = 0, limit
-      iterate%converged = iterate%residual_norm <= tolerance*iterate%least_magnitude
+      iterate%converged = is_accurate(iterate, tolerance)
       if (iterate%converged .or. iteration == limit) return
       if (iteration > 0 .and. .not. to_tolerance) then
         if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
       end if
       call precondition_residual(operator, scene, preconditioner, iterate, energy, info)
       if (info%failed()) return
+      if (iteration == 0 .or. is_accurate(iterate, NEARLY*tolerance)) then
+        iterate%amplification = max_abs_over(iterate%segments, iterate%work)/iterate%residual_norm
+      end if
       if (iteration > 0 .and. preconditioned .and. .not. to_tolerance) then
         if (tension_is_decided(scene, iterate, DECISIVE)) return
       end if

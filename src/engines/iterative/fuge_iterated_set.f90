@@ -1,0 +1,20 @@
+!> What an iterative solve leaves for derivatives and for the next solve.
+module fuge_iterated_set
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  !> The contact set of the last solve.
+  type, public :: iterated_set
+    !> FUGE_AT_LOWER_STOP, FUGE_OPEN or FUGE_AT_UPPER_STOP of each point, (n).
+    integer, allocatable :: state(:)
+    !> The least of the smallest values that conjugate gradients found on contact sets, as in fuge_lanczos_values; 0
+    !> before any step.
+    real(dp) :: smallest_value = 0.0_dp
+    !> What the preconditioner made of a small residual there; force per length.
+    real(dp) :: amplification = 0.0_dp
+    !> The tolerance of the solve, which derivatives share.
+    real(dp) :: tolerance = 0.0_dp
+  end type iterated_set
+
+end module fuge_iterated_set
