@@ -81,6 +81,8 @@ enum {
   FUGE_WARN_NOT_UNIQUE = 2,        /* done, but the solution is not unique: either the forces
                                       (alpha singular on the contact), or a motion that the
                                       contact does not resist */
+  FUGE_WARN_ILL_CONDITIONED = 3,   /* done, but the forces may be far off: the equations hold, but
+                                      info.force_error is above 1e-3 */
   FUGE_ERR_SIZE = -1,              /* a size or an index is invalid, or arrays differ in length:
                                       n < 1, lda < n, a range beyond the last entry */
   FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */
@@ -152,7 +154,10 @@ typedef struct fuge_info {
   int preconditionings;         /* applications of a preconditioner, likewise */
   int reserved_int[3];
   double residual;              /* certificate: largest scaled violation of the problem */
-  double reserved[7];
+  double force_error;           /* estimate of the largest error of a force relative to the
+                                   largest force, for the data as stored; 1: no digit is
+                                   known, as where the forces are not unique; 0 without forces */
+  double reserved[6];
 } fuge_info;
 
 /* Set *opt to the defaults; zeros are not the defaults. */

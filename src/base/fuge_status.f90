@@ -24,6 +24,8 @@ module fuge_status
   integer, parameter, public :: FUGE_WARN_RESIDUAL = 1
   !> Solved, but the solution is one of many: the message says which part is not unique.
   integer, parameter, public :: FUGE_WARN_NOT_UNIQUE = 2
+  !> Solved, but the problem is so badly conditioned that the forces may be far off although the equations hold.
+  integer, parameter, public :: FUGE_WARN_ILL_CONDITIONED = 3
   !> A size or an index is invalid, or arrays differ in length.
   integer, parameter, public :: FUGE_ERR_SIZE = -1
   !> An array is not contiguous; in C a pointer is NULL.
@@ -71,7 +73,7 @@ module fuge_status
 
   !> The range of the codes.
   integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_DOF
-  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_NOT_UNIQUE
+  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_ILL_CONDITIONED
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
@@ -99,7 +101,8 @@ module fuge_status
     'a size or an index is invalid, or arrays differ in length', &
     'done', &
     'done, but the residual is above the tolerance', &
-    'done, but the solution is not unique']
+    'done, but the solution is not unique', &
+    'done, but the forces may be far off']
 
   character(len=*), parameter :: UNKNOWN_STATUS = 'unknown status'
 
@@ -125,6 +128,9 @@ module fuge_status
     integer :: preconditionings = 0
     !> The certificate: the largest relative violation, see `fuge_residual`; no unit.
     real(dp) :: residual = 0.0_dp
+    !> Estimate of the largest error of a force relative to the largest force, for the data as they are stored, up to 1:
+    !> no digit is known, as where the forces are not unique. No unit; 0 without forces.
+    real(dp) :: force_error = 0.0_dp
     !> The message with its indices marked; only `report` sets it, together with `message`.
     character(len=COMPOSED_LENGTH), private :: composed = ''
   contains

@@ -29,8 +29,8 @@ module fuge_c_types
   type, bind(c), public :: c_info
     integer(c_int) :: status, iterations, contacts, products, preconditionings
     integer(c_int) :: reserved_int(3)
-    real(c_double) :: residual
-    real(c_double) :: reserved(7)
+    real(c_double) :: residual, force_error
+    real(c_double) :: reserved(6)
   end type c_info
 
   !> Behind struct fuge_operator.
@@ -93,6 +93,7 @@ contains
     info%products = int(source%products, c_int)
     info%preconditionings = int(source%preconditionings, c_int)
     info%residual = source%residual
+    info%force_error = source%force_error
     info%reserved_int = 0
     info%reserved = 0.0_c_double
   end function to_c

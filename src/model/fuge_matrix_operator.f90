@@ -14,6 +14,11 @@ module fuge_matrix_operator
   implicit none
   private
 
+  !> Points whose rigid displacements differ by less than this fraction nearly coincide.
+  real(dp), parameter :: ALIKE = 1.0e-3_dp
+  !> A compliance of so many units in the last place of its terms is rounding.
+  real(dp), parameter :: ROUNDINGS = 4.0_dp
+
   !> Largest asymmetry taken for rounding, relative to the range of the coefficients.
   real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
 
@@ -30,6 +35,7 @@ module fuge_matrix_operator
     procedure :: datum
     procedure :: magnitude => dense_magnitude
     procedure :: apply_with_magnitude => dense_apply_with_magnitude
+    procedure :: least_pair_compliance => dense_pair_compliance
     procedure :: known => what_is_known
     procedure :: stamp
   end type fuge_dense_operator
@@ -141,6 +147,37 @@ contains
       if (abs(force(j)) > 0.0_dp) magnitude = magnitude + abs((self%alpha(:n, j) - datum)*force(j))
     end do
   end subroutine dense_magnitude
+
+  !> As in fuge_operator, from one pass over the coefficients of the contact.
+  function dense_pair_compliance(self, contact, modes) result(compliance)
+    class(fuge_dense_operator), intent(in) :: self
+    logical, intent(in) :: contact(:)
+    real(dp), intent(in) :: modes(:, :)
+    real(dp) :: compliance
+    real(dp) :: diagonal(size(contact)), value
+    integer :: i, j
+
+    diagonal = [(self%alpha(i, i), i=1, size(contact))]
+    compliance = huge(compliance)
+    do j = 2, size(contact)
+      if (.not. contact(j)) cycle
+      do i = 1, j - 1
+        value = (diagonal(i) - self%alpha(i, j)) + (diagonal(j) - self%alpha(i, j))
+        if (value >= compliance .or. .not. contact(i)) cycle
+        if (.not. move_alike(modes(i, :), modes(j, :))) cycle
+        if (value <= ROUNDINGS*epsilon(value)*(abs(diagonal(i)) + abs(diagonal(j)))) value = 0.0_dp
+        compliance = value
+      end do
+    end do
+  end function dense_pair_compliance
+
+  !> Do rigid motions move two points alike, all but for a small part of the largest displacement?
+  pure function move_alike(one, other)
+    real(dp), intent(in) :: one(:), other(:)
+    logical :: move_alike
+
+    move_alike = all(abs(one - other) <= ALIKE*max(maxval(abs(one)), maxval(abs(other))))
+  end function move_alike
 
   !> As `apply` and `magnitude`, in one pass over the columns of the points with force, two at a time.
   subroutine dense_apply_with_magnitude(self, force, displacement, magnitude, status)

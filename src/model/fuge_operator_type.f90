@@ -23,6 +23,8 @@ module fuge_operator_type
     procedure :: magnitude => largest_displacement
     !> `apply` and `magnitude` together; override it where one pass gives both.
     procedure :: apply_with_magnitude => apply_then_magnitude
+    !> The least compliance between two points, which tells of points that nearly coincide; unknown by default.
+    procedure :: least_pair_compliance => unknown_compliance
     !> Is there a preconditioner? Without one the conjugate gradients are not preconditioned.
     procedure :: has_preconditioner => without_preconditioner
     !> f = M u, with M symmetric, positive definite and close to the inverse of A.
@@ -132,6 +134,19 @@ contains
 
     if (self%points() < 0 .and. any(last < first)) allocate (part, source=self)
   end subroutine no_window
+
+  !> A_ii + A_jj - 2 A_ij, length per force, the least of all pairs of points marked in `contact` (n) that the rigid
+  !> `modes` (n, m) move alike: by so much equal and opposite forces on them move them apart. Huge, as in this default,
+  !> where the coefficients are unknown.
+  function unknown_compliance(self, contact, modes) result(compliance)
+    class(fuge_operator), intent(in) :: self
+    logical, intent(in) :: contact(:)
+    real(dp), intent(in) :: modes(:, :)
+    real(dp) :: compliance
+
+    compliance = huge(compliance)
+    if (self%points() < 0 .and. size(contact) < size(modes, 1)) compliance = 0.0_dp
+  end function unknown_compliance
 
   !> 0: `apply` subtracts nothing.
   function no_datum(self) result(datum)

@@ -9,7 +9,7 @@ module fuge_compensated_sums
   implicit none
   private
 
-  public :: add_column, add_terms, add_two_columns, bias_above, compensated_dot, upper_half
+  public :: add_column, add_terms, add_two_columns, bias_above, compensated_dot, difference_rounding, upper_half
 
   integer, parameter :: int64 = selected_int_kind(18)
   !> The bits of a real that its upper half keeps.
@@ -32,6 +32,17 @@ contains
 
     upper = transfer(iand(transfer(value, UPPER_BITS), UPPER_BITS), upper)
   end function upper_half
+
+  !> What rounding takes from `difference` = a - b: the exact difference is the sum of both (D. E. Knuth, The Art of
+  !> Computer Programming 2, section 4.2.2).
+  elemental function difference_rounding(a, b, difference) result(rounding)
+    real(dp), intent(in) :: a, b, difference
+    real(dp) :: rounding
+    real(dp) :: from_b
+
+    from_b = a - difference
+    rounding = (a - (difference + from_b)) + (from_b - b)
+  end function difference_rounding
 
   !> high + low := high + low + factor column, all of one length.
   pure subroutine add_column(column, factor, high, low)

@@ -5,6 +5,7 @@ module fuge_solver_type
   use fuge_certificate, only: find_violation, fuge_violation
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
+  use fuge_force_error, only: estimate_force_error
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
   use fuge_iterated_set, only: iterated_set
@@ -20,9 +21,9 @@ module fuge_solver_type
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_sensitivity, only: find_derivative
   use fuge_set_derivative, only: find_derivative_by_products
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, &
-    FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, &
-    FUGE_ERR_OVERFLOW
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_SIZE, &
+    FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, &
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW
   use fuge_tableau_engine, only: solve_by_tableau
   use fuge_working_set, only: working_set
   implicit none
@@ -30,6 +31,8 @@ module fuge_solver_type
 
   public :: fuge_solve_dense
 
+  !> Above this estimate of the relative error of the forces, a solution comes with a warning.
+  real(dp), parameter :: MOST_FORCE_ERROR = 1.0e-3_dp
   !> Relative change of the load up to which the last forces are a better start than coarser grids.
   real(dp), parameter :: WARM_RANGE = 0.25_dp
   !> Stands for the load where the approach is prescribed.
@@ -75,9 +78,11 @@ contains
   !>
   !> `operator` displacements per force, `problem` gaps and load, `options` as in `fuge_options` (defaults when
   !> absent). `monitor` hears of each iteration and may cancel; without a load there are none. On return info%status
-  !> is FUGE_DONE, with a message only if the contact reaches the rim of a free grid, FUGE_WARN_RESIDUAL with the residual in the message, FUGE_WARN_NOT_UNIQUE where alpha is singular
-  !> on the contact (the forces are then one of many possible) or the contact does not resist a mode (its motion is
-  !> then one of many possible, and the forces are unique), or an error that leaves `solution` untouched:
+  !> is FUGE_DONE, with a message only if the contact reaches the rim of a free grid, or the first of these warnings
+  !> that is true: FUGE_WARN_RESIDUAL with the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on
+  !> the contact (the forces are then one of many possible) or the contact does not resist a mode (its motion is then
+  !> one of many possible, and the forces are unique); FUGE_WARN_ILL_CONDITIONED if info%force_error, the estimated
+  !> error of the forces, is above 1e-3. Or it is an error that leaves `solution` untouched:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
   !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.
@@ -111,7 +116,7 @@ contains
       if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
     else
       call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
-      if (self%found_factor .and. info%status == FUGE_WARN_RESIDUAL) then
+      if (self%found_factor .and. any(info%status == [FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED])) then
         ! The matrix may have changed since it was factored, although the operator was not set again.
         self%factor = kkt_factor()
         candidate = fuge_solution()
@@ -354,6 +359,8 @@ contains
       call find_given_motions(self%canonical, operator%alpha, problem, engine_solution, solution, info)
       if (info%failed()) return
     end if
+    call estimate_force_error(self%canonical, operator%alpha, self%factor, problem, solution%motion, engine_solution, &
+                              info%force_error)
     call move_alloc(engine_solution%force, solution%force)
     call move_alloc(engine_solution%gap, solution%gap)
     call move_alloc(engine_solution%state, self%state)
@@ -464,8 +471,8 @@ contains
     end if
   end subroutine check_iterative
 
-  !> Fill the report from the certificate; a residual above the tolerance is a warning, contact at the rim of a grid
-  !> only a message.
+  !> Fill the report from the certificate. A residual above the tolerance is a warning, as are forces that may be far
+  !> off by the estimate that the engine has left in info%force_error; contact at the rim of a grid is only a message.
   subroutine certify(operator, problem, solution, tolerance, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -485,6 +492,10 @@ contains
     else if (info%residual > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the tolerance ' &
                   //text(tolerance)//': the operator may be too badly conditioned for double precision')
+    else if (info%status == FUGE_DONE .and. info%force_error > MOST_FORCE_ERROR) then
+      call report(info, FUGE_WARN_ILL_CONDITIONED, 'the forces may be wrong by '//text(info%force_error)//' of the ' &
+                  //'largest one although the equations hold to '//text(info%residual)//': merge points that nearly ' &
+                  //'coincide, count tilts from a nearer point, or lower the tolerance of an iteration')
     else if (info%status == FUGE_DONE) then
       call remark_contact_at_rim(operator, solution%force, info)
     end if

@@ -8,8 +8,8 @@ static void test_version(void) {
 }
 
 static void test_status_texts(void) {
-  const char *unknown = fuge_status_text(FUGE_WARN_RESIDUAL + 1);
-  for (int status = FUGE_ERR_DOF; status <= FUGE_WARN_RESIDUAL; status++) {
+  const char *unknown = fuge_status_text(FUGE_WARN_ILL_CONDITIONED + 1);
+  for (int status = FUGE_ERR_DOF; status <= FUGE_WARN_ILL_CONDITIONED; status++) {
     const char *meaning = fuge_status_text(status);
     CHECK(meaning != NULL && strlen(meaning) > 0);
     CHECK(strcmp(meaning, unknown) != 0);
@@ -19,11 +19,13 @@ static void test_status_texts(void) {
   }
   CHECK_STRING(fuge_status_text(FUGE_DONE), "done");
   CHECK_CONTAINS(fuge_status_text(FUGE_WARN_RESIDUAL), "residual");
+  CHECK_CONTAINS(fuge_status_text(FUGE_WARN_NOT_UNIQUE), "not unique");
+  CHECK_CONTAINS(fuge_status_text(FUGE_WARN_ILL_CONDITIONED), "far off");
   CHECK_CONTAINS(fuge_status_text(FUGE_ERR_NOT_SYMMETRIC), "not symmetric");
 }
 
 static void test_unknown_status(void) {
-  const int unknown[] = {FUGE_WARN_NOT_UNIQUE + 1, FUGE_ERR_DOF - 1, INT_MAX, INT_MIN};
+  const int unknown[] = {FUGE_WARN_ILL_CONDITIONED + 1, FUGE_ERR_DOF - 1, INT_MAX, INT_MIN};
   for (int k = 0; k < 4; k++) CHECK_STRING(fuge_status_text(unknown[k]), "unknown status");
 }
 

@@ -40,7 +40,8 @@ static void test_info(void) {
   CHECK_INT(info.preconditionings, 0);
   CHECK(info.residual >= 0.0 && info.residual <= 1e-15);
   for (int k = 0; k < 3; k++) CHECK_INT(info.reserved_int[k], 0);
-  for (int k = 0; k < 7; k++) CHECK_NEAR(info.reserved[k], 0.0, 0.0);
+  CHECK(info.force_error > 0.0 && info.force_error <= 1e-15);
+  for (int k = 0; k < 6; k++) CHECK_NEAR(info.reserved[k], 0.0, 0.0);
   free_both(&solver, &op);
 }
 

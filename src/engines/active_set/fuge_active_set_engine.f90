@@ -5,7 +5,7 @@ module fuge_active_set_engine
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
-  use fuge_engine_messages, only: explain_status
+  use fuge_engine_messages, only: explain_status, SINGULAR_ON_CONTACT
   use fuge_initial_set, only: guess_initial_set
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -96,8 +96,7 @@ contains
       if (info%failed()) return
     end if
     if (status == FUGE_DONE .and. factor%regularisation > 0.0_dp) then
-      call report(info, FUGE_WARN_NOT_UNIQUE, 'alpha is singular on the contact: gaps and approach are unique, ' &
-                  //'the forces are not; those given are near the least squares')
+      call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
     else if (status == FUGE_DONE .and. .not. canonical%plain) then
       call report_unresisted_motion(canonical, solution, info)
     end if

@@ -188,6 +188,8 @@ contains
 
     given = solution%force
     if (factor%regularisation > 0.0_dp) call set%refine(canonical, factor, 0.0_dp, solution)
+    call set%estimate_error(canonical, factor, solution)
+    solution%violation = maxval(set%violation)
     associate (upper => canonical%upper, state => solution%state, force => solution%force, motion => solution%motion)
       where (upper > 0.0_dp) force = real(state, dp)*max(state*force, 0.0_dp)
       where (abs(force) <= set%zero_force) force = 0.0_dp
@@ -195,6 +197,7 @@ contains
         motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, set%contact, force, &
                                               motion(1))
       end if
+      solution%force_error = solution%force_error + maxval(abs(force - given))
       ! A motion is rounding then.
       if (set%has_no_length(canonical)) motion = 0.0_dp
       if (any(abs(force - given) > 0.0_dp)) call set%measure(canonical, .false., solution)

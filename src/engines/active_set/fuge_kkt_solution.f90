@@ -2,17 +2,23 @@
 module fuge_kkt_solution
   use fuge_canonical_problem, only: canonical_problem
   use fuge_compensated_sums, only: add_column, add_terms, add_two_columns, bias_above, compensated_dot
-  use fuge_displacements, only: displacement_terms
+  use fuge_displacements, only: displacement_magnitude, displacement_terms
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
+  use fuge_refinement_error, only: as_rounding, error_left, RANDOM_SIGNS
   implicit none
   private
 
-  public :: refine_solution, solve_set, translation_at_shallowest
+  public :: find_force_error, refine_solution, solve_set, translation_at_shallowest
 
   !> An expected correction below this fraction of the largest force is left out.
   real(dp), parameter :: EXACT_ENOUGH = 0.1_dp*epsilon(1.0_dp)
   integer, parameter :: REFINEMENTS = 10
+  !> A first correction beyond this fraction of the largest force shows a condition with which the rounding of
+  !> residuals counts.
+  real(dp), parameter :: RESIDUALS_COUNT = 1.0e-10_dp
+  !> Rounding of a residual relative to its terms: the lower halves of the products are summed in double precision.
+  real(dp), parameter :: RESIDUAL_ROUNDING = 2.0_dp**(-79)
   !> Rows that are gathered at a time.
   integer, parameter :: PANEL = 256
   !> Most points whose terms are compared.
@@ -20,6 +26,13 @@ module fuge_kkt_solution
 
   !> Arrays of a refinement, kept so that small problems do not spend their time on allocations.
   type, public :: refinement_arrays
+    !> What rounding took from the gaps that `refine_solution` is given, (n), length; zero unless it is set.
+    real(dp), allocatable :: gap_rounding(:)
+    !> The last refinement: the largest force before it, the largest changes by its corrections, how many there were,
+    !> and whether the last one was applied.
+    real(dp) :: changes(0:REFINEMENTS) = 0.0_dp
+    integer, private :: corrections = 0
+    logical, private :: taken = .true.
     !> (n).
     real(dp), allocatable, private :: residual(:), correction(:), high(:), low(:), column(:)
     integer, allocatable, private :: points(:)
@@ -41,11 +54,13 @@ contains
     if (allocated(self%missing)) then
       if (size(self%residual) == n .and. size(self%missing) == m) return
       deallocate (self%residual, self%correction, self%high, self%low, self%column, self%points, self%missing, &
-                  self%shift)
+                  self%shift, self%gap_rounding)
     end if
     allocate (self%residual(n), self%correction(n), self%high(n), self%low(n), self%column(n), self%points(n), &
-              self%missing(m), self%shift(m), stat=stat)
-    if (stat == 0) self%residual = 0.0_dp
+              self%missing(m), self%shift(m), self%gap_rounding(n), stat=stat)
+    if (stat /= 0) return
+    self%residual = 0.0_dp
+    self%gap_rounding = 0.0_dp
   end subroutine fit
 
   !> Forces (n) and motions (m) with reduced_gap + (alpha - datum) f - R q = 0 on the contact set of `factor` and
@@ -122,7 +137,7 @@ contains
   !>
   !> Residuals have 24 digits of their terms, and see errors of the forces that double precision cannot. With the
   !> `regularisation` of the factor the system solved is that of the regularised alpha, with 0 that of alpha. `gap` (n)
-  !> as in `solve_set`; `arrays` that `fit`.
+  !> as in `solve_set`; `arrays` that `fit`, with the rounding of the gaps.
   subroutine refine_solution(canonical, gap, factor, regularisation, contact, arrays, force, motion)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), regularisation
@@ -135,12 +150,17 @@ contains
 
     call list_points(contact, arrays%points, points)
     last = maxval(abs(force))
+    arrays%changes(0) = last
     do step = 1, REFINEMENTS
-      call find_residual(canonical, gap, regularisation, arrays%points(:points), force, motion, arrays%high(:points), &
-                         arrays%low(:points), arrays%column(:points), arrays%residual, arrays%missing)
+      call find_residual(canonical, gap, arrays%gap_rounding, regularisation, arrays%points(:points), force, motion, &
+                         arrays%high(:points), arrays%low(:points), arrays%column(:points), arrays%residual, &
+                         arrays%missing)
       call factor%solve(arrays%residual, arrays%missing, arrays%correction, arrays%shift)
       change = maxval(abs(arrays%correction))
-      if (.not. (change < 0.5_dp*last .or. (step == 1 .and. change <= huge(change)))) exit
+      arrays%changes(step) = change
+      arrays%corrections = step
+      arrays%taken = change < 0.5_dp*last .or. (step == 1 .and. change <= huge(change))
+      if (.not. arrays%taken) exit
       force = force + arrays%correction
       call change_datum(factor%datum - canonical%datum, arrays%missing, arrays%shift)
       motion = motion + arrays%shift
@@ -153,6 +173,36 @@ contains
       last = change
     end do
   end subroutine refine_solution
+
+  !> The largest error of a force that the last refinement has left, an estimate. Arguments as for `refine_solution`,
+  !> `force` and `motion` what it returned.
+  !>
+  !> Where the first correction is so large that the rounding of residuals counts, it is found by one more solve with
+  !> the factor, for residuals of the size of that rounding and of either sign.
+  subroutine find_force_error(canonical, gap, factor, contact, force, motion, arrays, error)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: gap(:), force(:), motion(:)
+    type(kkt_factor), intent(in) :: factor
+    logical, intent(in) :: contact(:)
+    type(refinement_arrays), intent(inout) :: arrays
+    real(dp), intent(out) :: error
+    integer :: j
+
+    error = error_left(arrays%changes(:arrays%corrections), arrays%taken)
+    if (arrays%changes(1)*(canonical%survey%largest() + abs(canonical%datum)) <= &
+        RESIDUALS_COUNT*arrays%changes(0)*(canonical%survey%most - canonical%survey%least)) return
+    arrays%residual = abs(gap) + abs(canonical%datum)*sum(abs(force)) &
+                      + displacement_magnitude(canonical%alpha, 0.0_dp, contact, force)
+    do j = 1, size(motion)
+      arrays%residual = arrays%residual + abs(canonical%modes(:, j)*motion(j))
+      arrays%missing(j) = RESIDUAL_ROUNDING*sum(abs(canonical%modes(:, j)*force))
+    end do
+    arrays%residual = RANDOM_SIGNS*RESIDUAL_ROUNDING*as_rounding(arrays%residual)
+    call factor%solve(arrays%residual, arrays%missing, arrays%correction, arrays%shift)
+    error = error + maxval(abs(arrays%correction))
+    ! Also where it is NaN.
+    if (.not. error <= huge(error)) error = huge(error)
+  end subroutine find_force_error
 
   !> The points marked in `contact` (n), the first `number` of `points` (n).
   pure subroutine list_points(contact, points, number)
@@ -171,10 +221,10 @@ contains
 
   !> Residuals of the gaps (n), at the `points` of the contact only, and of equilibrium (m). `high`, `low` and `column`
   !> are work space as long as `points`.
-  pure subroutine find_residual(canonical, gap, regularisation, points, force, motion, high, low, column, residual, &
-                                missing)
+  pure subroutine find_residual(canonical, gap, gap_rounding, regularisation, points, force, motion, high, low, &
+                                column, residual, missing)
     type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: gap(:), regularisation
+    real(dp), intent(in) :: gap(:), gap_rounding(:), regularisation
     integer, intent(in), contiguous :: points(:)
     real(dp), intent(in), contiguous :: force(:), motion(:)
     real(dp), intent(inout), contiguous :: high(:), low(:), column(:)
@@ -210,7 +260,9 @@ contains
       column(k) = regularisation*force(points(k))
     end do
     call add_terms(column, high, low)
-    low = low + shift_low(1)
+    do k = 1, size(points)
+      low(k) = low(k) + (shift_low(1) + gap_rounding(points(k)))
+    end do
     do j = 1, size(motion)
       do k = 1, size(points)
         column(k) = canonical%modes(points(k), j)

@@ -4,12 +4,13 @@
 !> on each.
 module fuge_working_set
   use fuge_canonical_problem, only: canonical_problem
+  use fuge_compensated_sums, only: difference_rounding
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
   use fuge_displacements, only: add_open_displacement, displacement_terms
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_kkt_solution, only: refine_solution, refinement_arrays, solve_set
+  use fuge_kkt_solution, only: find_force_error, refine_solution, refinement_arrays, solve_set
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
@@ -39,6 +40,7 @@ module fuge_working_set
     procedure :: move_gap_datum
     procedure :: solve
     procedure :: refine
+    procedure :: estimate_error
     procedure :: measure
     procedure :: has_no_length
     procedure :: find_gaps
@@ -96,7 +98,11 @@ contains
 
     do k = 1, size(state)
       self%gap_at_stops(k) = self%reduced_gap(k)
-      if (state(k) < FUGE_OPEN) self%gap_at_stops(k) = self%reduced_gap(k) - canonical%upper(k)
+      self%arrays%gap_rounding(k) = difference_rounding(canonical%gap(k), self%gap_datum, self%reduced_gap(k))
+      if (state(k) >= FUGE_OPEN) cycle
+      self%gap_at_stops(k) = self%reduced_gap(k) - canonical%upper(k)
+      self%arrays%gap_rounding(k) = self%arrays%gap_rounding(k) &
+                                    + difference_rounding(self%reduced_gap(k), canonical%upper(k), self%gap_at_stops(k))
     end do
   end subroutine find_gap_at_stops
 
@@ -173,6 +179,18 @@ contains
     call refine_solution(canonical, self%gap_at_stops, factor, regularisation, self%contact, self%arrays, &
                          solution%force, solution%motion)
   end subroutine refine
+
+  !> Estimate the largest error of a force that the refinement of this solution has left.
+  subroutine estimate_error(self, canonical, factor, solution)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    type(kkt_factor), intent(in) :: factor
+    type(contact_solution), intent(inout) :: solution
+
+    call find_force_error(canonical, self%gap_at_stops, factor, self%contact, solution%force, solution%motion, &
+                          self%arrays, solution%force_error)
+    solution%unrefined_error = self%arrays%changes(1)
+  end subroutine estimate_error
 
   !> Does the problem have no length at all, neither gaps nor plays nor displacements?
   pure function has_no_length(self, canonical)

@@ -2,6 +2,7 @@
 module fuge_contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
@@ -14,6 +15,11 @@ module fuge_contact_solution
   type, extends(fuge_solution), public :: contact_solution
     !> FUGE_AT_LOWER_STOP, FUGE_OPEN or FUGE_AT_UPPER_STOP of each point, (n).
     integer, allocatable :: state(:)
+    !> Estimate of the largest error of a force that refinement has left, and the one before it, which rounding had made
+    !> of all terms of the equations; force.
+    real(dp) :: force_error = 0.0_dp, unrefined_error = 0.0_dp
+    !> By how much signs were wrong that rounding was taken to have turned, relative; no unit.
+    real(dp) :: violation = 0.0_dp
   end type contact_solution
 
 contains

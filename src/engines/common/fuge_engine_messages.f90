@@ -8,6 +8,10 @@ module fuge_engine_messages
 
   public :: explain_status
 
+  !> Forces that store no energy can be added to those of the contact.
+  character(len=*), parameter, public :: SINGULAR_ON_CONTACT = 'alpha is singular on the contact: gaps and approach ' &
+    //'are unique, the forces are not; those given are near the least squares'
+
 contains
 
   !> Report the `status` of an engine in words. `limit`: the iterations allowed; `contacts`: points in the contact set.

@@ -13,11 +13,13 @@ module fuge_contact_iterate
   implicit none
   private
 
-  public :: clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_penetration, &
-    is_accurate, make_feasible, project_residual, start_iterate
+  public :: clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
+    find_penetration, is_accurate, make_feasible, project_residual, rounding_force, start_iterate
 
   !> Units in the last place by which gaps less rigid displacements may be rounded.
   real(dp), parameter :: ROUNDINGS = 2.0_dp
+  !> Displacements below this fraction of the gaps are rounding.
+  real(dp), parameter :: NO_LENGTH = 1.0e-14_dp
 
   !> Forces with their contact set and their errors. Under a load, forces and lengths are divided
   !> by the load; with a prescribed motion they are not scaled.
@@ -49,15 +51,17 @@ module fuge_contact_iterate
     real(dp) :: rounding = 0.0_dp
     !> Tensions up to this are rounding.
     real(dp) :: tension_noise = 0.0_dp
+    !> With modes: the largest displacement by forces of size 1, of all products so far; length per force.
+    real(dp) :: softness = 0.0_dp
+    !> Do forces of the set that store no energy grow for ever, so that there is no solution?
+    logical :: unbounded = .false.
     !> Did run_projected_gradients reduce the residual to its tolerance?
     logical :: converged = .false.
-    !> The least of the smallest values of `lanczos` so far; 0 before any step.
+    !> The least of the smallest values of `lanczos` on this contact set; 0 before any step.
     real(dp) :: smallest_value = 0.0_dp
     !> The largest preconditioned residual over the largest residual, of one that is nearly small enough; force per
     !> length; 0 before any step.
     real(dp) :: amplification = 0.0_dp
-    !> The estimated error of the forces over the largest of them.
-    real(dp) :: force_error = 0.0_dp
     !> The coefficients of the conjugate gradients of the last call that made steps.
     type(lanczos_values) :: lanczos
     !> The rigid motions on the contact set.
@@ -364,6 +368,21 @@ contains
       least = min(least, minval(values(segments%first(i):segments%last(i))))
     end do
   end function least_over
+
+  !> Forces up to this one are rounding. Without a load there is none to compare them with: then those count that
+  !> displace nothing beside the gaps.
+  pure function rounding_force(scene, iterate) result(rounding)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: rounding
+    real(dp) :: length
+
+    rounding = 0.0_dp
+    if (.not. scene%is_unloaded()) return
+    rounding = tiny(rounding)
+    length = maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH)
+    if (iterate%softness > 0.0_dp .and. length > 0.0_dp) rounding = max(rounding, NO_LENGTH*(length/iterate%softness))
+  end function rounding_force
 
   !> Do displacements include those by the operator's datum? Only where no free motion absorbs them.
   pure function counts_datum(scene, iterate)

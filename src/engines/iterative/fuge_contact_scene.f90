@@ -32,6 +32,7 @@ module fuge_contact_scene
     logical :: absorbs_datum = .false.
   contains
     procedure :: is_simple
+    procedure :: is_unloaded
     procedure :: is_tied
   end type contact_scene
 
@@ -47,6 +48,15 @@ contains
 
     is_simple = .not. (allocated(self%modes) .or. allocated(self%play) .or. allocated(self%excluded))
   end function is_simple
+
+  !> Are there modes, and no resultants in them? Then forces only balance each other.
+  pure function is_unloaded(self)
+    class(contact_scene), intent(in) :: self
+    logical :: is_unloaded
+
+    is_unloaded = allocated(self%modes)
+    if (is_unloaded) is_unloaded = .not. any(abs(self%load) > 0.0_dp)
+  end function is_unloaded
 
   !> Does the gap of point `k` stay zero, whatever its force?
   pure function is_tied(self, k)

@@ -7,18 +7,18 @@
 module fuge_contact_set_search
   use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_complete_contact, only: equal_forces_displace_nothing
-  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, is_accurate, make_feasible
+  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, is_accurate, make_feasible, rounding_force
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
-  use fuge_force_error, only: estimated_force_error
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_projected_gradients, only: run_projected_gradients
-  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_ITERATION_LIMIT, &
+    FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
     penetrated_stop
   implicit none
@@ -36,6 +36,8 @@ module fuge_contact_set_search
   !> Block exchanges without a new minimum of wrong points before single exchanges begin; edges
   !> are extrapolated in the first half of them only.
   integer, parameter :: MAX_STALLS = 10
+  !> Tensions up to so many units in the last place of the largest force are rounding in any case.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
 
   !> What is required of the search on one grid.
   type, public :: search_settings
@@ -113,10 +115,10 @@ contains
       call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
                                  in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
       if (info%failed()) exit
+      iterate%smallest_value = 0.0_dp
       call make_feasible(operator, scene, iterate, info)
       fresh = .true.
     end do
-    if (.not. (settings%coarse_grid .or. info%failed())) iterate%force_error = estimated_force_error(iterate)
     info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
   end subroutine find_contact_set
 
@@ -130,7 +132,7 @@ contains
     logical :: undetermined
 
     undetermined = .false.
-    if (.not. iterate%prescribed .or. allocated(scene%modes)) return
+    if (.not. (iterate%prescribed .and. scene%is_simple())) return
     if (all(iterate%contact)) undetermined = equal_forces_displace_nothing(operator, info)
   end function has_undetermined_forces
 
@@ -186,11 +188,16 @@ contains
     if (allocated(scene%modes) .and. .not. info%failed()) then
       call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
       ! With several modes a point without force may be the one that resists a motion.
-      iterate%tension_noise = SAFETY**2*settings%tolerance*maxval(abs(iterate%force))
+      iterate%tension_noise = max(tension_by_rounding(settings, iterate), rounding_force(scene, iterate))
     end if
     if (info%failed()) return
     call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
                                  iterate, info)
+    if (iterate%unbounded .and. .not. (settings%coarse_grid .or. info%failed())) then
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular, and there is no solution: forces that store ' &
+                  //'no energy, the largest at point '//index_text(maxloc(abs(iterate%direction), dim=1)) &
+                  //', cannot move the points to their stops; free the rigid motion that can, or change the gaps')
+    end if
     if (info%failed()) return
     info%iterations = info%iterations + 1
     if (.not. settings%coarse_grid) call note_smallest_value(iterate)
@@ -202,7 +209,7 @@ contains
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine solve_on_contact_set
 
-  !> Keep the smallest value that conjugate gradients have found on any set.
+  !> Keep the smallest value that conjugate gradients have found on this set.
   subroutine note_smallest_value(iterate)
     type(contact_iterate), intent(inout) :: iterate
     real(dp) :: value
@@ -244,6 +251,21 @@ contains
 
     noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding
   end function penetration_noise
+
+  !> Tensions up to this are rounding. They are taken out in the end, so that they may not displace by more than the
+  !> tolerance allows.
+  pure function tension_by_rounding(settings, iterate) result(noise)
+    type(search_settings), intent(in) :: settings
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: noise
+    real(dp) :: largest
+
+    largest = maxval(abs(iterate%force))
+    noise = SAFETY**2*settings%tolerance*largest
+    if (noise*iterate%softness > penetration_noise(settings, iterate)) then
+      noise = max(penetration_noise(settings, iterate)/iterate%softness, ROUNDINGS*epsilon(noise)*largest)
+    end if
+  end function tension_by_rounding
 
   !> Primal active-set method (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974,
   !> chapter 23), which exchanges one point at a time and lowers the energy.
@@ -300,6 +322,7 @@ contains
           exit
         end if
       end if
+      iterate%smallest_value = 0.0_dp
       if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
     end do
     if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)

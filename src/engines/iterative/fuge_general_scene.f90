@@ -3,7 +3,7 @@
 module fuge_general_scene
   use fuge_canonical_problem, only: canonical_problem
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap
+  use fuge_contact_iterate, only: contact_iterate, deformed_gap, rounding_force
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_set_search, only: states_of
   use fuge_contact_solution, only: allocate_solution, contact_solution
@@ -171,7 +171,7 @@ contains
     real(dp) :: least
     integer :: k
 
-    least = max(ROUNDINGS*epsilon(least)*maxval(abs(iterate%force)), 0.0_dp)
+    least = max(ROUNDINGS*epsilon(least)*maxval(abs(iterate%force)), rounding_force(scene, iterate))
     do k = 1, size(state)
       if (abs(iterate%force(k)) <= least) iterate%force(k) = 0.0_dp
       if (iterate%force(k)*real(state(k), dp) < 0.0_dp .and. .not. scene%is_tied(k)) iterate%force(k) = 0.0_dp

@@ -11,9 +11,11 @@ module fuge_iterative_engine
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_set_search, only: find_contact_set, search_settings, states_of
   use fuge_contact_window, only: solve_in_window, survey_level
+  use fuge_engine_messages, only: SINGULAR_ON_CONTACT
   use fuge_general_scene, only: assemble_general, set_general_scene
   use fuge_grid_transfer, only: prolong
   use fuge_iterated_set, only: iterated_set
+  use fuge_iteration_error, only: estimated_force_error
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
@@ -22,7 +24,8 @@ module fuge_iterative_engine
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_scene_scaling, only: scene_scaling
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
+    FUGE_WARN_NOT_UNIQUE
   use fuge_wrong_points, only: choose_contact
   implicit none
   private
@@ -95,6 +98,7 @@ contains
     call find_contact_set(operator, settings, scene, monitor, iterate, info)
     if (.not. info%failed()) call keep_states(iterate, last, info)
     if (info%failed()) return
+    call judge_forces(operator, scene, iterate, info)
     if (is_general(problem)) then
       call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
     else
@@ -106,6 +110,25 @@ contains
     last%amplification = iterate%amplification
     last%tolerance = options%tolerance
   end subroutine solve_by_iteration
+
+  !> Estimate the error of the forces, and warn where they are not unique.
+  subroutine judge_forces(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: no_modes(:, :)
+    real(dp) :: compliance
+
+    if (allocated(scene%modes)) then
+      compliance = operator%least_pair_compliance(iterate%contact, scene%modes)
+    else
+      allocate (no_modes(size(scene%gap), 0))
+      compliance = operator%least_pair_compliance(iterate%contact, no_modes)
+    end if
+    info%force_error = estimated_force_error(iterate, compliance)
+    if (.not. compliance > 0.0_dp) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
+  end subroutine judge_forces
 
   !> Keep the contact set for derivatives. Error: FUGE_ERR_MEMORY.
   pure subroutine keep_states(iterate, last, info)

@@ -4,13 +4,14 @@
 !> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero. With other rigid modes
 !> the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, find_penetration, &
-    is_accurate
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
+    find_least_magnitude, find_penetration, is_accurate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, max_abs_over
   use fuge_contact_step, only: step_over
   use fuge_kinds, only: dp
+  use fuge_null_direction, only: find_softness, leave_null_direction, stores_no_energy
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_DEFINITE
@@ -57,6 +58,7 @@ contains
     logical :: preconditioned
 
     iterate%converged = .false.
+    iterate%unbounded = .false.
     preconditioned = operator%has_preconditioner()
     call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
@@ -65,6 +67,11 @@ contains
     previous = 1.0_dp
     do iteration = 0, limit
       iterate%converged = is_accurate(iterate, tolerance)
+      if (.not. iterate%converged .and. measured_again(scene, iteration, limit)) then
+        ! The forces at the start may have been others, even none.
+        call find_least_magnitude(operator, scene, iterate)
+        iterate%converged = is_accurate(iterate, tolerance)
+      end if
       if (iterate%converged .or. iteration == limit) return
       if (iteration > 0 .and. .not. to_tolerance) then
         if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
@@ -82,7 +89,7 @@ contains
         return
       end if
       call update_direction(iterate%segments, energy/previous, iterate%work, iterate%direction)
-      call advance_along_direction(operator, scene, energy, iterate, step_length, info)
+      call advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
       if (.not. step_length > 0.0_dp) return
       if (iteration == 0) call iterate%lanczos%restart()
       call iterate%lanczos%add(step_length, energy/previous)
@@ -93,6 +100,18 @@ contains
       end if
     end do
   end subroutine run_projected_gradients
+
+  !> Is the length that residuals are compared with to be measured anew before this iteration? At the end, and seldom
+  !> before; with one translation the load gives it its size from the start.
+  pure function measured_again(scene, iteration, limit)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: iteration, limit
+    logical :: measured_again
+
+    measured_again = iteration == limit
+    if (.not. scene%is_simple()) measured_again = measured_again .or. (iteration > 1 &
+                                                                       .and. iand(iteration, iteration - 1) == 0)
+  end function measured_again
 
   !> The preconditioned residual, iterate%work, projected to forces without resultants, and its `energy`. Errors: those
   !> of the preconditioner.
@@ -130,13 +149,13 @@ contains
 
   !> Go to the minimum of the energy along the search direction.
   !>
-  !> `energy` is the inner product of the residual and the preconditioned residual;
-  !> `step_length` is 0 where the curvature is not positive, or after an error. Errors: those of
+  !> `energy` is the inner product of the residual and the preconditioned residual, `tolerance` as for
+  !> `run_projected_gradients`; `step_length` is 0 where the curvature is not positive, or after an error. Errors: those of
   !> the operator, FUGE_ERR_NOT_DEFINITE.
-  subroutine advance_along_direction(operator, scene, energy, iterate, step_length, info)
+  subroutine advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
-    real(dp), intent(in) :: energy
+    real(dp), intent(in) :: tolerance, energy
     type(contact_iterate), intent(inout) :: iterate
     real(dp), intent(out) :: step_length
     type(fuge_info), intent(inout) :: info
@@ -146,9 +165,13 @@ contains
     step_length = 0.0_dp
     call compute_displacement(operator, counts_datum(scene, iterate), iterate%direction, iterate%work, info)
     if (info%failed()) return
+    if (iterate%prescribed) call find_softness(operator, scene, iterate, info)
+    if (info%failed()) return
     if (allocated(scene%modes)) call remove_rigid_motion(iterate, rigid_motion)
     call dot_and_sum_over(iterate%segments, iterate%direction, iterate%work, curvature, total)
-    if (curvature > 0.0_dp) then
+    if (iterate%prescribed .and. stores_no_energy(iterate, curvature)) then
+      call leave_null_direction(scene, tolerance, energy, iterate)
+    else if (curvature > 0.0_dp) then
       step_length = energy/curvature
       if (iterate%prescribed) total = 0.0_dp
       call take_step(scene, step_length, total/real(iterate%segments%points, dp), iterate)

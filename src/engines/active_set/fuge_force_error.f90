@@ -1,0 +1,263 @@
+!> What rounding that no refinement sees means for the forces: that of rigid modes and prescribed motions, and that of
+!> the gaps which decide whether a point is in contact.
+!>
+!> The dense engines solve with modes that they made orthogonal, and with gaps less the prescribed motions. Where modes
+!> nearly agree, the point of reference is far away, or motions are far larger than displacements, the rounding of these
+!> is the largest error of the forces. And a point that is open by no more than rounding may as well be in contact:
+!> where alpha is badly conditioned, even so small a gap takes a large force to close.
+module fuge_force_error
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_compensated_sums, only: difference_rounding
+  use fuge_contact_solution, only: contact_solution
+  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_data_scales, only: is_prescribed
+  use fuge_displacements, only: add_elastic_displacement, displacement_terms, rigid_displacement
+  use fuge_kinds, only: dp
+  use fuge_kkt_factor, only: kkt_factor
+  use fuge_kkt_solution, only: solve_set
+  use fuge_problem_type, only: fuge_problem
+  use fuge_refinement_error, only: as_rounding, RANDOM_SIGNS
+  implicit none
+  private
+
+  public :: estimate_force_error
+
+  !> Units in the last place by which a gap may be rounded, of the terms of its displacement.
+  real(dp), parameter :: ROUNDINGS = 4.0_dp
+  !> Points looked at whose contact is not certain.
+  integer, parameter :: MOST_POINTS = 4
+  !> Roundings that add up, in each equation, to the error before refinement; found on the problems of test/hard.
+  real(dp), parameter :: UNREFINED = 32.0_dp
+  !> A bound below this is good enough, and a solve with the factor is saved.
+  real(dp), parameter :: SMALL = 1.0e-12_dp
+
+contains
+
+  !> The largest error of a force relative to the largest force, an estimate: what refinement has left, and what rounding
+  !> means that it does not see. At most 1, where no digit is known; 0 without forces.
+  !>
+  !> `canonical`, `alpha` and `factor` those of the `solution` of `problem`, in which a refinement has left its error;
+  !> `motion` (m) in the given modes.
+  subroutine estimate_force_error(canonical, alpha, factor, problem, motion, solution, force_error)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    type(kkt_factor), intent(in) :: factor
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: motion(:)
+    type(contact_solution), intent(in) :: solution
+    real(dp), intent(out) :: force_error
+    real(dp), allocatable :: length(:)
+    real(dp) :: by_modes, by_set, largest
+
+    force_error = 0.0_dp
+    largest = maxval(abs(solution%force))
+    if (.not. largest > 0.0_dp) return
+    force_error = 1.0_dp
+    if (factor%regularisation > 0.0_dp) return
+    by_modes = 0.0_dp
+    if (.not. canonical%plain) call error_by_modes(canonical, factor, problem, motion, solution, by_modes, length)
+    ! Without rounding of modes `length` is not allocated, and counts as absent.
+    call error_by_contact_set(canonical, alpha, factor, solution, by_set, length)
+    force_error = min(max(solution%force_error, by_modes, by_set)/largest, 1.0_dp)
+  end subroutine estimate_force_error
+
+  !> The largest change of a force by the rounding of modes and of prescribed motions, an estimate: one solve with the
+  !> factor of the contact set, unless a bound is small.
+  !>
+  !> `length` (n): what such rounding leaves open of each gap; not allocated if nothing. Modes whose entries are 0 or one
+  !> other value are exact.
+  subroutine error_by_modes(canonical, factor, problem, motion, solution, error, length)
+    type(canonical_problem), intent(in) :: canonical
+    type(kkt_factor), intent(in) :: factor
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: motion(:)
+    type(contact_solution), intent(in) :: solution
+    real(dp), intent(out) :: error
+    real(dp), allocatable, intent(out) :: length(:)
+    real(dp) :: known(size(solution%force)), load(size(motion)), force_change(size(solution%force))
+    real(dp) :: free_motion(size(canonical%load))
+    real(dp), allocatable :: gap_change(:), load_change(:)
+
+    error = 0.0_dp
+    allocate (length(size(solution%force)))
+    call rounding_of_modes(problem, motion, solution%force, length, load)
+    known = rounding_of_gaps(problem)
+    if (.not. (any(length > 0.0_dp) .or. any(load > 0.0_dp) .or. any(abs(known) > 0.0_dp))) then
+      deallocate (length)
+      return
+    end if
+    call canonical%transform_change(known + as_rounding(RANDOM_SIGNS*length), as_rounding(RANDOM_SIGNS*load), &
+                                    gap_change, load_change)
+    length = length + abs(known)
+    error = bound_by_refinement(canonical, problem, motion, solution, maxval(length), load_change)
+    if (error <= SMALL*maxval(abs(solution%force))) return
+    call solve_set(factor, canonical%datum, gap_change, load_change, force_change, free_motion)
+    error = finite(maxval(abs(force_change)))
+  end subroutine error_by_modes
+
+  !> How much the last digits of the modes change gaps, `length` (n), and resultants, `load` (m).
+  pure subroutine rounding_of_modes(problem, motion, force, length, load)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: motion(:), force(:)
+    real(dp), intent(out) :: length(:), load(:)
+    integer :: j
+
+    length = 0.0_dp
+    load = 0.0_dp
+    if (.not. allocated(problem%modes)) return
+    do j = 1, size(motion)
+      associate (mode => problem%modes(:, j))
+        if (has_one_value(mode)) cycle
+        length = length + epsilon(length)*abs(mode*motion(j))
+        if (.not. is_prescribed(problem, j)) load(j) = epsilon(load)*sum(abs(mode*force))
+      end associate
+    end do
+  end subroutine rounding_of_modes
+
+  !> A bound of the change of a force by changes of the gaps up to `length` and of the canonical loads by `load_change`:
+  !> before refinement the forces had the error that rounding makes of all terms of the equations, and these changes are
+  !> compared with those terms. Huge where there is nothing to compare with, as of bodies with loads of their own.
+  pure function bound_by_refinement(canonical, problem, motion, solution, length, load_change) result(bound)
+    type(canonical_problem), intent(in) :: canonical
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: motion(:), length, load_change(:)
+    type(contact_solution), intent(in) :: solution
+    real(dp) :: bound
+    real(dp) :: depth(size(solution%force)), roundings, deepest, terms
+    integer :: j
+
+    bound = huge(bound)
+    if (canonical%has_bodies()) return
+    depth = problem%gap
+    do j = 1, size(motion)
+      if (allocated(problem%modes)) then
+        depth = depth - problem%modes(:, j)*motion(j)
+      else
+        depth = depth - motion(j)
+      end if
+    end do
+    deepest = maxval(abs(depth), mask=solution%state /= FUGE_OPEN)
+    if (.not. deepest > 0.0_dp) return
+    roundings = length/deepest
+    do j = 1, size(load_change)
+      terms = sum(abs(canonical%modes(:, j)*solution%force))
+      if (.not. terms > 0.0_dp) return
+      roundings = roundings + abs(load_change(j))/terms
+    end do
+    bound = roundings*max(solution%unrefined_error/(UNREFINED*epsilon(bound)), maxval(abs(solution%force)))
+    if (.not. bound <= huge(bound)) bound = huge(bound)
+  end function bound_by_refinement
+
+  !> What is lost when prescribed motions are subtracted from the gaps one after the other, (n); the rounding of the
+  !> products is not included.
+  pure function rounding_of_gaps(problem) result(rounding)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: rounding(size(problem%gap))
+    real(dp) :: gap(size(problem%gap)), displacement(size(problem%gap)), rest(size(problem%gap))
+    integer :: j
+
+    rounding = 0.0_dp
+    gap = problem%gap
+    do j = 1, problem%mode_count()
+      if (.not. is_prescribed(problem, j)) cycle
+      displacement = problem%motion(j)
+      if (allocated(problem%modes)) displacement = problem%motion(j)*problem%modes(:, j)
+      rest = gap - displacement
+      rounding = rounding + difference_rounding(gap, displacement, rest)
+      gap = rest
+    end do
+  end function rounding_of_gaps
+
+  !> Are all entries of the mode 0 or one other value?
+  pure function has_one_value(mode)
+    real(dp), intent(in) :: mode(:)
+    logical :: has_one_value
+    real(dp) :: largest
+
+    largest = mode(maxloc(abs(mode), dim=1))
+    has_one_value = all(abs(mode) <= 0.0_dp .or. abs(mode - largest) <= 0.0_dp)
+  end function has_one_value
+
+  !> The largest change of a force if an open point whose gap is within rounding were in contact after all, an estimate:
+  !> for few such points two solves each.
+  !>
+  !> `alpha` as in `canonical`; `solution` of the contact set of `factor`; `length` (n) as from `error_by_modes`.
+  subroutine error_by_contact_set(canonical, alpha, factor, solution, error, length)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    type(kkt_factor), intent(in) :: factor
+    type(contact_solution), intent(in) :: solution
+    real(dp), intent(out) :: error
+    real(dp), intent(in), optional :: length(:)
+    real(dp) :: relative, most, open, slack
+    integer :: k, points
+
+    error = 0.0_dp
+    relative = ROUNDINGS*epsilon(relative) + solution%violation
+    most = relative*max(canonical%survey%most - canonical%datum, canonical%datum - canonical%survey%least) &
+           *sum(abs(solution%force))
+    if (present(length)) most = most + maxval(length)
+    points = 0
+    do k = 1, size(solution%state)
+      if (solution%state(k) /= FUGE_OPEN .or. canonical%excluded(k)) cycle
+      slack = min(solution%gap(k), canonical%upper(k) - solution%gap(k))
+      if (slack > most) cycle
+      open = relative*displacement_terms(alpha, canonical%datum, solution%state /= FUGE_OPEN, solution%force, k)
+      if (present(length)) open = open + length(k)
+      if (slack > open) cycle
+      error = max(error, change_by_contact(canonical, alpha, factor, solution%state /= FUGE_OPEN, k, open))
+      points = points + 1
+      if (points == MOST_POINTS) return
+    end do
+  end subroutine error_by_contact_set
+
+  !> The largest change of a force if contact at `point` has to close a gap of `length` there: the forces that answer to
+  !> one at that point, and the compliance that is left.
+  !>
+  !> That compliance is a difference of large terms. The forces are corrected once, and their residual is taken into
+  !> account, so that what is wrong with them counts by its square.
+  function change_by_contact(canonical, alpha, factor, contact, point, length) result(change)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    type(kkt_factor), intent(in) :: factor
+    logical, intent(in) :: contact(:)
+    integer, intent(in) :: point
+    real(dp), intent(in) :: length
+    real(dp) :: change
+    real(dp), dimension(size(contact)) :: column, force, force_change, open
+    real(dp), dimension(size(canonical%load)) :: row, motion, motion_change, missing
+    real(dp) :: compliance, terms
+    integer :: step
+
+    column = alpha(:size(contact), point) - canonical%datum
+    row = canonical%modes(point, :)
+    force = 0.0_dp
+    motion = 0.0_dp
+    open = column
+    missing = -row
+    do step = 1, 2
+      call solve_set(factor, canonical%datum, open, missing, force_change, motion_change)
+      force = force + force_change
+      motion = motion + motion_change
+      open = column - rigid_displacement(canonical%modes, motion)
+      call add_elastic_displacement(alpha, canonical%datum, contact, force, open)
+      missing = -row - matmul(force, canonical%modes)
+    end do
+    compliance = column(point) + sum((column + open)*force, mask=contact) + sum((missing - row)*motion)
+    terms = abs(column(point)) + sum(abs(column*force), mask=contact) + sum(abs(row*motion))
+    ! What is less is rounding.
+    compliance = max(compliance, epsilon(terms)*terms)
+    change = 0.0_dp
+    if (compliance > 0.0_dp) change = finite((length/compliance)*max(1.0_dp, maxval(abs(force))))
+  end function change_by_contact
+
+  !> The value, or a huge one if it is not a number.
+  elemental function finite(value)
+    real(dp), intent(in) :: value
+    real(dp) :: finite
+
+    finite = huge(value)
+    if (value <= huge(value)) finite = value
+  end function finite
+
+end module fuge_force_error

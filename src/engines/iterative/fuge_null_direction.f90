@@ -1,0 +1,152 @@
+!> Search directions whose forces store no energy, because the operator is singular.
+!>
+!> Where the forces of a contact set can change along such a direction, the residual cannot: if it works on them,
+!> nothing on this set can stop them. Either some force changes its sign, and its point leaves the set, or none does, and
+!> the contact problem has no solution (Farkas' lemma, for a convex quadratic program).
+module fuge_null_direction
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum
+  use fuge_contact_scene, only: contact_scene
+  use fuge_contact_segments, only: max_abs_over
+  use fuge_kinds, only: dp
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info
+  implicit none
+  private
+
+  public :: find_softness, leave_null_direction, stores_no_energy
+
+  !> So many units in the last place of the terms of an energy are none.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
+  !> Forces of a direction below this fraction of its largest one are what it has of others.
+  real(dp), parameter :: NO_FORCE = 1.0e-4_dp
+  !> A step along the direction goes this fraction of the forces beyond the first zero.
+  real(dp), parameter :: BEYOND = 1.0e-3_dp
+
+contains
+
+  !> Note the largest displacement by forces of size 1, iterate%softness; iterate%work is the displacement by the search
+  !> direction. The first direction may be one that displaces nothing: then from the terms of its displacement, which the
+  !> operator of a grid knows, or for other operators from a product with one force. Errors: those of the operator.
+  subroutine find_softness(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: force
+    real(dp), allocatable :: terms(:), unit(:)
+
+    force = max_abs_over(iterate%segments, iterate%direction)
+    if (.not. force > 0.0_dp) return
+    if (.not. iterate%softness > 0.0_dp) then
+      allocate (terms(size(iterate%work)))
+      if (all(operator%grid() > 0)) then
+        call operator%magnitude(iterate%direction, iterate%work, terms)
+        iterate%softness = maxval(terms)/force
+      else
+        allocate (unit(size(terms)))
+        unit = 0.0_dp
+        unit(iterate%segments%first(1)) = 1.0_dp
+        call compute_displacement(operator, counts_datum(scene, iterate), unit, terms, info)
+        if (.not. info%failed()) iterate%softness = maxval(abs(terms))
+      end if
+    end if
+    iterate%softness = max(iterate%softness, maxval(abs(iterate%work))/force)
+  end subroutine find_softness
+
+  !> Is the energy `curvature` of the search direction no more than rounding?
+  pure function stores_no_energy(iterate, curvature) result(none)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: curvature
+    logical :: none
+    real(dp) :: largest
+
+    largest = max_abs_over(iterate%segments, iterate%direction)
+    none = curvature <= ROUNDINGS*epsilon(largest)*iterate%softness*largest*total_force(iterate)
+  end function stores_no_energy
+
+  !> The sum of the magnitudes of the forces of the search direction.
+  pure function total_force(iterate) result(total)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: total
+    integer :: i
+
+    total = 0.0_dp
+    do i = 1, size(iterate%segments%first)
+      total = total + sum(abs(iterate%direction(iterate%segments%first(i):iterate%segments%last(i))))
+    end do
+  end function total_force
+
+  !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search direction;
+  !> nothing where it is tied.
+  pure function loss_at(scene, iterate, k) result(loss)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    real(dp) :: loss
+
+    loss = 0.0_dp
+    if (.not. iterate%contact(k) .or. scene%is_tied(k)) return
+    loss = sign_at(iterate, k)*iterate%direction(k)
+  end function loss_at
+
+  !> The sign of a force at the stop where point `k` is.
+  pure function sign_at(iterate, k) result(sign_of_force)
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    real(dp) :: sign_of_force
+
+    sign_of_force = 1.0_dp
+    if (.not. allocated(iterate%at_upper)) return
+    if (iterate%at_upper(k)) sign_of_force = -1.0_dp
+  end function sign_at
+
+  !> Go against the search direction, which stores no energy, until a force has changed its sign, unless one has already;
+  !> iterate%unbounded if none ever does. Not where it does no work beyond rounding, `energy` being that for a step of 1:
+  !> the mean residual is below `tolerance` times the lengths of the scene.
+  pure subroutine leave_null_direction(scene, tolerance, energy, iterate)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: tolerance, energy
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: force, least, loss, step_length
+    integer :: k
+
+    if (energy <= (tolerance*length_of(scene, iterate) + iterate%rounding)*total_force(iterate)) return
+    iterate%unbounded = .true.
+    least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
+    step_length = huge(step_length)
+    do k = 1, size(iterate%contact)
+      loss = loss_at(scene, iterate, k)
+      if (.not. loss > least) cycle
+      iterate%unbounded = .false.
+      force = sign_at(iterate, k)*iterate%force(k)
+      if (force < -iterate%tension_noise) return
+      step_length = min(step_length, max(force, 0.0_dp)/loss)
+    end do
+    if (iterate%unbounded) return
+    step_length = step_length + BEYOND*force_scale(scene, iterate)/max_abs_over(iterate%segments, iterate%direction)
+    iterate%force = iterate%force - step_length*iterate%direction
+  end subroutine leave_null_direction
+
+  !> The largest of gaps, plays and displacements by the resultants. Not of the displacements by the forces, which may
+  !> already have grown.
+  pure function length_of(scene, iterate) result(length)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: length
+
+    length = maxval(abs(scene%gap), mask=iterate%contact)
+    if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=iterate%contact .and. iterate%at_upper))
+    if (allocated(scene%balance)) length = max(length, iterate%softness*maxval(abs(scene%balance)))
+  end function length_of
+
+  !> The size of the forces, or of those that would close the gaps.
+  pure function force_scale(scene, iterate) result(force)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: force
+
+    force = maxval(abs(iterate%force))
+    if (.not. force > 0.0_dp .and. iterate%softness > 0.0_dp) force = length_of(scene, iterate)/iterate%softness
+  end function force_scale
+
+end module fuge_null_direction

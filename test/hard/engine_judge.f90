@@ -1,0 +1,409 @@
+!> Judges whether two engines agree on a scene.
+!>
+!> Agreement is that of two answers which both are certified: forces by the errors that their gap equations leave, over
+!> the stiffness of the bodies on the points that carry; gaps and motions by the displacements of the difference.
+module engine_judge
+  use engine_scene_type, only: engine_scene
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
+    fuge_solver, FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ITERATIVE, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL, &
+    FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE
+  use fuge_number_text, only: text
+  use general_reference, only: general_violation, is_excluded, is_prescribed, modes_of, play_of
+  implicit none
+  private
+
+  public :: judge_scene, judge_steps, solve_scene_by
+
+  !> The residual that an answer without a warning may have, and the one by the tests' own equations.
+  real(dp), parameter :: MOST_RESIDUAL = 1.0e-10_dp
+  !> Factor of safety of all bounds that are compared.
+  real(dp), parameter :: SAFETY = 8.0_dp
+  !> Eigenvalues below this fraction of the largest one are rounding: forces are not unique.
+  real(dp), parameter :: SINGULAR = 1.0e-13_dp
+  !> Motions that the contact resists by no more than one over this are not compared.
+  real(dp), parameter :: MOST_LEVERAGE = 1.0e6_dp
+  !> Products for each point above which the iteration is suspect.
+  integer, parameter :: MOST_PRODUCTS = 30
+
+  !> What the two engines did.
+  type, public :: engine_verdict
+    !> Blank if they agree.
+    character(len=24) :: fault = ''
+    character(len=160) :: details = ''
+    integer :: points = 0, status(2) = 0, products = 0, iterations = 0
+    real(dp) :: residual(2) = 0.0_dp
+    !> Largest difference of forces relative to the largest force; the condition of the body where forces act, 0 if not
+    !> known.
+    real(dp) :: difference = 0.0_dp, condition = 0.0_dp
+  end type engine_verdict
+
+  interface
+    subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+      import :: dp
+      character, intent(in) :: jobz, uplo
+      integer, intent(in) :: n, lda, lwork
+      real(dp), intent(inout) :: a(lda, *)
+      real(dp), intent(out) :: w(*), work(*)
+      integer, intent(out) :: info
+    end subroutine dsyev
+  end interface
+
+contains
+
+  !> Solve by a dense engine and by another one, `methods`, and compare.
+  subroutine judge_scene(scene, methods, verdict, info)
+    type(engine_scene), intent(in) :: scene
+    integer, intent(in) :: methods(2)
+    type(engine_verdict), intent(out) :: verdict
+    type(fuge_info), intent(out) :: info(2)
+    type(fuge_solution) :: solution(2)
+    integer :: k
+
+    do k = 1, 2
+      call solve_scene_by(scene, methods(k), solution(k), info(k))
+    end do
+    call compare_answers(scene, solution, info, verdict)
+  end subroutine judge_scene
+
+  !> As `judge_scene`, for a sequence of loads that one solver of the iteration follows from step to step: the scene, up by
+  !> 5 %, without the load of the first mode, and the scene again. `info` is that of the last step compared.
+  subroutine judge_steps(scene, verdict, info)
+    type(engine_scene), intent(inout) :: scene
+    type(engine_verdict), intent(out) :: verdict
+    type(fuge_info), intent(out) :: info(2)
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution(2)
+    type(fuge_problem) :: problem
+    integer :: step
+
+    problem = scene%problem
+    do step = 1, 4
+      scene%problem = problem
+      if (step == 2) call raise_loads(scene%problem)
+      if (step == 3 .and. size(problem%resultant) > 0) scene%problem%resultant(1) = 0.0_dp
+      call solve_scene_by(scene, FUGE_ACTIVE_SET, solution(1), info(1))
+      call solve_scene_with(solver, scene, FUGE_ITERATIVE, solution(2), info(2))
+      call compare_answers(scene, solution, info, verdict)
+      if (verdict%fault == '') cycle
+      verdict%details = 'step '//text(step)//': '//verdict%details
+      return
+    end do
+  end subroutine judge_steps
+
+  !> Loads and prescribed motions of 1.05 times their size.
+  pure subroutine raise_loads(problem)
+    type(fuge_problem), intent(inout) :: problem
+
+    problem%resultant = 1.05_dp*problem%resultant
+    if (allocated(problem%motion)) problem%motion = 1.05_dp*problem%motion
+  end subroutine raise_loads
+
+  !> Solve by one engine; the iteration gets the operator if there is one.
+  subroutine solve_scene_by(scene, method, solution, info)
+    type(engine_scene), intent(in) :: scene
+    integer, intent(in) :: method
+    type(fuge_solution), intent(out) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_solver) :: solver
+
+    call solve_scene_with(solver, scene, method, solution, info)
+  end subroutine solve_scene_by
+
+  !> Solve by a solver that may have solved other scenes.
+  subroutine solve_scene_with(solver, scene, method, solution, info)
+    type(fuge_solver), intent(inout) :: solver
+    type(engine_scene), intent(in) :: scene
+    integer, intent(in) :: method
+    type(fuge_solution), intent(out) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_dense_operator) :: operator
+    real(dp), allocatable, target :: matrix(:, :)
+
+    if (method == FUGE_ITERATIVE .and. allocated(scene%operator)) then
+      call solver%solve(scene%operator, scene%problem, solution, info, fuge_options(method))
+      return
+    end if
+    allocate (matrix, source=scene%alpha)
+    call operator%set(matrix, info)
+    if (info%failed()) return
+    call solver%solve(operator, scene%problem, solution, info, fuge_options(method))
+  end subroutine solve_scene_with
+
+  !> Compare status, message, residuals, forces, gaps and cost, and name the first fault. The second answer is that of
+  !> the iteration.
+  subroutine compare_answers(scene, solution, info, verdict)
+    type(engine_scene), intent(in) :: scene
+    type(fuge_solution), intent(in) :: solution(2)
+    type(fuge_info), intent(in) :: info(2)
+    type(engine_verdict), intent(out) :: verdict
+
+    verdict%points = size(scene%alpha, 2)
+    verdict%status = info%status
+    verdict%products = info(2)%products
+    verdict%iterations = info(2)%iterations
+    verdict%residual = info%residual
+    call compare_reports(solution, info, verdict)
+    if (verdict%fault /= '' .or. any(info%status < FUGE_DONE)) return
+    call check_residuals(scene, solution, info, verdict)
+    if (verdict%fault == '') call compare_solutions(scene, solution, info, verdict)
+    if (verdict%fault == '' .and. verdict%products > MOST_PRODUCTS*(verdict%points + 2)) then
+      call fail(verdict, 'cost', text(verdict%products)//' products')
+    end if
+  end subroutine compare_answers
+
+  pure subroutine fail(verdict, fault, details)
+    type(engine_verdict), intent(inout) :: verdict
+    character(len=*), intent(in) :: fault, details
+
+    verdict%fault = fault
+    verdict%details = details
+  end subroutine fail
+
+  !> Equal statuses; with an error equal messages, no answer, and no products where equilibrium decides.
+  subroutine compare_reports(solution, info, verdict)
+    type(fuge_solution), intent(in) :: solution(2)
+    type(fuge_info), intent(in) :: info(2)
+    type(engine_verdict), intent(inout) :: verdict
+    integer :: k
+
+    do k = 1, 2
+      if (info(k)%failed() .eqv. allocated(solution(k)%force)) call fail(verdict, 'outputs', 'of engine '//text(k))
+    end do
+    if (verdict%fault /= '') return
+    if (info(1)%status /= info(2)%status) then
+      call fail(verdict, 'status', text(info(1)%status)//' / '//text(info(2)%status)//': '//info(2)%message)
+    else if (info(1)%status == FUGE_ERR_NO_EQUILIBRIUM .and. info(2)%products > 0) then
+      call fail(verdict, 'products before refusal', text(info(2)%products))
+    else if (.not. same_message(info)) then
+      call fail(verdict, 'message', info(2)%message)
+    end if
+  end subroutine compare_reports
+
+  !> The same words. Of several motions that are not resisted either may be named, and of a singular matrix or a large
+  !> residual the engines may know different things.
+  pure function same_message(info) result(same)
+    type(fuge_info), intent(in) :: info(2)
+    logical :: same
+
+    select case (info(1)%status)
+    case (FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_NOT_DEFINITE)
+      same = .true.
+    case (FUGE_WARN_NOT_UNIQUE)
+      same = (index(info(1)%message, 'resist') > 0) .eqv. (index(info(2)%message, 'resist') > 0)
+    case default
+      same = info(1)%message == info(2)%message
+    end select
+  end function same_message
+
+  !> Answers without a warning keep to the tolerance, by the certificate and by the tests' own equations.
+  subroutine check_residuals(scene, solution, info, verdict)
+    type(engine_scene), intent(in) :: scene
+    type(fuge_solution), intent(in) :: solution(2)
+    type(fuge_info), intent(in) :: info(2)
+    type(engine_verdict), intent(inout) :: verdict
+    real(dp) :: violation
+    integer :: k
+
+    do k = 1, 2
+      if (info(k)%status == FUGE_WARN_RESIDUAL) cycle
+      if (info(k)%residual > MOST_RESIDUAL) call fail(verdict, 'residual', text(info(k)%residual))
+      violation = general_violation(scene%alpha, without_prescribed(scene%problem, solution(k)), solution(k))
+      if (violation > SAFETY*MOST_RESIDUAL) call fail(verdict, 'own residual', text(violation)//' engine '//text(k))
+    end do
+  end subroutine check_residuals
+
+  !> The prescribed motions are compared by the certificate, relative to each; here they are those of the answer.
+  function without_prescribed(problem, solution) result(other)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(fuge_problem) :: other
+
+    other = problem
+    if (allocated(other%motion)) other%motion = solution%motion
+  end function without_prescribed
+
+  !> Compare forces, gaps and motions.
+  subroutine compare_solutions(scene, solution, info, verdict)
+    type(engine_scene), intent(in) :: scene
+    type(fuge_solution), intent(in) :: solution(2)
+    type(fuge_info), intent(in) :: info(2)
+    type(engine_verdict), intent(inout) :: verdict
+    real(dp), dimension(size(scene%alpha, 2)) :: phi, error
+    real(dp) :: largest, bound, stiffness(2), leverage, displacement
+    logical :: carries(size(phi)), no_energy
+
+    if (any(info%status == FUGE_WARN_RESIDUAL)) return
+    phi = solution(2)%force - solution(1)%force
+    largest = max(maxval(abs(solution(1)%force)), maxval(abs(solution(2)%force)))
+    if (.not. largest > 0.0_dp) largest = 1.0_dp
+    verdict%difference = maxval(abs(phi))/largest
+    carries = abs(solution(1)%force) > 0.0_dp .or. abs(solution(2)%force) > 0.0_dp
+    error = left_error(scene, solution(1)) + left_error(scene, solution(2))
+    call find_stiffness(scene, carries, phi, stiffness)
+    no_energy = stiffness(1) <= SINGULAR*stiffness(2)
+    if (.not. no_energy) then
+      verdict%condition = stiffness(2)/stiffness(1)
+      bound = SAFETY*norm2_of(error)/stiffness(1)
+      if (norm2_of(phi) > bound) call fail(verdict, 'forces', 'differ by '//text(verdict%difference)//', condition ' &
+                                           //text(verdict%condition))
+    end if
+    leverage = leverage_of(scene%problem, carries)
+    if (verdict%fault /= '' .or. leverage > MOST_LEVERAGE) return
+    displacement = maxval(abs(matmul(scene%alpha, phi)))
+    ! Forces without energy displace nothing, whether they are unique or not.
+    bound = SAFETY*(1.0_dp + leverage)*(sqrt(stiffness(2)*sum(abs(phi)*error)) + maxval(error))
+    if (no_energy .and. displacement > bound) then
+      call fail(verdict, 'displacements', text(displacement)//' of '//text(bound))
+    end if
+    if (any(info%status == FUGE_WARN_NOT_UNIQUE .and. index(info%message, 'resist') > 0)) return
+    bound = SAFETY*(1.0_dp + leverage)*(displacement + maxval(error))
+    if (maxval(abs(solution(2)%gap - solution(1)%gap)) > bound) then
+      call fail(verdict, 'gaps', 'differ by '//text(maxval(abs(solution(2)%gap - solution(1)%gap))) &
+                //', forces by '//text(verdict%difference))
+    end if
+  end subroutine compare_solutions
+
+  !> The Euclidean norm, without overflow.
+  pure function norm2_of(values) result(norm)
+    real(dp), intent(in) :: values(:)
+    real(dp) :: norm, largest
+
+    norm = 0.0_dp
+    largest = maxval(abs(values))
+    if (largest > 0.0_dp) norm = largest*norm2(values/largest)
+  end function norm2_of
+
+  !> The length that an answer leaves open at each point, (n), its rounding included: errors of the gap equation,
+  !> forces beside their stops, penetrations.
+  function left_error(scene, solution) result(error)
+    type(engine_scene), intent(in) :: scene
+    type(fuge_solution), intent(in) :: solution
+    real(dp) :: error(size(scene%alpha, 2)), magnitude(size(scene%alpha, 2)), play
+    real(dp), allocatable :: modes(:, :)
+    integer :: k
+
+    allocate (modes, source=modes_of(scene%problem))
+    error = abs(scene%problem%gap + matmul(scene%alpha, solution%force) - matmul(modes, solution%motion) - solution%gap)
+    magnitude = abs(scene%problem%gap) + matmul(abs(scene%alpha), abs(solution%force)) &
+                + matmul(abs(modes), abs(solution%motion))
+    error = error + 4.0_dp*epsilon(error)*(magnitude + maxval(magnitude))
+    do k = 1, size(error)
+      if (is_excluded(scene%problem, k)) cycle
+      play = min(play_of(scene%problem, k), huge(play))
+      error(k) = error(k) + max(-solution%gap(k), 0.0_dp) + max(solution%gap(k) - play, 0.0_dp)
+      if (solution%force(k) > 0.0_dp) error(k) = error(k) + abs(solution%gap(k))
+      if (solution%force(k) < 0.0_dp .and. play < huge(play)) error(k) = error(k) + abs(solution%gap(k) - play)
+    end do
+  end function left_error
+
+  !> The least and the largest energy, `extremes`, of forces of size 1 that have no resultant, at the points marked; the
+  !> resultant is taken out of the forces `phi` (n). Without such forces both are 1 and `phi` is zero.
+  subroutine find_stiffness(scene, carries, phi, extremes)
+    type(engine_scene), intent(in) :: scene
+    logical, intent(in) :: carries(:)
+    real(dp), intent(inout) :: phi(:)
+    real(dp), intent(out) :: extremes(2)
+    real(dp) :: block(count(carries), count(carries)), energy(count(carries)), work(4*count(carries) + 4), scale
+    real(dp), allocatable :: basis(:, :), rows(:, :)
+    integer, allocatable :: points(:)
+    integer :: info, k, n, rank
+
+    extremes = 1.0_dp
+    n = count(carries)
+    if (n < 1) return
+    allocate (points, source=pack([(k, k=1, size(carries))], carries))
+    block = scene%alpha(points, points)
+    allocate (rows, source=free_modes(scene%problem))
+    call orthonormal_columns(rows(points, :), basis, rank)
+    phi(points) = phi(points) - matmul(basis(:, :rank), matmul(phi(points), basis(:, :rank)))
+    if (rank >= n) phi = 0.0_dp
+    scale = maxval(abs(block))
+    if (rank >= n .or. .not. scale > 0.0_dp) return
+    block = block/scale
+    call project_out(basis(:, :rank), block)
+    call dsyev('N', 'U', n, block, n, energy, work, size(work), info)
+    ! The projection leaves `rank` eigenvalues that are rounding around a number above all others, see project_out.
+    extremes = scale*[energy(1), energy(n - rank)]
+  end subroutine find_stiffness
+
+  !> (1 - B B^T) block (1 - B B^T) + large B B^T for orthonormal columns B.
+  pure subroutine project_out(basis, block)
+    real(dp), intent(in) :: basis(:, :)
+    real(dp), intent(inout) :: block(:, :)
+    real(dp) :: large
+    integer :: j
+
+    large = 2.0_dp*real(size(block, 1), dp)
+    block = block - matmul(basis, matmul(transpose(basis), block))
+    block = block - matmul(matmul(block, basis), transpose(basis))
+    do j = 1, size(basis, 2)
+      block = block + large*spread(basis(:, j), 2, size(block, 1))*spread(basis(:, j), 1, size(block, 1))
+    end do
+  end subroutine project_out
+
+  !> An orthonormal basis of the columns, `rank` of them, by Gram-Schmidt, twice.
+  pure subroutine orthonormal_columns(columns, basis, rank)
+    real(dp), intent(in) :: columns(:, :)
+    real(dp), allocatable, intent(out) :: basis(:, :)
+    integer, intent(out) :: rank
+    real(dp) :: v(size(columns, 1)), before
+    integer :: j, pass
+
+    allocate (basis(size(columns, 1), size(columns, 2)))
+    basis = 0.0_dp
+    rank = 0
+    do j = 1, size(columns, 2)
+      v = columns(:, j)
+      if (.not. maxval(abs(v)) > 0.0_dp) cycle
+      v = v/norm2(v)
+      before = 1.0_dp
+      do pass = 1, 2
+        v = v - matmul(basis(:, :rank), matmul(transpose(basis(:, :rank)), v))
+        if (pass == 1) before = norm2(v)
+        if (.not. norm2(v) > 0.0_dp) exit
+        v = v/norm2(v)
+      end do
+      if (before < 1.0e-11_dp) cycle
+      rank = rank + 1
+      basis(:, rank) = v
+    end do
+  end subroutine orthonormal_columns
+
+  !> The columns of R whose motion is free.
+  function free_modes(problem) result(modes)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), allocatable :: modes(:, :)
+    real(dp) :: all_modes(problem%points(), problem%mode_count())
+    integer :: j
+
+    all_modes = modes_of(problem)
+    modes = all_modes(:, pack([(j, j=1, size(all_modes, 2))], &
+                              [(.not. is_prescribed(problem, j), j=1, size(all_modes, 2))]))
+  end function free_modes
+
+  !> How much the motions of the points marked move any point at most: sum_k |R R_c^+|, large if they do not resist.
+  function leverage_of(problem, carries) result(leverage)
+    type(fuge_problem), intent(in) :: problem
+    logical, intent(in) :: carries(:)
+    real(dp) :: leverage
+    real(dp), allocatable :: basis(:, :), rows(:, :), modes(:, :), gram(:, :)
+    real(dp) :: work(64), energy(8)
+    integer :: info, k, m, rank
+    logical :: holds(size(carries))
+
+    leverage = 0.0_dp
+    allocate (modes, source=free_modes(problem))
+    holds = carries
+    do k = 1, size(holds)
+      if (.not. play_of(problem, k) > 0.0_dp .and. .not. is_excluded(problem, k)) holds(k) = .true.
+    end do
+    if (size(modes, 2) < 1) return
+    call orthonormal_columns(modes, basis, rank)
+    m = rank
+    allocate (rows, source=basis(pack([(k, k=1, size(holds))], holds), :m))
+    allocate (gram, source=matmul(transpose(rows), rows))
+    call dsyev('N', 'U', m, gram, m, energy, work, size(work), info)
+    leverage = sqrt(real(size(rows, 1), dp))/sqrt(max(energy(1), tiny(1.0_dp)))
+  end function leverage_of
+
+end module engine_judge

@@ -1,0 +1,62 @@
+!> Random numbers of the minimal standard generator, one at a time. Each function advances the seed, so that an
+!> expression must not call two of them.
+module random_draws
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge, only: dp => fuge_dp
+  use general_reference, only: draw
+  implicit none
+  private
+
+  public :: seed_of, uniform, decimal, chance, one_of
+
+contains
+
+  !> A seed for this number; neighbours share no pattern.
+  pure function seed_of(number) result(seed)
+    integer, intent(in) :: number
+    integer(int64) :: seed
+    real(dp) :: discarded(20)
+
+    seed = 1_int64 + mod(48271_int64*int(number, int64), 2147483646_int64)
+    call draw(seed, discarded)
+  end function seed_of
+
+  !> Between `low` and `high`.
+  function uniform(seed, low, high) result(value)
+    integer(int64), intent(inout) :: seed
+    real(dp), intent(in) :: low, high
+    real(dp) :: value
+    real(dp) :: drawn(1)
+
+    call draw(seed, drawn)
+    value = low + (high - low)*drawn(1)
+  end function uniform
+
+  !> Between 10**low and 10**high, the exponent uniform.
+  function decimal(seed, low, high) result(value)
+    integer(int64), intent(inout) :: seed
+    real(dp), intent(in) :: low, high
+    real(dp) :: value
+
+    value = 10.0_dp**uniform(seed, low, high)
+  end function decimal
+
+  !> True with this probability.
+  function chance(seed, probability) result(happens)
+    integer(int64), intent(inout) :: seed
+    real(dp), intent(in) :: probability
+    logical :: happens
+
+    happens = uniform(seed, 0.0_dp, 1.0_dp) < probability
+  end function chance
+
+  !> 1 .. n.
+  function one_of(seed, n) result(number)
+    integer(int64), intent(inout) :: seed
+    integer, intent(in) :: n
+    integer :: number
+
+    number = min(1 + int(uniform(seed, 0.0_dp, real(n, dp))), n)
+  end function one_of
+
+end module random_draws
