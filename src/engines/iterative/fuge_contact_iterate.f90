@@ -314,13 +314,17 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     real(dp), allocatable :: rigid(:)
     real(dp) :: offset
+    integer :: j
 
     offset = 0.0_dp
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
     if (counts_datum(scene, iterate)) offset = operator%datum()*sum(iterate%force)
     if (allocated(scene%modes)) then
       allocate (rigid(size(scene%gap)))
-      rigid = matmul(scene%modes, iterate%rigid_motion)
+      rigid = 0.0_dp
+      do j = 1, size(iterate%rigid_motion)
+        rigid = rigid + iterate%rigid_motion(j)*scene%modes(:, j)
+      end do
       iterate%rounding = ROUNDINGS*epsilon(offset)*largest_term(scene, iterate)
       call operator%magnitude(iterate%force, (iterate%displacement + rigid) - offset, iterate%work)
       iterate%work = abs((scene%gap - rigid) + offset) + iterate%work
