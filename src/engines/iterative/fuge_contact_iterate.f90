@@ -55,6 +55,9 @@ module fuge_contact_iterate
     real(dp) :: softness = 0.0_dp
     !> Do forces of the set that store no energy grow for ever, so that there is no solution?
     logical :: unbounded = .false.
+    !> The greater of residual norm and penetration over the least magnitude, for the forces to start from; negative before
+    !> that is known.
+    real(dp) :: start_error = -1.0_dp
     !> Did run_projected_gradients reduce the residual to its tolerance?
     logical :: converged = .false.
     !> The least of the smallest values of `lanczos` on this contact set; 0 before any step.
@@ -228,7 +231,23 @@ contains
     call project_residual(scene, iterate)
     iterate%penetration = find_penetration(scene, iterate)
     call find_least_magnitude(operator, scene, iterate)
+    if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
   end subroutine evaluate_iterate
+
+  !> The greater of residual norm and penetration over the least magnitude; huge where that is zero.
+  pure function relative_error(iterate) result(error)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: error
+
+    error = max(iterate%residual_norm, iterate%penetration)
+    if (error > 0.0_dp) then
+      if (iterate%least_magnitude > 0.0_dp .and. error < iterate%least_magnitude*sqrt(huge(error))) then
+        error = error/iterate%least_magnitude
+      else
+        error = huge(error)
+      end if
+    end if
+  end function relative_error
 
   !> Gap plus displacement less the stop, before rigid motions are subtracted.
   pure subroutine set_residual(scene, iterate)
@@ -295,13 +314,17 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     real(dp), allocatable :: rigid(:)
     real(dp) :: offset
+    integer :: j
 
     offset = 0.0_dp
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
     if (counts_datum(scene, iterate)) offset = operator%datum()*sum(iterate%force)
     if (allocated(scene%modes)) then
       allocate (rigid(size(scene%gap)))
-      rigid = matmul(scene%modes, iterate%rigid_motion)
+      rigid = 0.0_dp
+      do j = 1, size(iterate%rigid_motion)
+        rigid = rigid + iterate%rigid_motion(j)*scene%modes(:, j)
+      end do
       iterate%rounding = ROUNDINGS*epsilon(offset)*largest_term(scene, iterate)
       call operator%magnitude(iterate%force, (iterate%displacement + rigid) - offset, iterate%work)
       iterate%work = abs((scene%gap - rigid) + offset) + iterate%work

@@ -48,6 +48,8 @@ module fuge_contact_set_search
     !> Accept the first set with few wrong points, accurate or not: on a coarser grid its forces
     !> only start the next one.
     logical :: coarse_grid = .true.
+    !> The iterate has its contact set, feasible forces and their displacements already.
+    logical :: prepared = .false.
   end type search_settings
 
 contains
@@ -76,8 +78,10 @@ contains
     stalls_left = MAX_STALLS
     previous_residual = huge(previous_residual)
     to_tolerance = .false.
-    call choose_contact(scene, iterate)
-    call make_feasible(operator, scene, iterate, info)
+    if (.not. settings%prepared) then
+      call choose_contact(scene, iterate)
+      call make_feasible(operator, scene, iterate, info)
+    end if
     fresh = .true.
     do while (.not. info%failed())
       undetermined = has_undetermined_forces(operator, scene, iterate, info)

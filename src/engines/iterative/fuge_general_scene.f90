@@ -33,10 +33,7 @@ contains
     type(contact_scene), intent(inout) :: scene
     type(scene_scaling), intent(out) :: scaling
     type(fuge_info), intent(inout) :: info
-    integer :: m, n, stat
 
-    n = size(canonical%gap)
-    m = size(canonical%load)
     if (canonical%largest_load() > 0.0_dp) scaling%load = canonical%largest_load()
     if (canonical%has_translation .and. .not. all(canonical%excluded)) then
       scaling%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
@@ -45,16 +42,8 @@ contains
     scene%absorbs_datum = canonical%has_translation
     call check_range(canonical, scaling, info)
     if (info%failed()) return
-    allocate (scene%gap(n), stat=stat)
-    if (stat == 0 .and. any(canonical%excluded)) allocate (scene%excluded(n), stat=stat)
-    if (stat == 0 .and. any(canonical%upper < huge(1.0_dp))) allocate (scene%play(n), stat=stat)
-    if (stat == 0 .and. scene%prescribed .and. m > 0) then
-      allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
-    end if
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps and modes of '//text(n)//' points')
-      return
-    end if
+    call allocate_scene(canonical, scene, info)
+    if (info%failed()) return
     scene%gap = (canonical%gap - scaling%gap_datum)/scaling%load
     if (allocated(scene%play)) then
       scene%play = canonical%upper
@@ -66,11 +55,40 @@ contains
     end if
     if (allocated(scene%modes)) then
       scene%modes = canonical%modes
-      if (allocated(scene%excluded)) where (spread(canonical%excluded, 2, m)) scene%modes = 0.0_dp
+      if (allocated(scene%excluded)) call clear_rows(canonical%excluded, scene%modes)
       scene%load = canonical%load/scaling%load
       scene%balance = canonical%feasible_force/scaling%load
     end if
   end subroutine set_general_scene
+
+  !> Allocate what the scene has. Error: FUGE_ERR_MEMORY.
+  pure subroutine allocate_scene(canonical, scene, info)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_scene), intent(inout) :: scene
+    type(fuge_info), intent(inout) :: info
+    integer :: m, n, stat
+
+    n = size(canonical%gap)
+    m = size(canonical%load)
+    allocate (scene%gap(n), stat=stat)
+    if (stat == 0 .and. any(canonical%excluded)) allocate (scene%excluded(n), stat=stat)
+    if (stat == 0 .and. any(canonical%upper < huge(1.0_dp))) allocate (scene%play(n), stat=stat)
+    if (stat == 0 .and. scene%prescribed .and. m > 0) then
+      allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
+    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps and modes of '//text(n)//' points')
+  end subroutine allocate_scene
+
+  !> No motion displaces the points marked in `excluded` (n).
+  pure subroutine clear_rows(excluded, modes)
+    logical, intent(in) :: excluded(:)
+    real(dp), intent(inout) :: modes(:, :)
+    integer :: j
+
+    do j = 1, size(modes, 2)
+      where (excluded) modes(:, j) = 0.0_dp
+    end do
+  end subroutine clear_rows
 
   !> Is there one free translation with a load, and no upper stop? Its forces push, and have the load for their sum.
   pure function is_loaded_translation(problem, canonical) result(loaded)
@@ -82,7 +100,7 @@ contains
     if (loaded) loaded = canonical%load(1) > 0.0_dp
   end function is_loaded_translation
 
-  !> Refuse gaps so large that their squares overflow, after division by the load (FUGE_ERR_OVERFLOW).
+  !> Refuse gaps so large that their squares overflow, after division by the load if there is one (FUGE_ERR_OVERFLOW).
   pure subroutine check_range(canonical, scaling, info)
     type(canonical_problem), intent(in) :: canonical
     type(scene_scaling), intent(in) :: scaling
@@ -92,8 +110,14 @@ contains
     if (all(canonical%excluded)) return
     excess = exponent(maxval(abs(canonical%gap - scaling%gap_datum), mask=.not. canonical%excluded)) &
              - exponent(scaling%load)
-    if (2*excess > LARGEST_EXPONENT) call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess) &
-      //' times the resultants: choose units in which they are nearer to each other')
+    if (2*excess <= LARGEST_EXPONENT) return
+    if (canonical%largest_load() > 0.0_dp) then
+      call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess) &
+                  //' times the resultants: choose units in which they are nearer to each other')
+    else
+      call report(info, FUGE_ERR_OVERFLOW, 'the gaps less the prescribed motions reach 2**'//text(excess) &
+                  //': choose units in which lengths are nearer to 1')
+    end if
   end subroutine check_range
 
   !> Forces, gaps and motions in the units of the problem and in its modes, with a warning where the contact does not
@@ -154,7 +178,7 @@ contains
     end do
   end subroutine drop_rounding
 
-  !> Gaps between the stops, in the units of the problem, as is the play `upper` (n).
+  !> Gaps between the stops, in the units of the problem, as is the play `upper` (n); 0 at points that are excluded.
   pure subroutine set_gaps(scene, scaling, upper, iterate, found)
     type(contact_scene), intent(in) :: scene
     type(scene_scaling), intent(in) :: scaling
@@ -164,6 +188,7 @@ contains
     integer :: k
 
     do k = 1, size(scene%gap)
+      found%gap(k) = 0.0_dp
       if (scene%gap(k) >= OUT_OF_REACH) cycle
       found%gap(k) = scaling%load*max(deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion), 0.0_dp)
       if (found%state(k) == FUGE_AT_LOWER_STOP) found%gap(k) = 0.0_dp
