@@ -196,8 +196,9 @@ contains
       if (info(1)%status == FUGE_WARN_NOT_UNIQUE .and. info(2)%status == FUGE_ERR_NOT_DEFINITE) then
         may = may .or. maxval(abs(scene%alpha))*maxval(abs(solution(1)%force)) > DWARFED*length_of(scene)
       end if
-    else if (info(1)%status == FUGE_DONE .and. info(2)%status == FUGE_WARN_RESIDUAL) then
-      may = allocated(scene%operator) .and. info(2)%residual <= rounding_of(scene, solution(2))
+    end if
+    if (concerns_forces(info(1)) .and. info(2)%status == FUGE_WARN_RESIDUAL .and. allocated(scene%operator)) then
+      may = may .or. info(2)%residual <= rounding_of(scene, solution(2))
     end if
   end function may_differ
 
