@@ -194,8 +194,8 @@ contains
     call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
                                  iterate, info)
     if (iterate%unbounded .and. .not. (settings%coarse_grid .or. info%failed())) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular, and there is no solution: forces that store ' &
-                  //'no energy, the largest at point '//index_text(maxloc(abs(iterate%direction), dim=1)) &
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular, and there is no solution: forces that ' &
+                  //'store no energy, the largest at point '//index_text(maxloc(abs(iterate%direction), dim=1)) &
                   //', cannot move the points to their stops; free the rigid motion that can, or change the gaps')
     end if
     if (info%failed()) return

@@ -41,7 +41,8 @@ module fuge_iterative_engine
 
 contains
 
-  !> Does the problem have rigid modes of its own, play or exclusions? Then `solve_by_iteration` needs its canonical form.
+  !> Does the problem have rigid modes of its own, play or exclusions? Then `solve_by_iteration` needs its canonical
+  !> form.
   pure function is_general(problem)
     type(fuge_problem), intent(in) :: problem
     logical :: is_general
@@ -54,8 +55,8 @@ contains
   !> `problem` checked; if plain, with a load > 0; `canonical` its canonical form, if it is general.
   !> `scaled_force` (n), if allocated, are forces to start from, divided by the load if there is
   !> one; on return those of the solution. `last` the set of the last solve with this operator, on return that of this
-  !> one. `solution` may be unallocated; it is written only on success. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE,
-  !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
+  !> one. `solution` may be unallocated; it is written only on success. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
   subroutine solve_by_iteration(operator, problem, canonical, options, monitor, scaled_force, last, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
