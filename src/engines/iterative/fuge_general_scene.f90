@@ -5,10 +5,12 @@ module fuge_general_scene
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_contact_iterate, only: contact_iterate, deformed_gap, rounding_force
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_segments, only: contact_segments
   use fuge_contact_set_search, only: states_of
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
   use fuge_kinds, only: dp
+  use fuge_mode_projection, only: mode_projection
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
@@ -33,10 +35,7 @@ contains
     type(contact_scene), intent(inout) :: scene
     type(scene_scaling), intent(out) :: scaling
     type(fuge_info), intent(inout) :: info
-    integer :: m, n, stat
 
-    n = size(canonical%gap)
-    m = size(canonical%load)
     if (canonical%largest_load() > 0.0_dp) scaling%load = canonical%largest_load()
     if (canonical%has_translation .and. .not. all(canonical%excluded)) then
       scaling%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
@@ -45,16 +44,8 @@ contains
     scene%absorbs_datum = canonical%has_translation
     call check_range(canonical, scaling, info)
     if (info%failed()) return
-    allocate (scene%gap(n), stat=stat)
-    if (stat == 0 .and. any(canonical%excluded)) allocate (scene%excluded(n), stat=stat)
-    if (stat == 0 .and. any(canonical%upper < huge(1.0_dp))) allocate (scene%play(n), stat=stat)
-    if (stat == 0 .and. scene%prescribed .and. m > 0) then
-      allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
-    end if
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps and modes of '//text(n)//' points')
-      return
-    end if
+    call allocate_scene(canonical, scene, info)
+    if (info%failed()) return
     scene%gap = (canonical%gap - scaling%gap_datum)/scaling%load
     if (allocated(scene%play)) then
       scene%play = canonical%upper
@@ -66,11 +57,40 @@ contains
     end if
     if (allocated(scene%modes)) then
       scene%modes = canonical%modes
-      if (allocated(scene%excluded)) where (spread(canonical%excluded, 2, m)) scene%modes = 0.0_dp
+      if (allocated(scene%excluded)) call clear_rows(canonical%excluded, scene%modes)
       scene%load = canonical%load/scaling%load
       scene%balance = canonical%feasible_force/scaling%load
     end if
   end subroutine set_general_scene
+
+  !> Allocate what the scene has. Error: FUGE_ERR_MEMORY.
+  pure subroutine allocate_scene(canonical, scene, info)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_scene), intent(inout) :: scene
+    type(fuge_info), intent(inout) :: info
+    integer :: m, n, stat
+
+    n = size(canonical%gap)
+    m = size(canonical%load)
+    allocate (scene%gap(n), stat=stat)
+    if (stat == 0 .and. any(canonical%excluded)) allocate (scene%excluded(n), stat=stat)
+    if (stat == 0 .and. any(canonical%upper < huge(1.0_dp))) allocate (scene%play(n), stat=stat)
+    if (stat == 0 .and. scene%prescribed .and. m > 0) then
+      allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
+    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps and modes of '//text(n)//' points')
+  end subroutine allocate_scene
+
+  !> No motion displaces the points marked in `excluded` (n).
+  pure subroutine clear_rows(excluded, modes)
+    logical, intent(in) :: excluded(:)
+    real(dp), intent(inout) :: modes(:, :)
+    integer :: j
+
+    do j = 1, size(modes, 2)
+      where (excluded) modes(:, j) = 0.0_dp
+    end do
+  end subroutine clear_rows
 
   !> Is there one free translation with a load, and no upper stop? Its forces push, and have the load for their sum.
   pure function is_loaded_translation(problem, canonical) result(loaded)
@@ -82,7 +102,7 @@ contains
     if (loaded) loaded = canonical%load(1) > 0.0_dp
   end function is_loaded_translation
 
-  !> Refuse gaps so large that their squares overflow, after division by the load (FUGE_ERR_OVERFLOW).
+  !> Refuse gaps so large that their squares overflow, after division by the load if there is one (FUGE_ERR_OVERFLOW).
   pure subroutine check_range(canonical, scaling, info)
     type(canonical_problem), intent(in) :: canonical
     type(scene_scaling), intent(in) :: scaling
@@ -92,8 +112,14 @@ contains
     if (all(canonical%excluded)) return
     excess = exponent(maxval(abs(canonical%gap - scaling%gap_datum), mask=.not. canonical%excluded)) &
              - exponent(scaling%load)
-    if (2*excess > LARGEST_EXPONENT) call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess) &
-      //' times the resultants: choose units in which they are nearer to each other')
+    if (2*excess <= LARGEST_EXPONENT) return
+    if (canonical%largest_load() > 0.0_dp) then
+      call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess) &
+                  //' times the resultants: choose units in which they are nearer to each other')
+    else
+      call report(info, FUGE_ERR_OVERFLOW, 'the gaps less the prescribed motions reach 2**'//text(excess) &
+                  //': choose units in which lengths are nearer to 1')
+    end if
   end subroutine check_range
 
   !> Forces, gaps and motions in the units of the problem and in its modes, with a warning where the contact does not
@@ -119,7 +145,8 @@ contains
       return
     end if
     found%state = states_of(iterate)
-    call drop_rounding(scene, found%state, iterate)
+    call drop_rounding(scene, found%state, iterate, info)
+    if (info%failed()) return
     found%force = scaling%load*iterate%force
     call set_gaps(scene, scaling, canonical%upper, iterate, found)
     if (allocated(scene%modes)) then
@@ -139,22 +166,53 @@ contains
     call move_alloc(motion, solution%motion)
   end subroutine assemble_general
 
-  !> Forces that are rounding, or that pull at their stop by rounding, become zero.
-  pure subroutine drop_rounding(scene, state, iterate)
+  !> Forces that are rounding, or that pull at their stop by rounding, become zero. What that takes from a resultant,
+  !> the other forces give back: beside a body under a large load, another one may have none. Error: FUGE_ERR_MEMORY.
+  subroutine drop_rounding(scene, state, iterate, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: state(:)
     type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    type(contact_segments) :: segments
+    type(mode_projection) :: projection
+    real(dp), allocatable :: dropped(:)
+    logical :: possible, pulls
+
+    call clear_rounding(scene, state, iterate, pulls)
+    if (.not. (pulls .and. allocated(scene%modes))) return
+    allocate (dropped, source=iterate%force)
+    call segments%find(abs(dropped) > 0.0_dp, info)
+    if (.not. info%failed()) call projection%set(scene%modes, segments, info)
+    if (info%failed()) return
+    call projection%correct_resultants(scene%modes, scene%load, segments, iterate%force, possible)
+    if (possible) then
+      call clear_rounding(scene, state, iterate, pulls)
+    else
+      iterate%force = dropped
+    end if
+  end subroutine drop_rounding
+
+  !> Set forces to zero that are rounding, or that pull at their stop; `pulls` tells whether any of these did.
+  pure subroutine clear_rounding(scene, state, iterate, pulls)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: state(:)
+    type(contact_iterate), intent(inout) :: iterate
+    logical, intent(out) :: pulls
     real(dp) :: least
     integer :: k
 
+    pulls = .false.
     least = max(ROUNDINGS*epsilon(least)*maxval(abs(iterate%force)), rounding_force(scene, iterate))
     do k = 1, size(state)
       if (abs(iterate%force(k)) <= least) iterate%force(k) = 0.0_dp
-      if (iterate%force(k)*real(state(k), dp) < 0.0_dp .and. .not. scene%is_tied(k)) iterate%force(k) = 0.0_dp
+      if (iterate%force(k)*real(state(k), dp) < 0.0_dp .and. .not. scene%is_tied(k)) then
+        iterate%force(k) = 0.0_dp
+        pulls = .true.
+      end if
     end do
-  end subroutine drop_rounding
+  end subroutine clear_rounding
 
-  !> Gaps between the stops, in the units of the problem, as is the play `upper` (n).
+  !> Gaps between the stops, in the units of the problem, as is the play `upper` (n); 0 at points that are excluded.
   pure subroutine set_gaps(scene, scaling, upper, iterate, found)
     type(contact_scene), intent(in) :: scene
     type(scene_scaling), intent(in) :: scaling
@@ -164,6 +222,7 @@ contains
     integer :: k
 
     do k = 1, size(scene%gap)
+      found%gap(k) = 0.0_dp
       if (scene%gap(k) >= OUT_OF_REACH) cycle
       found%gap(k) = scaling%load*max(deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion), 0.0_dp)
       if (found%state(k) == FUGE_AT_LOWER_STOP) found%gap(k) = 0.0_dp

@@ -11,7 +11,7 @@ module fuge_iterative_engine
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_set_search, only: find_contact_set, search_settings, states_of
   use fuge_contact_window, only: solve_in_window, survey_level
-  use fuge_engine_messages, only: SINGULAR_ON_CONTACT
+  use fuge_engine_messages, only: report_closed_gap, SINGULAR_ON_CONTACT
   use fuge_general_scene, only: assemble_general, set_general_scene
   use fuge_grid_transfer, only: prolong
   use fuge_iterated_set, only: iterated_set
@@ -323,6 +323,8 @@ contains
     real(dp) :: largest, mean
 
     if (.not. scene%is_simple() .or. .not. scene%prescribed) return
+    ! Without any motion there is none to change.
+    if (problem%mode_count() < 1) return
     mean = sum(scene%gap)/real(size(scene%gap), dp)
     largest = max(maxval(abs(scene%gap)), maxval(abs(problem%gap)))
     if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), maxval(abs(scene%gap)))
@@ -330,9 +332,7 @@ contains
     if (.not. equal_forces_displace_nothing(operator, info)) return
     if (info%failed()) return
     if (allocated(problem%modes)) then
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
-                  //'hold the prescribed motions, at which the mean gap is closed by '//text(-mean) &
-                  //': prescribe less, or resultants')
+      call report_closed_gap(-mean, info)
     else
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
                   //'hold the approach '//text(problem%motion(1))//', at which the mean gap is closed: prescribe less ' &

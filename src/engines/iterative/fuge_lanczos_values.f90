@@ -34,7 +34,8 @@ contains
     self%steps = 0
   end subroutine restart
 
-  !> The next step: its length, and the energy of its residual over that of the step before. Without memory it is left out.
+  !> The next step: its length, and the energy of its residual over that of the step before. Without memory it is left
+  !> out.
   pure subroutine add(self, step_length, ratio)
     class(lanczos_values), intent(inout) :: self
     real(dp), intent(in) :: step_length, ratio
@@ -66,7 +67,7 @@ contains
     call move_alloc(below, self%below)
   end subroutine enlarge
 
-  !> An estimate of the smallest eigenvalue; 0 without steps.
+  !> An estimate of the smallest eigenvalue, from above; 0 without steps, or where it cannot be found.
   function smallest(self) result(value)
     class(lanczos_values), intent(in) :: self
     real(dp) :: value
@@ -79,7 +80,9 @@ contains
     if (n < 1) return
     allocate (vector(n, 1), stat=stat)
     if (stat /= 0) return
-    vector = 1.0_dp/sqrt(real(n, dp))
+    ! Off the diagonal the matrix is positive, so that the signs of the vector that is sought alternate: to equal signs
+    ! it may be orthogonal.
+    vector(:, 1) = [(merge(1.0_dp, -1.0_dp, modulo(k, 2) == 1), k=1, n)]/sqrt(real(n, dp))
     growth = 0.0_dp
     do k = 1, INVERSE_ITERATIONS
       call dpttrs(n, 1, self%pivots, self%below, vector, n, stat)

@@ -61,7 +61,7 @@ contains
     real(dp) :: largest
 
     largest = max_abs_over(iterate%segments, iterate%direction)
-    none = curvature <= ROUNDINGS*epsilon(largest)*iterate%softness*largest*total_force(iterate)
+    none = abs(curvature) <= ROUNDINGS*epsilon(largest)*iterate%softness*largest*total_force(iterate)
   end function stores_no_energy
 
   !> The sum of the magnitudes of the forces of the search direction.
@@ -114,7 +114,7 @@ contains
     if (energy <= (tolerance*length_of(scene, iterate) + iterate%rounding)*total_force(iterate)) return
     iterate%unbounded = .true.
     ! On the way here they have grown.
-    iterate%force = iterate%start
+    if (allocated(iterate%start)) iterate%force = iterate%start
     least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
     step_length = huge(step_length)
     do k = 1, size(iterate%contact)
@@ -140,6 +140,8 @@ contains
     length = maxval(abs(scene%gap), mask=iterate%contact)
     if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=iterate%contact .and. iterate%at_upper))
     if (allocated(scene%balance)) length = max(length, iterate%softness*maxval(abs(scene%balance)))
+    ! Under a load the forces do not grow together.
+    if (.not. scene%prescribed) length = max(length, iterate%least_magnitude)
   end function length_of
 
   !> The size of the forces, or of those that would close the gaps.

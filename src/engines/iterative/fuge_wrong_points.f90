@@ -18,7 +18,9 @@ module fuge_wrong_points
 
 contains
 
-  !> The contact set that the forces to start from suggest; tied points always belong to it.
+  !> The contact set that the forces to start from suggest; tied points always belong to it. Where a load must be
+  !> carried and there are no such forces, as when the contact of the last solve is excluded now, it is every point that
+  !> takes part.
   pure subroutine choose_contact(scene, iterate)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
@@ -32,6 +34,9 @@ contains
       end do
     end if
     if (allocated(scene%excluded)) iterate%contact = iterate%contact .and. .not. scene%excluded
+    if (scene%prescribed .or. any(iterate%contact)) return
+    iterate%contact = .true.
+    if (allocated(scene%excluded)) iterate%contact = .not. scene%excluded
   end subroutine choose_contact
 
   !> Number of points in the contact set with a tensile force and of open points that penetrate by
@@ -230,8 +235,8 @@ contains
     end do
   end function greatest_tension
 
-  !> Are the forces accurate enough to tell which of them will be tensile: is their error below the fraction `decisive` of
-  !> the greatest tension? The preconditioned residual, iterate%work, estimates their error.
+  !> Are the forces accurate enough to tell which of them will be tensile: is their error below the fraction `decisive`
+  !> of the greatest tension? The preconditioned residual, iterate%work, estimates their error.
   pure function tension_is_decided(scene, iterate, decisive) result(decided)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
