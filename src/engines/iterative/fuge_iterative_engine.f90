@@ -118,14 +118,12 @@ contains
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: no_modes(:, :)
     real(dp) :: compliance
 
     if (allocated(scene%modes)) then
       compliance = operator%least_pair_compliance(iterate%contact, scene%modes)
     else
-      allocate (no_modes(size(scene%gap), 0))
-      compliance = operator%least_pair_compliance(iterate%contact, no_modes)
+      compliance = operator%least_pair_compliance(iterate%contact, reshape([real(dp) ::], [size(scene%gap), 0]))
     end if
     info%force_error = estimated_force_error(iterate, compliance)
     if (.not. compliance > 0.0_dp) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
