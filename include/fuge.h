@@ -293,8 +293,8 @@ enum {                          /* kind of an edge; all but the first are edges 
  * t put the edges of a contact of N cells wrong by up to about t sqrt(N)/2 of the half width.
  * Beyond N = 600 that is more than the error of third order, for the default t = 1e-10.  With
  * fuge_options.tolerance = 1e-13 the edges are as exact as the grid allows, and a solve takes
- * about a tenth longer.  The estimates see both errors, and where the gap is not smooth from
- * cell to cell.  FUGE_ERR_GRID if the grid is not uniform. */
+ * up to a sixth longer.  The estimates see both errors, and grow where the gap is not smooth
+ * from cell to cell.  FUGE_ERR_GRID if the grid is not uniform. */
 int fuge_contact_edges(int n, const double *x, const double *width, const double *force,
                        int element, int symmetric, int capacity, double *left, double *right,
                        double *left_error, double *right_error, int *left_kind,
@@ -561,7 +561,8 @@ int fuge_get_resultant(const fuge_solver *s, double *resultant);  /* m: R^T f; o
  * column k of the sensitivity to the gaps.  After a dense engine each call costs four
  * triangular solves, after the iteration products on the contact set, to the tolerance of the
  * solve.  FUGE_ERR_CALL_ORDER also after a solve with zero load; FUGE_ERR_SIZE unless m = 1;
- * FUGE_ERR_NO_EQUILIBRIUM where the contact does not resist what the changes load. */
+ * FUGE_ERR_NO_EQUILIBRIUM where the contact does not resist what the changes load; by
+ * products also FUGE_ERR_ITERATION_LIMIT where alpha is too badly conditioned on the contact. */
 int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double load_change,
                         double *force, double *gap, double *motion);
 

@@ -66,7 +66,7 @@ contains
     if (cells < 64 .or. popcnt(cells) /= 1) error stop 'cells has to be a power of two, 64 or more'
   end subroutine read_cells
 
-  !> Each solve starts from the forces of the one before.
+  !> Loads as far apart as these are solved from coarser grids, each as if it were the first.
   subroutine all_loads(operator, problem, height, spacing)
     type(fuge_halfspace_operator), intent(in) :: operator
     type(fuge_problem), intent(inout) :: problem

@@ -82,10 +82,11 @@ contains
   !>   a corner;
   !> - FUGE_EDGE_GRID_END: contact reaches the last cell of the grid.
   !>
-  !> Forces of a solve to the tolerance t put an edge of a contact of N cells up to about t sqrt(N)/2 of its half width
-  !> wrong. Beyond some 600 cells that is more than the error of third order for the default t = 1e-10; 1e-13 suffices
-  !> on any grid, and a solve takes a tenth longer. The errors of `intervals` are estimates of both, from how smoothly
-  !> the forces near an edge follow each other; also where the gap is not smooth in the scale of the cells.
+  !> Forces of a solve to the tolerance t put an edge of a contact of N cells wrong by up to about t sqrt(N)/2 of its
+  !> half width. Beyond some 600 cells that is more than the error of third order for the default t = 1e-10; with 1e-13
+  !> the edges are as exact as the grid allows, and a solve takes up to a sixth longer. The errors of `intervals` are
+  !> estimates of both, from how smoothly the forces near an edge follow each other; they grow, too, where the gap is
+  !> not smooth from cell to cell.
   !>
   !> The grid is not taken as periodic. Without forces there are no intervals.
   !> Errors, `intervals` untouched: those of `fuge_halfplane_matrix` for the cells;

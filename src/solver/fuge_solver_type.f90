@@ -25,6 +25,7 @@ module fuge_solver_type
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW
   use fuge_tableau_engine, only: solve_by_tableau
+  use fuge_warm_start, only: load_history
   use fuge_working_set, only: working_set
   implicit none
   private
@@ -33,10 +34,6 @@ module fuge_solver_type
 
   !> Above this estimate of the relative error of the forces, a solution comes with a warning.
   real(dp), parameter :: MOST_FORCE_ERROR = 1.0e-3_dp
-  !> Relative change of the load up to which the last forces are a better start than coarser grids.
-  real(dp), parameter :: WARM_RANGE = 0.25_dp
-  !> Stands for the load where the approach is prescribed.
-  real(dp), parameter :: PRESCRIBED_APPROACH = -1.0_dp
 
   !> Solves contact problems one after the other, each from the contact set of the last one. One solver for each
   !> thread.
@@ -55,14 +52,13 @@ module fuge_solver_type
     !> Arrays for the next solve, so that small problems do not spend their time on allocations.
     type(fuge_solution), private :: spare
     type(working_set), private :: set
-    !> Forces of the last iterative solve, divided by its load, and that load.
-    real(dp), allocatable, private :: scaled_force(:)
+    !> The last solutions of the iteration.
+    type(load_history), private :: steps
     type(iterated_set), private :: last
     !> The last solve was by the iteration.
     logical, private :: solved_by_products = .false.
     !> The last problem of the iteration needed its canonical form; otherwise, whether its approach was prescribed.
     logical, private :: last_is_general = .false., last_is_prescribed = .false.
-    real(dp), private :: last_load = 0.0_dp
   contains
     procedure :: solve
     procedure :: reset
@@ -161,18 +157,20 @@ contains
     self%factor = kkt_factor()
     self%has_solution = .false.
     if (allocated(self%state)) deallocate (self%state)
-    if (allocated(self%scaled_force)) deallocate (self%scaled_force)
+    call self%steps%forget()
   end subroutine reset
 
   !> How the last solution changes with gaps and load, to first order, and exactly as long as the contact set stays:
-  !> df, dc and dq, by triangular solves with the last factor.
+  !> df, dc and dq, by triangular solves with the last factor; after the iteration by products on the contact set, to
+  !> the tolerance of the solve.
   !>
   !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force; `change` the changes in the
   !> order of `fuge_solution`. The contact stiffness dF_0/dv_0 is 1/change%motion(1) for gap_change 0 and load_change
   !> 1; column k of the sensitivity to the gaps is the change for a unit gap_change at k. A point that just touches
   !> without force stays in the state in which the solve left it. Errors, `change` untouched: FUGE_ERR_CALL_ORDER
   !> without a solution with a load, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_UNSUPPORTED,
-  !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY.
+  !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY; by products also FUGE_ERR_ITERATION_LIMIT where the operator is too badly
+  !> conditioned, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_CALLBACK.
   subroutine derivative_by_load(self, operator, gap_change, load_change, change, info)
     class(fuge_solver), intent(in) :: self
     class(fuge_operator), intent(in) :: operator
@@ -417,8 +415,8 @@ contains
     end if
   end subroutine run_active_set
 
-  !> The iteration from the last forces if the load is about the same, else from coarser grids; from scratch if the last
-  !> forces lead nowhere.
+  !> The iteration from the last solutions if they promise a better start than coarser grids; from scratch if they lead
+  !> nowhere.
   subroutine run_iteration(self, operator, problem, options, monitor, solution, info)
     class(fuge_solver), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
@@ -427,8 +425,6 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
-    real(dp) :: load
-    logical :: warm
 
     call check_iterative(options, info)
     if (info%failed()) return
@@ -436,26 +432,17 @@ contains
     self%last_is_prescribed = .not. (self%last_is_general .or. problem%is_plain())
     if (self%last_is_general) call make_canonical(problem, self%canonical, info)
     if (info%failed()) return
-    load = PRESCRIBED_APPROACH
-    if (problem%is_plain()) load = problem%resultant(1)
-    warm = .false.
-    if (allocated(self%scaled_force)) then
-      warm = size(self%scaled_force) == size(problem%gap) &
-             .and. abs(load - self%last_load) <= WARM_RANGE*abs(self%last_load)
-      if (.not. warm) deallocate (self%scaled_force)
-    end if
-    call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%scaled_force, &
-                            self%last, solution, info)
+    call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, info)
     ! Do not retry a solve that the operator or the monitor has ended.
-    if (warm .and. any(info%status == [FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW])) then
+    if (self%steps%started_warm &
+        .and. any(info%status == [FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW])) then
       ! Status and message only: the counts go on.
       call report(info, FUGE_DONE, '')
-      if (allocated(self%scaled_force)) deallocate (self%scaled_force)
-      call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%scaled_force, &
-                            self%last, solution, info)
+      call self%steps%forget()
+      call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, &
+                              info)
     end if
     if (info%failed()) return
-    self%last_load = load
     self%solved_by_products = .true.
     self%has_solution = .true.
   end subroutine run_iteration

@@ -449,6 +449,43 @@ static void test_residual_warning(void) {
   free_both(&solver, &op);
 }
 
+/* A tilt about a point 2^36 cells away, and stiff bodies: the last digit of R q, to which the
+ * equations hold, is a hundredth of the displacements by the forces. */
+static void test_ill_conditioned(void) {
+  enum { N = 4 };
+  const double force[N] = {3, 1, 4, 2}, far = 68719476736.0, compliance = 1.0 / 1024.0;
+  double alpha[N * N] = {0}, gap[N], modes[2 * N], resultant[2] = {10, 0}, found[N];
+  fuge_info info;
+  fuge_operator *op = NULL;
+  for (int k = 0; k < N; k++) {
+    alpha[k + k * N] = compliance;
+    modes[k] = 1.0;
+    modes[N + k] = k - far;
+    gap[k] = 10.0 + 3.0 * k - compliance * force[k];
+    resultant[1] += k * force[k];
+  }
+  resultant[1] -= 10.0 * far;
+  fuge_solver *solver = new_solver(alpha, N, NULL, &op);
+  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_set_modes(solver, 2, modes, resultant), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_WARN_ILL_CONDITIONED);
+  check_message(solver, "the forces may be wrong by ");
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_INT(info.status, FUGE_WARN_ILL_CONDITIONED);
+  CHECK(info.residual <= 1e-10);
+  CHECK(info.force_error > 1e-3 && info.force_error < 0.1);
+  CHECK_STATUS(fuge_get_force(solver, found), FUGE_DONE);
+  for (int k = 0; k < N; k++) CHECK_NEAR(found[k], force[k], 3.0 * 4.0 * info.force_error);
+  /* The same tilt about a point nearby is harmless. */
+  resultant[1] += 10.0 * far;
+  for (int k = 0; k < N; k++) modes[N + k] = k;
+  CHECK_STATUS(fuge_set_modes(solver, 2, modes, resultant), FUGE_DONE);
+  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK(info.force_error > 0.0 && info.force_error < 1e-10);
+  free_both(&solver, &op);
+}
+
 int main(void) {
   test_life_cycle();
   test_new_null_pointers();
@@ -472,5 +509,6 @@ int main(void) {
   test_not_definite();
   test_overflow_after_answer();
   test_residual_warning();
+  test_ill_conditioned();
   return check_summary();
 }

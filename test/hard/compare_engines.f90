@@ -21,7 +21,7 @@ program compare_engines
 contains
 
   subroutine run()
-    integer :: first, last, method, number, faults, statuses(LOWEST:HIGHEST)
+    integer :: dear, first, last, method, number, faults, statuses(LOWEST:HIGHEST)
     real(dp) :: dearest(3, LISTED), spread_of(3)
     character(len=8) :: word
     type(engine_verdict) :: verdict
@@ -32,6 +32,7 @@ contains
     first = argument(2, 1)
     call get_command_argument(3, word)
     method = merge(FUGE_TABLEAU, FUGE_ITERATIVE, word == 'tableau')
+    dear = 0
     faults = 0
     statuses = 0
     dearest = 0.0_dp
@@ -46,14 +47,18 @@ contains
         call judge_scene(scene, [FUGE_ACTIVE_SET, method], verdict, info)
       end if
       statuses(verdict%status(1)) = statuses(verdict%status(1)) + 1
-      if (verdict%fault /= '') faults = faults + 1
+      if (verdict%fault == 'cost') then
+        dear = dear + 1
+      else if (verdict%fault /= '') then
+        faults = faults + 1
+      end if
       if (verdict%fault /= '') write (output_unit, '(i6,i5,6(1x,a))') number, verdict%points, scene%body, &
         scene%motions(:18), scene%stops(:18), scene%load(:24), verdict%fault, trim(verdict%details)
       call keep_dearest(verdict, number, dearest)
       call widen(verdict, spread_of)
     end do
     if (first == last) call print_answers(scene, method)
-    call print_summary(last - first + 1, faults, statuses, dearest, spread_of)
+    call print_summary(last - first + 1, [faults, dear], statuses, dearest, spread_of)
     if (faults > 0) error stop 'the engines disagree'
   end subroutine run
 
@@ -97,11 +102,12 @@ contains
   end subroutine widen
 
   subroutine print_summary(scenes, faults, statuses, dearest, spread_of)
-    integer, intent(in) :: scenes, faults, statuses(LOWEST:)
+    integer, intent(in) :: scenes, faults(2), statuses(LOWEST:)
     real(dp), intent(in) :: dearest(:, :), spread_of(:)
     integer :: k
 
-    write (output_unit, '(/,i0,a,i0,a)') scenes, ' scenes, ', faults, ' disagreement(s)'
+    write (output_unit, '(/,3(i0,a))') scenes, ' scenes, ', faults(1), ' disagreement(s), ', faults(2), &
+      ' of many products'
     write (output_unit, '(a)') 'status of the active set, scenes:'
     do k = lbound(statuses, 1), ubound(statuses, 1)
       if (statuses(k) > 0) write (output_unit, '(i6,i7)') k, statuses(k)

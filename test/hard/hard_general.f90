@@ -6,7 +6,8 @@
 module hard_general
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_NOT_UNIQUE
+    FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_ILL_CONDITIONED, &
+    FUGE_WARN_NOT_UNIQUE
   use fuge_number_text, only: text
   use general_reference, only: infinity, integers, solve_general
   use hard_matrices, only: integer_bed
@@ -15,7 +16,7 @@ module hard_general
 
   public :: numbered_general, solve_general_scene, general_force_error, general_gap_error
 
-  integer, parameter, public :: GENERAL_SCENES = 24
+  integer, parameter, public :: GENERAL_SCENES = 25
   integer, parameter :: N = 16
 
   type, public :: general_scene
@@ -51,8 +52,14 @@ contains
       scene = many_modes(N - 11 + number)
     case (12:17)
       scene = with_play(number - 11)
-    case default
+    case (18:24)
       scene = at_the_edge(number - 17)
+    case default
+      scene = far_away(30, motion=15)
+      scene%why = '2**30 widths, and the motion is 2**15 times larger'
+      scene%status = FUGE_WARN_ILL_CONDITIONED
+      ! The rounding of R q alone changes the forces by nearly a hundredth.
+      scene%tolerance = 5.0e-2_dp
     end select
   end function numbered_general
 
@@ -104,17 +111,20 @@ contains
     scene%tolerance = max(scene%tolerance, scale(4.0e-15_dp, bits))
   end function nearly_parallel
 
-  !> A tilt about a point far from the contact.
-  pure function far_away(bits) result(scene)
+  !> A tilt about a point far from the contact; the motion is 2**`motion` times larger than without it.
+  pure function far_away(bits, motion) result(scene)
     integer, intent(in) :: bits
+    integer, intent(in), optional :: motion
     type(general_scene) :: scene
-    real(dp) :: modes(N, 2), force(N), opening(N)
+    real(dp) :: modes(N, 2), force(N), opening(N), q(2)
 
     call two_of_three(force, opening)
     modes(:, 1) = 1.0_dp
     modes(:, 2) = abscissa() - scale(real(N, dp), bits)
+    q = [5.0_dp, 3.0_dp]
+    if (present(motion)) q = scale(q, motion)
     scene = from_answer('tilt about a far-away point', 'its distance is 2**'//text(bits)//' widths', modes, force, &
-                        opening, [5.0_dp, 3.0_dp])
+                        opening, q)
     scene%tolerance = max(scene%tolerance, scale(4.0e-15_dp, bits))
   end function far_away
 

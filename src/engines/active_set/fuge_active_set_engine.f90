@@ -5,7 +5,7 @@ module fuge_active_set_engine
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
-  use fuge_engine_messages, only: explain_status, SINGULAR_ON_CONTACT
+  use fuge_engine_messages, only: explain_status, report_closed_gap, SINGULAR_ON_CONTACT
   use fuge_initial_set, only: guess_initial_set
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -14,7 +14,7 @@ module fuge_active_set_engine
   use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NOT_DEFINITE
-  use fuge_unbounded_forces, only: forces_are_unbounded
+  use fuge_unbounded_forces, only: equal_forces_hold_nothing, forces_are_unbounded
   use fuge_unresisted_motions, only: report_unresisted_motion
   use fuge_working_set, only: working_set
   implicit none
@@ -102,13 +102,18 @@ contains
     end if
   end subroutine solve_from_set
 
-  !> Refuse forces that would have to grow without bound (FUGE_ERR_NOT_DEFINITE).
+  !> Refuse forces that would have to grow without bound (FUGE_ERR_NOT_DEFINITE, or FUGE_ERR_NO_EQUILIBRIUM where all
+  !> motions are prescribed and the forces are equal).
   pure subroutine refuse_unbounded(canonical, solution, info)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     type(fuge_info), intent(inout) :: info
 
     if (.not. forces_are_unbounded(canonical, solution)) return
+    if (equal_forces_hold_nothing(canonical, solution)) then
+      call report_closed_gap(-sum(canonical%gap)/real(size(canonical%gap), dp), info)
+      return
+    end if
     call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is singular, and there is no solution: forces that store no ' &
                 //'energy, the largest at point '//index_text(maxloc(abs(solution%force), dim=1)) &
                 //', cannot move the points to their stops; free the rigid motion that can, or change the gaps')

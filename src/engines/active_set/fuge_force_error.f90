@@ -16,7 +16,7 @@ module fuge_force_error
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: solve_set
   use fuge_problem_type, only: fuge_problem
-  use fuge_refinement_error, only: as_rounding, RANDOM_SIGNS
+  use fuge_refinement_error, only: as_rounding, LARGEST, RANDOM_SIGNS
   implicit none
   private
 
@@ -28,13 +28,14 @@ module fuge_force_error
   integer, parameter :: MOST_POINTS = 4
   !> Roundings that add up, in each equation, to the error before refinement; found on the problems of test/hard.
   real(dp), parameter :: UNREFINED = 32.0_dp
-  !> A bound below this is good enough, and a solve with the factor is saved.
+  !> A bound below this is good enough with so many points in contact, where it saves a solve that takes some time.
   real(dp), parameter :: SMALL = 1.0e-12_dp
+  integer, parameter :: MANY_POINTS = 128
 
 contains
 
-  !> The largest error of a force relative to the largest force, an estimate: what refinement has left, and what rounding
-  !> means that it does not see. At most 1, where no digit is known; 0 without forces.
+  !> The largest error of a force relative to the largest force, an estimate: what refinement has left, and what
+  !> rounding means that it does not see. At most 1, where no digit is known; 0 without forces.
   !>
   !> `canonical`, `alpha` and `factor` those of the `solution` of `problem`, in which a refinement has left its error;
   !> `motion` (m) in the given modes.
@@ -62,10 +63,10 @@ contains
   end subroutine estimate_force_error
 
   !> The largest change of a force by the rounding of modes and of prescribed motions, an estimate: one solve with the
-  !> factor of the contact set, unless a bound is small.
+  !> factor of the contact set, unless that set is large and a bound small.
   !>
-  !> `length` (n): what such rounding leaves open of each gap; not allocated if nothing. Modes whose entries are 0 or one
-  !> other value are exact.
+  !> `length` (n): what such rounding leaves open of each gap; not allocated if nothing. Modes whose entries are 0 or
+  !> one other value are exact.
   subroutine error_by_modes(canonical, factor, problem, motion, solution, error, length)
     type(canonical_problem), intent(in) :: canonical
     type(kkt_factor), intent(in) :: factor
@@ -89,10 +90,14 @@ contains
     call canonical%transform_change(known + as_rounding(RANDOM_SIGNS*length), as_rounding(RANDOM_SIGNS*load), &
                                     gap_change, load_change)
     length = length + abs(known)
-    error = bound_by_refinement(canonical, problem, motion, solution, maxval(length), load_change)
-    if (error <= SMALL*maxval(abs(solution%force))) return
+    if (count(solution%state /= FUGE_OPEN) > MANY_POINTS) then
+      error = bound_by_refinement(canonical, problem, motion, solution, maxval(length), load_change)
+      if (error <= SMALL*maxval(abs(solution%force))) return
+    end if
     call solve_set(factor, canonical%datum, gap_change, load_change, force_change, free_motion)
-    error = finite(maxval(abs(force_change)))
+    error = maxval(abs(force_change))
+    ! Also where it is NaN.
+    if (.not. error <= LARGEST) error = LARGEST
   end subroutine error_by_modes
 
   !> How much the last digits of the modes change gaps, `length` (n), and resultants, `load` (m).
@@ -116,7 +121,8 @@ contains
 
   !> A bound of the change of a force by changes of the gaps up to `length` and of the canonical loads by `load_change`:
   !> before refinement the forces had the error that rounding makes of all terms of the equations, and these changes are
-  !> compared with those terms. Huge where there is nothing to compare with, as of bodies with loads of their own.
+  !> compared with those terms. LARGEST where there is nothing to compare with, as of bodies with loads of their own, or
+  !> where no digit was right.
   pure function bound_by_refinement(canonical, problem, motion, solution, length, load_change) result(bound)
     type(canonical_problem), intent(in) :: canonical
     type(fuge_problem), intent(in) :: problem
@@ -126,8 +132,9 @@ contains
     real(dp) :: depth(size(solution%force)), roundings, deepest, terms
     integer :: j
 
-    bound = huge(bound)
+    bound = LARGEST
     if (canonical%has_bodies()) return
+    if (.not. solution%unrefined_error <= maxval(abs(solution%force))) return
     depth = problem%gap
     do j = 1, size(motion)
       if (allocated(problem%modes)) then
@@ -145,7 +152,7 @@ contains
       roundings = roundings + abs(load_change(j))/terms
     end do
     bound = roundings*max(solution%unrefined_error/(UNREFINED*epsilon(bound)), maxval(abs(solution%force)))
-    if (.not. bound <= huge(bound)) bound = huge(bound)
+    if (.not. bound <= LARGEST) bound = LARGEST
   end function bound_by_refinement
 
   !> What is lost when prescribed motions are subtracted from the gaps one after the other, (n); the rounding of the
@@ -205,24 +212,25 @@ contains
       open = relative*displacement_terms(alpha, canonical%datum, solution%state /= FUGE_OPEN, solution%force, k)
       if (present(length)) open = open + length(k)
       if (slack > open) cycle
-      error = max(error, change_by_contact(canonical, alpha, factor, solution%state /= FUGE_OPEN, k, open))
+      error = max(error, change_by_contact(canonical, alpha, factor, solution%state /= FUGE_OPEN, k, open, &
+                                           maxval(abs(solution%force))))
       points = points + 1
       if (points == MOST_POINTS) return
     end do
   end subroutine error_by_contact_set
 
-  !> The largest change of a force if contact at `point` has to close a gap of `length` there: the forces that answer to
-  !> one at that point, and the compliance that is left.
+  !> The largest change of a force if contact at `point` has to close a gap of `length` there, up to `most`: the forces
+  !> that answer to one at that point, and the compliance that is left.
   !>
   !> That compliance is a difference of large terms. The forces are corrected once, and their residual is taken into
   !> account, so that what is wrong with them counts by its square.
-  function change_by_contact(canonical, alpha, factor, contact, point, length) result(change)
+  function change_by_contact(canonical, alpha, factor, contact, point, length, most) result(change)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in), contiguous :: alpha(:, :)
     type(kkt_factor), intent(in) :: factor
     logical, intent(in) :: contact(:)
     integer, intent(in) :: point
-    real(dp), intent(in) :: length
+    real(dp), intent(in) :: length, most
     real(dp) :: change
     real(dp), dimension(size(contact)) :: column, force, force_change, open
     real(dp), dimension(size(canonical%load)) :: row, motion, motion_change, missing
@@ -247,17 +255,12 @@ contains
     terms = abs(column(point)) + sum(abs(column*force), mask=contact) + sum(abs(row*motion))
     ! What is less is rounding.
     compliance = max(compliance, epsilon(terms)*terms)
-    change = 0.0_dp
-    if (compliance > 0.0_dp) change = finite((length/compliance)*max(1.0_dp, maxval(abs(force))))
+    change = length*max(1.0_dp, maxval(abs(force)))
+    if (change < compliance*most) then
+      change = change/compliance
+    else if (change > 0.0_dp) then
+      change = most
+    end if
   end function change_by_contact
-
-  !> The value, or a huge one if it is not a number.
-  elemental function finite(value)
-    real(dp), intent(in) :: value
-    real(dp) :: finite
-
-    finite = huge(value)
-    if (value <= huge(value)) finite = value
-  end function finite
 
 end module fuge_force_error

@@ -5,7 +5,7 @@ module fuge_kkt_solution
   use fuge_displacements, only: displacement_magnitude, displacement_terms
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_refinement_error, only: as_rounding, error_left, RANDOM_SIGNS
+  use fuge_refinement_error, only: as_rounding, error_left, LARGEST, RANDOM_SIGNS
   implicit none
   private
 
@@ -201,7 +201,7 @@ contains
     call factor%solve(arrays%residual, arrays%missing, arrays%correction, arrays%shift)
     error = error + maxval(abs(arrays%correction))
     ! Also where it is NaN.
-    if (.not. error <= huge(error)) error = huge(error)
+    if (.not. error <= LARGEST) error = LARGEST
   end subroutine find_force_error
 
   !> The points marked in `contact` (n), the first `number` of `points` (n).

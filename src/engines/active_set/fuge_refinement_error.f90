@@ -11,6 +11,8 @@ module fuge_refinement_error
   real(dp), parameter, public :: RANDOM_SIGNS = 3.0_dp
   !> The sum of a slow geometric series of corrections counts as at most so many times the last one.
   real(dp), parameter :: SLOWEST = 100.0_dp
+  !> Errors beyond this one are not told apart.
+  real(dp), parameter, public :: LARGEST = huge(1.0_dp)/(2.0_dp*SLOWEST)
 
 contains
 
@@ -29,15 +31,16 @@ contains
     integer :: last
 
     last = ubound(changes, 1)
-    if (taken) then
+    if (.not. changes(last) <= LARGEST) then
+      ! Also where it is NaN.
+      error = LARGEST
+    else if (taken) then
       error = changes(last)*ratio(changes(last), changes(last - 1))
     else
       error = changes(last)
       if (last > 1) error = error/max(1.0_dp - ratio(changes(last - 1), changes(last - 2)), 1.0_dp/SLOWEST)
     end if
-    ! Also where it is NaN.
-    if (.not. error <= huge(error)) error = huge(error)
-    error = min(error, 0.5_dp*huge(error)) + 0.5_dp*epsilon(error)*changes(0)
+    error = error + 0.5_dp*epsilon(error)*changes(0)
   end function error_left
 
   !> How far a correction has shrunk beside the one before it, at most 1; 0 if it is zero.

@@ -98,13 +98,26 @@ contains
 
     do k = 1, size(state)
       self%gap_at_stops(k) = self%reduced_gap(k)
-      self%arrays%gap_rounding(k) = difference_rounding(canonical%gap(k), self%gap_datum, self%reduced_gap(k))
-      if (state(k) >= FUGE_OPEN) cycle
-      self%gap_at_stops(k) = self%reduced_gap(k) - canonical%upper(k)
-      self%arrays%gap_rounding(k) = self%arrays%gap_rounding(k) &
-                                    + difference_rounding(self%reduced_gap(k), canonical%upper(k), self%gap_at_stops(k))
+      if (state(k) < FUGE_OPEN) self%gap_at_stops(k) = self%reduced_gap(k) - canonical%upper(k)
     end do
   end subroutine find_gap_at_stops
+
+  !> What rounding has taken from the gaps at the stops.
+  pure subroutine find_gap_rounding(self, canonical, state)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
+    integer :: k
+
+    associate (rounding => self%arrays%gap_rounding)
+      do k = 1, size(state)
+        rounding(k) = difference_rounding(canonical%gap(k), self%gap_datum, self%reduced_gap(k))
+        if (state(k) < FUGE_OPEN) rounding(k) = rounding(k) + difference_rounding(self%reduced_gap(k), &
+                                                                                  canonical%upper(k), &
+                                                                                  self%gap_at_stops(k))
+      end do
+    end associate
+  end subroutine find_gap_rounding
 
   !> Without a load all forces may be rounding. Those count that displace by SIGN_TOLERANCE times the gaps, or,
   !> if no mode is free, times the largest overlap. Zero if there is a load.
@@ -176,6 +189,7 @@ contains
     real(dp), intent(in) :: regularisation
     type(contact_solution), intent(inout) :: solution
 
+    call find_gap_rounding(self, canonical, solution%state)
     call refine_solution(canonical, self%gap_at_stops, factor, regularisation, self%contact, self%arrays, &
                          solution%force, solution%motion)
   end subroutine refine

@@ -1,12 +1,14 @@
-!> The status of a dense engine in words.
+!> The status of an engine in words.
 module fuge_engine_messages
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_options_type, only: ITERATIONS_PER_ROW
-  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT
+  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_NOT_DEFINITE, &
+    FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
 
-  public :: explain_status
+  public :: explain_status, report_closed_gap
 
   !> Forces that store no energy can be added to those of the contact.
   character(len=*), parameter, public :: SINGULAR_ON_CONTACT = 'alpha is singular on the contact: gaps and approach ' &
@@ -32,5 +34,16 @@ contains
       call report(info, status, fuge_status_text(status))
     end select
   end subroutine explain_status
+
+  !> Report that no forces hold the prescribed motions: the mean gap is negative, -`closed`, and equal forces, which alone
+  !> could raise it, displace nothing.
+  pure subroutine report_closed_gap(closed, info)
+    real(dp), intent(in) :: closed
+    type(fuge_info), intent(inout) :: info
+
+    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
+                //'hold the prescribed motions, at which the mean gap is closed by '//text(closed) &
+                //': prescribe less, or resultants')
+  end subroutine report_closed_gap
 
 end module fuge_engine_messages

@@ -12,7 +12,7 @@ module fuge_unbounded_forces
   implicit none
   private
 
-  public :: forces_are_unbounded
+  public :: equal_forces_hold_nothing, forces_are_unbounded
 
   !> So many units in the last place of alpha may store the energy of forces without any.
   real(dp), parameter :: ROUNDINGS = 256.0_dp
@@ -21,6 +21,8 @@ module fuge_unbounded_forces
   real(dp), parameter :: DWARFED = 1.0e-6_dp
   !> A length below this fraction of the largest gap or play is rounding.
   real(dp), parameter :: NO_LENGTH = 1.0e-10_dp
+  !> Unbounded forces that differ by less than this fraction are equal ones and what the gaps ask for.
+  real(dp), parameter :: ALIKE = 1.0e-3_dp
 
 contains
 
@@ -56,6 +58,18 @@ contains
       unbounded = abs(sum(displacement*force)) <= ROUNDINGS*epsilon(energy)*energy
     end associate
   end function forces_are_unbounded
+
+  !> Are the unbounded forces of a solution equal at all points, one-sided under prescribed motions? Then these close the
+  !> mean gap, which no forces raise.
+  pure function equal_forces_hold_nothing(canonical, solution) result(nothing)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_solution), intent(in) :: solution
+    logical :: nothing
+
+    nothing = canonical%mode_count() > 0 .and. size(canonical%load) < 1 .and. .not. any(canonical%excluded) &
+              .and. all(canonical%upper >= huge(1.0_dp))
+    if (nothing) nothing = minval(solution%force) >= (1.0_dp - ALIKE)*maxval(solution%force)
+  end function equal_forces_hold_nothing
 
   !> Points (n) of the contact that no contact force displaces, and that the motion (m) does not bring to their stops:
   !> `length` (n) from them.

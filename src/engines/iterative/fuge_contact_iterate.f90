@@ -55,6 +55,9 @@ module fuge_contact_iterate
     real(dp) :: softness = 0.0_dp
     !> Do forces of the set that store no energy grow for ever, so that there is no solution?
     logical :: unbounded = .false.
+    !> The greater of residual norm and penetration over the least magnitude, for the forces to start from; negative before
+    !> that is known.
+    real(dp) :: start_error = -1.0_dp
     !> Did run_projected_gradients reduce the residual to its tolerance?
     logical :: converged = .false.
     !> The least of the smallest values of `lanczos` on this contact set; 0 before any step.
@@ -71,6 +74,8 @@ module fuge_contact_iterate
     !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
     !> the contact set.
     real(dp), allocatable :: residual(:), direction(:)
+    !> Forces at the start of the last run of conjugate gradients, (n); allocated where they may grow without bound.
+    real(dp), allocatable :: start(:)
     !> In turn the preconditioned residual and the displacement by `direction`, (n).
     real(dp), allocatable :: work(:)
   end type contact_iterate
@@ -91,6 +96,7 @@ contains
     allocate (iterate%force(n), iterate%displacement(n), iterate%contact(n), iterate%residual(n), &
               iterate%direction(n), iterate%work(n), stat=stat)
     if (stat == 0 .and. allocated(scene%play)) allocate (iterate%at_upper(n), stat=stat)
+    if (stat == 0 .and. scene%prescribed) allocate (iterate%start(n), stat=stat)
     if (stat == 0 .and. allocated(scene%modes)) allocate (iterate%rigid_motion(size(scene%load)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
@@ -225,7 +231,23 @@ contains
     call project_residual(scene, iterate)
     iterate%penetration = find_penetration(scene, iterate)
     call find_least_magnitude(operator, scene, iterate)
+    if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
   end subroutine evaluate_iterate
+
+  !> The greater of residual norm and penetration over the least magnitude; huge where that is zero.
+  pure function relative_error(iterate) result(error)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: error
+
+    error = max(iterate%residual_norm, iterate%penetration)
+    if (error > 0.0_dp) then
+      if (iterate%least_magnitude > 0.0_dp .and. error < iterate%least_magnitude*sqrt(huge(error))) then
+        error = error/iterate%least_magnitude
+      else
+        error = huge(error)
+      end if
+    end if
+  end function relative_error
 
   !> Gap plus displacement less the stop, before rigid motions are subtracted.
   pure subroutine set_residual(scene, iterate)

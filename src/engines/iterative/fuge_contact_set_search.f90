@@ -48,6 +48,8 @@ module fuge_contact_set_search
     !> Accept the first set with few wrong points, accurate or not: on a coarser grid its forces
     !> only start the next one.
     logical :: coarse_grid = .true.
+    !> The iterate has its contact set, feasible forces and their displacements already.
+    logical :: prepared = .false.
   end type search_settings
 
 contains
@@ -76,8 +78,10 @@ contains
     stalls_left = MAX_STALLS
     previous_residual = huge(previous_residual)
     to_tolerance = .false.
-    call choose_contact(scene, iterate)
-    call make_feasible(operator, scene, iterate, info)
+    if (.not. settings%prepared) then
+      call choose_contact(scene, iterate)
+      call make_feasible(operator, scene, iterate, info)
+    end if
     fresh = .true.
     do while (.not. info%failed())
       undetermined = has_undetermined_forces(operator, scene, iterate, info)
@@ -141,7 +145,7 @@ contains
   !>
   !> The points whose forces are above the mean stay: those in contact under the least load. If the
   !> grid is a coarser one whose mean gap is closed, the contact stays complete, under the least load
-  !> that closes it.
+  !> that closes it. On the finest grid no forces raise the mean gap (FUGE_ERR_NOT_DEFINITE).
   subroutine solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -151,6 +155,10 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
 
+    if (.not. settings%coarse_grid .and. sum(scene%gap) < -ROUNDINGS*epsilon(1.0_dp)*sum(abs(scene%gap))) then
+      call report_unbounded(1, info)
+      return
+    end if
     iterate%prescribed = .false.
     call solve_on_contact_set(operator, settings, preconditioner, scene, .false., monitor, iterate, info)
     iterate%prescribed = .true.
@@ -194,9 +202,7 @@ contains
     call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
                                  iterate, info)
     if (iterate%unbounded .and. .not. (settings%coarse_grid .or. info%failed())) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular, and there is no solution: forces that ' &
-                  //'store no energy, the largest at point '//index_text(maxloc(abs(iterate%direction), dim=1)) &
-                  //', cannot move the points to their stops; free the rigid motion that can, or change the gaps')
+      call report_unbounded(maxloc(abs(iterate%direction), dim=1), info)
     end if
     if (info%failed()) return
     info%iterations = info%iterations + 1
@@ -208,6 +214,16 @@ contains
     call tell_monitor(monitor, info%iterations, relative, count(iterate%contact), status)
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine solve_on_contact_set
+
+  !> Report that forces without energy, the largest of them at `point`, grow for ever (FUGE_ERR_NOT_DEFINITE).
+  pure subroutine report_unbounded(point, info)
+    integer, intent(in) :: point
+    type(fuge_info), intent(inout) :: info
+
+    call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular, and there is no solution: forces that store ' &
+                //'no energy, the largest at point '//index_text(point)//', cannot move the points to their stops; ' &
+                //'free the rigid motion that can, or change the gaps')
+  end subroutine report_unbounded
 
   !> Keep the smallest value that conjugate gradients have found on this set.
   subroutine note_smallest_value(iterate)

@@ -5,10 +5,12 @@ module fuge_general_scene
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_contact_iterate, only: contact_iterate, deformed_gap, rounding_force
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_segments, only: contact_segments
   use fuge_contact_set_search, only: states_of
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
   use fuge_kinds, only: dp
+  use fuge_mode_projection, only: mode_projection
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
@@ -143,7 +145,8 @@ contains
       return
     end if
     found%state = states_of(iterate)
-    call drop_rounding(scene, found%state, iterate)
+    call drop_rounding(scene, found%state, iterate, info)
+    if (info%failed()) return
     found%force = scaling%load*iterate%force
     call set_gaps(scene, scaling, canonical%upper, iterate, found)
     if (allocated(scene%modes)) then
@@ -163,20 +166,51 @@ contains
     call move_alloc(motion, solution%motion)
   end subroutine assemble_general
 
-  !> Forces that are rounding, or that pull at their stop by rounding, become zero.
-  pure subroutine drop_rounding(scene, state, iterate)
+  !> Forces that are rounding, or that pull at their stop by rounding, become zero. What that takes from a resultant,
+  !> the other forces give back: beside a body under a large load, another one may have none. Error: FUGE_ERR_MEMORY.
+  subroutine drop_rounding(scene, state, iterate, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: state(:)
     type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    type(contact_segments) :: segments
+    type(mode_projection) :: projection
+    real(dp), allocatable :: dropped(:)
+    logical :: possible, pulls
+
+    call clear_rounding(scene, state, iterate, pulls)
+    if (.not. (pulls .and. allocated(scene%modes))) return
+    allocate (dropped, source=iterate%force)
+    call segments%find(abs(dropped) > 0.0_dp, info)
+    if (.not. info%failed()) call projection%set(scene%modes, segments, info)
+    if (info%failed()) return
+    call projection%correct_resultants(scene%modes, scene%load, segments, iterate%force, possible)
+    if (possible) then
+      call clear_rounding(scene, state, iterate, pulls)
+    else
+      iterate%force = dropped
+    end if
+  end subroutine drop_rounding
+
+  !> Set forces to zero that are rounding, or that pull at their stop; `pulls` tells whether any of these did.
+  pure subroutine clear_rounding(scene, state, iterate, pulls)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: state(:)
+    type(contact_iterate), intent(inout) :: iterate
+    logical, intent(out) :: pulls
     real(dp) :: least
     integer :: k
 
+    pulls = .false.
     least = max(ROUNDINGS*epsilon(least)*maxval(abs(iterate%force)), rounding_force(scene, iterate))
     do k = 1, size(state)
       if (abs(iterate%force(k)) <= least) iterate%force(k) = 0.0_dp
-      if (iterate%force(k)*real(state(k), dp) < 0.0_dp .and. .not. scene%is_tied(k)) iterate%force(k) = 0.0_dp
+      if (iterate%force(k)*real(state(k), dp) < 0.0_dp .and. .not. scene%is_tied(k)) then
+        iterate%force(k) = 0.0_dp
+        pulls = .true.
+      end if
     end do
-  end subroutine drop_rounding
+  end subroutine clear_rounding
 
   !> Gaps between the stops, in the units of the problem, as is the play `upper` (n); 0 at points that are excluded.
   pure subroutine set_gaps(scene, scaling, upper, iterate, found)

@@ -11,7 +11,7 @@ module fuge_iterative_engine
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_set_search, only: find_contact_set, search_settings, states_of
   use fuge_contact_window, only: solve_in_window, survey_level
-  use fuge_engine_messages, only: SINGULAR_ON_CONTACT
+  use fuge_engine_messages, only: report_closed_gap, SINGULAR_ON_CONTACT
   use fuge_general_scene, only: assemble_general, set_general_scene
   use fuge_grid_transfer, only: prolong
   use fuge_iterated_set, only: iterated_set
@@ -23,26 +23,24 @@ module fuge_iterative_engine
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
     FUGE_WARN_NOT_UNIQUE
+  use fuge_warm_start, only: load_history
   use fuge_wrong_points, only: choose_contact
   implicit none
   private
 
   public :: is_general, solve_by_iteration
 
-  !> The forces of the last solve are a good start if residual and penetration are below this
-  !> fraction of the least magnitude.
-  real(dp), parameter :: GOOD_START = 0.2_dp
   !> Forces up to this many units in the last place of the largest force are rounding, and so is a mean
   !> gap up to as many of the largest gap.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
 
 contains
 
-  !> Does the problem have rigid modes of its own, play or exclusions? Then `solve_by_iteration` needs its canonical
-  !> form.
+  !> Does the problem have rigid modes of its own, play or exclusions? Then `solve_by_iteration` needs its canonical form.
   pure function is_general(problem)
     type(fuge_problem), intent(in) :: problem
     logical :: is_general
@@ -53,17 +51,17 @@ contains
   !> Solve a contact problem by iteration.
   !>
   !> `problem` checked; if plain, with a load > 0; `canonical` its canonical form, if it is general.
-  !> `scaled_force` (n), if allocated, are forces to start from, divided by the load if there is
-  !> one; on return those of the solution. `last` the set of the last solve with this operator, on return that of this
-  !> one. `solution` may be unallocated; it is written only on success. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW,
-  !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
-  subroutine solve_by_iteration(operator, problem, canonical, options, monitor, scaled_force, last, solution, info)
+  !> `history`: earlier solutions to start from, and this one on success. `last` the set of the last solve with this
+  !> operator, on return that of this one. `solution` may be unallocated; it is written only on success. Errors:
+  !> FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT,
+  !> FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
+  subroutine solve_by_iteration(operator, problem, canonical, options, monitor, history, last, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
-    real(dp), allocatable, intent(inout) :: scaled_force(:)
+    type(load_history), intent(inout) :: history
     type(iterated_set), intent(inout) :: last
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
@@ -71,8 +69,10 @@ contains
     type(contact_scene) :: scene
     type(scene_scaling) :: scaling
     type(search_settings) :: coarse_settings, settings
-    logical :: warm
+    integer :: coarse_products, fine_products
+    logical :: repeated
 
+    history%started_warm = .false.
     coarse_settings%limit = iteration_limit(options, operator%points() + 1)
     settings = coarse_settings
     settings%tolerance = options%tolerance
@@ -84,41 +84,56 @@ contains
     end if
     if (info%failed()) return
     call check_approach(operator, problem, scene, info)
-    if (allocated(scaled_force) .and. .not. info%failed()) call discard_poor_start(operator, scene, scaled_force, info)
-    warm = allocated(scaled_force)
-    if (.not. (info%failed() .or. warm)) then
-      call start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, scaled_force, info)
+    if (.not. info%failed()) call try_warm_start(operator, problem, scene, scaling, history, iterate, info)
+    settings%prepared = history%started_warm
+    coarse_products = -info%products
+    if (.not. (info%failed() .or. settings%prepared)) then
+      call start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, info)
     end if
-    if (.not. info%failed()) call start_iterate(iterate, scene, scaled_force, info)
     if (info%failed()) return
     ! A start that needs no step tells nothing of the operator.
-    if (warm) then
+    if (settings%prepared) then
       iterate%smallest_value = last%smallest_value
       iterate%amplification = last%amplification
     end if
+    coarse_products = coarse_products + info%products
+    fine_products = -info%products
     call find_contact_set(operator, settings, scene, monitor, iterate, info)
     if (.not. info%failed()) call keep_states(iterate, last, info)
     if (info%failed()) return
-    call judge_forces(operator, scene, iterate, info)
+    fine_products = fine_products + info%products
+    if (settings%prepared) then
+      call history%record_warm(iterate%start_error, fine_products)
+    else
+      call history%record_cold(iterate%start_error, options%tolerance, coarse_products, fine_products)
+    end if
+    call judge_forces(operator, scene, iterate, repeated, info)
+    if (info%failed()) return
     if (is_general(problem)) then
       call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
     else
       call assemble_simple(operator, scene, scaling, iterate, solution, info)
     end if
     if (info%failed()) return
-    call move_alloc(iterate%force, scaled_force)
+    if (repeated) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
     last%smallest_value = iterate%smallest_value
     last%amplification = iterate%amplification
     last%tolerance = options%tolerance
+    ! The history needs memory of its own.
+    call discard(iterate)
+    call history%store(problem, solution)
   end subroutine solve_by_iteration
 
-  !> Estimate the error of the forces, and warn where they are not unique.
-  subroutine judge_forces(operator, scene, iterate, info)
+  !> Estimate the error of the forces, and whether two points are `repeated`: then they are not unique. Errors: those of
+  !> the operator.
+  subroutine judge_forces(operator, scene, iterate, repeated, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
+    logical, intent(out) :: repeated
     type(fuge_info), intent(inout) :: info
     real(dp) :: compliance
+    integer :: pair(2)
 
     if (allocated(scene%modes)) then
       compliance = operator%least_pair_compliance(iterate%contact, scene%modes)
@@ -126,7 +141,12 @@ contains
       compliance = operator%least_pair_compliance(iterate%contact, reshape([real(dp) ::], [size(scene%gap), 0]))
     end if
     info%force_error = estimated_force_error(iterate, compliance)
-    if (.not. compliance > 0.0_dp) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
+    repeated = .not. compliance > 0.0_dp
+    ! A preconditioner is close to an inverse.
+    if (compliance < huge(compliance)) return
+    if (operator%has_preconditioner()) return
+    call find_repeated_points(operator, scene, iterate, pair, info)
+    repeated = pair(1) > 0
   end subroutine judge_forces
 
   !> Keep the contact set for derivatives. Error: FUGE_ERR_MEMORY.
@@ -148,6 +168,43 @@ contains
     end if
   end subroutine keep_states
 
+  !> Start from earlier solutions if that promises to cost less than coarser grids: history%started_warm, with the
+  !> contact set and the displacements of `iterate`, which otherwise stays as it was. Errors: FUGE_ERR_MEMORY, those of
+  !> the operator.
+  subroutine try_warm_start(operator, problem, scene, scaling, history, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
+    type(load_history), intent(inout) :: history
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: start(:)
+
+    call history%predict(problem, start)
+    if (.not. allocated(start)) return
+    ! Forces of another order of magnitude are no start, and their squares would overflow.
+    if (2*(exponent(maxval(abs(start))) - exponent(scaling%load)) > LARGEST_EXPONENT) return
+    start = start/scaling%load
+    call start_iterate(iterate, scene, start, info)
+    if (info%failed()) return
+    call choose_contact(scene, iterate)
+    if (any(iterate%contact)) then
+      call make_feasible(operator, scene, iterate, info)
+      if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
+      if (info%failed()) return
+      call history%judge(iterate%start_error)
+    end if
+    if (.not. history%started_warm) call discard(iterate)
+  end subroutine try_warm_start
+
+  !> Free all arrays.
+  subroutine discard(iterate)
+    type(contact_iterate), intent(out) :: iterate
+
+    iterate%converged = .false.
+  end subroutine discard
+
   !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points. Errors:
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   pure subroutine set_simple_scene(problem, scene, scaling, info)
@@ -162,16 +219,17 @@ contains
     if (.not. info%failed()) call reduce_gap(problem%gap, scaling, scene%gap, info)
   end subroutine set_simple_scene
 
-  !> Forces to start from, `start`, by coarser grids, and where the contact is small by a window of the finest one.
-  !> `start` stays unallocated where the operator has no coarser grids. Errors: those of nested_iteration.
-  subroutine start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, start, info)
+  !> Start `iterate` by coarser grids, and where the contact is small by a window of the finest one; where the operator
+  !> has neither, from what start_iterate chooses. Errors: those of nested_iteration.
+  subroutine start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: coarse_settings, settings
     type(contact_scene), intent(in) :: scene
     class(fuge_monitor), intent(inout) :: monitor
-    real(dp), allocatable, intent(inout) :: start(:)
+    type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     type(shared_work) :: work
+    real(dp), allocatable :: start(:)
     integer :: level
     logical :: solved
 
@@ -189,6 +247,7 @@ contains
     end if
     info%products = info%products + ceiling(work%products/real(size(scene%gap), dp))
     info%preconditionings = info%preconditionings + ceiling(work%preconditionings/real(size(scene%gap), dp))
+    if (.not. info%failed()) call start_iterate(iterate, scene, start, info)
   end subroutine start_on_coarser_grids
 
   !> What the iteration subtracts from gaps, the prescribed motion or else the least gap, and what
@@ -262,6 +321,8 @@ contains
     real(dp) :: largest, mean
 
     if (.not. scene%is_simple() .or. .not. scene%prescribed) return
+    ! Without any motion there is none to change.
+    if (problem%mode_count() < 1) return
     mean = sum(scene%gap)/real(size(scene%gap), dp)
     largest = max(maxval(abs(scene%gap)), maxval(abs(problem%gap)))
     if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), maxval(abs(scene%gap)))
@@ -269,35 +330,13 @@ contains
     if (.not. equal_forces_displace_nothing(operator, info)) return
     if (info%failed()) return
     if (allocated(problem%modes)) then
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
-                  //'hold the prescribed motions, at which the mean gap is closed by '//text(-mean) &
-                  //': prescribe less, or resultants')
+      call report_closed_gap(-mean, info)
     else
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
                   //'hold the approach '//text(problem%motion(1))//', at which the mean gap is closed: prescribe less ' &
                   //'than '//text(problem%motion(1) + mean)//', or a load')
     end if
   end subroutine check_approach
-
-  !> Deallocate forces to start from, `scaled_force` (n), that are far from the solution:
-  !> coarser grids, if the points are cells of a grid, provide a better start. Errors:
-  !> FUGE_ERR_MEMORY, those of the operator.
-  subroutine discard_poor_start(operator, scene, scaled_force, info)
-    class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
-    real(dp), allocatable, intent(inout) :: scaled_force(:)
-    type(fuge_info), intent(inout) :: info
-    type(contact_iterate) :: iterate
-
-    if (any(operator%grid() < 1)) return
-    call start_iterate(iterate, scene, scaled_force, info)
-    if (info%failed()) return
-    call choose_contact(scene, iterate)
-    call make_feasible(operator, scene, iterate, info)
-    if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
-    if (info%failed()) return
-    if (max(iterate%residual_norm, iterate%penetration) > GOOD_START*iterate%least_magnitude) deallocate (scaled_force)
-  end subroutine discard_poor_start
 
   !> Refuse gaps so large that their squares overflow, after division by the load if there is one.
   !> Error: FUGE_ERR_OVERFLOW.

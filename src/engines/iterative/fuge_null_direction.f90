@@ -1,8 +1,8 @@
 !> Search directions whose forces store no energy, because the operator is singular.
 !>
 !> Where the forces of a contact set can change along such a direction, the residual cannot: if it works on them,
-!> nothing on this set can stop them. Either some force changes its sign, and its point leaves the set, or none does,
-!> and the contact problem has no solution (Farkas' lemma, for a convex quadratic program).
+!> nothing on this set can stop them. Either some force changes its sign, and its point leaves the set, or none does, and
+!> the contact problem has no solution (Farkas' lemma, for a convex quadratic program).
 module fuge_null_direction
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum
   use fuge_contact_scene, only: contact_scene
@@ -25,8 +25,8 @@ module fuge_null_direction
 contains
 
   !> Note the largest displacement by forces of size 1, iterate%softness; iterate%work is the displacement by the search
-  !> direction. The first direction may be one that displaces nothing: then from the terms of its displacement, which
-  !> the operator of a grid knows, or for other operators from a product with one force. Errors: those of the operator.
+  !> direction. The first direction may be one that displaces nothing: then from the terms of its displacement, which the
+  !> operator of a grid knows, or for other operators from a product with one force. Errors: those of the operator.
   subroutine find_softness(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
@@ -61,7 +61,7 @@ contains
     real(dp) :: largest
 
     largest = max_abs_over(iterate%segments, iterate%direction)
-    none = curvature <= ROUNDINGS*epsilon(largest)*iterate%softness*largest*total_force(iterate)
+    none = abs(curvature) <= ROUNDINGS*epsilon(largest)*iterate%softness*largest*total_force(iterate)
   end function stores_no_energy
 
   !> The sum of the magnitudes of the forces of the search direction.
@@ -76,8 +76,8 @@ contains
     end do
   end function total_force
 
-  !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search
-  !> direction; nothing where it is tied.
+  !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search direction;
+  !> nothing where it is tied.
   pure function loss_at(scene, iterate, k) result(loss)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
@@ -100,9 +100,10 @@ contains
     if (iterate%at_upper(k)) sign_of_force = -1.0_dp
   end function sign_at
 
-  !> Go against the search direction, which stores no energy, until a force has changed its sign, unless one has
-  !> already; iterate%unbounded if none ever does. Not where it does no work beyond rounding, `energy` being that for a
-  !> step of 1: the mean residual is below `tolerance` times the lengths of the scene.
+  !> Go from the forces at the start against the search direction, which stores no energy, until a force has changed its
+  !> sign, unless one has already; iterate%unbounded if none ever does. Not where the direction does no work beyond
+  !> rounding: `energy` is its work for a step of 1, and the mean residual in it is at most `tolerance` times the lengths
+  !> of the scene.
   pure subroutine leave_null_direction(scene, tolerance, energy, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: tolerance, energy
@@ -112,6 +113,8 @@ contains
 
     if (energy <= (tolerance*length_of(scene, iterate) + iterate%rounding)*total_force(iterate)) return
     iterate%unbounded = .true.
+    ! On the way here they have grown.
+    if (allocated(iterate%start)) iterate%force = iterate%start
     least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
     step_length = huge(step_length)
     do k = 1, size(iterate%contact)
@@ -137,6 +140,8 @@ contains
     length = maxval(abs(scene%gap), mask=iterate%contact)
     if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=iterate%contact .and. iterate%at_upper))
     if (allocated(scene%balance)) length = max(length, iterate%softness*maxval(abs(scene%balance)))
+    ! Under a load the forces do not grow together.
+    if (.not. scene%prescribed) length = max(length, iterate%least_magnitude)
   end function length_of
 
   !> The size of the forces, or of those that would close the gaps.

@@ -59,6 +59,7 @@ contains
 
     iterate%converged = .false.
     iterate%unbounded = .false.
+    if (iterate%prescribed) iterate%start = iterate%force
     preconditioned = operator%has_preconditioner()
     call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
@@ -162,15 +163,20 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: rigid_motion(:)
     real(dp) :: curvature, total
+    logical :: none
 
     step_length = 0.0_dp
     call compute_displacement(operator, counts_datum(scene, iterate), iterate%direction, iterate%work, info)
     if (info%failed()) return
     if (iterate%prescribed) call find_softness(operator, scene, iterate, info)
-    if (info%failed()) return
-    if (allocated(scene%modes)) call remove_rigid_motion(iterate, rigid_motion)
+    if (allocated(scene%modes) .and. .not. info%failed()) call remove_rigid_motion(iterate, rigid_motion)
     call dot_and_sum_over(iterate%segments, iterate%direction, iterate%work, curvature, total)
-    if (iterate%prescribed .and. stores_no_energy(iterate, curvature)) then
+    ! Under a load alone, forces do not grow on the way to such a direction.
+    if (.not. (iterate%prescribed .or. curvature > 0.0_dp)) call find_softness(operator, scene, iterate, info)
+    if (info%failed()) return
+    none = iterate%prescribed .or. .not. curvature > 0.0_dp
+    if (none) none = stores_no_energy(iterate, curvature)
+    if (none) then
       call leave_null_direction(scene, tolerance, energy, iterate)
     else if (curvature > 0.0_dp) then
       step_length = energy/curvature

@@ -116,10 +116,12 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     logical, allocatable :: tensile(:), penetrating(:)
+    real(dp), allocatable :: measure(:)
     integer :: k, stat
 
     ! Allocated here only: during the products the operator may need the memory.
     allocate (tensile(size(scene%gap)), penetrating(size(scene%gap)), stat=stat)
+    if (stat == 0 .and. extrapolate) allocate (measure(size(scene%gap)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(scene%gap))//' points')
       return
@@ -136,12 +138,32 @@ contains
       penetrating = .not. iterate%contact .and. deformed_gap(scene%gap, iterate%displacement, iterate%motion) < -noise
     end if
     if (extrapolate) then
-      call exchange_extrapolated(tensile, penetrating, iterate%contact)
+      call measure_states(scene, iterate, measure)
+      call exchange_extrapolated(tensile, penetrating, measure, iterate%contact)
       call keep_tied(scene, iterate%contact)
     else
       call exchange(tensile, penetrating, iterate%contact)
     end if
   end subroutine exchange_wrong_points
+
+  !> What exchange_extrapolated calls `measure`, (n): forces of points in contact, distances of open ones from the stop
+  !> that they are nearer to.
+  pure subroutine measure_states(scene, iterate, measure)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(out) :: measure(:)
+    integer :: k
+
+    measure = merge(iterate%force, deformed_gap(scene%gap, iterate%displacement, iterate%motion), iterate%contact)
+    if (.not. allocated(scene%play)) return
+    do k = 1, size(measure)
+      if (iterate%contact(k)) then
+        measure(k) = -tension_of(iterate, k, iterate%force(k))
+      else if (scene%play(k) < huge(1.0_dp)) then
+        measure(k) = min(measure(k), scene%play(k) - measure(k))
+      end if
+    end do
+  end subroutine measure_states
 
   !> Does the open point `k` penetrate a stop? Then it will be in contact with that one.
   pure subroutine join(scene, noise, iterate, k, penetrating)
