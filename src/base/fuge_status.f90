@@ -129,7 +129,8 @@ module fuge_status
     !> The certificate: the largest relative violation, see `fuge_residual`; no unit.
     real(dp) :: residual = 0.0_dp
     !> Estimate of the largest error of a force relative to the largest force, for the data as they are stored, up to 1:
-    !> no digit is known, as where the forces are not unique. No unit; 0 without forces.
+    !> no digit is known, as where the forces are not unique. No unit; 0 without forces, and from calls that do not
+    !> solve a contact problem.
     real(dp) :: force_error = 0.0_dp
     !> The message with its indices marked; only `report` sets it, together with `message`.
     character(len=COMPOSED_LENGTH), private :: composed = ''

@@ -83,8 +83,8 @@ module fuge_contact_iterate
 contains
 
   !> Allocate all arrays for the points of a scene and set the forces to start from: `start` (n), scaled as in
-  !> contact_iterate, if it is allocated; else equal forces, or none if the motion is prescribed, or the least forces that
-  !> have the resultants. Errors: FUGE_ERR_MEMORY.
+  !> contact_iterate, if it is allocated; else equal forces, or none if the motion is prescribed, or the least forces
+  !> that have the resultants. Errors: FUGE_ERR_MEMORY.
   subroutine start_iterate(iterate, scene, start, info)
     type(contact_iterate), intent(inout) :: iterate
     type(contact_scene), intent(in) :: scene
@@ -133,8 +133,8 @@ contains
   !> Make the forces feasible: zero off the contact set, of the right sign, and with the resultants. Recompute their
   !> displacements.
   !>
-  !> With modes, forces of the wrong sign may come back with the resultants; where the set cannot carry these at all, the
-  !> points of scene%balance join it. Errors: those of the operator, FUGE_ERR_MEMORY.
+  !> With modes, forces of the wrong sign may come back with the resultants; where the set cannot carry these at all,
+  !> the points of scene%balance join it. Errors: those of the operator, FUGE_ERR_MEMORY.
   subroutine make_feasible(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene

@@ -263,7 +263,8 @@ contains
     if (energy < 0.0_dp .and. abs(energy) <= ROUNDING*largest*max_abs_over(segments, residual)) energy = 0.0_dp
   end subroutine apply_with_modes
 
-  !> The preconditioner of the set, without a projection. `residual` (n) is zero off the set, `force` (n) undefined there.
+  !> The preconditioner of the set, without a projection. `residual` (n) is zero off the set, `force` (n) undefined
+  !> there.
   subroutine apply_unprojected(self, operator, segments, residual, force, info)
     class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator

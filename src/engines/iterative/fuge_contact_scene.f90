@@ -13,8 +13,8 @@ module fuge_contact_scene
 
   public :: coarser_scene
 
-  !> c = gap + A f - modes q, modes^T f = load, between the stops 0 <= c <= play. Gaps, plays and forces are divided by a
-  !> load. Points that are excluded have the gap OUT_OF_REACH.
+  !> c = gap + A f - modes q, modes^T f = load, between the stops 0 <= c <= play. Gaps, plays and forces are divided by
+  !> a load. Points that are excluded have the gap OUT_OF_REACH.
   type, public :: contact_scene
     !> Initial gaps less their datum or the displacements by prescribed motions, (n).
     real(dp), allocatable :: gap(:)

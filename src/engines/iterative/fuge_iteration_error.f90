@@ -1,8 +1,8 @@
 !> An estimate of the error of forces from the residual that they leave, and from the rounding of the products.
 !>
 !> The residual is a backward error: where the operator is nearly singular on the contact, small residuals belong to
-!> large errors. Divided by the smallest value of Lanczos, the preconditioned residual bounds the error in the norm of the
-!> preconditioner (doc/theory.md).
+!> large errors. Divided by the smallest value of Lanczos, the preconditioned residual bounds the error in the norm of
+!> the preconditioner (doc/theory.md).
 module fuge_iteration_error
   use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_segments, only: max_abs_over
@@ -18,8 +18,8 @@ contains
   !>
   !> `iterate` as evaluated last, so that iterate%work holds the magnitudes of the displacements, which rounding goes
   !> with. What the preconditioner would make of the residual follows from what it made of those before;
-  !> `pair_compliance` as least_pair_compliance of fuge_operator, because conjugate gradients do not see forces that hardly
-  !> displace anything. Costs two passes over the contact, and no product.
+  !> `pair_compliance` as least_pair_compliance of fuge_operator, because conjugate gradients do not see forces that
+  !> hardly displace anything. Costs two passes over the contact, and no product.
   pure function estimated_force_error(iterate, pair_compliance) result(error)
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: pair_compliance

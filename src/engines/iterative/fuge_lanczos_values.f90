@@ -34,7 +34,8 @@ contains
     self%steps = 0
   end subroutine restart
 
-  !> The next step: its length, and the energy of its residual over that of the step before. Without memory it is left out.
+  !> The next step: its length, and the energy of its residual over that of the step before. Without memory it is left
+  !> out.
   pure subroutine add(self, step_length, ratio)
     class(lanczos_values), intent(inout) :: self
     real(dp), intent(in) :: step_length, ratio
@@ -79,8 +80,8 @@ contains
     if (n < 1) return
     allocate (vector(n, 1), stat=stat)
     if (stat /= 0) return
-    ! Off the diagonal the matrix is positive, so that the signs of the vector that is sought alternate: to equal signs it
-    ! may be orthogonal.
+    ! Off the diagonal the matrix is positive, so that the signs of the vector that is sought alternate: to equal signs
+    ! it may be orthogonal.
     vector(:, 1) = [(merge(1.0_dp, -1.0_dp, modulo(k, 2) == 1), k=1, n)]/sqrt(real(n, dp))
     growth = 0.0_dp
     do k = 1, INVERSE_ITERATIONS

@@ -38,9 +38,9 @@ contains
   !> Solve on the grids of the operator whose cells are 2**k times as wide, for k from `first` down to `last` >= 1.
   !>
   !> `settings` those of a coarser grid; `reduced_gap` (n) of the finest grid and `start`, scaled as in contact_iterate.
-  !> `start` in: the forces of grid first + 1, or unallocated; out: those of grid `last`, or of the last one before it that
-  !> the operator has; unallocated if it has none. `work` counts in units of a cell. Errors: those of find_contact_set,
-  !> FUGE_ERR_MEMORY.
+  !> `start` in: the forces of grid first + 1, or unallocated; out: those of grid `last`, or of the last one before it
+  !> that the operator has; unallocated if it has none. `work` counts in units of a cell. Errors: those of
+  !> find_contact_set, FUGE_ERR_MEMORY.
   subroutine nested_iteration(operator, settings, scene, first, last, monitor, start, work, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings

@@ -1,8 +1,8 @@
 !> Projected, preconditioned conjugate gradients on a given contact set.
 !>
 !> Only the forces of the set change. Under a load their sum is kept and the gaps of the set become
-!> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero. With other rigid modes
-!> the resultants are kept, and the gaps become a rigid motion, which displacements then include.
+!> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero. With other rigid
+!> modes the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
     find_least_magnitude, find_penetration, is_accurate
@@ -40,8 +40,8 @@ contains
   !> Iterate towards the forces for which the gaps of the contact set are equal, or zero if the
   !> motion is prescribed.
   !>
-  !> `iterate` in: forces, displacements and contact set; out: new forces and displacements (the latter by recurrence). Ends when the
-  !> residual norm is at most `tolerance` times the least magnitude (then iterate%converged);
+  !> `iterate` in: forces, displacements and contact set; out: new forces and displacements (the latter by recurrence).
+  !> Ends when the residual norm is at most `tolerance` times the least magnitude (then iterate%converged);
   !> unless `to_tolerance`, already when the residual is small enough to tell which points are
   !> in tension and which penetrate; or when only rounding is left, or at the limit of
   !> iterations. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY.
@@ -97,7 +97,8 @@ contains
       previous = energy
       if (.not. (to_tolerance .or. preconditioned)) then
         ! Without a preconditioner the last step stands for the error of the forces.
-        if (step_length*max_abs_over(iterate%segments, iterate%direction) <= DECISIVE*greatest_tension(scene, iterate)) return
+        if (step_length*max_abs_over(iterate%segments, iterate%direction) &
+            <= DECISIVE*greatest_tension(scene, iterate)) return
       end if
     end do
   end subroutine run_projected_gradients
@@ -151,8 +152,8 @@ contains
   !> Go to the minimum of the energy along the search direction.
   !>
   !> `energy` is the inner product of the residual and the preconditioned residual, `tolerance` as for
-  !> `run_projected_gradients`; `step_length` is 0 where the curvature is not positive, or after an error. Errors: those of
-  !> the operator, FUGE_ERR_NOT_DEFINITE.
+  !> `run_projected_gradients`; `step_length` is 0 where the curvature is not positive, or after an error. Errors: those
+  !> of the operator, FUGE_ERR_NOT_DEFINITE.
   subroutine advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene

@@ -28,8 +28,8 @@ contains
   !>
   !> `canonical` the problem without its matrix; `state` (n) the contact set; `tolerance` > 0, of the gap equations,
   !> relative to their terms; `gap_change` (n) length, `load_change` (m) of the resultants, of prescribed motions the
-  !> change of the motion; `change` in the order of `fuge_solution`. Errors, `change` untouched: FUGE_ERR_NO_EQUILIBRIUM if
-  !> the contact set does not resist a mode that the changes load, FUGE_ERR_ITERATION_LIMIT if the tolerance is not
+  !> change of the motion; `change` in the order of `fuge_solution`. Errors, `change` untouched: FUGE_ERR_NO_EQUILIBRIUM
+  !> if the contact set does not resist a mode that the changes load, FUGE_ERR_ITERATION_LIMIT if the tolerance is not
   !> reached, FUGE_ERR_MEMORY, those of the operator, FUGE_ERR_NOT_DEFINITE.
   subroutine find_derivative_by_products(operator, canonical, state, tolerance, gap_change, load_change, change, info)
     class(fuge_operator), intent(in) :: operator

@@ -235,8 +235,8 @@ contains
     end do
   end function greatest_tension
 
-  !> Are the forces accurate enough to tell which of them will be tensile: is their error below the fraction `decisive` of
-  !> the greatest tension? The preconditioned residual, iterate%work, estimates their error.
+  !> Are the forces accurate enough to tell which of them will be tensile: is their error below the fraction `decisive`
+  !> of the greatest tension? The preconditioned residual, iterate%work, estimates their error.
   pure function tension_is_decided(scene, iterate, decisive) result(decided)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
