@@ -192,7 +192,7 @@ contains
     if (scene%singular) then
       may = concerns_forces(info(1)) .and. concerns_forces(info(2))
       if (.not. info(1)%failed()) may = may .or. (info(1)%status == FUGE_WARN_RESIDUAL &
-        .and. (concerns_forces(info(2)) .or. info(2)%status == FUGE_ERR_NOT_DEFINITE))
+        .and. (.not. info(2)%failed() .or. info(2)%status == FUGE_ERR_NOT_DEFINITE))
       if (info(1)%status == FUGE_WARN_NOT_UNIQUE .and. info(2)%status == FUGE_ERR_NOT_DEFINITE) then
         may = may .or. maxval(abs(scene%alpha))*maxval(abs(solution(1)%force)) > DWARFED*length_of(scene)
       end if
@@ -287,6 +287,9 @@ contains
 
     do k = 1, 2
       if (info(k)%residual > MOST_RESIDUAL) call fail(verdict, 'residual', text(info(k)%residual))
+      ! Nothing to be compared with, and nothing to compare.
+      if (.not. (max(maxval(abs(scene%problem%gap)), maxval(abs(solution(k)%force))) > 0.0_dp &
+                 .and. maxval(abs(scene%alpha)) > 0.0_dp)) cycle
       violation = general_violation(scene%alpha, without_prescribed(scene%problem, solution(k)), solution(k))
       if (violation > SAFETY*MOST_RESIDUAL) call fail(verdict, 'own residual', text(violation)//' engine '//text(k))
     end do
@@ -330,7 +333,7 @@ contains
     if (verdict%fault /= '' .or. leverage > MOST_LEVERAGE) return
     displacement = maxval(abs(matmul(scene%alpha, phi)))
     ! Forces without energy displace nothing, whether they are unique or not.
-    bound = SAFETY*(1.0_dp + leverage)*(sqrt(stiffness(2)*sum(abs(phi)*error)) + maxval(error))
+    if (no_energy) bound = SAFETY*(1.0_dp + leverage)*(sqrt(stiffness(2)*sum(abs(phi)*error)) + maxval(error))
     if (no_energy .and. displacement > bound) then
       call fail(verdict, 'displacements', text(displacement)//' of '//text(bound))
     end if
