@@ -57,8 +57,8 @@ contains
     call compare_answers(scene, solution, info, verdict)
   end subroutine judge_scene
 
-  !> As `judge_scene`, for a sequence of loads that one solver of the iteration follows from step to step: the scene, up by
-  !> 5 %, without the load of the first mode, and the scene again. `info` is that of the last step compared.
+  !> As `judge_scene`, for a sequence of loads that one solver of the iteration follows from step to step: the scene,
+  !> up by 5 %, without the load of the first mode, and the scene again. `info` is that of the last step compared.
   subroutine judge_steps(scene, verdict, info)
     type(engine_scene), intent(inout) :: scene
     type(engine_verdict), intent(out) :: verdict
@@ -176,10 +176,10 @@ contains
 
   !> Statuses that may differ, each for a reason:
   !>
-  !> - Products tell that forces are not unique only where two points are the same, and the engines estimate the error of
-  !>   forces by different means: on a singular body the statuses that concern the forces alone count as one.
-  !> - On a singular body the active set regularises. Where that ends with a large residual, or with forces that dwarf the
-  !>   data, the iteration may have an answer, or know that there is none.
+  !> - Products tell that forces are not unique only where two points are the same, and the engines estimate the error
+  !>   of forces by different means: on a singular body the statuses that concern the forces alone count as one.
+  !> - On a singular body the active set regularises. Where that ends with a large residual, or with forces that dwarf
+  !>   the data, the iteration may have an answer, or know that there is none.
   !> - An operator of products alone does not know the terms that its displacements are the sum of, so that its residual
   !>   is compared with the sum, which may be no more than the rounding of the terms.
   function may_differ(scene, solution, info) result(may)

@@ -139,7 +139,7 @@ contains
     if (allocated(scene%modes)) then
       compliance = operator%least_pair_compliance(iterate%contact, scene%modes)
     else
-      allocate (no_modes(size(scene%gap), 0))
+      allocate (no_modes(size(scene%gap), 0), source=0.0_dp)
       compliance = operator%least_pair_compliance(iterate%contact, no_modes)
     end if
     info%force_error = estimated_force_error(iterate, compliance)
