@@ -1,8 +1,8 @@
 !> Solves random scenes by the active set and by the iteration, and prints where they disagree.
 !>
-!> compare_engines [last] [first] [tableau|steps]: scenes `first` to `last`, by default 1 to 10000; `tableau` compares the
-!> tableau with the active set instead of the iteration; with `steps` one solver of the iteration follows a sequence of
-!> loads. With first = last it prints the scene and both answers. It ends with an error if there is a disagreement.
+!> compare_engines [last] [first] [tableau|steps]: scenes `first` to `last`, by default 1 to 10000; `tableau` compares
+!> the tableau with the active set instead of the iteration; with `steps` one solver of the iteration follows a sequence
+!> of loads. With first = last it prints the scene and both answers. It ends with an error if there is a disagreement.
 program compare_engines
   use, intrinsic :: iso_fortran_env, only: output_unit
   use engine_judge, only: engine_verdict, judge_scene, judge_steps, solve_scene_by
@@ -146,7 +146,8 @@ contains
       if (allocated(scene%problem%gap_upper)) write (output_unit, '(a,es11.3)', advance='no') ' play', &
         scene%problem%gap_upper(k)
       if (allocated(scene%problem%excluded)) write (output_unit, '(l2)', advance='no') scene%problem%excluded(k)
-      if (allocated(scene%problem%modes)) write (output_unit, '(a,4es11.3)', advance='no') ' R', scene%problem%modes(k, :)
+      if (allocated(scene%problem%modes)) write (output_unit, '(a,4es11.3)', advance='no') ' R', &
+        scene%problem%modes(k, :)
       write (output_unit, '(a)', advance='no') ' f, c'
       if (allocated(solution(1)%force)) write (output_unit, '(2es14.6)', advance='no') solution(1)%force(k), &
         solution(1)%gap(k)

@@ -57,8 +57,8 @@ contains
     call compare_answers(scene, solution, info, verdict)
   end subroutine judge_scene
 
-  !> As `judge_scene`, for a sequence of loads that one solver of the iteration follows from step to step: the scene, up by
-  !> 5 %, without the load of the first mode, and the scene again. `info` is that of the last step compared.
+  !> As `judge_scene`, for a sequence of loads that one solver of the iteration follows from step to step: the scene,
+  !> up by 5 %, without the load of the first mode, and the scene again. `info` is that of the last step compared.
   subroutine judge_steps(scene, verdict, info)
     type(engine_scene), intent(inout) :: scene
     type(engine_verdict), intent(out) :: verdict
@@ -176,10 +176,10 @@ contains
 
   !> Statuses that may differ, each for a reason:
   !>
-  !> - Products tell that forces are not unique only where two points are the same, and the engines estimate the error of
-  !>   forces by different means: on a singular body the statuses that concern the forces alone count as one.
-  !> - On a singular body the active set regularises. Where that ends with a large residual, or with forces that dwarf the
-  !>   data, the iteration may have an answer, or know that there is none.
+  !> - Products tell that forces are not unique only where two points are the same, and the engines estimate the error
+  !>   of forces by different means: on a singular body the statuses that concern the forces alone count as one.
+  !> - On a singular body the active set regularises. Where that ends with a large residual, or with forces that dwarf
+  !>   the data, the iteration may have an answer, or know that there is none.
   !> - An operator of products alone does not know the terms that its displacements are the sum of, so that its residual
   !>   is compared with the sum, which may be no more than the rounding of the terms.
   function may_differ(scene, solution, info) result(may)
@@ -192,7 +192,7 @@ contains
     if (scene%singular) then
       may = concerns_forces(info(1)) .and. concerns_forces(info(2))
       if (.not. info(1)%failed()) may = may .or. (info(1)%status == FUGE_WARN_RESIDUAL &
-        .and. (concerns_forces(info(2)) .or. info(2)%status == FUGE_ERR_NOT_DEFINITE))
+        .and. (.not. info(2)%failed() .or. info(2)%status == FUGE_ERR_NOT_DEFINITE))
       if (info(1)%status == FUGE_WARN_NOT_UNIQUE .and. info(2)%status == FUGE_ERR_NOT_DEFINITE) then
         may = may .or. maxval(abs(scene%alpha))*maxval(abs(solution(1)%force)) > DWARFED*length_of(scene)
       end if
@@ -287,6 +287,9 @@ contains
 
     do k = 1, 2
       if (info(k)%residual > MOST_RESIDUAL) call fail(verdict, 'residual', text(info(k)%residual))
+      ! Nothing to be compared with, and nothing to compare.
+      if (.not. (max(maxval(abs(scene%problem%gap)), maxval(abs(solution(k)%force))) > 0.0_dp &
+                 .and. maxval(abs(scene%alpha)) > 0.0_dp)) cycle
       violation = general_violation(scene%alpha, without_prescribed(scene%problem, solution(k)), solution(k))
       if (violation > SAFETY*MOST_RESIDUAL) call fail(verdict, 'own residual', text(violation)//' engine '//text(k))
     end do
@@ -330,7 +333,7 @@ contains
     if (verdict%fault /= '' .or. leverage > MOST_LEVERAGE) return
     displacement = maxval(abs(matmul(scene%alpha, phi)))
     ! Forces without energy displace nothing, whether they are unique or not.
-    bound = SAFETY*(1.0_dp + leverage)*(sqrt(stiffness(2)*sum(abs(phi)*error)) + maxval(error))
+    if (no_energy) bound = SAFETY*(1.0_dp + leverage)*(sqrt(stiffness(2)*sum(abs(phi)*error)) + maxval(error))
     if (no_energy .and. displacement > bound) then
       call fail(verdict, 'displacements', text(displacement)//' of '//text(bound))
     end if

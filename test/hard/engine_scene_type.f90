@@ -1,4 +1,4 @@
-!> A contact problem that two engines solve: its matrix, and for the iteration perhaps an operator that is the same body.
+!> A contact problem that two engines solve: its matrix, and for the iteration perhaps an operator of the same body.
 module engine_scene_type
   use fuge, only: dp => fuge_dp, fuge_operator, fuge_problem
   implicit none

@@ -150,6 +150,10 @@ contains
     end if
     if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
                                                        iterate%displacement, info)
+    ! Forces to start from may be the rounding of those under another load.
+    if (scene%is_unloaded() .and. maxval(abs(iterate%force)) > 0.0_dp .and. .not. info%failed()) then
+      iterate%softness = max(iterate%softness, maxval(abs(iterate%displacement))/maxval(abs(iterate%force)))
+    end if
   end subroutine make_feasible
 
   !> No forces off the contact set, nor of the wrong sign on it.
@@ -403,7 +407,14 @@ contains
     if (.not. scene%is_unloaded()) return
     rounding = tiny(rounding)
     length = maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH)
-    if (iterate%softness > 0.0_dp .and. length > 0.0_dp) rounding = max(rounding, NO_LENGTH*(length/iterate%softness))
+    if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=scene%play < huge(length) &
+                                                           .and. scene%gap < OUT_OF_REACH))
+    if (.not. length > 0.0_dp) then
+      ! Nothing asks for forces.
+      rounding = huge(rounding)
+    else if (iterate%softness > 0.0_dp) then
+      rounding = max(rounding, NO_LENGTH*(length/iterate%softness))
+    end if
   end function rounding_force
 
   !> Do displacements include those by the operator's datum? Only where no free motion absorbs them.

@@ -1,8 +1,8 @@
 !> Search directions whose forces store no energy, because the operator is singular.
 !>
 !> Where the forces of a contact set can change along such a direction, the residual cannot: if it works on them,
-!> nothing on this set can stop them. Either some force changes its sign, and its point leaves the set, or none does, and
-!> the contact problem has no solution (Farkas' lemma, for a convex quadratic program).
+!> nothing on this set can stop them. Either some force changes its sign, and its point leaves the set, or none does,
+!> and the contact problem has no solution (Farkas' lemma, for a convex quadratic program).
 module fuge_null_direction
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum
   use fuge_contact_scene, only: contact_scene
@@ -25,8 +25,8 @@ module fuge_null_direction
 contains
 
   !> Note the largest displacement by forces of size 1, iterate%softness; iterate%work is the displacement by the search
-  !> direction. The first direction may be one that displaces nothing: then from the terms of its displacement, which the
-  !> operator of a grid knows, or for other operators from a product with one force. Errors: those of the operator.
+  !> direction. The first direction may be one that displaces nothing: then from the terms of its displacement, which
+  !> the operator of a grid knows, or for other operators from a product with one force. Errors: those of the operator.
   subroutine find_softness(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
@@ -76,8 +76,8 @@ contains
     end do
   end function total_force
 
-  !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search direction;
-  !> nothing where it is tied.
+  !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search
+  !> direction; nothing where it is tied.
   pure function loss_at(scene, iterate, k) result(loss)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
@@ -102,8 +102,8 @@ contains
 
   !> Go from the forces at the start against the search direction, which stores no energy, until a force has changed its
   !> sign, unless one has already; iterate%unbounded if none ever does. Not where the direction does no work beyond
-  !> rounding: `energy` is its work for a step of 1, and the mean residual in it is at most `tolerance` times the lengths
-  !> of the scene.
+  !> rounding: `energy` is its work for a step of 1, and the mean residual in it is at most `tolerance` times the
+  !> lengths of the scene.
   pure subroutine leave_null_direction(scene, tolerance, energy, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: tolerance, energy

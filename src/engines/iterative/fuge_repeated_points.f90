@@ -133,7 +133,7 @@ contains
     number = 1
     do k = 1, size(force)
       ! A linear congruential generator.
-      number = modulo(number*4096 + 150889, 714025)
+      number = modulo(number*1366 + 150889, 714025)
       force(k) = merge(0.5_dp + 0.5_dp*real(number, dp)/714025.0_dp, 0.0_dp, contact(k))
     end do
   end subroutine set_random
