@@ -60,8 +60,9 @@ module fuge_contact_iterate
     real(dp) :: start_error = -1.0_dp
     !> Did run_projected_gradients reduce the residual to its tolerance?
     logical :: converged = .false.
-    !> The least of the smallest values of `lanczos` on this contact set; 0 before any step.
-    real(dp) :: smallest_value = 0.0_dp
+    !> The least compliance of this contact set that conjugate gradients have found, length per force: the smallest value of
+    !> `lanczos` over `amplification`; 0 before any step.
+    real(dp) :: least_compliance = 0.0_dp
     !> The largest preconditioned residual over the largest residual, of one that is nearly small enough; force per
     !> length; 0 before any step.
     real(dp) :: amplification = 0.0_dp

@@ -119,7 +119,7 @@ contains
       call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
                                  in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
       if (info%failed()) exit
-      iterate%smallest_value = 0.0_dp
+      iterate%least_compliance = 0.0_dp
       call make_feasible(operator, scene, iterate, info)
       fresh = .true.
     end do
@@ -206,7 +206,7 @@ contains
     end if
     if (info%failed()) return
     info%iterations = info%iterations + 1
-    if (.not. settings%coarse_grid) call note_smallest_value(iterate)
+    if (.not. settings%coarse_grid) call note_least_compliance(iterate)
     relative = 0.0_dp
     if (iterate%residual_norm > 0.0_dp) then
       relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
@@ -225,16 +225,17 @@ contains
                 //'free the rigid motion that can, or change the gaps')
   end subroutine report_unbounded
 
-  !> Keep the smallest value that conjugate gradients have found on this set.
-  subroutine note_smallest_value(iterate)
+  !> Keep the least compliance that conjugate gradients have found on this set.
+  subroutine note_least_compliance(iterate)
     type(contact_iterate), intent(inout) :: iterate
     real(dp) :: value
 
     value = iterate%lanczos%smallest()
-    if (.not. value > 0.0_dp) return
-    if (iterate%smallest_value > 0.0_dp) value = min(value, iterate%smallest_value)
-    iterate%smallest_value = value
-  end subroutine note_smallest_value
+    if (.not. (value > 0.0_dp .and. iterate%amplification > 0.0_dp)) return
+    value = value/iterate%amplification
+    if (iterate%least_compliance > 0.0_dp) value = min(value, iterate%least_compliance)
+    iterate%least_compliance = value
+  end subroutine note_least_compliance
 
   !> Confirm a contact set without wrong points by a fresh product, because displacements and
   !> residuals updated by recurrence drift.
@@ -338,7 +339,7 @@ contains
           exit
         end if
       end if
-      iterate%smallest_value = 0.0_dp
+      iterate%least_compliance = 0.0_dp
       if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
     end do
     if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)

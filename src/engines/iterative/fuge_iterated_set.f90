@@ -8,11 +8,8 @@ module fuge_iterated_set
   type, public :: iterated_set
     !> FUGE_AT_LOWER_STOP, FUGE_OPEN or FUGE_AT_UPPER_STOP of each point, (n).
     integer, allocatable :: state(:)
-    !> The least of the smallest values that conjugate gradients found on it, as in fuge_lanczos_values; 0 before any
-    !> step.
-    real(dp) :: smallest_value = 0.0_dp
-    !> What the preconditioner made of a small residual there; force per length.
-    real(dp) :: amplification = 0.0_dp
+    !> The least compliance that conjugate gradients found on it, length per force; 0 before any step.
+    real(dp) :: least_compliance = 0.0_dp
     !> The tolerance of the solve, which derivatives share.
     real(dp) :: tolerance = 0.0_dp
   end type iterated_set

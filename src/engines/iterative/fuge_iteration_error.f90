@@ -32,8 +32,8 @@ contains
     error = epsilon(error)
     ! Half of it, because the pair has the norm sqrt(2).
     compliance = 0.5_dp*pair_compliance
-    if (iterate%smallest_value > 0.0_dp .and. iterate%amplification > 0.0_dp) then
-      compliance = min(compliance, iterate%smallest_value/iterate%amplification)
+    if (iterate%least_compliance > 0.0_dp) then
+      compliance = min(compliance, iterate%least_compliance)
     else if (compliance >= 0.5_dp*huge(error)) then
       ! Forces that follow from equilibrium alone take no step.
       return

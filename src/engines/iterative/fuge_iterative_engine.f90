@@ -10,6 +10,7 @@ module fuge_iterative_engine
   use fuge_contact_iterate, only: contact_iterate, deformed_gap, evaluate_iterate, make_feasible, start_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_set_search, only: find_contact_set, search_settings, states_of
+  use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_engine_messages, only: report_closed_gap, SINGULAR_ON_CONTACT
   use fuge_general_scene, only: assemble_general, set_general_scene
@@ -91,15 +92,10 @@ contains
       call start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, info)
     end if
     if (info%failed()) return
-    ! A start that needs no step tells nothing of the operator.
-    if (settings%prepared) then
-      iterate%smallest_value = last%smallest_value
-      iterate%amplification = last%amplification
-    end if
     coarse_products = coarse_products + info%products
     fine_products = -info%products
     call find_contact_set(operator, settings, scene, monitor, iterate, info)
-    if (.not. info%failed()) call keep_states(iterate, last, info)
+    if (.not. info%failed()) call keep_set(iterate, last, info)
     if (info%failed()) return
     fine_products = fine_products + info%products
     if (settings%prepared) then
@@ -116,8 +112,6 @@ contains
     end if
     if (info%failed()) return
     if (repeated) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
-    last%smallest_value = iterate%smallest_value
-    last%amplification = iterate%amplification
     last%tolerance = options%tolerance
     ! The history needs memory of its own.
     call discard(iterate)
@@ -149,9 +143,10 @@ contains
     repeated = pair(1) > 0
   end subroutine judge_forces
 
-  !> Keep the contact set for derivatives. Error: FUGE_ERR_MEMORY.
-  pure subroutine keep_states(iterate, last, info)
-    type(contact_iterate), intent(in) :: iterate
+  !> Keep the contact set for derivatives, and what conjugate gradients found on it. A start that needs no step tells
+  !> nothing of the operator: the last solve on the same set does. Error: FUGE_ERR_MEMORY.
+  pure subroutine keep_set(iterate, last, info)
+    type(contact_iterate), intent(inout) :: iterate
     type(iterated_set), intent(inout) :: last
     type(fuge_info), intent(inout) :: info
     integer :: stat
@@ -160,13 +155,18 @@ contains
     if (allocated(last%state)) then
       if (size(last%state) /= size(iterate%contact)) deallocate (last%state)
     end if
-    if (.not. allocated(last%state)) allocate (last%state(size(iterate%contact)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(iterate%contact))//' points')
-    else
-      last%state = states_of(iterate)
+    if (.not. allocated(last%state)) then
+      allocate (last%state(size(iterate%contact)), stat=stat)
+      if (stat /= 0) then
+        call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(iterate%contact))//' points')
+        return
+      end if
+    else if (.not. iterate%least_compliance > 0.0_dp) then
+      if (all((last%state /= FUGE_OPEN) .eqv. iterate%contact)) iterate%least_compliance = last%least_compliance
     end if
-  end subroutine keep_states
+    last%state = states_of(iterate)
+    last%least_compliance = iterate%least_compliance
+  end subroutine keep_set
 
   !> Start from earlier solutions if that promises to cost less than coarser grids: history%started_warm, with the
   !> contact set and the displacements of `iterate`, which otherwise stays as it was. Errors: FUGE_ERR_MEMORY, those of

@@ -58,6 +58,7 @@ contains
     logical :: preconditioned
 
     iterate%converged = .false.
+    call iterate%lanczos%restart()
     iterate%unbounded = .false.
     if (iterate%prescribed) iterate%start = iterate%force
     preconditioned = operator%has_preconditioner()
@@ -92,7 +93,6 @@ contains
       call update_direction(iterate%segments, energy/previous, iterate%work, iterate%direction)
       call advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
       if (.not. step_length > 0.0_dp) return
-      if (iteration == 0) call iterate%lanczos%restart()
       call iterate%lanczos%add(step_length, energy/previous)
       previous = energy
       if (.not. (to_tolerance .or. preconditioned)) then
