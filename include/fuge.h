@@ -561,7 +561,8 @@ int fuge_get_resultant(const fuge_solver *s, double *resultant);  /* m: R^T f; o
  * column k of the sensitivity to the gaps.  After a dense engine each call costs four
  * triangular solves, after the iteration products on the contact set, to the tolerance of the
  * solve.  FUGE_ERR_CALL_ORDER also after a solve with zero load; FUGE_ERR_SIZE unless m = 1;
- * FUGE_ERR_NO_EQUILIBRIUM where the contact does not resist what the changes load. */
+ * FUGE_ERR_NO_EQUILIBRIUM where the contact does not resist what the changes load; by
+ * products also FUGE_ERR_ITERATION_LIMIT where alpha is too badly conditioned on the contact. */
 int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double load_change,
                         double *force, double *gap, double *motion);
 

@@ -7,17 +7,22 @@
 !> F and M. The flat punch stays in full contact up to e = a/2 and then lifts off; the rounded
 !> one, y = x**2/(2 R), rolls until its contact reaches the corner. Beyond e = a both would
 !> tip over. Everything is per unit depth and compared with the exact answer.
-!> For the picture it writes tilt_length.csv and tilt_pressure.csv.
+!> First 400 cells with a matrix, for every eccentricity; then some of these scenes again by FFT, with up to 262144
+!> cells: the problem is the same, only the operator is another.
+!> For the picture it writes tilt_length.csv, tilt_pressure.csv and tilt_error.csv.
 program tilt
   use example_output, only: create_file
-  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, &
-    fuge_interval, fuge_problem, fuge_solution, fuge_solver, fuge_status_text, FUGE_ERR_NO_EQUILIBRIUM, FUGE_MEAN
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, &
+    fuge_halfplane_operator, fuge_info, fuge_interval, fuge_operator, fuge_problem, fuge_solution, fuge_solver, &
+    fuge_status_text, FUGE_ERR_NO_EQUILIBRIUM, FUGE_MEAN
   implicit none
 
   !> N, mm.
-  integer, parameter :: CELLS = 400
+  integer, parameter :: CELLS = 400, FINE_CELLS = 2**18
+  !> By FFT also 4, 16, .. times fewer cells.
+  integer, parameter :: SIZES = 7
   real(dp), parameter :: HALF_FACE = 10.0_dp, E_STAR = 1.0e5_dp, LOAD = 5.0e3_dp
-  real(dp), parameter :: WIDTH = 2.0_dp*HALF_FACE/real(CELLS, dp)
   real(dp), parameter :: PI = acos(-1.0_dp)
   !> As long as it does not reach a corner, the contact of the rounded punch covers 0.4 of the face.
   real(dp), parameter :: RADIUS = PI*E_STAR*(0.4_dp*HALF_FACE)**2/(4.0_dp*LOAD)
@@ -26,6 +31,8 @@ program tilt
   type :: contact
     real(dp) :: middle = 0.0_dp, half = 0.0_dp
     real(dp) :: approach = 0.0_dp, rotation = 0.0_dp
+    !> Pressure in the middle of the contact.
+    real(dp) :: pressure = 0.0_dp
   end type contact
 
   call run()
@@ -37,11 +44,11 @@ contains
     real(dp) :: x(CELLS)
     type(fuge_dense_operator) :: operator
     type(fuge_info) :: info
-    integer :: file, k
+    integer :: file
 
-    x = [(-HALF_FACE + WIDTH*(real(k, dp) - 0.5_dp), k=1, CELLS)]
+    x = centres(CELLS)
     allocate (alpha(CELLS, CELLS))
-    call fuge_halfplane_matrix(x, [(WIDTH, k=1, CELLS)], E_STAR, FUGE_MEAN, alpha, info)
+    call fuge_halfplane_matrix(x, spread(width_of(x), 1, CELLS), E_STAR, FUGE_MEAN, alpha, info)
     if (.not. info%failed()) call operator%set(alpha, info)
     if (info%failed()) error stop 'no influence matrix'
 
@@ -51,8 +58,25 @@ contains
     call all_eccentricities(operator, x, 'rounded', 1.0_dp/RADIUS, file)
     close (file)
     call write_pressures(operator, x)
+    call repeat_by_fft(operator)
     call tip_over(operator, x)
   end subroutine run
+
+  !> Centres of n cells of one width that cover the face.
+  pure function centres(n) result(x)
+    integer, intent(in) :: n
+    real(dp) :: x(n)
+    integer :: k
+
+    x = [(HALF_FACE*(2.0_dp*real(k, dp) - real(n + 1, dp))/real(n, dp), k=1, n)]
+  end function centres
+
+  pure function width_of(x) result(width)
+    real(dp), intent(in) :: x(:)
+    real(dp) :: width
+
+    width = 2.0_dp*HALF_FACE/real(size(x), dp)
+  end function width_of
 
   !> From the middle to almost the corner; one solver, because each contact is a good start
   !> for the next one.
@@ -81,9 +105,84 @@ contains
       if (mod(percent, 8) == 0) print '(f5.2,2f12.4,f13.5,f9.5,3x,2f11.4,3x,2f10.5)', eccentricity/HALF_FACE, &
         found%middle - found%half, found%middle + found%half, found%half/HALF_FACE, exact%half/HALF_FACE, &
         1.0e3_dp*found%rotation, 1.0e3_dp*exact%rotation, found%approach, exact%approach
-      call compare(found, exact)
+      call compare(found, exact, width_of(x))
     end do
   end subroutine all_eccentricities
+
+  !> Scenes of both punches by the matrix and by FFT, with up to FINE_CELLS cells, each from scratch.
+  subroutine repeat_by_fft(operator)
+    type(fuge_dense_operator), intent(in) :: operator
+    type(fuge_halfplane_operator) :: grids(SIZES)
+    type(fuge_info) :: info
+    real(dp), parameter :: ECCENTRICITIES(3) = [0.25_dp, 0.5_dp, 0.72_dp]
+    integer :: file, j, n
+
+    do j = 1, SIZES
+      n = FINE_CELLS/4**(SIZES - j)
+      call grids(j)%set(n, 2.0_dp*HALF_FACE/real(n, dp), E_STAR, info, element=FUGE_MEAN)
+      if (info%failed()) error stop 'no operator'
+    end do
+    call create_file('tilt_error.csv', 1, file)
+    write (file, '(a)') 'punch,eccentricity/a,cells,error of the rotation,of the approach,of the pressure'
+    print '(/,2(a,i0),a)', 'The same with ', CELLS, ' cells and a matrix, and with ', FINE_CELLS, ' cells by FFT'
+    print '(a)', '           e/a      cells  contact from .. to [mm]  rotation [mrad]  approach [mm]  middle [N/mm2]' &
+      //'  products  time [s]'
+    do j = 1, size(ECCENTRICITIES)
+      call repeat_scene('flat', ECCENTRICITIES(j)*HALF_FACE, 0.0_dp, operator, grids, file)
+    end do
+    do j = 1, size(ECCENTRICITIES)
+      call repeat_scene('rounded', ECCENTRICITIES(j)*HALF_FACE, 1.0_dp/RADIUS, operator, grids, file)
+    end do
+    close (file)
+  end subroutine repeat_by_fft
+
+  !> One scene by the matrix and on all grids, of which the last one is printed; the errors of all go to the file.
+  subroutine repeat_scene(name, eccentricity, curvature, operator, grids, file)
+    character(len=*), intent(in) :: name
+    real(dp), intent(in) :: eccentricity, curvature
+    type(fuge_dense_operator), intent(in) :: operator
+    type(fuge_halfplane_operator), intent(in) :: grids(:)
+    integer, intent(in) :: file
+    type(contact) :: exact, found
+    integer :: k
+
+    exact = exact_contact(eccentricity, curvature)
+    print '(a8,f6.2,a11,1x,2f12.6,2f16.7,f16.4)', name, eccentricity/HALF_FACE, 'exact', exact%middle - exact%half, &
+      exact%middle + exact%half, 1.0e3_dp*exact%rotation, exact%approach, exact%pressure
+    call press_once(operator, eccentricity, curvature, .true., found)
+    do k = 1, size(grids)
+      call press_once(grids(k), eccentricity, curvature, k == size(grids), found)
+      write (file, '(a,'','',f6.3,'','',i0,3('','',es12.4))') name, eccentricity/HALF_FACE, grids(k)%points(), &
+        abs(found%rotation/exact%rotation - 1.0_dp), abs(found%approach/exact%approach - 1.0_dp), &
+        abs(found%pressure/exact%pressure - 1.0_dp)
+      if (grids(k)%points() >= CELLS) call compare(found, exact, width_of(centres(grids(k)%points())))
+    end do
+  end subroutine repeat_scene
+
+  !> Solve one scene from scratch; a line of the table if `is_shown`.
+  subroutine press_once(operator, eccentricity, curvature, is_shown, found)
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: eccentricity, curvature
+    logical, intent(in) :: is_shown
+    type(contact), intent(out) :: found
+    real(dp), allocatable :: x(:)
+    type(fuge_problem) :: problem
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution
+    integer :: products
+    integer(int64) :: start, finish, rate
+
+    allocate (x(operator%points()))
+    x = centres(size(x))
+    problem = punch(x, curvature)
+    call system_clock(start, rate)
+    call press(operator, problem, eccentricity, solver, solution, products)
+    call system_clock(finish)
+    found = contact_of(solution, x)
+    if (is_shown) print '(i25,1x,2f12.6,2f16.7,f16.4,i10,f10.3)', size(x), found%middle - found%half, &
+      found%middle + found%half, 1.0e3_dp*found%rotation, found%approach, found%pressure, products, &
+      real(finish - start, dp)/real(rate, dp)
+  end subroutine press_once
 
   !> Initial gap x**2 curvature/2; the load is set later.
   function punch(x, curvature) result(problem)
@@ -96,17 +195,19 @@ contains
     problem%modes(:, 2) = x
   end function punch
 
-  subroutine press(operator, problem, eccentricity, solver, solution)
-    type(fuge_dense_operator), intent(in) :: operator
+  subroutine press(operator, problem, eccentricity, solver, solution, products)
+    class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(inout) :: problem
     real(dp), intent(in) :: eccentricity
     type(fuge_solver), intent(inout) :: solver
     type(fuge_solution), intent(inout) :: solution
+    integer, intent(out), optional :: products
     type(fuge_info) :: info
 
     problem%resultant = [LOAD, LOAD*eccentricity]
     call solver%solve(operator, problem, solution, info)
     if (info%status /= 0) error stop 'the punch was not solved'
+    if (present(products)) products = info%products
   end subroutine press
 
   function contact_of(solution, x) result(found)
@@ -115,15 +216,24 @@ contains
     type(contact) :: found
     type(fuge_interval), allocatable :: intervals(:)
     type(fuge_info) :: info
+    real(dp), allocatable :: width(:)
+    real(dp) :: place
     integer :: k
 
-    call fuge_contact_edges(x, [(WIDTH, k=1, size(x))], solution%force, FUGE_MEAN, intervals, info)
+    allocate (width(size(x)))
+    width = width_of(x)
+    call fuge_contact_edges(x, width, solution%force, FUGE_MEAN, intervals, info)
     if (info%status /= 0) error stop 'the edges were not found'
     if (size(intervals) /= 1) error stop 'more than one contact under the punch'
     found%middle = 0.5_dp*(intervals(1)%left + intervals(1)%right)
     found%half = 0.5_dp*(intervals(1)%right - intervals(1)%left)
     found%approach = solution%motion(1)
     found%rotation = solution%motion(2)
+    ! Between the centres of two cells.
+    place = (found%middle - x(1))/width_of(x)
+    k = 1 + int(place)
+    place = place - aint(place)
+    found%pressure = ((1.0_dp - place)*solution%force(k) + place*solution%force(k + 1))/width_of(x)
   end function contact_of
 
   !> With t = (x - middle)/half the pressure on a parabola or a plane is
@@ -147,6 +257,7 @@ contains
     ! The displacement by a line load is zero at twice the length of the face.
     exact%approach = unit*(log(8.0_dp*HALF_FACE/exact%half) + 0.5_dp*flattening) &
                      - exact%rotation*exact%middle + 0.5_dp*curvature*exact%middle**2
+    exact%pressure = LOAD*(1.0_dp + flattening)/(PI*exact%half)
   end function exact_contact
 
   !> The whole face, Hertz's contact, or one that ends at the corner and at a free edge:
@@ -183,17 +294,20 @@ contains
 
   !> The cells press up to a tenth of a width inside of a corner, an error of first order
   !> that a free edge at the other end doubles twice. Two free edges are far better.
-  subroutine compare(found, exact)
+  subroutine compare(found, exact, width)
     type(contact), intent(in) :: found, exact
+    real(dp), intent(in) :: width
     real(dp) :: shift, turn
 
-    shift = 0.25_dp*WIDTH
-    if (exact%middle + exact%half < HALF_FACE - WIDTH) shift = 1.0e-3_dp*WIDTH
+    shift = 0.25_dp*width
+    if (exact%middle + exact%half < HALF_FACE - width) shift = 1.0e-3_dp*width
     turn = 2.0_dp*LOAD/(PI*E_STAR)*shift/exact%half**2
     if (abs(found%half - exact%half) > shift) error stop 'the length of contact is not the exact one'
     if (abs(found%middle - exact%middle) > shift) error stop 'the place of contact is not the exact one'
     if (abs(found%rotation - exact%rotation) > turn) error stop 'the rotation is not the exact one'
     if (abs(found%approach - exact%approach) > turn*HALF_FACE) error stop 'the approach is not the exact one'
+    if (abs(found%pressure - exact%pressure) > 2.0_dp*shift/exact%half*exact%pressure) &
+      error stop 'the pressure is not the exact one'
   end subroutine compare
 
   !> Under the flat punch, for the right half of the picture.
@@ -213,7 +327,7 @@ contains
     call create_file('tilt_pressure.csv', 1, file)
     write (file, '(a)') 'x [mm],p(e=0) [N/mm2],p(e=a/4),p(e=a/2),p(e=3a/4)'
     do k = 1, size(x), 5
-      write (file, '(f9.4,4('','',f12.4))') x(k), (solution(j)%force(k)/WIDTH, j=1, size(solution))
+      write (file, '(f9.4,4('','',f12.4))') x(k), (solution(j)%force(k)/width_of(x), j=1, size(solution))
     end do
     close (file)
   end subroutine write_pressures

@@ -13,26 +13,35 @@
 !>
 !> + for the first punch, - for the second one; K the complete elliptic integral of the first
 !> kind, D the distance at which a line load displaces nothing.
+!> At last some of these scenes by FFT: a grid of cells from the first punch to the second one, 2**18 of them under the
+!> faces and those between the punches excluded.
 !> The table two_bodies.csv has the approaches over the distance and over the force.
 program two_bodies
   use example_output, only: create_file
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, fuge_problem, fuge_solution, &
-    fuge_solver, FUGE_MEAN
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, &
+    fuge_halfplane_operator, fuge_info, fuge_interval, fuge_problem, fuge_solution, fuge_solver, FUGE_MEAN
   implicit none
 
   !> N, mm; cells of each punch.
-  integer, parameter :: CELLS = 60
+  integer, parameter :: CELLS = 60, FINE_CELLS = 2**17
   real(dp), parameter :: HALF_FACE = 10.0_dp, E_STAR = 1.0e5_dp, FORCE = 5.0e3_dp
   real(dp), parameter :: DATUM = 1.0e3_dp
   real(dp), parameter :: PI = acos(-1.0_dp)
   !> Largest relative error of an approach.
-  real(dp), parameter :: TOLERANCE = 1.0e-4_dp
+  real(dp), parameter :: TOLERANCE = 1.0e-4_dp, FINE_TOLERANCE = 2.0e-6_dp
 
   !> The answer for a pair of forces.
   type :: answer
     !> Approaches, length, and how much of each face touches.
     real(dp) :: approach(2) = 0.0_dp, touching(2) = 0.0_dp
   end type answer
+
+  !> What a solve takes.
+  type :: effort
+    integer :: products = 0
+    real(dp) :: seconds = 0.0_dp
+  end type effort
 
   call run()
 
@@ -46,6 +55,7 @@ contains
     call move_apart(file)
     call raise_second(2.5_dp*HALF_FACE, file)
     close (file)
+    call repeat_by_fft()
   end subroutine run
 
   !> A line force in place of the other punch is accurate far away; for equal forces it is exact
@@ -99,6 +109,101 @@ contains
     end do
   end subroutine raise_second
 
+  !> Some of the same scenes, by the matrix and by FFT.
+  subroutine repeat_by_fft()
+    real(dp), parameter :: DISTANCE = 2.5_dp*HALF_FACE, SECOND(3) = [0.1_dp, 0.5_dp, 0.8_dp]
+    type(answer) :: graded, fine
+    type(effort) :: spent
+    real(dp) :: load(2)
+    logical :: is_full
+    integer :: k
+
+    print '(/,a,i0,a,i0,a)', 'The same with ', 2*CELLS, ' graded cells and a matrix, and with ', 2*FINE_CELLS, &
+      ' equal cells by FFT'
+    print '(a)', ' F_2 [N/mm]  cells  punch 1 [mm]  punch 2 [mm]  touching 1, 2 [%]      products  time [s]'
+    do k = 1, size(SECOND)
+      load = FORCE*[1.0_dp, SECOND(k)]
+      is_full = SECOND(k) > full_from(DISTANCE)
+      if (is_full) print '(f9.0,a9,2f14.8,2f10.4)', load(2), 'exact', full_contact(DISTANCE, load), 100.0_dp, 100.0_dp
+      graded = press(DISTANCE, load, spent)
+      call show_effort(load(2), 2*CELLS, graded, spent)
+      fine = press_by_fft(DISTANCE, load, spent)
+      call show_effort(load(2), 2*FINE_CELLS, fine, spent)
+      call compare(fine%approach, graded%approach)
+      if (is_full) then
+        if (any(abs(fine%approach - full_contact(DISTANCE, load)) > FINE_TOLERANCE*fine%approach)) &
+          error stop 'an approach by FFT is not the exact one'
+      end if
+      if ((fine%touching(2) < 1.0_dp) .eqv. is_full) error stop 'by FFT full contact does not begin where it should'
+      ! No closed form: the cell in which the graded contact ends, of a width below 0.03 of the face.
+      if (any(abs(fine%touching - graded%touching) > 0.03_dp)) error stop 'by FFT another length touches'
+    end do
+  end subroutine repeat_by_fft
+
+  subroutine show_effort(second, cells, found, spent)
+    real(dp), intent(in) :: second
+    integer, intent(in) :: cells
+    type(answer), intent(in) :: found
+    type(effort), intent(in) :: spent
+
+    print '(f9.0,i9,2f14.8,2f10.4,i14,f10.3)', second, cells, found%approach, 100.0_dp*found%touching, spent%products, &
+      spent%seconds
+  end subroutine show_effort
+
+  !> The same problem on a grid that covers both faces and what is between them; `distance` 2.5 half faces.
+  function press_by_fft(distance, load, spent) result(found)
+    real(dp), intent(in) :: distance, load(2)
+    type(effort), intent(out) :: spent
+    type(answer) :: found
+    type(fuge_halfplane_operator) :: operator
+    type(fuge_problem) :: problem
+    type(fuge_solution) :: solution
+    type(fuge_solver) :: solver
+    type(fuge_info) :: info
+    real(dp) :: width
+    integer :: between, n
+    integer(int64) :: start, finish, rate
+
+    width = 2.0_dp*HALF_FACE/real(FINE_CELLS, dp)
+    between = nint((distance - 2.0_dp*HALF_FACE)/width)
+    n = 2*FINE_CELLS + between
+    call operator%set(n, width, E_STAR, info, element=FUGE_MEAN)
+    if (info%failed()) error stop 'no operator'
+    call set_punches(FINE_CELLS, between, load, problem)
+    call system_clock(start, rate)
+    call solver%solve(operator, problem, solution, info)
+    call system_clock(finish)
+    if (info%status /= 0) error stop 'the punches were not solved by FFT'
+    spent = effort(info%products, real(finish - start, dp)/real(rate, dp))
+    found%touching = touching_of(width, solution%force, between)
+    found%approach = solution%motion + sinking(sum(load), 2.0_dp*(distance + 2.0_dp*HALF_FACE))
+  end function press_by_fft
+
+  !> The share of each face that touches, from the edges of the contact.
+  function touching_of(width, force, between) result(share)
+    real(dp), intent(in) :: width, force(:)
+    integer, intent(in) :: between
+    real(dp) :: share(2)
+    real(dp), allocatable :: x(:), widths(:)
+    type(fuge_interval), allocatable :: intervals(:)
+    type(fuge_info) :: info
+    integer :: k
+
+    allocate (x(size(force)), widths(size(force)))
+    widths = width
+    x = [(width*(real(k, dp) - 0.5_dp), k=1, size(force))]
+    call fuge_contact_edges(x, widths, force, FUGE_MEAN, intervals, info)
+    if (info%status /= 0) error stop 'the edges were not found'
+    share = 0.0_dp
+    do k = 1, size(intervals)
+      associate (punch => merge(1, 2, intervals(k)%right < width*real(FINE_CELLS + between/2, dp)))
+        share(punch) = share(punch) + (intervals(k)%right - intervals(k)%left)/(2.0_dp*HALF_FACE)
+      end associate
+    end do
+    if (all(force(:FINE_CELLS) > 0.0_dp)) share(1) = 1.0_dp
+    if (all(force(FINE_CELLS + between + 1:) > 0.0_dp)) share(2) = 1.0_dp
+  end function touching_of
+
   !> A line of the table, with the exact approaches where they are known.
   subroutine show(distance, second, found, exact)
     real(dp), intent(in) :: distance, second
@@ -117,8 +222,9 @@ contains
   end subroutine show
 
   !> Cells that become narrower towards the corners, where the pressure is singular.
-  function press(distance, load) result(found)
+  function press(distance, load, spent) result(found)
     real(dp), intent(in) :: distance, load(2)
+    type(effort), intent(out), optional :: spent
     type(answer) :: found
     real(dp), allocatable, target :: alpha(:, :)
     real(dp) :: edge(0:CELLS), x(2*CELLS), width(2*CELLS)
@@ -127,6 +233,7 @@ contains
     type(fuge_solution) :: solution
     type(fuge_solver) :: solver
     type(fuge_info) :: info
+    integer(int64) :: start, finish, rate
     integer :: k
 
     edge = [(-HALF_FACE*cos(PI*real(k, dp)/real(CELLS, dp)), k=0, CELLS)]
@@ -138,9 +245,12 @@ contains
     if (.not. info%failed()) call operator%set(alpha, info)
     if (info%failed()) error stop 'no influence matrix'
 
-    call set_punches(load, problem)
+    call set_punches(CELLS, 0, load, problem)
+    call system_clock(start, rate)
     call solver%solve(operator, problem, solution, info)
+    call system_clock(finish)
     if (info%status /= 0) error stop 'the punches were not solved'
+    if (present(spent)) spent = effort(info%products, real(finish - start, dp)/real(rate, dp))
     found%touching(1) = sum(width(:CELLS), mask=solution%force(:CELLS) > 0.0_dp)/(2.0_dp*HALF_FACE)
     found%touching(2) = sum(width(CELLS + 1:), mask=solution%force(CELLS + 1:) > 0.0_dp)/(2.0_dp*HALF_FACE)
     if (all(solution%force > 0.0_dp)) found%touching = 1.0_dp
@@ -149,16 +259,24 @@ contains
     found%approach = solution%motion + sinking(sum(load), 2.0_dp*(distance + 2.0_dp*HALF_FACE))
   end function press
 
-  pure subroutine set_punches(load, problem)
+  !> Two punches of `cells` cells each, with `between` cells between them that take no part.
+  pure subroutine set_punches(cells, between, load, problem)
+    integer, intent(in) :: cells, between
     real(dp), intent(in) :: load(2)
     type(fuge_problem), intent(out) :: problem
+    integer :: n
 
-    allocate (problem%gap(2*CELLS), problem%modes(2*CELLS, 2), problem%resultant(2))
+    n = 2*cells + between
+    allocate (problem%gap(n), problem%modes(n, 2), problem%resultant(2))
     problem%gap = 0.0_dp
     problem%modes = 0.0_dp
-    problem%modes(:CELLS, 1) = 1.0_dp
-    problem%modes(CELLS + 1:, 2) = 1.0_dp
+    problem%modes(:cells, 1) = 1.0_dp
+    problem%modes(cells + between + 1:, 2) = 1.0_dp
     problem%resultant = load
+    if (between < 1) return
+    allocate (problem%excluded(n))
+    problem%excluded = .false.
+    problem%excluded(cells + 1:cells + between) = .true.
   end subroutine set_punches
 
   !> Displacement of the surface at a distance from a line load.

@@ -161,14 +161,16 @@ contains
   end subroutine reset
 
   !> How the last solution changes with gaps and load, to first order, and exactly as long as the contact set stays:
-  !> df, dc and dq, by triangular solves with the last factor.
+  !> df, dc and dq, by triangular solves with the last factor; after the iteration by products on the contact set, to
+  !> the tolerance of the solve.
   !>
   !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force; `change` the changes in the
   !> order of `fuge_solution`. The contact stiffness dF_0/dv_0 is 1/change%motion(1) for gap_change 0 and load_change
   !> 1; column k of the sensitivity to the gaps is the change for a unit gap_change at k. A point that just touches
   !> without force stays in the state in which the solve left it. Errors, `change` untouched: FUGE_ERR_CALL_ORDER
   !> without a solution with a load, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_UNSUPPORTED,
-  !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY.
+  !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY; by products also FUGE_ERR_ITERATION_LIMIT where the operator is too badly
+  !> conditioned, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_CALLBACK.
   subroutine derivative_by_load(self, operator, gap_change, load_change, change, info)
     class(fuge_solver), intent(in) :: self
     class(fuge_operator), intent(in) :: operator

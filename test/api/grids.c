@@ -486,7 +486,7 @@ int main(int argc, char **argv) {
     if (argc > 1 && GRIDS[k].nx * rows(GRIDS[k].ny) > 500) continue;
     test_own_grids(GRIDS[k]);
     test_auxiliary(GRIDS[k]);
-    if (argc == 1) test_general(GRIDS[k]);
+    test_general(GRIDS[k]);
   }
   if (argc == 1) test_window();
   test_similar_body();

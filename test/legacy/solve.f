@@ -117,7 +117,7 @@ C     point left out.
       DATA R /1.D0, 1.D0, 3.D0, 4.D0/
       DATA NSTOP /1, 1/
       DATA NHELD /0, 1/
-      DO 10 METHOD = 0, 2
+      DO 10 METHOD = 0, 3
         CALL TWONOD(ALPHA, GAP)
         W(1) = 2.D0
         W(2) = 77.D0

@@ -83,12 +83,12 @@ module fuge_contact_iterate
 contains
 
   !> Allocate all arrays for the points of a scene and set the forces to start from: `start` (n), scaled as in
-  !> contact_iterate, if it is allocated; else equal forces, or none if the motion is prescribed, or the least forces
+  !> contact_iterate, if there are any; else equal forces, or none if the motion is prescribed, or the least forces
   !> that have the resultants. Errors: FUGE_ERR_MEMORY.
   subroutine start_iterate(iterate, scene, start, info)
     type(contact_iterate), intent(inout) :: iterate
     type(contact_scene), intent(in) :: scene
-    real(dp), intent(in), allocatable :: start(:)
+    real(dp), intent(in), optional :: start(:)
     type(fuge_info), intent(inout) :: info
     integer :: n, stat
 
@@ -103,7 +103,7 @@ contains
       return
     end if
     iterate%prescribed = scene%prescribed
-    if (allocated(start)) then
+    if (present(start)) then
       iterate%force = start
     else if (allocated(scene%modes)) then
       call find_least_forces(scene, iterate, info)

@@ -132,15 +132,13 @@ contains
     type(contact_iterate), intent(in) :: iterate
     logical, intent(out) :: repeated
     type(fuge_info), intent(inout) :: info
-    integer :: pair(2)
-    real(dp), allocatable :: no_modes(:, :)
     real(dp) :: compliance
+    integer :: pair(2)
 
     if (allocated(scene%modes)) then
       compliance = operator%least_pair_compliance(iterate%contact, scene%modes)
     else
-      allocate (no_modes(size(scene%gap), 0), source=0.0_dp)
-      compliance = operator%least_pair_compliance(iterate%contact, no_modes)
+      compliance = operator%least_pair_compliance(iterate%contact, reshape([real(dp) ::], [size(scene%gap), 0]))
     end if
     info%force_error = estimated_force_error(iterate, compliance)
     repeated = .not. compliance > 0.0_dp

@@ -40,7 +40,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(contact_scene) :: scene
     type(contact_iterate) :: iterate
-    real(dp), allocatable :: gap(:), motion(:), no_start(:)
+    real(dp), allocatable :: gap(:), motion(:)
     integer :: n, stat
 
     n = size(state)
@@ -52,7 +52,7 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(n)//' points')
       return
     end if
-    call start_iterate(iterate, scene, no_start, info)
+    call start_iterate(iterate, scene, info=info)
     if (info%failed()) return
     iterate%contact = state /= FUGE_OPEN
     call solve_on_set(operator, scene, tolerance, iterate, info)
