@@ -2,8 +2,8 @@
 !>
 !>     load_steps [tolerance [problem]]
 !>
-!> Each problem is solved under loads that grow from solve to solve by 1, 5 and 20 %, and with the approaches that belong
-!> to these loads; `tilt`, a flat square face under an eccentric load, with a moment that turns by 1, 5 and 20 degrees.
+!> Each problem is solved under loads that grow from solve to solve by 1, 5 and 20 %, and with the approaches that
+!> belong to these loads; `tilt`, a flat square face under an eccentric load, with a moment that turns by 1, 5 and 20 degrees.
 !> A row has means over the last solves of a sequence: the points that change state from solve to solve, in parts of the
 !> points in contact; products + preconditionings and contact sets (on all grids) of a solve from scratch and of one in
 !> the sequence; how much that saves, and the largest excess of products of a single solve; times, the fastest of three
@@ -23,8 +23,8 @@ program load_steps
   integer, parameter :: BEFORE = 3, COUNTED = 3
   integer, parameter :: RUNS = 3
   !> On the half-plane with 2**14 or 2**16 cells, on the half-space with 512 x 512, the last one with 128 x 128.
-  character(len=10), parameter :: PROBLEMS(9) = [character(len=10) :: 'quartic_16', 'light_14', 'light_16', 'heavy_14', &
-                                                 'heavy_16', 'sphere', 'light_area', 'heavy_area', 'tilt']
+  character(len=10), parameter :: PROBLEMS(9) = [character(len=10) :: 'quartic_16', 'light_14', 'light_16', &
+                                                 'heavy_14', 'heavy_16', 'sphere', 'light_area', 'heavy_area', 'tilt']
   !> Cells along a side of the tilted face, and the arm of its load over the side.
   integer, parameter :: FACE = 128
   real(dp), parameter :: ARM = 0.25_dp, DEGREE = acos(-1.0_dp)/180.0_dp
@@ -150,7 +150,8 @@ contains
         angle = 100.0_dp*STEPS(j)*DEGREE*real(k, dp) + 0.3_dp
         resultants(:, k) = [1.0_dp, ARM*cos(angle), ARM*sin(angle)]
       end do
-      call measure_sequence('tilt, moment, '//whole(nint(100*STEPS(j)))//' degrees', space, problem, options, resultants)
+      call measure_sequence('tilt, moment, '//whole(nint(100*STEPS(j)))//' degrees', space, problem, options, &
+                            resultants)
     end do
   end subroutine measure_tilt
 

@@ -48,8 +48,8 @@ module fuge_warm_start
     integer, private :: cold_products = huge(1)
     !> No start with a larger error is accepted.
     real(dp), private :: greatest_error = USELESS
-    !> Length of the step, relative, if the start is extrapolated along it, otherwise negative; and the least one that is
-    !> not tried.
+    !> Length of the step, relative, if the start is extrapolated along it, otherwise negative; and the least one that
+    !> is not tried.
     real(dp), private :: step_length = -1.0_dp, too_long = huge(1.0_dp)
     !> The last solve started from earlier solutions.
     logical :: started_warm = .false.
@@ -254,7 +254,8 @@ contains
     if (extrapolate) self%step_length = norm2(new)
   end subroutine find_steps
 
-  !> What the problem prescribes, (m): motions where it does, else resultants. Both (m), or unallocated if there are none.
+  !> What the problem prescribes, (m): motions where it does, else resultants. Both (m), or unallocated if there are
+  !> none.
   pure function controls(problem, resultant, motion)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in), allocatable :: resultant(:), motion(:)
