@@ -1,5 +1,6 @@
 !> C bindings, section "operators": what the caller may tell of a callback operator, so that it needs as few products
-!> as the operators of grids: its cells, coarser grids, a similar body, and of its coefficients what the products do not show.
+!> as the operators of grids: its cells, coarser grids, a similar body, and of its coefficients what the products do not
+!> show.
 module fuge_c_callback_grid
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer

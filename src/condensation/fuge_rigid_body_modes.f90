@@ -244,9 +244,9 @@ contains
     pins = order(:m)
   end subroutine choose_pins
 
-  !> The loads -K_fp, `block` (degrees, size(pins)), under which the body with its pins held takes the shape of the rigid
-  !> modes that displace pin k by one and no other pin, Z_f = -K_ff^-1 K_fp. Elastic modes that the subspace iteration
-  !> has left in the rigid modes vanish. `constrained` (degrees): supports and pins.
+  !> The loads -K_fp, `block` (degrees, size(pins)), under which the body with its pins held takes the shape of the
+  !> rigid modes that displace pin k by one and no other pin, Z_f = -K_ff^-1 K_fp. Elastic modes that the subspace
+  !> iteration has left in the rigid modes vanish. `constrained` (degrees): supports and pins.
   subroutine find_pin_loads(stiffness, constrained, pins, block)
     class(fuge_stiffness), intent(in) :: stiffness
     logical, intent(in) :: constrained(:)

@@ -113,8 +113,8 @@ contains
     cyclic = grid%cells == grid%period
   end function cyclic
 
-  !> The length L for which the terms of the displacement by the forces f on a surface with a period are about the sum of
-  !> |f|/(e_star L): the extent across the direction whose longest wave has the largest terms. One cell has no waves.
+  !> The length L for which the terms of the displacement by the forces f on a surface with a period are about the sum
+  !> of |f|/(e_star L): the extent across the direction whose longest wave has the largest terms. One cell has no waves.
   pure function term_length(grid) result(length)
     type(halfspace_grid), intent(in) :: grid
     real(dp) :: length

@@ -124,8 +124,8 @@ contains
   end subroutine none_kept
 
   !> `part` has the cells `first`(1) .. `last`(1) of the rows `first`(2) .. `last`(2) of `grid`, numbered anew from
-  !> the first one, and gives exactly the displacements that this operator gives for forces on them only, but perhaps with
-  !> another datum. Its own grid can be coarsened again. Unallocated if there is no such operator, as in this
+  !> the first one, and gives exactly the displacements that this operator gives for forces on them only, but perhaps
+  !> with another datum. Its own grid can be coarsened again. Unallocated if there is no such operator, as in this
   !> default, for cells that do not exist, and without memory.
   subroutine no_window(self, first, last, part)
     class(fuge_operator), intent(in) :: self

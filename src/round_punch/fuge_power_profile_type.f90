@@ -25,8 +25,8 @@ module fuge_power_profile_type
 contains
 
   !> `x` the radius, length; `gap` (size(x)) length and `slope` (size(x)) no unit. `status`: FUGE_DONE,
-  !> FUGE_ERR_CALL_ORDER without coefficients or powers, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for a power below 1, a start
-  !> below 0, or a start with another power than 1 or 2.
+  !> FUGE_ERR_CALL_ORDER without coefficients or powers, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for a power below 1, a
+  !> start below 0, or a start with another power than 1 or 2.
   subroutine evaluate(self, x, gap, slope, status)
     class(fuge_power_profile), intent(in) :: self
     real(dp), intent(in) :: x(:)

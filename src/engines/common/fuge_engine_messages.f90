@@ -35,8 +35,8 @@ contains
     end select
   end subroutine explain_status
 
-  !> Report that no forces hold the prescribed motions: the mean gap is negative, -`closed`, and equal forces, which alone
-  !> could raise it, displace nothing.
+  !> Report that no forces hold the prescribed motions: the mean gap is negative, -`closed`, and equal forces, which
+  !> alone could raise it, displace nothing.
   pure subroutine report_closed_gap(closed, info)
     real(dp), intent(in) :: closed
     type(fuge_info), intent(inout) :: info

@@ -59,8 +59,8 @@ contains
     end associate
   end function forces_are_unbounded
 
-  !> Are the unbounded forces of a solution equal at all points, one-sided under prescribed motions? Then these close the
-  !> mean gap, which no forces raise.
+  !> Are the unbounded forces of a solution equal at all points, one-sided under prescribed motions? Then these close
+  !> the mean gap, which no forces raise.
   pure function equal_forces_hold_nothing(canonical, solution) result(nothing)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution

@@ -55,13 +55,13 @@ module fuge_contact_iterate
     real(dp) :: softness = 0.0_dp
     !> Do forces of the set that store no energy grow for ever, so that there is no solution?
     logical :: unbounded = .false.
-    !> The greater of residual norm and penetration over the least magnitude, for the forces to start from; negative before
-    !> that is known.
+    !> The greater of residual norm and penetration over the least magnitude, for the forces to start from; negative
+    !> before that is known.
     real(dp) :: start_error = -1.0_dp
     !> Did run_projected_gradients reduce the residual to its tolerance?
     logical :: converged = .false.
-    !> The least compliance of this contact set that conjugate gradients have found, length per force: the smallest value of
-    !> `lanczos` over `amplification`; 0 before any step.
+    !> The least compliance of this contact set that conjugate gradients have found, length per force: the smallest
+    !> value of `lanczos` over `amplification`; 0 before any step.
     real(dp) :: least_compliance = 0.0_dp
     !> The largest preconditioned residual over the largest residual, of one that is nearly small enough; force per
     !> length; 0 before any step.

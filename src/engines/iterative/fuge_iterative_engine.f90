@@ -41,7 +41,8 @@ module fuge_iterative_engine
 
 contains
 
-  !> Does the problem have rigid modes of its own, play or exclusions? Then `solve_by_iteration` needs its canonical form.
+  !> Does the problem have rigid modes of its own, play or exclusions? Then `solve_by_iteration` needs its canonical
+  !> form.
   pure function is_general(problem)
     type(fuge_problem), intent(in) :: problem
     logical :: is_general
@@ -333,8 +334,8 @@ contains
       call report_closed_gap(-mean, info)
     else
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
-                  //'hold the approach '//text(problem%motion(1))//', at which the mean gap is closed: prescribe less ' &
-                  //'than '//text(problem%motion(1) + mean)//', or a load')
+                  //'hold the approach '//text(problem%motion(1))//', at which the mean gap is closed: prescribe ' &
+                  //'less than '//text(problem%motion(1) + mean)//', or a load')
     end if
   end subroutine check_approach
 

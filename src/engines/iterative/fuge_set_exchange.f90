@@ -137,8 +137,8 @@ contains
     weighted = value*(real(number, dp) - 0.5_dp)**exponent
   end function weighted
 
-  !> How many cells leave where `cells` are tensile: `inside` < 0 is the weighted force of the last of them, `beside` that
-  !> of the next cell, in compression; else only those that are tensile.
+  !> How many cells leave where `cells` are tensile: `inside` < 0 is the weighted force of the last of them, `beside`
+  !> that of the next cell, in compression; else only those that are tensile.
   pure function released(cells, inside, beside)
     integer, intent(in) :: cells
     real(dp), intent(in) :: inside, beside
@@ -162,8 +162,8 @@ contains
     joined = min(max(floor(2.0_dp/3.0_dp*reach + 0.5_dp), 1), cells)
   end function joined
 
-  !> Distance from the edge, in cells, at which a linear function vanishes that is `inside` < 0 in the middle of the cell
-  !> number `cells` and `beside` > 0 in that of the next one.
+  !> Distance from the edge, in cells, at which a linear function vanishes that is `inside` < 0 in the middle of the
+  !> cell number `cells` and `beside` > 0 in that of the next one.
   pure function zero_crossing(cells, inside, beside) result(distance)
     integer, intent(in) :: cells
     real(dp), intent(in) :: inside, beside
