@@ -48,6 +48,7 @@ module fuge_problem_type
     procedure :: points
     procedure :: mode_count
     procedure :: is_plain
+    procedure :: prescribed_motion
   end type fuge_problem
 
   !> The solution of a contact problem, in the same units.
@@ -89,6 +90,15 @@ contains
     plain = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded))
     if (plain .and. allocated(self%prescribed)) plain = .not. any(self%prescribed)
   end function is_plain
+
+  !> The prescribed motions, zero where free, (m).
+  pure function prescribed_motion(self) result(values)
+    class(fuge_problem), intent(in) :: self
+    real(dp) :: values(self%mode_count())
+
+    values = 0.0_dp
+    if (allocated(self%prescribed)) where (self%prescribed) values = self%motion
+  end function prescribed_motion
 
   !> The plain problem: `gap` (n), length, and one `load`, force. Error: FUGE_ERR_MEMORY.
   pure subroutine set_problem(gap, load, problem, info)

@@ -380,18 +380,9 @@ contains
       call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
       return
     end if
-    call canonical%to_given_modes(prescribed_values(problem), engine_solution%motion, solution%motion)
+    call canonical%to_given_modes(problem%prescribed_motion(), engine_solution%motion, solution%motion)
     call canonical%set_excluded_gaps(alpha, problem%gap, engine_solution%force, solution%motion, engine_solution%gap)
   end subroutine find_given_motions
-
-  !> The prescribed motions, zero where free, (m).
-  pure function prescribed_values(problem) result(values)
-    type(fuge_problem), intent(in) :: problem
-    real(dp) :: values(problem%mode_count())
-
-    values = 0.0_dp
-    if (allocated(problem%prescribed)) where (problem%prescribed) values = problem%motion
-  end function prescribed_values
 
   !> The active set from the last contact set; from scratch if there is none, or if that start fails.
   subroutine run_active_set(self, options, monitor, solution, info)

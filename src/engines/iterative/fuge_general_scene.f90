@@ -158,7 +158,7 @@ contains
       found%motion(1) = (found%motion(1) + operator%datum()*sum(found%force)) + scaling%gap_datum
     end if
     call report_unresisted_motion(canonical, found, info)
-    call canonical%to_given_modes(prescribed_values(problem), found%motion, motion)
+    call canonical%to_given_modes(problem%prescribed_motion(), found%motion, motion)
     if (allocated(scene%excluded)) call set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, &
                                                          iterate, found)
     call move_alloc(found%force, solution%force)
@@ -251,14 +251,5 @@ contains
     end if
     call canonical%set_excluded_gaps_from(iterate%displacement, problem%gap, motion, found%gap)
   end subroutine set_excluded_gaps
-
-  !> The prescribed motions, zero where free, (m).
-  pure function prescribed_values(problem) result(values)
-    type(fuge_problem), intent(in) :: problem
-    real(dp) :: values(problem%mode_count())
-
-    values = 0.0_dp
-    if (allocated(problem%prescribed)) where (problem%prescribed) values = problem%motion
-  end function prescribed_values
 
 end module fuge_general_scene
