@@ -10,8 +10,9 @@ module fuge_mode_projection
   implicit none
   private
 
-  !> A mode is a combination of the others on the set if its remainder is below this fraction.
-  real(dp), parameter :: DEPENDENT = 1.0e-12_dp
+  !> A mode is a combination of the others on the set if its remainder is below this fraction: modes about a far-away
+  !> point have lost digits when they were made orthogonal.
+  real(dp), parameter :: DEPENDENT = 1.0e-10_dp
   !> What is missing in a resultant is rounding below this fraction of its terms.
   real(dp), parameter :: NEGLIGIBLE = 1.0e-11_dp
 
