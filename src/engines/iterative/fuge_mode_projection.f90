@@ -62,11 +62,12 @@ contains
     real(dp), intent(in), contiguous :: mode(:)
     integer, intent(in) :: j
     type(contact_segments), intent(in) :: segments
-    real(dp) :: part, size_before, size_after
+    real(dp) :: part, usual_size, size_after
     integer :: i, pass, r
 
-    size_before = sqrt(dot_over(segments, mode, mode))
-    if (.not. size_before > 0.0_dp) return
+    ! Not that on the set, where all that is left of a mode may be rounding.
+    usual_size = maxval(abs(mode))*sqrt(real(segments%points, dp))
+    if (.not. usual_size > 0.0_dp) return
     r = self%rank + 1
     self%basis(:, r) = mode
     self%coefficients(:, r) = 0.0_dp
@@ -80,7 +81,7 @@ contains
       end do
     end do
     size_after = sqrt(dot_over(segments, self%basis(:, r), self%basis(:, r)))
-    if (.not. size_after > DEPENDENT*size_before) return
+    if (.not. size_after > DEPENDENT*usual_size) return
     self%basis(:, r) = self%basis(:, r)/size_after
     self%coefficients(:, r) = self%coefficients(:, r)/size_after
     self%rank = r
