@@ -27,7 +27,7 @@ module fuge_canonical_problem
     !> Influence matrix, (at least n rows, n columns), length per force; owned by the caller.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
     !> What is known of it, and the number that tells it from other matrices, 0 if there is none.
-    type(matrix_survey) :: survey
+    type(matrix_survey) :: survey = matrix_survey()
     integer(c_long_long) :: stamp = 0
     !> Taken out of all of alpha, where it costs digits: the coefficient nearest to zero if there is a
     !> translation to take it up, else 0.
@@ -50,7 +50,7 @@ module fuge_canonical_problem
     integer, allocatable, private :: body(:)
     !> Positions of the free modes among all, and how to get from `modes` to those given.
     integer, allocatable, private :: free(:)
-    type(mode_change), private :: change
+    type(mode_change), private :: change = mode_change()
     !> Columns of R whose motion is prescribed, (n, m), zero where free; not allocated if there are none.
     real(dp), allocatable, private :: prescribed_modes(:, :)
     logical, allocatable, private :: prescribed(:)

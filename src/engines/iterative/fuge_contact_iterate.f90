@@ -67,9 +67,9 @@ module fuge_contact_iterate
     !> length; 0 before any step.
     real(dp) :: amplification = 0.0_dp
     !> The coefficients of the conjugate gradients of the last call that made steps.
-    type(lanczos_values) :: lanczos
+    type(lanczos_values) :: lanczos = lanczos_values()
     !> The rigid motions on the contact set.
-    type(mode_projection) :: projection
+    type(mode_projection) :: projection = mode_projection()
     !> The segments of the contact set.
     type(contact_segments) :: segments = contact_segments()
     !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off

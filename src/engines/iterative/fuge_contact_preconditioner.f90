@@ -50,7 +50,7 @@ module fuge_contact_preconditioner
     real(dp), allocatable, private :: centred(:)
     real(dp), private :: sum_of_uniform = 1.0_dp
     !> What stands for `uniform` where there are several rigid modes.
-    type(rigid_images), private :: rigid
+    type(rigid_images), private :: rigid = rigid_images()
     !> Force per length that stands for the preconditioner where the operator has none.
     real(dp), private :: stiffness = 1.0_dp
     logical, private :: has_stiffness = .false.
