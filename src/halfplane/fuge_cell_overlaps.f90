@@ -4,6 +4,7 @@
 !> A cell extends half its width to both sides of its centre, for every element: hats, which reach over
 !> their neighbours, have their centres at least one width apart.
 module fuge_cell_overlaps
+  use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_WIDTH
@@ -97,44 +98,5 @@ contains
 
     length = min(ALLOWANCE*width + rounding, 0.5_dp*width)
   end function allowance_of
-
-  !> Order the indices `order` of `keys` by them, ascending.
-  pure subroutine heap_sort(keys, order)
-    real(dp), intent(in) :: keys(:)
-    integer, intent(inout) :: order(:)
-    integer :: k, first
-
-    do k = size(order)/2, 1, -1
-      call sift_down(keys, k, order)
-    end do
-    do k = size(order), 2, -1
-      first = order(1)
-      order(1) = order(k)
-      order(k) = first
-      call sift_down(keys, 1, order(:k - 1))
-    end do
-  end subroutine heap_sort
-
-  !> Restore a heap, the greatest key first, in which only element `start` may be out of place.
-  pure subroutine sift_down(keys, start, heap)
-    real(dp), intent(in) :: keys(:)
-    integer, intent(in) :: start
-    integer, intent(inout) :: heap(:)
-    integer :: parent, child, moved
-
-    parent = start
-    moved = heap(start)
-    do
-      child = 2*parent
-      if (child > size(heap)) exit
-      if (child < size(heap)) then
-        if (keys(heap(child + 1)) > keys(heap(child))) child = child + 1
-      end if
-      if (keys(heap(child)) <= keys(moved)) exit
-      heap(parent) = heap(child)
-      parent = child
-    end do
-    heap(parent) = moved
-  end subroutine sift_down
 
 end module fuge_cell_overlaps

@@ -9,8 +9,8 @@ module fuge_sensitivity
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_unresisted_motions, only: find_unresisted_basis, is_resisted, without_unresisted
+  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
+  use fuge_unresisted_motions, only: find_unresisted_basis, refuse_unresisted, without_unresisted
   implicit none
   private
 
@@ -52,11 +52,8 @@ contains
     datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
     call canonical%transform_change(gap_change, load_change, reduced_gap, load)
     call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
-    if (.not. is_resisted(load, unresisted)) then
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not resist the motions that these resultants act ' &
-                  //'in: they would turn the body over, whatever the size of the change')
-      return
-    end if
+    call refuse_unresisted(load, unresisted, info)
+    if (info%failed()) return
     call solve_refined(canonical, operator%alpha, datum, factor, state /= FUGE_OPEN, reduced_gap, load, force, &
                        free_motion)
     free_motion = without_unresisted(free_motion, unresisted)

@@ -7,11 +7,12 @@ module fuge_unresisted_motions
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text
   use fuge_pivoted_qr, only: orthogonal_complement
-  use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE
+  use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
 
-  public :: find_unresisted_motion, find_unresisted_basis, is_resisted, report_unresisted_motion, without_unresisted
+  public :: find_unresisted_motion, find_unresisted_basis, is_resisted, refuse_unresisted, report_unresisted_motion, &
+    without_unresisted
 
   !> Rows of the modes that differ by less than this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
@@ -108,6 +109,17 @@ contains
       rest = rest - dot_product(basis(:, j), motion)*basis(:, j)
     end do
   end function without_unresisted
+
+  !> Refuse changes `load` (m) of the resultants in a motion of the `basis` of the unresisted ones
+  !> (FUGE_ERR_NO_EQUILIBRIUM).
+  pure subroutine refuse_unresisted(load, basis, info)
+    real(dp), intent(in) :: load(:), basis(:, :)
+    type(fuge_info), intent(inout) :: info
+
+    if (is_resisted(load, basis)) return
+    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not resist the motions that these resultants act ' &
+                //'in: they would turn the body over, whatever the size of the change')
+  end subroutine refuse_unresisted
 
   !> Do the resultants `load` (m) act in none of the unresisted motions, of which `basis` is an orthonormal basis?
   !>

@@ -34,6 +34,7 @@ module fuge_contact_scene
     procedure :: is_simple
     procedure :: is_unloaded
     procedure :: is_tied
+    procedure :: tied_points
   end type contact_scene
 
   !> No displacement closes this gap.
@@ -70,6 +71,17 @@ contains
     if (allocated(self%excluded)) is_tied = is_tied .and. .not. self%excluded(k)
   end function is_tied
 
+  !> Points that are tied, (n).
+  pure function tied_points(self) result(tied)
+    class(contact_scene), intent(in) :: self
+    logical :: tied(size(self%gap))
+    integer :: k
+
+    do k = 1, size(tied)
+      tied(k) = self%is_tied(k)
+    end do
+  end function tied_points
+
   !> The scene on the grid whose cells are 2**level times as wide as those of `finest`, with means over the points of
   !> a cell that take part. `possible` is false if no forces there carry the resultants. Error: FUGE_ERR_MEMORY.
   subroutine coarser_scene(scene, finest, level, coarse, possible, info)
@@ -96,7 +108,7 @@ contains
       coarse%excluded = .not. share > 0.0_dp
       where (coarse%excluded) coarse%gap = OUT_OF_REACH
     end if
-    if (allocated(coarse%modes)) call find_balance(coarse, possible)
+    if (allocated(coarse%modes)) call find_balance(coarse, possible, info)
   end subroutine coarser_scene
 
   !> `share`: the fraction of the points of each coarse cell that take part.
@@ -105,12 +117,15 @@ contains
     integer, intent(in) :: finest(2), level
     real(dp), allocatable, intent(out) :: share(:)
     type(fuge_info), intent(inout) :: info
+    integer :: stat
 
     if (allocated(scene%excluded)) then
       call restrict(merge(0.0_dp, 1.0_dp, scene%excluded), finest, level, share, info)
     else
-      allocate (share(product(coarser_cells(finest, level))))
-      share = 1.0_dp
+      allocate (share(product(coarser_cells(finest, level))), stat=stat)
+      if (stat == 0) share = 1.0_dp
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(product(coarser_cells(finest, level))) &
+                                 //' cells')
     end if
   end subroutine restrict_share
 
@@ -174,14 +189,21 @@ contains
     end do
   end subroutine restrict_modes
 
-  !> Forces in equilibrium with the resultants; `possible` if there are any.
-  subroutine find_balance(scene, possible)
+  !> Forces in equilibrium with the resultants; `possible` if there are any. Error: FUGE_ERR_MEMORY.
+  subroutine find_balance(scene, possible, info)
     type(contact_scene), intent(inout) :: scene
     logical, intent(out) :: possible
+    type(fuge_info), intent(inout) :: info
     real(dp) :: remainder(size(scene%load))
     logical, allocatable :: pushes(:), pulls(:)
+    integer :: stat
 
-    allocate (pushes(size(scene%gap)), pulls(size(scene%gap)))
+    possible = .false.
+    allocate (pushes(size(scene%gap)), pulls(size(scene%gap)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium on '//text(size(scene%gap))//' cells')
+      return
+    end if
     pushes = .true.
     if (allocated(scene%excluded)) pushes = .not. scene%excluded
     pulls = .false.

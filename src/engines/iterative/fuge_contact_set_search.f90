@@ -56,9 +56,8 @@ contains
 
   !> Find the contact set of one grid and its forces.
   !>
-  !> `iterate` in: forces to start from; out: forces,
-  !> displacements, contact set and motion. Counts contact sets, products and preconditionings in
-  !> `info`. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
+  !> `iterate` in: forces to start from; out: forces, displacements, contact set and motion. Counts contact sets, products
+  !> and preconditionings in `info`. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
   subroutine find_contact_set(operator, settings, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
@@ -302,7 +301,7 @@ contains
     real(dp), allocatable :: feasible(:), noise(:)
     logical, allocatable :: locked(:), tied(:)
     integer, allocatable :: state(:)
-    integer :: k, newest, n, stat
+    integer :: newest, n, stat
 
     n = size(scene%gap)
     allocate (feasible(n), noise(n), locked(n), tied(n), state(n), stat=stat)
@@ -311,7 +310,7 @@ contains
       return
     end if
     locked = .false.
-    tied = [(scene%is_tied(k), k=1, n)]
+    tied = scene%tied_points()
     newest = 0
     call make_feasible(operator, scene, iterate, info)
     if (allocated(scene%modes) .and. .not. info%failed()) call step_from_balance(scene, tied, iterate)

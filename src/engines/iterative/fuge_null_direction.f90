@@ -8,8 +8,9 @@ module fuge_null_direction
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: max_abs_over
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -26,7 +27,8 @@ contains
 
   !> Note the largest displacement by forces of size 1, iterate%softness; iterate%work is the displacement by the search
   !> direction. The first direction may be one that displaces nothing: then from the terms of its displacement, which
-  !> the operator of a grid knows, or for other operators from a product with one force. Errors: those of the operator.
+  !> the operator of a grid knows, or for other operators from a product with one force. Errors: FUGE_ERR_MEMORY, those of
+  !> the operator.
   subroutine find_softness(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
@@ -34,16 +36,20 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: force
     real(dp), allocatable :: terms(:), unit(:)
+    integer :: stat
 
     force = max_abs_over(iterate%segments, iterate%direction)
     if (.not. force > 0.0_dp) return
     if (.not. iterate%softness > 0.0_dp) then
-      allocate (terms(size(iterate%work)))
+      allocate (terms(size(iterate%work)), unit(size(iterate%work)), stat=stat)
+      if (stat /= 0) then
+        call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements of '//text(size(iterate%work))//' points')
+        return
+      end if
       if (all(operator%grid() > 0)) then
         call operator%magnitude(iterate%direction, iterate%work, terms)
         iterate%softness = maxval(terms)/force
       else
-        allocate (unit(size(terms)))
         unit = 0.0_dp
         unit(iterate%segments%first(1)) = 1.0_dp
         call compute_displacement(operator, counts_datum(scene, iterate), unit, terms, info)

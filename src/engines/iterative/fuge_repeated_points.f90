@@ -5,9 +5,11 @@
 module fuge_repeated_points
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, deformed_gap
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -21,7 +23,7 @@ contains
   !> Two points that touch and are the same one twice, and of which one carries a force, or zeros.
   !>
   !> The cells of a grid are never the same. No product unless two points have the same gap and the same rows of the
-  !> modes; one for those, and one more to confirm a pair. Errors: those of the operator.
+  !> modes; one for those, and one more to confirm a pair. Errors: FUGE_ERR_MEMORY, those of the operator.
   subroutine find_repeated_points(operator, scene, iterate, pair, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
@@ -32,23 +34,27 @@ contains
     integer, allocatable :: order(:)
     logical, allocatable :: touches(:)
     real(dp) :: softness
-    integer :: k
+    integer :: k, stat
 
     pair = 0
     if (all(operator%grid() > 0)) return
-    allocate (touches, source=touching_points(scene, iterate))
+    allocate (touches, source=touching_points(scene, iterate), stat=stat)
+    if (stat /= 0) call report_memory(size(scene%gap), info)
+    if (info%failed()) return
     if (count(touches) < 2) return
-    allocate (order, source=pack([(k, k=1, size(touches))], touches))
-    allocate (data, source=data_at(scene, iterate))
-    call sort_by(data, order)
+    allocate (order, source=pack([(k, k=1, size(touches))], touches), stat=stat)
+    if (stat == 0) allocate (data, source=data_at(scene, iterate), stat=stat)
+    if (stat == 0) allocate (force(size(data)), displacement(size(data)), stat=stat)
+    if (stat /= 0) call report_memory(size(scene%gap), info)
+    if (info%failed()) return
+    call heap_sort(data, order)
     if (equal_neighbour(data, data, order) < 1) return
-    allocate (force(size(data)), displacement(size(data)))
     call set_random(touches, force)
     call compute_displacement(operator, .false., force, displacement, info)
     if (info%failed()) return
     softness = maxval(abs(displacement))
-    call sort_by(displacement, order)
-    k = equal_neighbour(displacement, data, order, abs(iterate%force) > 0.0_dp .or. tied_points(scene))
+    call heap_sort(displacement, order)
+    k = equal_neighbour(displacement, data, order, abs(iterate%force) > 0.0_dp .or. scene%tied_points())
     if (k < 1) return
     force = 0.0_dp
     force(order(k)) = 1.0_dp
@@ -58,6 +64,13 @@ contains
     if (maxval(abs(displacement)) <= ROUNDINGS*epsilon(softness)*softness) pair = [minval(order(k - 1:k)), &
                                                                                    maxval(order(k - 1:k))]
   end subroutine find_repeated_points
+
+  pure subroutine report_memory(points, info)
+    integer, intent(in) :: points
+    type(fuge_info), intent(inout) :: info
+
+    call report(info, FUGE_ERR_MEMORY, 'no memory to look for repeated points among '//text(points))
+  end subroutine report_memory
 
   !> The contact set, and the open points that only rounding parts from their lower stop, (n).
   pure function touching_points(scene, iterate) result(touches)
@@ -115,15 +128,6 @@ contains
     position = 0
   end function equal_neighbour
 
-  !> Points that are tied, (n).
-  pure function tied_points(scene) result(tied)
-    type(contact_scene), intent(in) :: scene
-    logical :: tied(size(scene%gap))
-    integer :: k
-
-    tied = [(scene%is_tied(k), k=1, size(tied))]
-  end function tied_points
-
   !> Forces between 1/2 and 1 on the contact set, the same in each solve.
   pure subroutine set_random(contact, force)
     logical, intent(in) :: contact(:)
@@ -137,30 +141,5 @@ contains
       force(k) = merge(0.5_dp + 0.5_dp*real(number, dp)/714025.0_dp, 0.0_dp, contact(k))
     end do
   end subroutine set_random
-
-  !> Sort the points `order` by their `values` (n), by Shell's method.
-  pure subroutine sort_by(values, order)
-    real(dp), intent(in) :: values(:)
-    integer, intent(inout) :: order(:)
-    integer :: distance, j, k, point
-
-    distance = 1
-    do while (distance < size(order)/3)
-      distance = 3*distance + 1
-    end do
-    do while (distance > 0)
-      do k = distance + 1, size(order)
-        point = order(k)
-        j = k - distance
-        do while (j > 0)
-          if (values(order(j)) <= values(point)) exit
-          order(j + distance) = order(j)
-          j = j - distance
-        end do
-        order(j + distance) = point
-      end do
-      distance = distance/3
-    end do
-  end subroutine sort_by
 
 end module fuge_repeated_points

@@ -12,8 +12,8 @@ module fuge_set_derivative
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_solution
   use fuge_projected_gradients, only: run_projected_gradients
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM
-  use fuge_unresisted_motions, only: find_unresisted_basis, is_resisted
+  use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
+  use fuge_unresisted_motions, only: find_unresisted_basis, refuse_unresisted
   implicit none
   private
 
@@ -40,13 +40,17 @@ contains
     type(fuge_info), intent(inout) :: info
     type(contact_scene) :: scene
     type(contact_iterate) :: iterate
-    real(dp), allocatable :: gap(:), motion(:)
+    real(dp), allocatable :: gap(:), motion(:), unresisted(:, :)
     integer :: n, stat
 
     n = size(state)
     call set_scene(canonical, gap_change, load_change, scene, info)
-    if (.not. info%failed()) call refuse_unresisted(canonical, scene, state, info)
     if (info%failed()) return
+    if (allocated(scene%modes)) then
+      call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
+      call refuse_unresisted(scene%load, unresisted, info)
+      if (info%failed()) return
+    end if
     allocate (gap(n), motion(size(load_change)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(n)//' points')
@@ -88,21 +92,6 @@ contains
     scene%balance = 0.0_dp
     call move_alloc(load, scene%load)
   end subroutine set_scene
-
-  !> Refuse changes of resultants in motions that the contact does not resist (FUGE_ERR_NO_EQUILIBRIUM).
-  subroutine refuse_unresisted(canonical, scene, state, info)
-    type(canonical_problem), intent(in) :: canonical
-    type(contact_scene), intent(in) :: scene
-    integer, intent(in) :: state(:)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: unresisted(:, :)
-
-    if (.not. allocated(scene%modes)) return
-    call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
-    if (is_resisted(scene%load, unresisted)) return
-    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not resist the motions that these resultants act ' &
-                //'in: they would turn the body over, whatever the size of the change')
-  end subroutine refuse_unresisted
 
   !> Forces on the set that close its gaps, of either sign, to the tolerance.
   subroutine solve_on_set(operator, scene, tolerance, iterate, info)

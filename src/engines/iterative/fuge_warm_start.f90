@@ -5,6 +5,7 @@
 !> grows with the power 3/2 of the distance, so that gap**(2/3) is linear in the position of the edge: where it
 !> extrapolates to a negative value, the point joins the contact set.
 module fuge_warm_start
+  use fuge_data_scales, only: is_prescribed
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
   implicit none
@@ -102,7 +103,7 @@ contains
       where (.not. abs(solution%force) > 0.0_dp) step%values = -max(solution%gap, 0.0_dp)
     end if
     do j = 1, size(step%resultant)
-      if (.not. is_held(problem, j)) then
+      if (.not. is_prescribed(problem, j)) then
         step%resultant(j) = problem%resultant(j)
       else if (allocated(problem%modes)) then
         step%resultant(j) = dot_product(problem%modes(:, j), solution%force)
@@ -124,16 +125,6 @@ contains
     call move_alloc(from%motion, to%motion)
     to%fingerprint = from%fingerprint
   end subroutine move_step
-
-  !> Is the motion in mode `j` prescribed?
-  pure function is_held(problem, j)
-    type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: j
-    logical :: is_held
-
-    is_held = .false.
-    if (allocated(problem%prescribed)) is_held = problem%prescribed(j)
-  end function is_held
 
   !> Is `step` another problem than `last`? The same one again gives no direction to extrapolate in.
   pure function differs(step, last)
@@ -264,7 +255,7 @@ contains
 
     controls = 0.0_dp
     do j = 1, size(controls)
-      if (is_held(problem, j)) then
+      if (is_prescribed(problem, j)) then
         controls(j) = motion(j)
       else
         controls(j) = resultant(j)
@@ -283,7 +274,7 @@ contains
     factor = 0.0_dp
     old = 0.0_dp
     do j = 1, problem%mode_count()
-      if (is_held(problem, j)) cycle
+      if (is_prescribed(problem, j)) cycle
       scale = max(abs(last%resultant(j)), abs(problem%resultant(j)))
       if (.not. scale > 0.0_dp) cycle
       factor = factor + (last%resultant(j)/scale)*(problem%resultant(j)/scale)
