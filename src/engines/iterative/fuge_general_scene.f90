@@ -177,10 +177,15 @@ contains
     type(mode_projection) :: projection
     real(dp), allocatable :: dropped(:)
     logical :: possible, pulls
+    integer :: stat
 
     call clear_rounding(scene, state, iterate, pulls)
     if (.not. (pulls .and. allocated(scene%modes))) return
-    allocate (dropped, source=iterate%force)
+    allocate (dropped, source=iterate%force, stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the forces of '//text(size(state))//' points')
+      return
+    end if
     call segments%find(abs(dropped) > 0.0_dp, info)
     if (.not. info%failed()) call projection%set(scene%modes, segments, info)
     if (info%failed()) return
