@@ -48,7 +48,7 @@ contains
     if (stat /= 0) call report_memory(size(scene%gap), info)
     if (info%failed()) return
     call heap_sort(data, order)
-    if (equal_neighbour(data, data, order) < 1) return
+    if (equal_neighbour(data, data, order, touches) < 1) return
     call set_random(touches, force)
     call compute_displacement(operator, .false., force, displacement, info)
     if (info%failed()) return
@@ -106,12 +106,12 @@ contains
     end do
   end function data_at
 
-  !> The first position in `order` whose point and the one before it have equal `values` and `data`, both (n), and if
-  !> `loaded` is given are marked there, at least one of them; 0 if there is none.
-  pure function equal_neighbour(values, data, order, loaded) result(position)
+  !> The first position in `order` whose point and the one before it have equal `values` and `data`, both (n), and of
+  !> which at least one is `marked`, (n); 0 if there is none.
+  pure function equal_neighbour(values, data, order, marked) result(position)
     real(dp), intent(in) :: values(:), data(:)
     integer, intent(in) :: order(:)
-    logical, intent(in), optional :: loaded(:)
+    logical, intent(in) :: marked(:)
     integer :: position
     real(dp) :: rounding, rounding_of_data
     integer :: k
@@ -122,8 +122,7 @@ contains
       k = position - 1
       if (abs(values(order(position)) - values(order(k))) > rounding) cycle
       if (abs(data(order(position)) - data(order(k))) > rounding_of_data) cycle
-      if (.not. present(loaded)) return
-      if (loaded(order(position)) .or. loaded(order(k))) return
+      if (marked(order(position)) .or. marked(order(k))) return
     end do
     position = 0
   end function equal_neighbour
