@@ -13,7 +13,7 @@ module fuge_elastic_moduli
   implicit none
   private
 
-  public :: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, check_e_star
+  public :: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, check_e_star, check_poisson
 
   !> Plane strain: bodies long across the plane, no strain out of the plane.
   integer, parameter, public :: FUGE_PLANE_STRAIN = 0

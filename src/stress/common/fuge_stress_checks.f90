@@ -1,0 +1,58 @@
+!> Checks of the points in a body at which stresses and displacements are asked for.
+module fuge_stress_checks
+  use fuge_input_checks, only: check_finite
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text, text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_GRID, FUGE_ERR_SIZE
+  implicit none
+  private
+
+  public :: check_coordinate, check_depth, check_result
+
+contains
+
+  !> Refuse coordinates that are not as many as `depth` or not finite: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE.
+  pure subroutine check_coordinate(values, name, depth, info)
+    real(dp), intent(in) :: values(:), depth(:)
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed()) return
+    if (size(values) /= size(depth)) then
+      call report(info, FUGE_ERR_SIZE, name//' has '//text(size(values))//' values for the '//text(size(depth)) &
+                  //' points of pz')
+    else
+      call check_finite(values, name, info)
+    end if
+  end subroutine check_coordinate
+
+  !> Refuse points above the surface (FUGE_ERR_GRID) and depths that are not finite (FUGE_ERR_NOT_FINITE).
+  pure subroutine check_depth(depth, name, info)
+    real(dp), intent(in) :: depth(:)
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    if (info%failed()) return
+    call check_finite(depth, name, info)
+    if (info%failed()) return
+    do k = 1, size(depth)
+      if (depth(k) >= 0.0_dp) cycle
+      call report(info, FUGE_ERR_GRID, name//'('//index_text(k)//') = '//text(depth(k)) &
+                  //' lies above the surface: z counts from 0 into the body')
+      return
+    end do
+  end subroutine check_depth
+
+  !> Refuse a result that is not (`components`, `points`): FUGE_ERR_SIZE.
+  pure subroutine check_result(shape_given, name, components, points, info)
+    integer, intent(in) :: shape_given(2), components, points
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. all(shape_given == [components, points])) return
+    call report(info, FUGE_ERR_SIZE, name//' is '//text(shape_given(1))//' by '//text(shape_given(2))//': it needs ' &
+                //text(components)//' rows and '//text(points)//' columns')
+  end subroutine check_result
+
+end module fuge_stress_checks
