@@ -14,9 +14,11 @@ module fuge
   use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
+  use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_halfspace_grid, only: FUGE_PERIODIC_X, FUGE_PERIODIC_Y
   use fuge_halfspace_influence, only: fuge_halfspace_matrix
+  use fuge_halfspace_stresses, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_hertz_theory, only: fuge_hertz_contact, fuge_hertz_ellipse
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: fuge_dp
@@ -34,7 +36,9 @@ module fuge
   use fuge_profile_files, only: fuge_read_profile
   use fuge_profile_sampling, only: fuge_level_profile, fuge_sample_profile, FUGE_LEVEL_LINE, FUGE_LEVEL_MEAN
   use fuge_ring_influence, only: fuge_ring_displacement, fuge_ring_matrix
+  use fuge_ring_interior, only: fuge_ring_interior_displacement, fuge_ring_stress
   use fuge_round_contact_type, only: fuge_round_contact
+  use fuge_round_interior, only: fuge_round_displacement, fuge_round_stress
   use fuge_round_punch, only: fuge_solve_round_punch
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_interior, only: fuge_smooth_displacement, fuge_smooth_stress

@@ -15,8 +15,8 @@ module fuge_cell_clusters
   private
 
   !> Nodes of a cluster, and from how many half lengths away, from its middle, they suffice.
-  integer, parameter :: ORDER = 32
-  real(dp), parameter :: SEPARATION = 2.0_dp
+  integer, parameter :: ORDER = 28
+  real(dp), parameter :: SEPARATION = 2.5_dp
   !> Nodes in each half of a cell for the integrals over its pressure, even: exact for the polynomials; and enough for cells
   !> that are NARROW times as long as their cluster, because a point far from it is still farther from them.
   integer, parameter :: FULL = ORDER/2 + 2, SHORT = 8
