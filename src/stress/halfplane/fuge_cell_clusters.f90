@@ -17,8 +17,8 @@ module fuge_cell_clusters
   !> Nodes of a cluster, and from how many half lengths away, from its middle, they suffice.
   integer, parameter :: ORDER = 28
   real(dp), parameter :: SEPARATION = 2.5_dp
-  !> Nodes in each half of a cell for the integrals over its pressure, even: exact for the polynomials; and enough for cells
-  !> that are NARROW times as long as their cluster, because a point far from it is still farther from them.
+  !> Nodes in each half of a cell for the integrals over its pressure, even: exact for the polynomials; and enough for
+  !> cells that are NARROW times as long as their cluster, because a point far from it is still farther from them.
   integer, parameter :: FULL = ORDER/2 + 2, SHORT = 8
   real(dp), parameter :: NARROW = 0.25_dp
   !> Partial sums, so that they run in vectors.
@@ -150,7 +150,8 @@ contains
           scaled_width = width(j)/self%half_length(k)
           rule = merge(1, 2, scaled_width < NARROW)
           number = merge(2*SHORT, 2*FULL, scaled_width < NARROW)
-          points(n + 1:n + number) = (centre(j) - self%middle(k))/self%half_length(k) + scaled_width*place(:number, rule)
+          points(n + 1:n + number) = (centre(j) - self%middle(k))/self%half_length(k) &
+                                     + scaled_width*place(:number, rule)
           shares(n + 1:n + number) = force(j)*weight(:number, rule)
           n = n + number
         end do

@@ -155,10 +155,15 @@ contains
       part = 0.0_dp
       call add_cell_stresses(self, half + 1, last, px, pz, part)
       total = total + part
-    else if (self%hats) then
-      call add_hats(self%rules, self%centre(first:last), self%width(first:last), self%pressure(first:last), px, pz, total)
     else
-      call add_strips(self%centre(first:last), self%width(first:last), self%pressure(first:last), px, pz, total)
+      associate (centre => self%centre(first:last), width => self%width(first:last), &
+                 pressure => self%pressure(first:last))
+        if (self%hats) then
+          call add_hats(self%rules, centre, width, pressure, px, pz, total)
+        else
+          call add_strips(centre, width, pressure, px, pz, total)
+        end if
+      end associate
     end if
   end subroutine add_cell_stresses
 
@@ -206,10 +211,15 @@ contains
       part = 0.0_dp
       call add_cell_displacements(self, half + 1, last, px, pz, part)
       total = total + part
-    else if (self%hats) then
-      call add_hat_displacements(self%centre(first:last), self%width(first:last), self%pressure(first:last), px, pz, total)
     else
-      call add_strip_displacements(self%centre(first:last), self%width(first:last), self%pressure(first:last), px, pz, total)
+      associate (centre => self%centre(first:last), width => self%width(first:last), &
+                 pressure => self%pressure(first:last))
+        if (self%hats) then
+          call add_hat_displacements(centre, width, pressure, px, pz, total)
+        else
+          call add_strip_displacements(centre, width, pressure, px, pz, total)
+        end if
+      end associate
     end if
   end subroutine add_cell_displacements
 

@@ -1,12 +1,13 @@
 !> Stresses and displacements in a half-plane under uniform strips of pressure, in closed form.
 !>
-!> Source: K. L. Johnson, Contact Mechanics, 1985, section 2.5. With x1 and x2 the distances of a point from the left and
-!> the right end of a strip, r1 and r2 its distances from them in the plane, w = x1 - x2 and A the angle under which it
-!> sees the strip,
+!> Source: K. L. Johnson, Contact Mechanics, 1985, section 2.5. With x1 and x2 the distances of a point from the left
+!> and the right end of a strip, r1 and r2 its distances from them in the plane, w = x1 - x2 and A the angle under
+!> which it sees the strip,
 !>
 !>     zz = -(p/pi) (A + w z (z**2 - x1 x2)/(r1 r2)**2),   xx with - for +,   xz = -(p/pi) w z**2 (x1 + x2)/(r1 r2)**2.
 !>
-!> The two terms of zz cancel beside the strip, those of xx below it. There, with D = x1 x2 + z**2 and t = tan(A) = w z/D,
+!> The two terms of zz cancel beside the strip, those of xx below it. There, with D = x1 x2 + z**2 and t = tan(A) = w
+!> z/D,
 !>
 !>     zz = -(p/pi) (w z**3 (w**2/D + 2)/(r1 r2)**2 - (t - atan(t))),
 !>     xx = -(p/pi) (w z (w**2 z**2/D + 2 x1 x2)/(r1 r2)**2 - (t - atan(t))),
@@ -32,8 +33,8 @@ contains
 
   !> Add -pi times the stresses xx, zz and xz of strips to `total` (3).
   !>
-  !> `centre`, `width`, `pressure` (n) of the strips; `px`, `pz` the point. At z = 0 the stresses at an end of a strip are
-  !> the mean of those at both sides.
+  !> `centre`, `width`, `pressure` (n) of the strips; `px`, `pz` the point. At z = 0 the stresses at an end of a strip
+  !> are the mean of those at both sides.
   pure subroutine add_strips(centre, width, pressure, px, pz, total)
     real(dp), intent(in), contiguous :: centre(:), width(:), pressure(:)
     real(dp), intent(in) :: px, pz
@@ -61,8 +62,8 @@ contains
     end do
     call arc_excesses(n, tangent, excess)
     do k = 1, n
-      call strip_terms(left(k), right(k), width(k), pz, cross(k), tangent(k), excess(k), xx(k), zz(k), xz(k), wide_xx(k), &
-                       wide_zz(k))
+      call strip_terms(left(k), right(k), width(k), pz, cross(k), tangent(k), excess(k), xx(k), zz(k), xz(k), &
+                       wide_xx(k), wide_zz(k))
     end do
     do k = 1, n
       xx(k) = merge(xx(k), wide_xx(k), cross(k) > width(k)*pz)
