@@ -12,6 +12,7 @@ module fuge
   use fuge_field_files, only: fuge_write_fields
   use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
+  use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_halfspace_grid, only: FUGE_PERIODIC_X, FUGE_PERIODIC_Y
   use fuge_halfspace_influence, only: fuge_halfspace_matrix
@@ -35,6 +36,7 @@ module fuge
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_punch, only: fuge_solve_round_punch
   use fuge_smooth_contact_type, only: fuge_smooth_contact
+  use fuge_smooth_interior, only: fuge_smooth_displacement, fuge_smooth_stress
   use fuge_smooth_profile_type, only: fuge_smooth_profile, fuge_polynomial_profile, fuge_sampled_profile
   use fuge_smooth_punch, only: fuge_solve_smooth_punch
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense
