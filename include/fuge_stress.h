@@ -76,7 +76,118 @@ int fuge_smooth_displacement(const fuge_smooth *contact, double young, double po
 
 /* ---- stresses of a half-space -------------------------------------------- */
 
+/* Stresses at points of a half-space under the forces of rectangles, each a uniform pressure.
+ *   x, y              in   n; centres of the rectangles; length
+ *   width_x, width_y  in   n; widths along x and along y; length
+ *   force             in   n; of a rectangle, positive where it presses; those of 0 cost nothing
+ *   poisson           in   Poisson's ratio, in (-1, 0.5]
+ *   points            in   >= 0
+ *   px, py, pz        in   points; pz >= 0 is the depth; length
+ *   stress            out  6 x points: xx, yy, zz, yz, xz, xy; force per length^2
+ * At z = 0 stresses are limits from inside.  They jump at edges between different pressures: on
+ * the edge xx, yy and zz are the means of both sides, and at a corner those around it; xz and
+ * yz are zero on the surface, and straight below an edge they tend to the difference of the
+ * pressures over pi.  At a corner xy is infinite if poisson < 0.5 and the pressures around it do
+ * not balance: its logarithm is left out.  Rectangles may overlap: their pressures add up.
+ * Many rectangles are taken in clusters.  Errors are a few 1e-14 of the sum of the magnitudes
+ * of the terms at most.  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH (a width <= 0),
+ * FUGE_ERR_MODULUS (poisson), FUGE_ERR_GRID (pz < 0), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. */
+int fuge_halfspace_stress(int n, const double *x, const double *y, const double *width_x,
+                          const double *width_y, const double *force, double poisson,
+                          int points, const double *px, const double *py, const double *pz,
+                          double *stress, char *message, size_t len);
+
+/* The same for a symmetric model, of which a half or a quarter is passed; as in
+ * fuge_halfspace_symmetric_matrix.  Points may lie on both sides. */
+int fuge_halfspace_symmetric_stress(int n, const double *x, const double *y,
+                                    const double *width_x, const double *width_y,
+                                    const double *force, double poisson, int symmetric_x,
+                                    int symmetric_y, int points, const double *px,
+                                    const double *py, const double *pz, double *stress,
+                                    char *message, size_t len);
+
+/* Displacements at points of a half-space under the forces of rectangles.
+ *   young, poisson    in   of the body, not of the pair; force per length^2, and none;
+ *                          young may be INFINITY
+ *   displacement      out  3 x points: along x, y and z, z into the body; length
+ * All else as in fuge_halfspace_stress.  Displacements vanish far away; those along z at the
+ * centres of the rectangles are the matrix of fuge_halfspace_matrix (FUGE_CENTRE, e_star =
+ * young/(1 - poisson^2)) times the forces. */
+int fuge_halfspace_displacement(int n, const double *x, const double *y, const double *width_x,
+                                const double *width_y, const double *force, double young,
+                                double poisson, int points, const double *px, const double *py,
+                                const double *pz, double *displacement, char *message,
+                                size_t len);
+
+/* The same for a symmetric model, as fuge_halfspace_symmetric_stress. */
+int fuge_halfspace_symmetric_displacement(int n, const double *x, const double *y,
+                                          const double *width_x, const double *width_y,
+                                          const double *force, double young, double poisson,
+                                          int symmetric_x, int symmetric_y, int points,
+                                          const double *px, const double *py, const double *pz,
+                                          double *displacement, char *message, size_t len);
+
 /* ---- stresses on grids --------------------------------------------------- */
+/* ---- stresses on grids ---------------------------------------------------
+ *
+ * Below the centres of equal cells side by side, by FFT: a depth costs O(n log n), and the forces
+ * are transformed once for all of them.  Numbers that the points of the sections above have, too.
+ * Results may not overlap inputs.
+ *
+ * With FUGE_PERIODIC the mean pressure is a stress zz = -mean at all depths; what stress it has
+ * along the surface depends on how the body is held far away.  Here it is 0: a body that cannot
+ * expand has in addition poisson/(1 - poisson) times the mean of zz, in plane strain and in a
+ * half-space.  Displacements count, at each depth, from the mean at that depth. */
+
+/* Stresses in a half-plane.
+ *   n          in   cells, the period with FUGE_PERIODIC
+ *   spacing    in   > 0; width of a cell, length
+ *   force      in   n; per unit depth, compression positive, of any sign
+ *   element    in   FUGE_CENTRE and FUGE_MEAN: strips of pressure force/spacing; FUGE_HAT
+ *   boundary   in   FUGE_FREE or FUGE_PERIODIC
+ *   depths     in   >= 0
+ *   depth      in   depths; >= 0, in any order, length
+ *   stress     out  xx, zz, xz of cell i at depth k at stress + 3*(i + n*k); force per length^2
+ * FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_ELEMENT,
+ * FUGE_ERR_OPTION for boundary, FUGE_ERR_GRID for a depth < 0, FUGE_ERR_OVERFLOW,
+ * FUGE_ERR_MEMORY. */
+int fuge_halfplane_stress_grid(int n, double spacing, const double *force, int element,
+                               int boundary, int depths, const double *depth, double *stress,
+                               char *message, size_t len);
+
+/* Displacements in a half-plane.
+ *   young, poisson, plane_state  in   of the body, as in fuge_plane_modulus
+ *   displacement                 out  along x and z of cell i at depth k at
+ *                                     displacement + 2*(i + n*k), length
+ * With FUGE_FREE the datum is that of fuge_halfplane_displacement.  Other arguments and errors as
+ * above; also FUGE_ERR_MODULUS, FUGE_ERR_OPTION for plane_state. */
+int fuge_halfplane_displacement_grid(int n, double spacing, const double *force, int element,
+                                     int boundary, double young, double poisson, int plane_state,
+                                     int depths, const double *depth, double *displacement,
+                                     char *message, size_t len);
+
+/* Stresses in a half-space.
+ *   nx, ny                in   cells along x and y; cell (i, j) is cell i + nx*j
+ *   spacing_x, spacing_y  in   > 0; length
+ *   force                 in   nx*ny; of the cells, compression positive, of any sign
+ *   boundary              in   FUGE_FREE or FUGE_PERIODIC; a surface that is periodic along one
+ *                              direction only is FUGE_ERR_UNSUPPORTED
+ *   poisson               in   of the body, in (-1, 0.5]
+ *   stress                out  xx, yy, zz, yz, xz, xy of cell i at depth k at
+ *                              stress + 6*(i + nx*ny*k); force per length^2
+ * Other arguments and errors as above; also FUGE_ERR_MODULUS for poisson. */
+int fuge_halfspace_stress_grid(int nx, int ny, double spacing_x, double spacing_y,
+                               const double *force, int boundary, double poisson, int depths,
+                               const double *depth, double *stress, char *message, size_t len);
+
+/* Displacements in a half-space.
+ *   young         in   of the body, > 0, INFINITY for a rigid one
+ *   displacement  out  along x, y, z of cell i at depth k at displacement + 3*(i + nx*ny*k)
+ * Other arguments and errors as above. */
+int fuge_halfspace_displacement_grid(int nx, int ny, double spacing_x, double spacing_y,
+                                     const double *force, int boundary, double young,
+                                     double poisson, int depths, const double *depth,
+                                     double *displacement, char *message, size_t len);
 
 /* ---- stresses of round bodies -------------------------------------------- */
 

@@ -15,9 +15,11 @@ module fuge
   use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_halfplane_peak_search, only: fuge_halfplane_peak, fuge_smooth_peak
+  use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_halfspace_grid, only: FUGE_PERIODIC_X, FUGE_PERIODIC_Y
   use fuge_halfspace_influence, only: fuge_halfspace_matrix
+  use fuge_halfspace_stresses, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_hertz_theory, only: fuge_hertz_contact, fuge_hertz_ellipse
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: fuge_dp
