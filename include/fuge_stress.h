@@ -127,7 +127,6 @@ int fuge_halfspace_symmetric_displacement(int n, const double *x, const double *
                                           const double *px, const double *py, const double *pz,
                                           double *displacement, char *message, size_t len);
 
-/* ---- stresses on grids --------------------------------------------------- */
 /* ---- stresses on grids ---------------------------------------------------
  *
  * Below the centres of equal cells side by side, by FFT: a depth costs O(n log n), and the forces
