@@ -48,6 +48,8 @@ module fuge
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
+  use fuge_stress_measures, only: fuge_halfplane_tensor, fuge_round_tensor, fuge_principal_stresses, fuge_von_mises, &
+    fuge_tresca, fuge_mean_stress
   use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
   use fuge_surface_levelling, only: fuge_level_surface, FUGE_LEVEL_PLANE
   use fuge_surface_type, only: fuge_surface, FUGE_FILE_ANY, FUGE_FILE_GRID, FUGE_FILE_POINTS, FUGE_FILE_SDF
