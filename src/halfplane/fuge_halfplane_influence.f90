@@ -26,7 +26,7 @@ module fuge_halfplane_influence
   implicit none
   private
 
-  public :: fuge_halfplane_matrix, check_halfplane, check_element, mean_log
+  public :: fuge_halfplane_matrix, check_halfplane, check_element, datum_length, mean_log
 
   !> `element`: uniform pressure f/width on a cell, displacement at its centre; equal widths.
   integer, parameter, public :: FUGE_CENTRE = 0

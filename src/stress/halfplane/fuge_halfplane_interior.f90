@@ -1,0 +1,178 @@
+!> Stresses and displacements inside an elastic half-plane under the forces of its cells.
+module fuge_halfplane_interior
+  use fuge_cell_overlaps, only: check_overlaps
+  use fuge_constants, only: LARGEST_EXPONENT_OF_2, PI
+  use fuge_elastic_moduli, only: fuge_plane_modulus, FUGE_PLANE_STRAIN
+  use fuge_halfplane_influence, only: check_halfplane, datum_length
+  use fuge_input_checks, only: check_finite
+  use fuge_kinds, only: dp
+  use fuge_loaded_cells, only: loaded_cells
+  use fuge_number_text, only: index_text, text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
+  use fuge_stress_checks, only: check_coordinate, check_depth, check_result
+  implicit none
+  private
+
+  public :: fuge_halfplane_stress, fuge_halfplane_displacement, displacement_factors
+
+contains
+
+  !> Stresses in a half-plane under forces on its cells, to rounding at any depth and distance.
+  !>
+  !> `x`, `width`, `element` and `symmetric` as for `fuge_halfplane_matrix`, length; `force` (n) of the cells, per unit depth,
+  !> compression positive, of any sign: those that a solver returns; `px`, `pz` (points) along the surface and into the
+  !> body, pz >= 0, length; out: `stress` (3, points) xx, zz, xz, force per length squared, tension positive. FUGE_CENTRE
+  !> and FUGE_MEAN are strips of pressure force/width, FUGE_HAT hats with the peak force/width. In plane strain yy is
+  !> nu (xx + zz). Cells without force cost nothing.
+  !>
+  !> At z = 0 xx = zz = -pressure and xz = 0; at an end of a strip they are the mean of those on both sides, although xz
+  !> straight below it tends to -pressure/pi at the right end and to pressure/pi at the left one.
+  !>
+  !> Errors, stress untouched: those of `fuge_halfplane_matrix`; FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE; FUGE_ERR_GRID for
+  !> pz < 0; FUGE_ERR_OVERFLOW also for a length beyond 1e75 times the narrowest width. Source: `fuge_strip_field`,
+  !> `fuge_hat_field`.
+  pure subroutine fuge_halfplane_stress(x, width, force, element, px, pz, stress, info, symmetric)
+    real(dp), intent(in) :: x(:), width(:), force(:), px(:), pz(:)
+    integer, intent(in) :: element
+    real(dp), intent(inout) :: stress(:, :)
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: symmetric
+    type(loaded_cells) :: cells
+    logical :: folded
+    real(dp) :: total(3), image(3), scaled(2)
+    integer :: k
+
+    folded = .false.
+    if (present(symmetric)) folded = symmetric
+    call check_cells_and_points(x, width, force, element, folded, px, pz, info)
+    call check_result(shape(stress), 'stress', 3, size(pz), info)
+    if (.not. info%failed()) call cells%set(x, width, force, element, info)
+    call check_distances(cells, px, pz, info)
+    if (info%failed()) return
+    do k = 1, size(pz)
+      scaled = scale([px(k), pz(k)], cells%power)
+      total = 0.0_dp
+      call cells%add_stresses(scaled(1), scaled(2), total)
+      if (folded) then
+        image = 0.0_dp
+        call cells%add_stresses(-scaled(1), scaled(2), image)
+        total = 0.5_dp*(total + [image(1), image(2), -image(3)])
+      end if
+      stress(:, k) = -scale(total/PI, cells%power)
+    end do
+  end subroutine fuge_halfplane_stress
+
+  !> Displacements in a half-plane under forces on its cells.
+  !>
+  !> `x`, `width`, `force`, `element`, `px`, `pz` and `symmetric` as for `fuge_halfplane_stress`; `young`, `poisson` and
+  !> `plane_state` of the body as for `fuge_plane_modulus`; out: `displacement` (2, points) along x and z, length. Along z
+  !> the datum is that of `fuge_halfplane_matrix`, so that at the surface the displacement of a point is that matrix (with
+  !> FUGE_CENTRE or FUGE_HAT) times the forces, for the modulus of this body. A line load moves points straight below it
+  !> along z only, and x along it grows from there. A rigid body (`young` infinite) has no displacements.
+  !>
+  !> Errors, displacement untouched: as for `fuge_halfplane_stress` and `fuge_plane_modulus`. Source: A.-A. Flamant, 1892;
+  !> K. L. Johnson, Contact Mechanics, 1985, equation 2.22, integrated over the pressure.
+  pure subroutine fuge_halfplane_displacement(x, width, force, element, young, poisson, plane_state, px, pz, displacement, &
+                                              info, symmetric)
+    real(dp), intent(in) :: x(:), width(:), force(:), young, poisson, px(:), pz(:)
+    integer, intent(in) :: element, plane_state
+    real(dp), intent(inout) :: displacement(:, :)
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: symmetric
+    type(loaded_cells) :: cells
+    logical :: folded
+    real(dp) :: total(4), image(4), scaled(2), factor(3), datum
+    integer :: k
+
+    folded = .false.
+    if (present(symmetric)) folded = symmetric
+    call displacement_factors(young, poisson, plane_state, factor, info)
+    if (.not. info%failed()) call check_cells_and_points(x, width, force, element, folded, px, pz, info)
+    call check_result(shape(displacement), 'displacement', 2, size(pz), info)
+    if (.not. info%failed()) call cells%set(x, width, force, element, info)
+    call check_distances(cells, px, pz, info)
+    if (info%failed()) return
+    datum = log(scale(datum_length(x, width, folded), cells%power))*sum(force)
+    do k = 1, size(pz)
+      scaled = scale([px(k), pz(k)], cells%power)
+      total = 0.0_dp
+      call cells%add_displacements(scaled(1), scaled(2), total)
+      if (folded) then
+        image = 0.0_dp
+        call cells%add_displacements(-scaled(1), scaled(2), image)
+        total = 0.5_dp*(total + [image(:2), -image(3:)])
+      end if
+      displacement(1, k) = factor(1)*total(3) - factor(3)*total(4)
+      displacement(2, k) = factor(1)*total(2) - factor(2)*(total(1) - datum)
+    end do
+  end subroutine fuge_halfplane_displacement
+
+  !> What the displacements are made of: 1/(2 pi mu), 2/(pi E*) and (1 - 2 nu)/(2 pi mu), the last one for plane strain,
+  !> mu being the shear modulus. Errors as for `fuge_plane_modulus`, and FUGE_ERR_OVERFLOW.
+  pure subroutine displacement_factors(young, poisson, plane_state, factor, info)
+    real(dp), intent(in) :: young, poisson
+    integer, intent(in) :: plane_state
+    real(dp), intent(out) :: factor(3)
+    type(fuge_info), intent(out) :: info
+    real(dp) :: e_star
+
+    factor = 0.0_dp
+    e_star = 1.0_dp
+    call fuge_plane_modulus(young, poisson, plane_state, e_star, info)
+    if (info%failed() .or. young > huge(young)) return
+    if (abs(exponent(young)) > LARGEST_EXPONENT_OF_2) then
+      call report(info, FUGE_ERR_OVERFLOW, 'young = '//text(young)//' is out of range: choose other units')
+      return
+    end if
+    factor = [1.0_dp + poisson, 2.0_dp*(1.0_dp - poisson)*(1.0_dp + poisson), (1.0_dp + poisson)*(1.0_dp - 2.0_dp*poisson)]
+    if (plane_state /= FUGE_PLANE_STRAIN) factor(2:) = [2.0_dp, 1.0_dp - poisson]
+    factor = factor/young/PI
+  end subroutine displacement_factors
+
+  !> Arguments and errors as above.
+  pure subroutine check_cells_and_points(x, width, force, element, symmetric, px, pz, info)
+    real(dp), intent(in) :: x(:), width(:), force(:), px(:), pz(:)
+    integer, intent(in) :: element
+    logical, intent(in) :: symmetric
+    type(fuge_info), intent(inout) :: info
+
+    call check_halfplane(x, width, 1.0_dp, element, symmetric, info)
+    if (.not. info%failed()) call check_overlaps(x, width, symmetric, info)
+    if (.not. info%failed()) call check_forces(force, size(x), info)
+    call check_depth(pz, 'pz', info)
+    call check_coordinate(px, 'px', pz, info)
+  end subroutine check_cells_and_points
+
+  pure subroutine check_forces(force, n, info)
+    real(dp), intent(in) :: force(:)
+    integer, intent(in) :: n
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    if (size(force) /= n) then
+      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' values for the '//text(n)//' cells')
+      return
+    end if
+    call check_finite(force, 'force', info)
+    do k = 1, n
+      if (info%failed()) return
+      if (exponent(force(k)) > LARGEST_EXPONENT_OF_2) call report(info, FUGE_ERR_OVERFLOW, 'force('//index_text(k)//') = ' &
+        //text(force(k))//' is out of range: choose other units')
+    end do
+  end subroutine check_forces
+
+  !> Refuse points that are too far away (FUGE_ERR_OVERFLOW).
+  pure subroutine check_distances(cells, px, pz, info)
+    type(loaded_cells), intent(in) :: cells
+    real(dp), intent(in) :: px(:), pz(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    do k = 1, size(pz)
+      if (info%failed()) return
+      call cells%check_range(px(k), 'px', k, info)
+      call cells%check_range(pz(k), 'pz', k, info)
+    end do
+  end subroutine check_distances
+
+end module fuge_halfplane_interior
