@@ -170,6 +170,15 @@ int fuge_write_fields(const char *path, int nx, int ny, const double *spacing, c
                       int count, const char *const *names, const double *const *fields,
                       char *message, size_t len);
 
+/* The same at the centres of the cells and at several depths, such as the stresses of
+ * fuge_halfspace_stress_grid: a VTR file.
+ *   depth    in  depths, ascending; length       fields  in  count arrays of nx*ny*depths
+ *                                                            values, the first depth first
+ * ny = 1 for a half-plane.  FUGE_ERR_GRID for depths that do not ascend. */
+int fuge_write_volume(const char *path, int nx, int ny, const double *spacing, const double *origin,
+                      int depths, const double *depth, int count, const char *const *names,
+                      const double *const *fields, char *message, size_t len);
+
 #ifdef __cplusplus
 }
 #endif

@@ -9,7 +9,8 @@ module fuge
     FUGE_EDGE_SINGULAR, FUGE_EDGE_GRID_END
   use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
     FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
-  use fuge_field_files, only: fuge_write_fields
+  use fuge_field_files, only: fuge_write_fields, fuge_write_volume
+  use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid, fuge_halfplane_stress_grid
   use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress

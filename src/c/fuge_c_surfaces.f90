@@ -3,7 +3,7 @@ module fuge_c_surfaces
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
   use fuge_c_types, only: copy_integers, copy_reals, from_c_string, report_to_c, require_count, require_path, &
     require_pointer
-  use fuge_field_files, only: fuge_write_fields
+  use fuge_field_files, only: fuge_write_fields, fuge_write_volume
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
@@ -134,8 +134,7 @@ contains
     integer(c_int) :: status
     character(len=NAME_LENGTH), allocatable :: all_names(:)
     real(c_double), allocatable :: all_fields(:, :)
-    real(c_double), pointer :: spacings(:), place(:)
-    real(c_double) :: centre(2)
+    real(c_double), pointer :: spacings(:)
     type(fuge_info) :: info
     integer :: points
 
@@ -147,17 +146,70 @@ contains
     if (.not. info%failed()) points = int(nx)*int(ny)
     call copy_fields(points, int(count), names, fields, all_names, all_fields, info)
     if (.not. info%failed()) then
-      centre = 0.0_c_double
-      if (c_associated(origin)) then
-        call c_f_pointer(origin, place, [2])
-        centre = place
-      end if
       call c_f_pointer(spacing, spacings, [2])
       call fuge_write_fields(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), all_names, all_fields, &
-                             info, centre)
+                             info, first_centre(origin))
     end if
     status = report_to_c(info, message, length)
   end function c_write_fields
+
+  !> Twelve arguments, as in the header: the file, the points, the fields, the message.
+  function c_write_volume(path, nx, ny, spacing, origin, depths, depth, count, names, fields, message, length) &
+    bind(c, name='fuge_write_volume') result(status)
+    type(c_ptr), intent(in), value :: path, spacing, origin, depth, names, fields, message
+    integer(c_int), intent(in), value :: nx, ny, depths, count
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    character(len=NAME_LENGTH), allocatable :: all_names(:)
+    real(c_double), allocatable :: all_fields(:, :)
+    real(c_double), pointer :: spacings(:), levels(:)
+    type(fuge_info) :: info
+    integer :: points
+
+    call require_path(path, info)
+    call require_pointer(spacing, 'spacing', info)
+    call require_pointer(depth, 'depth', info)
+    call require_sizes(nx, ny, info)
+    call require_count(depths, 1, 'depths', 'elements of depth', info)
+    call require_count(count, 1, 'count', 'fields', info)
+    points = 0
+    if (.not. info%failed()) call find_points([nx, ny, depths], points, info)
+    call copy_fields(points, int(count), names, fields, all_names, all_fields, info)
+    if (.not. info%failed()) then
+      call c_f_pointer(spacing, spacings, [2])
+      call c_f_pointer(depth, levels, [depths])
+      call fuge_write_volume(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), levels, all_names, &
+                             all_fields, info, first_centre(origin))
+    end if
+    status = report_to_c(info, message, length)
+  end function c_write_volume
+
+  !> The number of points of a volume, `points`; FUGE_ERR_SIZE if it is beyond the default integers.
+  subroutine find_points(sizes, points, info)
+    integer(c_int), intent(in) :: sizes(3)
+    integer, intent(out) :: points
+    type(fuge_info), intent(inout) :: info
+
+    points = 0
+    if (product(real(sizes, c_double)) > real(huge(points), c_double)) then
+      call report(info, FUGE_ERR_SIZE, 'nx*ny*depths has '//text(int(sizes(1)))//' x '//text(int(sizes(2)))//' x ' &
+                  //text(int(sizes(3)))//' points: more than an int can count')
+    else
+      points = product(int(sizes))
+    end if
+  end subroutine find_points
+
+  !> The centre of the first cell: 0, 0 unless C gives it.
+  function first_centre(origin) result(centre)
+    type(c_ptr), intent(in) :: origin
+    real(c_double) :: centre(2)
+    real(c_double), pointer :: place(:)
+
+    centre = 0.0_c_double
+    if (.not. c_associated(origin)) return
+    call c_f_pointer(origin, place, [2])
+    centre = place
+  end function first_centre
 
   !> Copy the names of `count` fields of n values and the fields, unless an error is known already.
   subroutine copy_fields(n, count, names, fields, all_names, all_fields, info)

@@ -3,7 +3,8 @@
 !> An even number of values is transformed as half as many complex numbers, in place: value 2j + 1 is the
 !> imaginary part that belongs to value 2j, and the caller separates the two (fuge_convolution). FFTW plans
 !> that in a small fraction of the time that it takes for real values. Grids (fuge_grid_convolution) transform many
-!> short lines, each from one buffer to another, which is faster where both stay in cache.
+!> short lines, each from one buffer to another, which is faster where both stay in cache. Where a grid is transformed
+!> as a whole (fuge_grid_waves), its values are not packed.
 !>
 !> The whole process shares one planner of FFTW. FFTW's own lock, which the first plan switches
 !> on, covers neither its initialisation nor its number of threads, so this module has a lock for
@@ -43,6 +44,8 @@ module fuge_fft
     logical :: measured = .false.
     !> Transforms of packed values from one buffer to another, by `transform_to`, instead of in place.
     logical :: separate = .false.
+    !> Lines of `length` values that are transformed together, in both directions; 0: one line, packed where possible.
+    integer :: lines = 0
     type(c_ptr), private :: forward = c_null_ptr
     !> For values that are not packed.
     type(c_ptr), private :: backward = c_null_ptr
@@ -116,6 +119,21 @@ module fuge_fft
       type(c_ptr) :: plan
     end function fftw_plan_c2r
 
+    !> `n` counts along the second dimension of a Fortran array, `m` along the first.
+    function fftw_plan_grid_r2c(n, m, in, out, flags) bind(c, name='fftw_plan_dft_r2c_2d') result(plan)
+      import :: c_int, c_ptr
+      integer(c_int), intent(in), value :: n, m, flags
+      type(c_ptr), intent(in), value :: in, out
+      type(c_ptr) :: plan
+    end function fftw_plan_grid_r2c
+
+    function fftw_plan_grid_c2r(n, m, in, out, flags) bind(c, name='fftw_plan_dft_c2r_2d') result(plan)
+      import :: c_int, c_ptr
+      integer(c_int), intent(in), value :: n, m, flags
+      type(c_ptr), intent(in), value :: in, out
+      type(c_ptr) :: plan
+    end function fftw_plan_grid_c2r
+
     subroutine fftw_execute_c2c(plan, in, out) bind(c, name='fftw_execute_dft')
       import :: c_ptr
       type(c_ptr), intent(in), value :: plan, in, out
@@ -172,13 +190,14 @@ contains
   !>
   !> `threads` (default 1) share each transform; with `measured` (default .false.) FFTW measures
   !> which algorithm is fastest, which takes seconds for long transforms. `separate` (default .false.) plans
-  !> for `transform_to`; then `length` must be even.
+  !> for `transform_to`; then `length` must be even. With `lines` >= 1 the values are a grid of as many lines, transformed
+  !> in both directions; then `separate` is not allowed.
   !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
-  subroutine set(self, length, info, threads, measured, separate)
+  subroutine set(self, length, info, threads, measured, separate, lines)
     class(fft_plan), intent(inout) :: self
     integer, intent(in) :: length
     type(fuge_info), intent(inout) :: info
-    integer, intent(in), optional :: threads
+    integer, intent(in), optional :: threads, lines
     logical, intent(in), optional :: measured, separate
     type(fft_plan) :: new_plan
 
@@ -186,10 +205,13 @@ contains
     if (present(threads)) new_plan%threads = threads
     if (present(measured)) new_plan%measured = measured
     if (present(separate)) new_plan%separate = separate
+    if (present(lines)) new_plan%lines = lines
     if (length < 1) then
       call report(info, FUGE_ERR_SIZE, 'length = '//text(length)//': a transform needs at least one value')
     else if (new_plan%separate .and. mod(length, 2) /= 0) then
       call report(info, FUGE_ERR_SIZE, 'length = '//text(length)//': pairs of values need an even length')
+    else if (new_plan%lines < 0 .or. (new_plan%lines > 0 .and. new_plan%separate)) then
+      call report(info, FUGE_ERR_SIZE, 'lines = '//text(new_plan%lines)//': use 1 or more, in place')
     else if (new_plan%threads < 1) then
       call report(info, FUGE_ERR_OPTION, 'threads = '//text(new_plan%threads)//': use 1 or more')
     else
@@ -215,7 +237,7 @@ contains
     else
       call destroy(plan%forward, plan%backward)
       call report(info, FUGE_ERR_MEMORY, 'no memory: a transform of '//text(plan%length)//' values needs ' &
-                  //text(3.0_dp*real(buffer_bytes(plan%length), dp))//' bytes')
+                  //text(3.0_dp*real(buffer_bytes(plan), dp))//' bytes')
     end if
   end subroutine make_plans
 
@@ -231,15 +253,18 @@ contains
     if (before /= plan%threads) call fftw_plan_with_nthreads(int(plan%threads, c_int))
     ! FFTW aborts when there is no memory for its own tables, so test first that twice as much again
     ! can be allocated. It is never touched and costs no time.
-    buffer = fftw_malloc(3*buffer_bytes(plan%length))
+    buffer = fftw_malloc(3*buffer_bytes(plan))
     if (c_associated(buffer)) then
       flags = merge(FFTW_MEASURE, FFTW_ESTIMATE, plan%measured)
       if (plan%separate) then
-        other = fftw_malloc(buffer_bytes(plan%length))
+        other = fftw_malloc(buffer_bytes(plan))
         if (c_associated(other)) then
           plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, other, FORWARD, flags)
           call fftw_free(other)
         end if
+      else if (plan%lines > 0) then
+        plan%forward = fftw_plan_grid_r2c(int(plan%lines, c_int), int(plan%length, c_int), buffer, buffer, flags)
+        plan%backward = fftw_plan_grid_c2r(int(plan%lines, c_int), int(plan%length, c_int), buffer, buffer, flags)
       else if (plan%is_packed()) then
         if (plan%length/2 >= LONG .and. .not. plan%measured) flags = flags + FFTW_NO_BUFFERING
         plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, buffer, FORWARD, flags)
@@ -257,15 +282,15 @@ contains
     class(fft_plan), intent(in) :: self
     logical :: packed
 
-    packed = mod(self%length, 2) == 0
+    packed = mod(self%length, 2) == 0 .and. self%lines == 0
   end function is_packed
 
-  !> Bytes of a buffer for the values, which the complex numbers 0 .. length/2 may overwrite.
-  pure function buffer_bytes(length) result(bytes)
-    integer, intent(in) :: length
+  !> Bytes of a buffer for the values, which the complex numbers 0 .. length/2 of each line may overwrite.
+  pure function buffer_bytes(plan) result(bytes)
+    class(fft_plan), intent(in) :: plan
     integer(c_size_t) :: bytes
 
-    bytes = 16_c_size_t*(length/2 + 1)
+    bytes = 16_c_size_t*(plan%length/2 + 1)*max(plan%lines, 1)
   end function buffer_bytes
 
   !> Destroy the plans; without effect before `set`.
@@ -319,6 +344,7 @@ contains
     self%threads = source%threads
     self%measured = source%measured
     self%separate = source%separate
+    self%lines = source%lines
     if (.not. source%owns_plans()) return
     self%length = source%length
     self%forward = source%forward
@@ -336,13 +362,14 @@ contains
     type(fft_plan) :: new_plan
     type(fuge_info) :: info
 
-    if (source%length > 0) call new_plan%set(source%length, info, source%threads, source%measured, source%separate)
+    if (source%length > 0) call new_plan%set(source%length, info, source%threads, source%measured, source%separate, &
+                                             source%lines)
     call self%move_from(new_plan)
   end subroutine copy
 
   !> Transform the values in `buffer`, in place. Packed values are pairs of real and imaginary parts, before
-  !> and after; otherwise the complex numbers 0 .. length/2 replace them. Several threads may use a plan
-  !> at once.
+  !> and after; otherwise the complex numbers 0 .. length/2 replace them, of each line, for which there is room behind
+  !> the values of the line. Several threads may use a plan at once.
   subroutine transform(self, buffer)
     class(fft_plan), intent(in) :: self
     type(c_ptr), intent(in) :: buffer
@@ -354,7 +381,7 @@ contains
     end if
   end subroutine transform
 
-  !> The inverse of `transform` but for a factor: length/2 for packed values, else the length. Packed values
+  !> The inverse of `transform` but for a factor: length/2 for packed values, else the number of values. Packed values
   !> have real and imaginary parts exchanged, before and after: then the same plan serves.
   subroutine transform_back(self, buffer)
     class(fft_plan), intent(in) :: self
@@ -378,7 +405,7 @@ contains
 
   !> Allocate a buffer for one transform, to be released with `release_buffer` if `status` is 0.
   !>
-  !> `values`: its contents, 2 (length/2 + 1) real numbers. `status`: 0, FUGE_ERR_CALL_ORDER or
+  !> `values`: its contents, 2 (length/2 + 1) real numbers for each line. `status`: 0, FUGE_ERR_CALL_ORDER or
   !> FUGE_ERR_MEMORY.
   subroutine allocate_buffer(self, buffer, values, status)
     class(fft_plan), intent(in) :: self
@@ -391,9 +418,10 @@ contains
     if (.not. self%owns_plans()) then
       status = FUGE_ERR_CALL_ORDER
     else
-      buffer = fftw_malloc(buffer_bytes(self%length))
+      buffer = fftw_malloc(buffer_bytes(self))
       status = merge(FUGE_DONE, FUGE_ERR_MEMORY, c_associated(buffer))
-      if (status == FUGE_DONE) call c_f_pointer(buffer, values, [2*(int(self%length/2, c_size_t) + 1)])
+      if (status == FUGE_DONE) call c_f_pointer(buffer, values, &
+                                                [2*(int(self%length/2, c_size_t) + 1)*max(self%lines, 1)])
     end if
   end subroutine allocate_buffer
 

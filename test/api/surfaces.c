@@ -127,6 +127,41 @@ static void test_level(void) {
   CHECK_UNTOUCHED(height, 6);
 }
 
+static void test_volume(void) {
+  const double stress[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, depth[3] = {0.0, 0.5, 2.0}, back_up[3] = {0.0, 2.0, 0.5};
+  const double spacing[2] = {0.5, 2.0}, origin[2] = {10.0, 20.0};
+  const char *const names[1] = {"zz"};
+  const double *const fields[1] = {stress};
+  char message[256] = "", *bytes, *values;
+  size_t length;
+  double back[6];
+  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, origin, 3, depth, 1, names, fields, message, sizeof message),
+               FUGE_DONE);
+  bytes = read_file(&length);
+  CHECK_CONTAINS(bytes, "<RectilinearGrid WholeExtent=\"0 1 0 0 0 2\">");
+  CHECK_CONTAINS(bytes, "Name=\"zz\" format=\"appended\" offset=\"0\"");
+  CHECK_CONTAINS(bytes, "Name=\"x\" format=\"appended\" offset=\"56\"");
+  CHECK_CONTAINS(bytes, "Name=\"z\" format=\"appended\" offset=\"96\"");
+  values = strstr(bytes, "\n_");
+  CHECK(values != NULL);
+  if (values != NULL) {
+    memcpy(back, values + 2 + 8, sizeof back);
+    CHECK_NEAR(back[5], 6.0, 0.0);
+    memcpy(back, values + 2 + 56 + 8, 2*sizeof back[0]);
+    CHECK_NEAR(back[1], 10.5, 0.0);
+    memcpy(back, values + 2 + 96 + 8, 3*sizeof back[0]);
+    CHECK_NEAR(back[2], 2.0, 0.0);
+  }
+  free(bytes);
+  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, back_up, 1, names, fields, message, sizeof message),
+               FUGE_ERR_GRID);
+  CHECK_CONTAINS(message, "depth(2) = 0.5");
+  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 0, depth, 1, names, fields, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, NULL, 1, names, fields, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_volume(NAME, 32768, 32768, spacing, NULL, 3, depth, 1, names, fields, message, sizeof message),
+               FUGE_ERR_SIZE);
+}
+
 static void test_fields(void) {
   const double height[2] = {1.0, 2.0}, pressure[2] = {0.5, -3.0}, bad[2] = {0.0, HUGE_VAL};
   const double spacing[2] = {0.5, 2.0}, origin[2] = {10.0, 20.0}, flat[2] = {1.0, 0.0};
@@ -226,6 +261,7 @@ int main(int argc, char **argv) {
   test_write();
   test_level();
   test_fields();
+  test_volume();
   test_full_disk();
   return check_summary();
 }
