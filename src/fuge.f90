@@ -37,6 +37,7 @@ module fuge
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_punch, only: fuge_solve_round_punch
   use fuge_smooth_contact_type, only: fuge_smooth_contact
+  use fuge_smooth_interior, only: fuge_smooth_displacement, fuge_smooth_stress
   use fuge_smooth_profile_type, only: fuge_smooth_profile, fuge_polynomial_profile, fuge_sampled_profile
   use fuge_smooth_punch, only: fuge_solve_smooth_punch
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense

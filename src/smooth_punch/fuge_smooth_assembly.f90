@@ -42,8 +42,8 @@ contains
       x = [contact%ends(1), anchor + offset, contact%ends(2)]
       call sample_profile(profile, x, gap, slope, info)
       contact%end_gaps = [gap(1), gap(3)]
-      contact%approach = gap(2) - contact%tilt*x(2) &
-                         + middle_displacement(series, load, 2.0_dp*(profile%upper - profile%lower))
+      contact%datum = 2.0_dp*(profile%upper - profile%lower)
+      contact%approach = gap(2) - contact%tilt*x(2) + middle_displacement(series, load, contact%datum)
     end associate
   end subroutine assemble_contact
 

@@ -25,6 +25,8 @@ module fuge_smooth_contact_type
     !> is zero at the distance 2 (upper - lower), with the ends of the profile, as in
     !> `fuge_halfplane_matrix` for cells that cover the profile.
     real(dp) :: approach = 0.0_dp, tilt = 0.0_dp
+    !> That distance; length. 0 without force.
+    real(dp) :: datum = 0.0_dp
     !> The modulus E*; force per length squared.
     real(dp) :: e_star = 0.0_dp
     !> Coefficients c_0, c_1, .. of the pressure; force per length squared.
