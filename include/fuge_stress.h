@@ -17,6 +17,63 @@ extern "C" {
 
 /* ---- stresses of a half-plane -------------------------------------------- */
 
+/* Stresses in a half-plane under forces on its cells, to rounding at any depth and distance.
+ *   n                  in   cells
+ *   x, width, element  in   as in fuge_halfplane_matrix; FUGE_CENTRE and FUGE_MEAN are strips of
+ *                           pressure force/width, FUGE_HAT hats with the peak force/width
+ *   force              in   n; per unit depth, compression positive, of any sign: those of
+ *                           fuge_get_force.  Cells without force cost nothing
+ *   points             in   >= 0
+ *   px, pz             in   points; along the surface, and >= 0 into the body; length
+ *   stress             out  3 for each point: xx, zz, xz of point k at stress + 3*k; force per
+ *                           length^2, tension positive; it may not overlap another array
+ * At z = 0 they are -pressure, -pressure and 0, and at an end of a strip their means from both
+ * sides, although xz straight below it tends to pressure/pi or, at the right end, to
+ * -pressure/pi.  In plane strain yy is nu (xx + zz).  Many points under many cells cost less
+ * than each point for each cell: far cells are taken together, to rounding.
+ * Errors of fuge_halfplane_matrix; FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_GRID for pz < 0,
+ * FUGE_ERR_OVERFLOW for a length beyond 1e75 times the narrowest width, FUGE_ERR_MEMORY. */
+int fuge_halfplane_stress(int n, const double *x, const double *width, const double *force,
+                          int element, int points, const double *px, const double *pz,
+                          double *stress, char *message, size_t len);
+
+/* The same for a model symmetric about x = 0, as in fuge_halfplane_symmetric_matrix: only the
+ * cells with x >= 0, each force the sum over a cell and its mirror image.  px of either sign. */
+int fuge_halfplane_symmetric_stress(int n, const double *x, const double *width,
+                                    const double *force, int element, int points,
+                                    const double *px, const double *pz, double *stress,
+                                    char *message, size_t len);
+
+/* Displacements in a half-plane under forces on its cells.
+ *   young, poisson, plane_state  in   of the body, as in fuge_plane_modulus
+ *   displacement                 out  2 for each point: along x and z, length
+ * Along z the datum is that of fuge_halfplane_matrix: with FUGE_CENTRE or FUGE_HAT the surface
+ * sinks at the centres by alpha force for the modulus of this body.  A line load moves points
+ * straight below it along z only, and the displacement along x grows from there.  A rigid body
+ * (young INFINITY) does not move.  Other arguments and errors as above; also FUGE_ERR_MODULUS,
+ * FUGE_ERR_OPTION for plane_state. */
+int fuge_halfplane_displacement(int n, const double *x, const double *width, const double *force,
+                                int element, double young, double poisson, int plane_state,
+                                int points, const double *px, const double *pz,
+                                double *displacement, char *message, size_t len);
+
+int fuge_halfplane_symmetric_displacement(int n, const double *x, const double *width,
+                                          const double *force, int element, double young,
+                                          double poisson, int plane_state, int points,
+                                          const double *px, const double *pz,
+                                          double *displacement, char *message, size_t len);
+
+/* Stresses and displacements in a half-plane under a smooth punch, in closed form, with the
+ * arguments of fuge_halfplane_stress and fuge_halfplane_displacement.
+ *   contact  in  of fuge_solve_smooth_punch.  Without force there are none
+ * Along z the datum is that of the approach in fuge_smooth_get_report. */
+int fuge_smooth_stress(const fuge_smooth *contact, int points, const double *px, const double *pz,
+                       double *stress, char *message, size_t len);
+
+int fuge_smooth_displacement(const fuge_smooth *contact, double young, double poisson,
+                             int plane_state, int points, const double *px, const double *pz,
+                             double *displacement, char *message, size_t len);
+
 /* ---- stresses of a half-space -------------------------------------------- */
 
 /* ---- stresses on grids --------------------------------------------------- */

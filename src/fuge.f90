@@ -34,6 +34,7 @@ module fuge
   use fuge_profile_files, only: fuge_read_profile
   use fuge_profile_sampling, only: fuge_level_profile, fuge_sample_profile, FUGE_LEVEL_LINE, FUGE_LEVEL_MEAN
   use fuge_ring_influence, only: fuge_ring_displacement, fuge_ring_matrix
+  use fuge_ring_interior, only: fuge_ring_interior_displacement, fuge_ring_stress
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_punch, only: fuge_solve_round_punch
   use fuge_smooth_contact_type, only: fuge_smooth_contact

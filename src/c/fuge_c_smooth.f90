@@ -13,7 +13,7 @@ module fuge_c_smooth
   implicit none
   private
 
-  public :: procedure_at
+  public :: find_contact, procedure_at
 
   abstract interface
     !> fuge_smooth_profile of fuge_smooth.h.
@@ -36,7 +36,7 @@ module fuge_c_smooth
   end type callback_profile
 
   !> Behind struct fuge_smooth.
-  type :: smooth_handle
+  type, public :: smooth_handle
     type(fuge_smooth_contact) :: contact
     type(fuge_info) :: info
   end type smooth_handle

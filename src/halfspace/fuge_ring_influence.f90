@@ -17,7 +17,7 @@ module fuge_ring_influence
   implicit none
   private
 
-  public :: fuge_ring_matrix, fuge_ring_displacement
+  public :: check_rings, fuge_ring_matrix, fuge_ring_displacement
 
   !> Rings that are thinner in relation to their radius lose digits in the closed form.
   real(dp), parameter :: SMALLEST_RATIO = 1.0e-7_dp
