@@ -11,7 +11,7 @@ module fuge_rectangle_checks
   implicit none
   private
 
-  public :: check_area_element, check_area_modulus, check_rectangles
+  public :: check_area_element, check_area_modulus, check_places, check_rectangles
 
   !> Widths with a smaller relative difference count as equal.
   real(dp), parameter :: WIDTH_TOLERANCE = 1.0e-10_dp
@@ -22,11 +22,25 @@ module fuge_rectangle_checks
 
 contains
 
-  !> Refuse arrays of different lengths, numbers that are not finite or out of range, widths that `element` cannot
-  !> have, and rectangles that overlap. `symmetric` (2): about x = 0, about y = 0.
+  !> Refuse what `check_places` does, and rectangles that overlap or whose widths are too different.
   !>
   !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_GRID, FUGE_ERR_OVERFLOW.
   pure subroutine check_rectangles(x, y, width_x, width_y, element, symmetric, info)
+    real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:)
+    integer, intent(in) :: element
+    logical, intent(in) :: symmetric(2)
+    type(fuge_info), intent(inout) :: info
+
+    call check_places(x, y, width_x, width_y, element, symmetric, info)
+    if (.not. info%failed()) call check_ratio(width_x, width_y, info)
+    if (.not. info%failed()) call check_overlap(x, y, width_x, width_y, info)
+  end subroutine check_rectangles
+
+  !> Refuse arrays of different lengths, numbers that are not finite or out of range, and widths that `element` cannot
+  !> have. `symmetric` (2): about x = 0, about y = 0.
+  !>
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_GRID, FUGE_ERR_OVERFLOW.
+  pure subroutine check_places(x, y, width_x, width_y, element, symmetric, info)
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:)
     integer, intent(in) :: element
     logical, intent(in) :: symmetric(2)
@@ -39,9 +53,7 @@ contains
     end if
     call check_direction(x, width_x, 'x', element, symmetric(1), info)
     if (.not. info%failed()) call check_direction(y, width_y, 'y', element, symmetric(2), info)
-    if (.not. info%failed()) call check_ratio(width_x, width_y, info)
-    if (.not. info%failed()) call check_overlap(x, y, width_x, width_y, info)
-  end subroutine check_rectangles
+  end subroutine check_places
 
   !> Refuse an element that areas do not have (FUGE_ERR_ELEMENT).
   pure subroutine check_area_element(element, info)

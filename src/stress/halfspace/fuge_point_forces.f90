@@ -10,24 +10,55 @@ module fuge_point_forces
 
   public :: add_force_displacements, add_force_stresses, finish_displacement, finish_stress
 
+  !> Fewer points than this are no lanes.
+  integer, parameter :: FEW = 4
+  !> Forces that are taken as lanes at once.
+  integer, parameter :: LANES = 64
+
 contains
 
-  !> Add the sums over forces at `source_x`, `source_y` (n) from which `finish_stress` makes the stresses at the points
+  !> Add the sums over forces at `source_x`, `source_y` (n) from which `finish_stress` makes the stresses at points
   !> `x`, `y`, `z` (m).
   !>
-  !> `force` (n); `poisson` Poisson's ratio; `sums` (m, 6). No point may be that of a force. Lengths have
-  !> exponents of at most 60 or so, which keeps their powers in range. The inner loop runs over the points, because
-  !> compilers vectorise sums only if their order stays the same.
+  !> `force` (n); `poisson` Poisson's ratio; `sums` (m, 6). No point may be that of a force. Lengths have exponents of
+  !> at most 60 or so, which keeps their powers in range. Compilers vectorise a sum only if its order stays the same:
+  !> so the inner loop runs over the points, and if these are few, over forces as if they were points.
   pure subroutine add_force_stresses(source_x, source_y, force, poisson, x, y, z, sums)
     real(dp), intent(in), contiguous :: source_x(:), source_y(:), force(:), x(:), y(:), z(:)
     real(dp), intent(in) :: poisson
+    real(dp), intent(inout), contiguous :: sums(:, :)
+    real(dp) :: lane(LANES, 6), seen_x(LANES), seen_y(LANES), depth(LANES)
+    integer :: first, i, n
+
+    if (size(x) >= FEW) then
+      call add_stress_lanes(source_x, source_y, force, poisson, size(x), x, y, z, sums)
+      return
+    end if
+    do i = 1, size(x)
+      depth = z(i)
+      do first = 1, size(force), LANES
+        n = min(LANES, size(force) - first + 1)
+        seen_x(:n) = x(i) - source_x(first:first + n - 1)
+        seen_y(:n) = y(i) - source_y(first:first + n - 1)
+        lane(:n, :) = 0.0_dp
+        call add_stress_lanes([0.0_dp], [0.0_dp], [1.0_dp], poisson, n, seen_x, seen_y, depth, lane)
+        sums(i, :6) = sums(i, :6) + matmul(force(first:first + n - 1), lane(:n, :))
+      end do
+    end do
+  end subroutine add_force_stresses
+
+  !> The same for the first `n` points.
+  pure subroutine add_stress_lanes(source_x, source_y, force, poisson, n, x, y, z, sums)
+    real(dp), intent(in), contiguous :: source_x(:), source_y(:), force(:), x(:), y(:), z(:)
+    real(dp), intent(in) :: poisson
+    integer, intent(in) :: n
     real(dp), intent(inout), contiguous :: sums(:, :)
     real(dp) :: dx, dy, compressible, square, r, quotient, inverse, inverse_square, inverse_cube, part, cross, even
     integer :: i, j
 
     compressible = 1.0_dp - 2.0_dp*poisson
     do j = 1, size(force)
-      do i = 1, size(x)
+      do i = 1, n
         dx = x(i) - source_x(j)
         dy = y(i) - source_y(j)
         square = dx**2 + dy**2 + z(i)**2
@@ -49,7 +80,7 @@ contains
         sums(i, 6) = sums(i, 6) + cross*(dx*dy)
       end do
     end do
-  end subroutine add_force_stresses
+  end subroutine add_stress_lanes
 
   !> The stresses xx, yy, zz, yz, xz, xy at depth `z` from the sums of `add_force_stresses`.
   pure function finish_stress(sums, z) result(stress)
@@ -62,10 +93,36 @@ contains
   end function finish_stress
 
   !> Add the sums over forces from which `finish_displacement` makes the displacements; as `add_force_stresses`, with
-  !> `sums` (m, 3).
+  !> `sums` (m, 3), or more columns, which stay.
   pure subroutine add_force_displacements(source_x, source_y, force, poisson, x, y, z, sums)
     real(dp), intent(in), contiguous :: source_x(:), source_y(:), force(:), x(:), y(:), z(:)
     real(dp), intent(in) :: poisson
+    real(dp), intent(inout), contiguous :: sums(:, :)
+    real(dp) :: lane(LANES, 3), seen_x(LANES), seen_y(LANES), depth(LANES)
+    integer :: first, i, n
+
+    if (size(x) >= FEW) then
+      call add_displacement_lanes(source_x, source_y, force, poisson, size(x), x, y, z, sums)
+      return
+    end if
+    do i = 1, size(x)
+      depth = z(i)
+      do first = 1, size(force), LANES
+        n = min(LANES, size(force) - first + 1)
+        seen_x(:n) = x(i) - source_x(first:first + n - 1)
+        seen_y(:n) = y(i) - source_y(first:first + n - 1)
+        lane(:n, :) = 0.0_dp
+        call add_displacement_lanes([0.0_dp], [0.0_dp], [1.0_dp], poisson, n, seen_x, seen_y, depth, lane)
+        sums(i, :3) = sums(i, :3) + matmul(force(first:first + n - 1), lane(:n, :))
+      end do
+    end do
+  end subroutine add_force_displacements
+
+  !> The same for the first `n` points.
+  pure subroutine add_displacement_lanes(source_x, source_y, force, poisson, n, x, y, z, sums)
+    real(dp), intent(in), contiguous :: source_x(:), source_y(:), force(:), x(:), y(:), z(:)
+    real(dp), intent(in) :: poisson
+    integer, intent(in) :: n
     real(dp), intent(inout), contiguous :: sums(:, :)
     real(dp) :: dx, dy, compressible, stiff, square, r, quotient, inverse_square, inverse, radial
     integer :: i, j
@@ -73,7 +130,7 @@ contains
     compressible = 1.0_dp - 2.0_dp*poisson
     stiff = 2.0_dp*(1.0_dp - poisson)
     do j = 1, size(force)
-      do i = 1, size(x)
+      do i = 1, n
         dx = x(i) - source_x(j)
         dy = y(i) - source_y(j)
         square = dx**2 + dy**2 + z(i)**2
@@ -87,7 +144,7 @@ contains
         sums(i, 3) = sums(i, 3) + force(j)*inverse*(z(i)**2*inverse_square + stiff)
       end do
     end do
-  end subroutine add_force_displacements
+  end subroutine add_displacement_lanes
 
   !> Young's modulus times the displacements along x, y, z, from the sums of `add_force_displacements`.
   pure function finish_displacement(sums, poisson) result(displacement)

@@ -11,7 +11,8 @@ module fuge_rectangle_field
   implicit none
   private
 
-  public :: new_rectangle_rules, part_displacement, part_stress, rectangle_displacement, rectangle_stress, rule_order
+  public :: new_rectangle_rules, part_displacement, part_stress, place_nodes, rectangle_displacement, &
+    rectangle_stress, rule_order
 
   !> The most nodes of a rule along one side.
   integer, parameter, public :: MOST_NODES = 18
@@ -213,6 +214,25 @@ contains
     depth = z
     origin = 0.0_dp
   end subroutine nodes_of
+
+  !> Point forces that stand for the `force` on a rectangle with `centre` (2) and half widths `half` (2): a rule of
+  !> `order` (2) nodes along x and y; `x`, `y`, `share` (product of the orders).
+  pure subroutine place_nodes(rules, order, centre, half, force, x, y, share)
+    type(rectangle_rules), intent(in) :: rules
+    integer, intent(in) :: order(2)
+    real(dp), intent(in) :: centre(2), half(2), force
+    real(dp), intent(out) :: x(:), y(:), share(:)
+    integer :: first, i, j
+
+    do j = 1, order(2)
+      first = order(1)*(j - 1)
+      do i = 1, order(1)
+        x(first + i) = centre(1) + half(1)*rules%node(i, order(1))
+        y(first + i) = centre(2) + half(2)*rules%node(j, order(2))
+        share(first + i) = force*rules%weight(j, order(2))*rules%weight(i, order(1))
+      end do
+    end do
+  end subroutine place_nodes
 
   !> Nodes needed along x and y; more than MOST_NODES if the part is near. The distance counts from the middle of the
   !> closest line of nodes.

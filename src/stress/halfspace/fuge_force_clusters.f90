@@ -1,0 +1,244 @@
+!> Forces on rectangles in clusters, each of which is equivalent to forces on a grid of Chebyshev points for all points
+!> that are far enough.
+!>
+!> Interpolating the influence of a point force on the Chebyshev points of the rectangle around a cluster gives these
+!> forces: q x q of them conserve all moments of degree q - 1 in x and in y. They follow from the moments of
+!> Chebyshev polynomials, which a cluster inherits from its halves without a loss. Source: L. Wang, R. Krasny and
+!> S. Tlupova, A kernel-independent treecode based on barycentric Lagrange interpolation, Commun. Comput. Phys. 28,
+!> 2020.
+module fuge_force_clusters
+  use fuge_area_loads, only: area_loads, reorder_loads
+  use fuge_constants, only: PI
+  use fuge_gauss_legendre, only: gauss_rule
+  use fuge_kinds, only: dp
+  use fuge_median_split, only: sort_by_place
+  implicit none
+  private
+
+  public :: cluster_class, new_force_clusters, place_cluster_forces, prepare_cluster
+
+  !> Grids of Chebyshev points, from fine to coarse: points along a side, and the half sides from which on they are
+  !> enough for errors below 1e-13.
+  integer, parameter, public :: CLASSES = 5, FINEST = 26
+  integer, parameter, public :: CLASS_POINTS(CLASSES) = [FINEST, 22, 18, 14, 10]
+  real(dp), parameter :: CLASS_DISTANCE(CLASSES) = [2.6_dp, 3.5_dp, 5.0_dp, 9.0_dp, 25.0_dp]
+  !> A cluster of at most this many loads is not divided.
+  integer, parameter :: LEAST = 32
+  !> Gauss's rule of this many nodes is exact for the finest grid's polynomials.
+  integer, parameter :: NODES = FINEST/2
+
+  !> The forces on one grid of one cluster.
+  type :: grid_forces
+    real(dp), allocatable :: force(:, :)
+  end type grid_forces
+
+  !> Clusters in a binary tree: number k has the halves 2 k and 2 k + 1.
+  type, public :: force_clusters
+    !> Halvings, each of which halves all clusters; clusters in all.
+    integer :: levels = 0, count = 0
+    !> The rectangle around cluster k: centre x, y, and half widths, (4, count).
+    real(dp), allocatable :: box(:, :)
+    !> Moments of T_i(x) T_j(y), (FINEST, FINEST, count).
+    real(dp), allocatable :: moment(:, :, :)
+    !> Forces, made when they are first needed, (CLASSES, count).
+    type(grid_forces), allocatable :: grid(:, :)
+    !> Chebyshev points of each class, and the influence of T_k on the force at point i: (k, i, class).
+    real(dp) :: point(FINEST, CLASSES) = 0.0_dp
+    real(dp) :: share(FINEST, FINEST, CLASSES) = 0.0_dp
+  end type force_clusters
+
+contains
+
+  !> Sort the loads into clusters and form their moments. `stat` as in an allocate statement.
+  pure subroutine new_force_clusters(loads, clusters, stat)
+    type(area_loads), intent(inout) :: loads
+    type(force_clusters), intent(out) :: clusters
+    integer, intent(out) :: stat
+    integer, allocatable :: order(:)
+    real(dp), allocatable :: places(:, :)
+    integer :: k, most
+
+    most = loads%count
+    do while (most > LEAST)
+      most = (most + 1)/2
+      clusters%levels = clusters%levels + 1
+    end do
+    clusters%count = 2**(clusters%levels + 1) - 1
+    allocate (order(loads%count), places(loads%count, 2), clusters%box(4, clusters%count), &
+              clusters%moment(FINEST, FINEST, clusters%count), clusters%grid(CLASSES, clusters%count), stat=stat)
+    if (stat /= 0) return
+    order = [(k, k=1, loads%count)]
+    places(:, 1) = loads%x
+    places(:, 2) = loads%y
+    ! Lists of the last level have `most` loads or one less.
+    call sort_by_place(places, most - 1, order)
+    call reorder_loads(order, loads, stat)
+    if (stat /= 0) return
+    call set_tables(clusters)
+    call form_cluster(loads, clusters, 1, 1, loads%count)
+  end subroutine new_force_clusters
+
+  !> Chebyshev points of the first kind, and the weights by which values of polynomials there become coefficients.
+  pure subroutine set_tables(clusters)
+    type(force_clusters), intent(inout) :: clusters
+    real(dp) :: angle
+    integer :: class, i, k, q
+
+    do class = 1, CLASSES
+      q = CLASS_POINTS(class)
+      do i = 1, q
+        angle = PI*(real(i, dp) - 0.5_dp)/real(q, dp)
+        clusters%point(i, class) = cos(angle)
+        do k = 1, q
+          clusters%share(k, i, class) = merge(1.0_dp, 2.0_dp, k == 1)*cos(real(k - 1, dp)*angle)/real(q, dp)
+        end do
+      end do
+    end do
+  end subroutine set_tables
+
+  !> The rectangle and the moments of cluster `k`, loads `first` to `last`, and of its parts.
+  pure recursive subroutine form_cluster(loads, clusters, k, first, last)
+    type(area_loads), intent(in) :: loads
+    type(force_clusters), intent(inout) :: clusters
+    integer, intent(in) :: k, first, last
+    real(dp) :: low(2), high(2)
+    integer :: middle, part
+
+    if (2*k > clusters%count) then
+      low = [minval(loads%x(first:last) - loads%half_x(first:last)), &
+             minval(loads%y(first:last) - loads%half_y(first:last))]
+      high = [maxval(loads%x(first:last) + loads%half_x(first:last)), &
+              maxval(loads%y(first:last) + loads%half_y(first:last))]
+      clusters%box(:, k) = [0.5_dp*(low + high), 0.5_dp*(high - low)]
+      call add_load_moments(loads, first, last, clusters%box(:, k), clusters%moment(:, :, k))
+      return
+    end if
+    middle = (first + last)/2
+    call form_cluster(loads, clusters, 2*k, first, middle)
+    call form_cluster(loads, clusters, 2*k + 1, middle + 1, last)
+    associate (one => clusters%box(:, 2*k), other => clusters%box(:, 2*k + 1))
+      low = min(one(:2) - one(3:), other(:2) - other(3:))
+      high = max(one(:2) + one(3:), other(:2) + other(3:))
+    end associate
+    clusters%box(:, k) = [0.5_dp*(low + high), 0.5_dp*(high - low)]
+    clusters%moment(:, :, k) = 0.0_dp
+    do part = 2*k, 2*k + 1
+      call add_part_moments(clusters, part, k)
+    end do
+  end subroutine form_cluster
+
+  !> The moments of loads in a rectangle `box`.
+  pure subroutine add_load_moments(loads, first, last, box, moment)
+    type(area_loads), intent(in) :: loads
+    integer, intent(in) :: first, last
+    real(dp), intent(in) :: box(4)
+    real(dp), intent(out) :: moment(FINEST, FINEST)
+    real(dp) :: node(NODES), weight(NODES), of_x(FINEST), of_y(FINEST), values(FINEST, NODES)
+    integer :: j, k
+
+    call gauss_rule(node, weight)
+    node = 2.0_dp*node - 1.0_dp
+    moment = 0.0_dp
+    do k = first, last
+      call find_polynomials((loads%x(k) - box(1) + loads%half_x(k)*node)/box(3), values)
+      of_x = matmul(values, weight)
+      call find_polynomials((loads%y(k) - box(2) + loads%half_y(k)*node)/box(4), values)
+      of_y = matmul(values, weight)
+      do j = 1, FINEST
+        moment(:, j) = moment(:, j) + (loads%force(k)*of_y(j))*of_x
+      end do
+    end do
+  end subroutine add_load_moments
+
+  !> Add the moments of `part`, expressed in the polynomials of cluster `whole`.
+  pure subroutine add_part_moments(clusters, part, whole)
+    type(force_clusters), intent(inout) :: clusters
+    integer, intent(in) :: part, whole
+    real(dp) :: along_x(FINEST, FINEST), along_y(FINEST, FINEST)
+
+    along_x = transfer_matrix(clusters, part, whole, 1)
+    along_y = transfer_matrix(clusters, part, whole, 2)
+    clusters%moment(:, :, whole) = clusters%moment(:, :, whole) &
+                                   + matmul(along_x, matmul(clusters%moment(:, :, part), transpose(along_y)))
+  end subroutine add_part_moments
+
+  !> Coefficients of the whole's polynomials in those of the part, (whole, part), along `axis`.
+  pure function transfer_matrix(clusters, part, whole, axis) result(matrix)
+    type(force_clusters), intent(in) :: clusters
+    integer, intent(in) :: part, whole, axis
+    real(dp) :: matrix(FINEST, FINEST), values(FINEST, FINEST), centre, factor
+
+    centre = (clusters%box(axis, part) - clusters%box(axis, whole))/clusters%box(axis + 2, whole)
+    factor = clusters%box(axis + 2, part)/clusters%box(axis + 2, whole)
+    call find_polynomials(centre + factor*clusters%point(:, 1), values)
+    matrix = matmul(values, transpose(clusters%share(:, :, 1)))
+  end function transfer_matrix
+
+  !> Chebyshev polynomials of degree 0 .. FINEST - 1: (degree + 1, place).
+  pure subroutine find_polynomials(t, values)
+    real(dp), intent(in) :: t(:)
+    real(dp), intent(out) :: values(:, :)
+    integer :: i, k
+
+    do i = 1, size(t)
+      values(1, i) = 1.0_dp
+      values(2, i) = t(i)
+      do k = 3, FINEST
+        values(k, i) = 2.0_dp*t(i)*values(k - 1, i) - values(k - 2, i)
+      end do
+    end do
+  end subroutine find_polynomials
+
+  !> The class of the coarsest grid that stands for cluster `k` at all points between `low` (3) and `high` (3), in
+  !> z, too; 0 if they are too near for all.
+  pure function cluster_class(clusters, k, low, high) result(class)
+    type(force_clusters), intent(in) :: clusters
+    integer, intent(in) :: k
+    real(dp), intent(in) :: low(3), high(3)
+    integer :: class
+    real(dp) :: middle(2), beside(2), square(2)
+
+    associate (centre => clusters%box(:2, k), half => clusters%box(3:, k))
+      middle = max(low(:2) - centre, centre - high(:2), 0.0_dp)
+      beside = max(middle - half, 0.0_dp)
+      square = middle**2 + beside([2, 1])**2 + low(3)**2
+      do class = CLASSES, 1, -1
+        if (all(square >= (CLASS_DISTANCE(class)*half)**2)) exit
+      end do
+    end associate
+  end function cluster_class
+
+  !> Make the forces on a grid of cluster `k` if they are not there yet. `stat` as in an allocate statement.
+  pure subroutine prepare_cluster(clusters, k, class, stat)
+    type(force_clusters), intent(inout) :: clusters
+    integer, intent(in) :: k, class
+    integer, intent(out) :: stat
+    integer :: q
+
+    stat = 0
+    if (allocated(clusters%grid(class, k)%force)) return
+    q = CLASS_POINTS(class)
+    allocate (clusters%grid(class, k)%force(q, q), stat=stat)
+    if (stat /= 0) return
+    associate (share => clusters%share(:q, :q, class))
+      clusters%grid(class, k)%force = matmul(transpose(share), matmul(clusters%moment(:q, :q, k), share))
+    end associate
+  end subroutine prepare_cluster
+
+  !> The forces on a grid of cluster `k` that `prepare_cluster` has made, and their places.
+  pure subroutine place_cluster_forces(clusters, k, class, x, y, force)
+    type(force_clusters), intent(in) :: clusters
+    integer, intent(in) :: k, class
+    real(dp), intent(out) :: x(:), y(:), force(:)
+    integer :: first, j, q
+
+    q = CLASS_POINTS(class)
+    do j = 1, q
+      first = q*(j - 1)
+      x(first + 1:first + q) = clusters%box(1, k) + clusters%box(3, k)*clusters%point(:q, class)
+      y(first + 1:first + q) = clusters%box(2, k) + clusters%box(4, k)*clusters%point(j, class)
+      force(first + 1:first + q) = clusters%grid(class, k)%force(:, j)
+    end do
+  end subroutine place_cluster_forces
+
+end module fuge_force_clusters
