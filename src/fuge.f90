@@ -14,6 +14,7 @@ module fuge
   use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
+  use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_halfspace_grid, only: FUGE_PERIODIC_X, FUGE_PERIODIC_Y
   use fuge_halfspace_influence, only: fuge_halfspace_matrix

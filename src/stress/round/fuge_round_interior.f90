@@ -100,7 +100,7 @@ contains
     type(round_rules), intent(in) :: rules
     real(dp), intent(in) :: pr, pz
     real(dp) :: field(INTEGRALS)
-    real(dp) :: r, z
+    real(dp) :: r, z, pressure
 
     r = pr/contact%radius
     z = pz/contact%radius
@@ -108,7 +108,10 @@ contains
       field = round_field(rules, transform, r, max(z, merge(LEAST_DEPTH_OF_AXIS, 0.0_dp, r <= 1.0_dp)))
     else
       field = round_field(rules, transform, r, 0.0_dp)
-      field = surface_field(contact%pressure(pr)/contact%e_star*PI, field(SPREAD), field(POTENTIAL))
+      ! On the axis the spread is pi times the pressure.
+      pressure = field(SPREAD)/PI
+      if (r > 0.0_dp) pressure = contact%pressure(pr)/contact%e_star*PI
+      field = surface_field(pressure, field(SPREAD), field(POTENTIAL))
     end if
   end function field_at
 
