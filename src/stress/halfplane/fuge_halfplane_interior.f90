@@ -15,6 +15,9 @@ module fuge_halfplane_interior
 
   public :: fuge_halfplane_stress, fuge_halfplane_displacement, displacement_factors
 
+  !> From so many points on it pays to put many cells into clusters.
+  integer, parameter :: MANY_POINTS = 32
+
 contains
 
   !> Stresses in a half-plane under forces on its cells, to rounding at any depth and distance.
@@ -48,6 +51,7 @@ contains
     call check_result(shape(stress), 'stress', 3, size(pz), info)
     if (.not. info%failed()) call cells%set(x, width, force, element, info)
     call check_distances(cells, px, pz, info)
+    if (size(pz) >= MANY_POINTS) call cells%gather(info)
     if (info%failed()) return
     do k = 1, size(pz)
       scaled = scale([px(k), pz(k)], cells%power)
@@ -91,6 +95,7 @@ contains
     call check_result(shape(displacement), 'displacement', 2, size(pz), info)
     if (.not. info%failed()) call cells%set(x, width, force, element, info)
     call check_distances(cells, px, pz, info)
+    if (size(pz) >= MANY_POINTS) call cells%gather(info)
     if (info%failed()) return
     datum = log(scale(datum_length(x, width, folded), cells%power))*sum(force)
     do k = 1, size(pz)
