@@ -11,8 +11,8 @@ module known_stress_fields
   type, extends(stress_field), public :: cylinders
     real(dp) :: poisson = 0.3_dp
     real(dp), allocatable :: middle(:), half_width(:), pressure(:)
-    !> Places asked for so far, through a pointer because the field is intent(in).
-    integer, pointer :: places => null()
+    !> Places asked for so far.
+    integer :: places = 0
   contains
     procedure :: stresses => cylinder_stresses
   end type cylinders
@@ -35,7 +35,7 @@ module known_stress_fields
 contains
 
   subroutine cylinder_stresses(self, place, stress, info)
-    class(cylinders), intent(in) :: self
+    class(cylinders), intent(inout) :: self
     real(dp), intent(in) :: place(:, :)
     real(dp), intent(out) :: stress(:, :)
     type(fuge_info), intent(inout) :: info
@@ -51,7 +51,7 @@ contains
       end do
       stress(:, k) = [plane(1), self%poisson*(plane(1) + plane(2)), plane(2), 0.0_dp, plane(3), 0.0_dp]
     end do
-    if (associated(self%places)) self%places = self%places + size(place, 2)
+    self%places = self%places + size(place, 2)
   end subroutine cylinder_stresses
 
   !> xx, zz, xz under a cylinder over its largest pressure; x and z over its half width (E. McEwen 1949; K. L. Johnson,
@@ -63,17 +63,23 @@ contains
 
     part = 1.0_dp - x**2 + z**2
     root = hypot(part, 2.0_dp*x*z)
-    m = sqrt(0.5_dp*(root + part))
-    n = sign(sqrt(max(0.0_dp, 0.5_dp*(root - part))), x)
     stress = 0.0_dp
     if (.not. root > 0.0_dp) return
+    ! Without a difference: m n = x z.
+    if (part >= 0.0_dp) then
+      m = sqrt(0.5_dp*(root + part))
+      n = x*z/m
+    else
+      n = sign(sqrt(0.5_dp*(root - part)), x)
+      m = x*z/n
+    end if
     stress(1) = -(m*(1.0_dp + (z**2 + n**2)/(m**2 + n**2)) - 2.0_dp*z)
     stress(2) = -m*(1.0_dp - (z**2 + n**2)/(m**2 + n**2))
     stress(3) = -n*(m**2 - z**2)/(m**2 + n**2)
   end function hertz_line
 
   subroutine sphere_stresses(self, place, stress, info)
-    class(spheres), intent(in) :: self
+    class(spheres), intent(inout) :: self
     real(dp), intent(in) :: place(:, :)
     real(dp), intent(out) :: stress(:, :)
     type(fuge_info), intent(inout) :: info
@@ -117,7 +123,7 @@ contains
   end function hertz_sphere
 
   subroutine hill_stresses(self, place, stress, info)
-    class(two_hills), intent(in) :: self
+    class(two_hills), intent(inout) :: self
     real(dp), intent(in) :: place(:, :)
     real(dp), intent(out) :: stress(:, :)
     type(fuge_info), intent(inout) :: info

@@ -29,7 +29,9 @@ module fuge_peak_climb
   real(dp), parameter :: LEAST_CURVATURE = 1.0e-6_dp
   integer, parameter :: MOST_ROUNDS = 120
   !> Points of a stencil with two and with three axes.
-  integer, parameter :: POINTS(2:3) = [9, 19]
+  integer, parameter :: ALL_POINTS(2:3) = [9, 19]
+  !> Without those of mixed derivatives, in the first round, from which few go on.
+  integer, parameter :: FEW_POINTS(2:3) = [5, 7]
 
   !> One that climbs: its best place so far and the middle of its next stencil.
   type :: climber
@@ -45,7 +47,7 @@ contains
   !> The start that leads to the largest value, moved to its maximum. `axes` of the surface: 1 on a line, the
   !> coordinates being x and z, or 2. Errors: those of the field, FUGE_ERR_MEMORY.
   subroutine climb(field, axes, measure, starts, best, info)
-    class(stress_field), intent(in) :: field
+    class(stress_field), intent(inout) :: field
     integer, intent(in) :: axes, measure
     type(peak_start), intent(in) :: starts(:)
     type(peak_start), intent(out) :: best
@@ -70,7 +72,8 @@ contains
         active(count) = k
       end do
       if (count == 0) exit
-      call advance(field, axes + 1, measure, climbers, active(:count), info)
+      call advance(field, axes + 1, merge(FEW_POINTS(axes + 1), ALL_POINTS(axes + 1), round == 1), measure, climbers, &
+                   active(:count), info)
       if (info%failed()) return
       call drop_losers(climbers)
     end do
@@ -89,46 +92,45 @@ contains
     new%active = .not. start%fixed
   end function climber_from
 
-  !> One round of the active climbers, in coordinates `axes` (2: x and z; 3: x, y and z).
-  subroutine advance(field, axes, measure, climbers, active, info)
-    class(stress_field), intent(in) :: field
-    integer, intent(in) :: axes, measure, active(:)
+  !> One round of the active climbers, in coordinates `axes` (2: x and z; 3: x, y and z), with so many `points` each.
+  subroutine advance(field, axes, points, measure, climbers, active, info)
+    class(stress_field), intent(inout) :: field
+    integer, intent(in) :: axes, points, measure, active(:)
     type(climber), intent(inout) :: climbers(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: place(:, :), value(:), normal(:)
     integer :: first, k, stat, total
 
-    total = POINTS(axes)*size(active)
+    total = points*size(active)
     allocate (place(3, total), value(total), normal(total), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(total)//' places of the search')
       return
     end if
     do k = 1, size(active)
-      first = (k - 1)*POINTS(axes)
+      first = (k - 1)*points
       associate (one => climbers(active(k)))
         one%middle(3) = max(one%middle(3), one%best%least_depth + one%step)
-        place(:, first + 1:first + POINTS(axes)) = stencil(axes, one)
+        place(:, first + 1:first + points) = stencil(axes, points, one)
       end associate
     end do
     call evaluate_measure(field, measure, place, value, normal, info)
     if (info%failed()) return
     do k = 1, size(active)
-      first = (k - 1)*POINTS(axes)
-      call move(axes, place(:, first + 1:first + POINTS(axes)), value(first + 1:first + POINTS(axes)), &
-                climbers(active(k)))
+      first = (k - 1)*points
+      call move(axes, place(:, first + 1:first + points), value(first + 1:first + points), climbers(active(k)))
     end do
   end subroutine advance
 
-  !> The middle, two neighbours on each axis, four in the plane of each pair of axes.
-  pure function stencil(axes, one) result(place)
-    integer, intent(in) :: axes
+  !> The middle, two neighbours on each axis and, unless there are `FEW_POINTS`, four in the plane of each pair of axes.
+  pure function stencil(axes, points, one) result(place)
+    integer, intent(in) :: axes, points
     type(climber), intent(in) :: one
-    real(dp) :: place(3, POINTS(axes))
+    real(dp) :: place(3, points)
     integer :: i, j, k
 
     k = 1
-    place = spread(one%middle, 2, POINTS(axes))
+    place = spread(one%middle, 2, points)
     do i = 1, axes
       place(coordinate(i, axes), k + 1) = one%middle(coordinate(i, axes)) + one%step
       place(coordinate(i, axes), k + 2) = one%middle(coordinate(i, axes)) - one%step
@@ -136,6 +138,7 @@ contains
     end do
     do i = 1, axes - 1
       do j = i + 1, axes
+        if (k == points) exit
         place(coordinate(i, axes), k + 1:k + 4) = one%middle(coordinate(i, axes)) + one%step*[1, 1, -1, -1]
         place(coordinate(j, axes), k + 1:k + 4) = one%middle(coordinate(j, axes)) + one%step*[1, -1, 1, -1]
         k = k + 4
@@ -208,6 +211,9 @@ contains
     end do
     do i = 1, axes - 1
       do j = i + 1, axes
+        hessian(i, j) = 0.0_dp
+        hessian(j, i) = 0.0_dp
+        if (k == size(value)) cycle
         hessian(i, j) = 0.25_dp*((value(k + 1) - value(k + 2)) - (value(k + 3) - value(k + 4)))
         hessian(j, i) = hessian(i, j)
         k = k + 4

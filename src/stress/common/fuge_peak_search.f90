@@ -20,7 +20,7 @@ contains
   !> Its relative error is of the order of 1e-12, if the field has as many digits, unless the maximum keeps less than
   !> `START_SHARE` of its value at all candidates nearby. Errors, `peak` untouched: those of the field, FUGE_ERR_MEMORY.
   subroutine find_peak(field, cells, measure, peak, info)
-    class(stress_field), intent(in) :: field
+    class(stress_field), intent(inout) :: field
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak

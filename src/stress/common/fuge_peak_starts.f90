@@ -20,11 +20,17 @@ module fuge_peak_starts
 
   !> Candidates below this part of the best one are not followed: those beside the largest stress keep more of it.
   real(dp), parameter, public :: START_SHARE = 0.7_dp
+  !> A part is not halved if its best value and what its cells could add remain below this part of the best one. Uniform
+  !> pressure on a patch adds up to UNSEEN_SHARE of itself.
+  real(dp), parameter :: HALVED_SHARE = 0.8_dp, UNSEEN_SHARE = 0.75_dp
+  !> After so many candidates at the surface there are no more unless the best of them has this part of the best one.
+  integer, parameter :: FIRST_SURFACE = 64
+  real(dp), parameter :: SURFACE_SHARE = 0.5_dp
   !> Depth of a candidate over the size of its part; below a single cell it is halved twice.
   real(dp), parameter :: DEPTH_RATIO = 1.4_dp
   integer, parameter :: CANDIDATES = 4
   !> Two starts that are closer than this part of the lesser depth climb to the same maximum.
-  real(dp), parameter :: NEARNESS = 0.5_dp
+  real(dp), parameter :: NEARNESS = 0.75_dp
   !> Parts in one portion, and the number of starts at most.
   integer, parameter :: PORTION = 2**13, MOST_STARTS = 2000
   !> Starts from which the list is thinned out.
@@ -46,6 +52,12 @@ module fuge_peak_starts
     integer :: tried = 0
   end type part
 
+  !> The best candidate so far, the best one at the surface, and how many are there.
+  type :: tally
+    real(dp) :: best = -1.0_dp, surface_best = -1.0_dp
+    integer :: surface_count = 0
+  end type tally
+
   !> What is known of a part.
   type :: survey
     real(dp) :: middle(2) = 0.0_dp, length = 0.0_dp, split_at = 0.0_dp, pressure = 0.0_dp
@@ -57,7 +69,7 @@ contains
   !> The candidates of a `field` above `START_SHARE` of the best one, best first, without those next to a better one.
   !> `cells` at least one. Errors: those of the field, FUGE_ERR_MEMORY.
   subroutine find_starts(field, cells, measure, starts, info)
-    class(stress_field), intent(in) :: field
+    class(stress_field), intent(inout) :: field
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: measure
     type(peak_start), allocatable, intent(out) :: starts(:)
@@ -65,6 +77,7 @@ contains
     type(peak_start), allocatable :: list(:)
     type(part), allocatable :: parts(:), halves(:)
     integer, allocatable :: order(:)
+    type(tally) :: so_far
     integer :: count, first, k, last, number, number_next, stat
 
     number = size(cells%pressure)
@@ -82,7 +95,8 @@ contains
       number_next = 0
       do first = 1, number, PORTION
         last = min(first + PORTION - 1, number)
-        call try_parts(field, cells, measure, parts(first:last), order, list, count, halves, number_next, info)
+        call try_parts(field, cells, measure, parts(first:last), order, list, count, so_far, halves, &
+                       number_next, info)
         if (info%failed()) return
       end do
       number = number_next
@@ -93,63 +107,96 @@ contains
   end subroutine find_starts
 
   !> Evaluate the candidates of `parts`, add the good ones to the `list`, and halve the parts that may hide better ones.
-  subroutine try_parts(field, cells, measure, parts, order, list, count, halves, number, info)
-    class(stress_field), intent(in) :: field
+  !> Eleven arguments: the field, its cells, the parts, the list, what comes next.
+  subroutine try_parts(field, cells, measure, parts, order, list, count, so_far, halves, number, info)
+    class(stress_field), intent(inout) :: field
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: measure
     type(part), intent(inout) :: parts(:)
-    integer, intent(inout) :: order(:)
+    integer, intent(inout) :: order(:), count, number
     type(peak_start), intent(inout) :: list(:)
-    integer, intent(inout) :: count
+    type(tally), intent(inout) :: so_far
     type(part), intent(inout) :: halves(:)
-    integer, intent(inout) :: number
     type(fuge_info), intent(inout) :: info
     type(survey), allocatable :: surveys(:)
     type(peak_start), allocatable :: tried(:, :)
-    real(dp), allocatable :: place(:, :), value(:), normal(:)
-    real(dp) :: best, unseen
-    integer :: c, k, p, stat, total
+    real(dp), allocatable :: normal(:, :)
+    real(dp) :: seen
+    integer :: c, p, stat
 
-    total = CANDIDATES*size(parts)
-    allocate (surveys(size(parts)), tried(CANDIDATES, size(parts)), place(3, total), value(total), normal(total), &
-              stat=stat)
+    allocate (surveys(size(parts)), tried(CANDIDATES, size(parts)), normal(CANDIDATES, size(parts)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(parts))//' parts of the search')
+      return
+    end if
+    do p = 1, size(parts)
+      surveys(p) = survey_of(cells, order(parts(p)%first:parts(p)%last))
+      tried(:, p) = candidates_of(cells, surveys(p), parts(p)%tried)
+      parts(p)%tried = surveys(p)%strongest
+      if (surface_is_weak(so_far)) tried(CANDIDATES, p)%length = 0.0_dp
+      if (tried(CANDIDATES, p)%length > 0.0_dp) so_far%surface_count = so_far%surface_count + 1
+    end do
+    call evaluate_candidates(field, measure, tried, normal, info)
+    if (info%failed()) return
+
+    so_far%best = max(so_far%best, maxval(tried%value))
+    so_far%surface_best = max(so_far%surface_best, maxval(tried(CANDIDATES, :)%value))
+    do p = 1, size(parts)
+      do c = 1, CANDIDATES
+        if (tried(c, p)%value < max(0.0_dp, START_SHARE*so_far%best)) cycle
+        count = count + 1
+        list(count) = tried(c, p)
+      end do
+      if (surveys(p)%split_axis == 0) cycle
+      seen = maxval(tried(:, p)%value) + UNSEEN_SHARE*max(0.0_dp, surveys(p)%pressure - abs(normal(1, p)))
+      if (seen >= HALVED_SHARE*so_far%best) call halve(cells, surveys(p), parts(p), order, halves, number)
+    end do
+    if (count > size(list) - CANDIDATES*PORTION) call thin_out(list, count)
+  end subroutine try_parts
+
+  pure function surface_is_weak(so_far)
+    type(tally), intent(in) :: so_far
+    logical :: surface_is_weak
+
+    surface_is_weak = so_far%surface_count >= FIRST_SURFACE .and. so_far%surface_best < SURFACE_SHARE*so_far%best
+  end function surface_is_weak
+
+  !> The values of the candidates that have a length, and the stress zz there.
+  subroutine evaluate_candidates(field, measure, tried, normal, info)
+    class(stress_field), intent(inout) :: field
+    integer, intent(in) :: measure
+    type(peak_start), intent(inout) :: tried(:, :)
+    real(dp), intent(out) :: normal(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: place(:, :), value(:), zz(:)
+    integer :: c, p, stat, total
+
+    normal = 0.0_dp
+    total = count(tried%length > 0.0_dp)
+    allocate (place(3, total), value(total), zz(total), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(total)//' places of the search')
       return
     end if
     total = 0
-    do p = 1, size(parts)
-      surveys(p) = survey_of(cells, order(parts(p)%first:parts(p)%last))
-      tried(:, p) = candidates_of(cells, surveys(p), parts(p)%tried)
-      parts(p)%tried = surveys(p)%strongest
+    do p = 1, size(tried, 2)
       do c = 1, CANDIDATES
         if (.not. tried(c, p)%length > 0.0_dp) cycle
         total = total + 1
         place(:, total) = tried(c, p)%place
       end do
     end do
-    call evaluate_measure(field, measure, place(:, :total), value(:total), normal(:total), info)
-    if (info%failed()) return
-
-    best = maxval(value(:total))
-    if (count > 0) best = max(best, maxval(list(:count)%value))
-    k = 0
-    do p = 1, size(parts)
-      unseen = max(0.0_dp, surveys(p)%pressure - abs(normal(k + 1)))
+    call evaluate_measure(field, measure, place, value, zz, info)
+    total = 0
+    do p = 1, size(tried, 2)
       do c = 1, CANDIDATES
         if (.not. tried(c, p)%length > 0.0_dp) cycle
-        k = k + 1
-        tried(c, p)%value = value(k)
-        if (value(k) < START_SHARE*best) cycle
-        count = count + 1
-        list(count) = tried(c, p)
+        total = total + 1
+        tried(c, p)%value = value(total)
+        normal(c, p) = zz(total)
       end do
-      if (surveys(p)%split_axis == 0) cycle
-      if (maxval(tried(:, p)%value) + unseen >= START_SHARE*best) &
-        call halve(cells, surveys(p), parts(p), order, halves, number)
     end do
-    if (count > size(list) - CANDIDATES*PORTION) call thin_out(list, count)
-  end subroutine try_parts
+  end subroutine evaluate_candidates
 
   !> Extent and pressure of the cells `which`.
   pure function survey_of(cells, which) result(found)
@@ -201,7 +248,8 @@ contains
     list(CANDIDATES)%fixed = .not. cells%continuous
   end function candidates_of
 
-  !> Put the cells beyond the middle of their extent last, and add both halves to the list.
+  !> Put the cells beyond the middle of their extent last, and add both halves to the list, without the one that is the
+  !> mirror image of cells elsewhere.
   pure subroutine halve(cells, found, whole, order, halves, number)
     type(pressed_cells), intent(in) :: cells
     type(survey), intent(in) :: found
@@ -220,9 +268,12 @@ contains
       next = next + 1
     end do
     if (next == whole%first .or. next > whole%last) return
-    halves(number + 1) = part(whole%first, next - 1, whole%tried)
-    halves(number + 2) = part(next, whole%last, whole%tried)
-    number = number + 2
+    number = number + 1
+    halves(number) = part(next, whole%last, whole%tried)
+    if (cells%symmetric(found%split_axis) &
+        .and. all(cells%centre(found%split_axis, order(whole%first:next - 1)) < 0.0_dp)) return
+    number = number + 1
+    halves(number) = part(whole%first, next - 1, whole%tried)
   end subroutine halve
 
   !> Keep the best starts, best first, without those next to a better one: at most MOST_STARTS.

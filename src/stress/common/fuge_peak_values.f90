@@ -19,7 +19,7 @@ contains
   !> `place` (3, places); out: `value` (places) of the `measure`, -1 where it is not finite, and the stress zz in
   !> `normal` (places). Errors: those of the field, FUGE_ERR_MEMORY.
   subroutine evaluate_measure(field, measure, place, value, normal, info)
-    class(stress_field), intent(in) :: field
+    class(stress_field), intent(inout) :: field
     integer, intent(in) :: measure
     real(dp), intent(in) :: place(:, :)
     real(dp), intent(out) :: value(:), normal(:)

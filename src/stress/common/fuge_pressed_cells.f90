@@ -14,6 +14,8 @@ module fuge_pressed_cells
     !> Is the pressure continuous? Otherwise it jumps from cell to cell, and the stresses near the surface follow the
     !> cells rather than the contact.
     logical :: continuous = .false.
+    !> Of cells that are symmetric about x = 0, or y = 0, the search takes those on one side.
+    logical :: symmetric(2) = .false.
     !> (axes, cells), length.
     real(dp), allocatable :: centre(:, :), width(:, :)
     !> Mean, or peak of a hat, (cells), force per length squared; compressive positive.

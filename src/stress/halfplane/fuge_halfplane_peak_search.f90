@@ -31,7 +31,7 @@ module fuge_halfplane_peak_search
     !> `stress` (3, points): xx, zz, xz.
     subroutine in_plane(self, px, pz, stress, info)
       import :: plane_field, dp, fuge_info
-      class(plane_field), intent(in) :: self
+      class(plane_field), intent(inout) :: self
       real(dp), intent(in) :: px(:), pz(:)
       real(dp), intent(inout) :: stress(:, :)
       type(fuge_info), intent(out) :: info
@@ -102,6 +102,7 @@ contains
       peak = singular_peak([edge(1), 0.0_dp, 0.0_dp])
     else
       cells%continuous = element == FUGE_HAT
+      cells%symmetric(1) = folded
       field%plane_state = plane_state
       field%poisson = poisson
       field%element = element
@@ -224,7 +225,7 @@ contains
   end subroutine to_right_half
 
   subroutine tensors_in_plane(self, place, stress, info)
-    class(plane_field), intent(in) :: self
+    class(plane_field), intent(inout) :: self
     real(dp), intent(in) :: place(:, :)
     real(dp), intent(out) :: stress(:, :)
     type(fuge_info), intent(inout) :: info
@@ -242,7 +243,7 @@ contains
   end subroutine tensors_in_plane
 
   subroutine components_under_cells(self, px, pz, stress, info)
-    class(field_of_cells), intent(in) :: self
+    class(field_of_cells), intent(inout) :: self
     real(dp), intent(in) :: px(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
@@ -251,7 +252,7 @@ contains
   end subroutine components_under_cells
 
   subroutine components_under_punch(self, px, pz, stress, info)
-    class(field_of_punch), intent(in) :: self
+    class(field_of_punch), intent(inout) :: self
     real(dp), intent(in) :: px(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
