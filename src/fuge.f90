@@ -41,6 +41,7 @@ module fuge
   use fuge_ring_interior, only: fuge_ring_interior_displacement, fuge_ring_stress
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_interior, only: fuge_round_displacement, fuge_round_stress
+  use fuge_round_peak_search, only: fuge_ring_peak, fuge_round_peak
   use fuge_round_punch, only: fuge_solve_round_punch
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_interior, only: fuge_smooth_displacement, fuge_smooth_stress
