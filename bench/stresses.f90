@@ -9,8 +9,9 @@
 program stresses
   use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_halfplane_stress, fuge_halfplane_stress_grid, &
     fuge_halfspace_operator, fuge_halfspace_stress, fuge_halfspace_stress_grid, fuge_info, fuge_operator, &
-    fuge_polynomial_profile, fuge_problem, fuge_round_contact, fuge_round_stress, fuge_smooth_contact, fuge_smooth_stress, fuge_solution, &
-    fuge_solve_round_punch, fuge_solve_smooth_punch, fuge_solver, FUGE_FREE, FUGE_MEAN
+    fuge_polynomial_profile, fuge_problem, fuge_round_contact, fuge_round_stress, fuge_smooth_contact, &
+    fuge_smooth_stress, fuge_solution, fuge_solve_round_punch, fuge_solve_smooth_punch, fuge_solver, FUGE_FREE, &
+    FUGE_MEAN
   implicit none
 
   integer, parameter :: REPETITIONS = 3, POINTS = 10000, DEPTHS = 10
