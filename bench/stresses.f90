@@ -80,9 +80,11 @@ contains
     type(fuge_polynomial_profile) :: cylinder
     type(fuge_smooth_contact) :: contact
     type(fuge_info) :: info
-    real(dp) :: px(POINTS), pz(POINTS), found(3, POINTS), start, time
+    real(dp), allocatable :: px(:), pz(:), found(:, :)
+    real(dp) :: start, time
     integer :: k
 
+    allocate (px(POINTS), pz(POINTS), found(3, POINTS))
     cylinder%lower = -2.0_dp
     cylinder%upper = 2.0_dp
     cylinder%coefficients = [0.0_dp, 0.0_dp, 0.5_dp]
@@ -142,9 +144,11 @@ contains
   subroutine measure_round()
     type(fuge_round_contact) :: contact
     type(fuge_info) :: info
-    real(dp) :: pr(POINTS), pz(POINTS), found(4, POINTS), start, time, error
+    real(dp), allocatable :: pr(:), pz(:), found(:, :)
+    real(dp) :: start, time, error
     integer :: k
 
+    allocate (pr(POINTS), pz(POINTS), found(4, POINTS))
     call press_sphere(contact)
     call scatter(pr, pz)
     pr = abs(pr)
@@ -182,9 +186,9 @@ contains
     type(fuge_solver) :: solver
     type(fuge_info) :: info
 
-    problem%gap = gap
+    allocate (problem%gap, source=gap)
     allocate (problem%modes(size(gap), 1), source=1.0_dp)
-    problem%resultant = [load]
+    allocate (problem%resultant(1), source=load)
     call solver%solve(surface, problem, solution, info)
     call check(info)
     force = solution%force
