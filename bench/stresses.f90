@@ -47,7 +47,7 @@ contains
     integer :: k
 
     spacing = 2.0_dp*SIDE/real(n, dp)
-    x = [((k - 0.5_dp)*spacing - SIDE, k=1, n)]
+    allocate (x(n), source=[((k - 0.5_dp)*spacing - SIDE, k=1, n)])
     allocate (width(n), source=spacing)
     call surface%set(n, spacing, 1.0_dp, info, element=FUGE_MEAN)
     call check(info)
@@ -111,8 +111,8 @@ contains
     integer :: j, k
 
     spacing = 2.0_dp*SIDE/real(n, dp)
-    x = [(((k - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)]
-    y = [(((j - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)]
+    allocate (x(n*n), source=[(((k - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)])
+    allocate (y(n*n), source=[(((j - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)])
     allocate (width(n*n), source=spacing)
     call surface%set(n, n, spacing, spacing, 1.0_dp, info, element=FUGE_MEAN)
     call check(info)
