@@ -60,20 +60,20 @@ contains
 
   !> The largest von Mises or Tresca stress in a half-plane under forces on its cells, and where it is.
   !>
-  !> `x`, `width`, `force`, `element` and `symmetric` as for `fuge_halfplane_stress`; `plane_state` and `poisson` of the body
-  !> as for `fuge_halfplane_tensor`; `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of a symmetric
-  !> model at x >= 0. Value and place are those of the field of these forces, the value to 1e-10 or better and the place to
-  !> its root.
+  !> `x`, `width`, `force`, `element` and `symmetric` as for `fuge_halfplane_stress`; `plane_state` and `poisson` of the
+  !> body as for `fuge_halfplane_tensor`; `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of a
+  !> symmetric model at x >= 0. Value and place are those of the field of these forces, the value to 1e-10 or better and
+  !> the place to its root.
   !>
   !> Uniform pressure jumps from cell to cell, and close to the surface the stresses follow the cells rather than the
-  !> contact. With FUGE_CENTRE and FUGE_MEAN the search therefore takes the middles of cells at the surface, and below it
-  !> depths from a quarter of the width of a cell on; what may lie between is not resolved by the cells. With FUGE_HAT it
-  !> takes all depths.
+  !> contact. With FUGE_CENTRE and FUGE_MEAN the search therefore takes the middles of cells at the surface, and below
+  !> it depths from a quarter of the width of a cell on; what may lie between is not resolved by the cells. With
+  !> FUGE_HAT it takes all depths.
   !>
-  !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution is
-  !> infinite and any largest value would be one of the grid: then the location is FUGE_PEAK_SINGULAR, the value +infinity,
-  !> the place that edge and the tensor NaN. The forces of seven cells at the edge decide, in a contact of less than twelve
-  !> cells in one piece those of its half; edges of pieces with less than twelve cells are not judged.
+  !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution
+  !> is infinite and any largest value would be one of the grid: then the location is FUGE_PEAK_SINGULAR, the value
+  !> +infinity, the place that edge and the tensor NaN. The forces of seven cells at the edge decide, in a contact of
+  !> less than twelve cells in one piece those of its half; edges of pieces with less than twelve cells are not judged.
   !> Without forces value, place and tensor are 0.
   !>
   !> Ten arguments: the cells, the body, the measure, the result. Errors, `peak` untouched: those of
@@ -115,10 +115,10 @@ contains
   !> The largest von Mises or Tresca stress in a half-plane under a smooth punch, and where it is.
   !>
   !> `contact` of `fuge_solve_smooth_punch`; `plane_state` and `poisson` of the body as for `fuge_halfplane_tensor`;
-  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, the value to rounding of the field and the place
-  !> to 1e-7 of its depth. Its location is never FUGE_PEAK_SINGULAR. Without force value, place and tensor are 0.
-  !> Errors, `peak` untouched: FUGE_ERR_OPTION for `plane_state` and `measure`; FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE for
-  !> `poisson`; FUGE_ERR_MEMORY.
+  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, the value to rounding of the field and the
+  !> place to 1e-7 of its depth. Its location is never FUGE_PEAK_SINGULAR. Without force value, place and tensor are 0.
+  !> Errors, `peak` untouched: FUGE_ERR_OPTION for `plane_state` and `measure`; FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE
+  !> for `poisson`; FUGE_ERR_MEMORY.
   subroutine fuge_smooth_peak(contact, plane_state, poisson, measure, peak, info)
     type(fuge_smooth_contact), intent(in) :: contact
     integer, intent(in) :: plane_state, measure
