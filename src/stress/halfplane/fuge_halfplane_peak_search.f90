@@ -1,8 +1,10 @@
 !> The largest stress in a half-plane, under cells and under smooth punches.
 module fuge_halfplane_peak_search
+  use fuge_constants, only: PI
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_halfplane_interior, only: fuge_halfplane_stress
   use fuge_kinds, only: dp
+  use fuge_loaded_cells, only: loaded_cells
   use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
   use fuge_pressed_cells, only: allocate_cells, pressed_cells
@@ -39,8 +41,7 @@ module fuge_halfplane_peak_search
   end interface
 
   type, extends(plane_field) :: field_of_cells
-    real(dp), allocatable :: x(:), width(:), force(:)
-    integer :: element = 0
+    type(loaded_cells) :: cells
   contains
     procedure :: components => components_under_cells
   end type field_of_cells
@@ -105,8 +106,7 @@ contains
       cells%symmetric(1) = folded
       field%plane_state = plane_state
       field%poisson = poisson
-      field%element = element
-      call set_field(cells, field, info)
+      call set_field(cells, element, field, info)
       call find_peak(field, cells, measure, peak, info)
     end if
     if (folded .and. .not. info%failed()) call to_right_half(peak)
@@ -172,23 +172,24 @@ contains
     end do
   end subroutine collect_cells
 
-  !> The field of these cells.
-  pure subroutine set_field(cells, field, info)
+  !> The field of these cells, in clusters if they are many.
+  pure subroutine set_field(cells, element, field, info)
     type(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: element
     type(field_of_cells), intent(inout) :: field
     type(fuge_info), intent(inout) :: info
-    integer :: number, stat
+    real(dp), allocatable :: force(:)
+    integer :: stat
 
     if (info%failed()) return
-    number = size(cells%pressure)
-    allocate (field%x(number), field%width(number), field%force(number), stat=stat)
+    allocate (force(size(cells%pressure)), stat=stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the '//text(number)//' cells with a force')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the '//text(size(cells%pressure))//' cells with a force')
       return
     end if
-    field%x = cells%centre(1, :)
-    field%width = cells%width(1, :)
-    field%force = cells%pressure*cells%width(1, :)
+    force = cells%pressure*cells%width(1, :)
+    call field%cells%set(cells%centre(1, :), cells%width(1, :), force, element, info)
+    if (.not. info%failed()) call field%cells%gather(info)
   end subroutine set_field
 
   !> Cells for the pressure of a smooth punch, narrow at both ends; none without force.
@@ -196,7 +197,6 @@ contains
     type(fuge_smooth_contact), intent(in) :: contact
     type(pressed_cells), intent(inout) :: cells
     type(fuge_info), intent(inout) :: info
-    real(dp), parameter :: PI = acos(-1.0_dp)
     real(dp) :: left, right
     integer :: k, number
 
@@ -247,8 +247,14 @@ contains
     real(dp), intent(in) :: px(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
+    real(dp) :: total(3)
+    integer :: k
 
-    call fuge_halfplane_stress(self%x, self%width, self%force, self%element, px, pz, stress, info, .false.)
+    do k = 1, size(pz)
+      total = 0.0_dp
+      call self%cells%add_stresses(scale(px(k), self%cells%power), scale(pz(k), self%cells%power), total)
+      stress(:, k) = -scale(total/PI, self%cells%power)
+    end do
   end subroutine components_under_cells
 
   subroutine components_under_punch(self, px, pz, stress, info)
