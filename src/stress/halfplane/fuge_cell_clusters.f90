@@ -15,14 +15,14 @@ module fuge_cell_clusters
   implicit none
   private
 
-  !> Nodes of a cluster, and from how many half lengths away, from its middle, they suffice.
+  !> Nodes of a cluster, and the distance from its middle, in half lengths, from which on they suffice.
   integer, parameter :: ORDER = 28
   real(dp), parameter :: SEPARATION = 2.5_dp
   !> Nodes in each half of a cell for the integrals over its pressure, even: exact for the polynomials; and enough for
   !> cells that are NARROW times as long as their cluster, because a point far from it is still farther from them.
   integer, parameter :: FULL = ORDER/2 + 2, SHORT = 8
   real(dp), parameter :: NARROW = 0.25_dp
-  !> Partial sums, so that they run in vectors.
+  !> Partial sums, so that compilers vectorise them.
   integer, parameter :: LANES = 4
   !> Cells in a leaf of the tree, at most.
   integer, parameter :: LEAF_CELLS = 16
