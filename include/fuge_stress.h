@@ -170,8 +170,8 @@ int fuge_halfplane_displacement_grid(int n, double spacing, const double *force,
  *   nx, ny                in   cells along x and y; cell (i, j) is cell i + nx*j
  *   spacing_x, spacing_y  in   > 0; length
  *   force                 in   nx*ny; of the cells, compression positive, of any sign
- *   boundary              in   FUGE_FREE or FUGE_PERIODIC; a surface that is periodic along one
- *                              direction only is FUGE_ERR_UNSUPPORTED
+ *   boundary              in   FUGE_FREE, FUGE_PERIODIC, or FUGE_PERIODIC_X, FUGE_PERIODIC_Y: the
+ *                              mean along that direction is then in plane strain
  *   poisson               in   of the body, in (-1, 0.5]
  *   stress                out  xx, yy, zz, yz, xz, xy of cell i at depth k at
  *                              stress + 6*(i + nx*ny*k); force per length^2
@@ -183,6 +183,7 @@ int fuge_halfspace_stress_grid(int nx, int ny, double spacing_x, double spacing_
 /* Displacements in a half-space.
  *   young         in   of the body, > 0, INFINITY for a rigid one
  *   displacement  out  along x, y, z of cell i at depth k at displacement + 3*(i + nx*ny*k)
+ * With FUGE_PERIODIC_X and _Y the datum is that of fuge_operator_halfspace.
  * Other arguments and errors as above. */
 int fuge_halfspace_displacement_grid(int nx, int ny, double spacing_x, double spacing_y,
                                      const double *force, int boundary, double young,

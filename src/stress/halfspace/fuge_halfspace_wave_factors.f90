@@ -13,8 +13,11 @@
 !> make products of two sums of it, each over one direction, which converge like Gaussians (fuge_cell_gaussians). The
 !> trapezoidal rule in log t converges exponentially: some 80 values of t give the factors of all waves, as a product of
 !> two matrices for each term. The sums are the same at all depths. Deep below the surface only the wave itself counts.
+!>
+!> On a surface that is periodic along one direction only the same products are taken at places instead of waves, without
+!> the wave of equal forces along that direction, which is a half-plane's.
 module fuge_halfspace_wave_factors
-  use fuge_cell_gaussians, only: fill_gaussian_waves
+  use fuge_cell_gaussians, only: circle_work, fill_gaussian_circle, fill_gaussian_places, fill_gaussian_waves
   use fuge_constants, only: PI
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemm
@@ -37,10 +40,15 @@ module fuge_halfspace_wave_factors
     !> Spacings in this unit.
     real(dp), private :: spacing(2) = 0.0_dp
     integer, private :: cells(2) = 0
-    !> Values of t; (waves, t, order) along x and along y; room for one order along x with weights.
+    !> The sums are those at places, not of waves.
+    logical, private :: places = .false.
+    !> Values of t; (waves or places, t, order) along x and along y; room for one order along x with weights.
     real(dp), allocatable, private :: node(:), along_x(:, :, :), along_y(:, :, :), weighted(:, :)
+    !> The sums of order 0 for a small t.
+    real(dp), allocatable, private :: narrow_x(:), narrow_y(:)
   contains
     procedure :: prepare
+    procedure :: prepare_places
     procedure :: add_term
   end type wave_sums
 
@@ -57,65 +65,136 @@ module fuge_halfspace_wave_factors
 
 contains
 
-  !> How many values of t a grid takes beyond SHORT.
-  pure function count_nodes(cells, spacing) result(count)
-    integer, intent(in) :: cells(2)
-    real(dp), intent(in) :: spacing(2)
+  !> How many values of t are taken beyond SHORT for waves up to the length of a `period`, in units of the smaller spacing.
+  pure function count_nodes(period) result(count)
+    real(dp), intent(in) :: period
     integer :: count
-    real(dp) :: period
 
-    period = maxval(cells*(spacing/minval(spacing)))
     count = max(1, ceiling(log(NEGLIGIBLE*period/(2.0_dp*PI*SHORT))/STEP))
   end function count_nodes
 
-  !> Memory for the sums and one table of factors.
-  pure function bytes_of_waves(cells, spacing) result(bytes)
-    integer, intent(in) :: cells(2)
+  !> Memory for the sums and one table of factors of `cells` (2), for `extent` (2) waves or places.
+  pure function bytes_of_waves(cells, spacing, extent) result(bytes)
+    integer, intent(in) :: cells(2), extent(2)
     real(dp), intent(in) :: spacing(2)
-    real(dp) :: bytes, waves(2)
+    real(dp) :: bytes, nodes
 
-    waves = 1.0_dp + real(cells, dp)/2.0_dp
-    bytes = 8.0_dp*(product(waves) + real(count_nodes(cells, spacing), dp)*(4.0_dp*waves(1) + 3.0_dp*waves(2)))
+    nodes = real(count_nodes(maxval(cells*(spacing/minval(spacing)))), dp)
+    bytes = 8.0_dp*(real(extent(1), dp)*real(extent(2), dp) + nodes*(4.0_dp*real(extent(1), dp) + 3.0_dp*real(extent(2), dp)))
   end function bytes_of_waves
 
-  !> Compute the sums for a grid of `cells` (2) with `spacing` (2), length. `stat` as in an allocate statement.
+  !> Compute the sums for the waves of a grid of `cells` (2) with `spacing` (2), length. `stat` as in an allocate
+  !> statement.
   pure subroutine prepare(self, cells, spacing, stat)
     class(wave_sums), intent(inout) :: self
     integer, intent(in) :: cells(2)
     real(dp), intent(in) :: spacing(2)
+    integer, intent(out) :: stat
+    integer :: k
+
+    call allocate_sums(self, cells, spacing, maxval(cells*(spacing/minval(spacing))), cells/2 + 1, stat)
+    if (stat /= 0) return
+    self%places = .false.
+    self%narrow_x = 1.0_dp
+    self%narrow_y = 1.0_dp
+    do k = 1, size(self%node)
+      call fill_gaussian_waves(cells(1), self%node(k)/self%spacing(1), self%along_x(:, k, :))
+      call fill_gaussian_waves(cells(2), self%node(k)/self%spacing(2), self%along_y(:, k, :))
+    end do
+  end subroutine prepare
+
+  !> Compute the sums for the places on a grid that is periodic along `direction`, 1 for x or 2 for y, with the period of
+  !> the grid: at distances up to half of it, and along the other direction up to all cells.
+  !>
+  !> Other arguments as for `prepare`.
+  pure subroutine prepare_places(self, cells, spacing, direction, stat)
+    class(wave_sums), intent(inout) :: self
+    integer, intent(in) :: cells(2), direction
+    real(dp), intent(in) :: spacing(2)
+    integer, intent(out) :: stat
+    integer :: extent(2)
+
+    extent = cells
+    extent(direction) = cells(direction)/2 + 1
+    call allocate_sums(self, cells, spacing, cells(direction)*(spacing(direction)/minval(spacing)), extent, stat)
+    if (stat /= 0) return
+    self%places = .true.
+    call fill_places(cells(1), direction == 1, self%node/self%spacing(1), self%along_x, self%narrow_x, stat)
+    if (stat == 0) call fill_places(cells(2), direction == 2, self%node/self%spacing(2), self%along_y, self%narrow_y, stat)
+  end subroutine prepare_places
+
+  !> The sums at the places along one direction of `n` cells, periodic or not, at the values `t` in units of a cell.
+  pure subroutine fill_places(n, periodic, t, along, narrow, stat)
+    integer, intent(in) :: n
+    logical, intent(in) :: periodic
+    real(dp), intent(in) :: t(:)
+    real(dp), intent(inout) :: along(0:, :, 0:), narrow(0:)
+    integer, intent(out) :: stat
+    real(dp), allocatable :: work(:, :)
+    integer :: k
+
+    narrow = 0.0_dp
+    narrow(0) = 1.0_dp
+    stat = 0
+    if (periodic) then
+      allocate (work(0:circle_work(n), 0:2), stat=stat)
+      if (stat /= 0) return
+      narrow = narrow - 1.0_dp/real(n, dp)
+    end if
+    do k = 1, size(t)
+      if (periodic) then
+        call fill_gaussian_circle(n, t(k), work, along(:, k, :))
+      else
+        call fill_gaussian_places(t(k), along(:, k, :))
+      end if
+    end do
+  end subroutine fill_places
+
+  !> Allocate and fill what does not depend on the kind of the sums.
+  pure subroutine allocate_sums(self, cells, spacing, period, extent, stat)
+    type(wave_sums), intent(inout) :: self
+    integer, intent(in) :: cells(2), extent(2)
+    real(dp), intent(in) :: spacing(2), period
     integer, intent(out) :: stat
     integer :: k, nodes
 
     self%cells = cells
     self%unit = minval(spacing)
     self%spacing = spacing/self%unit
-    nodes = count_nodes(cells, spacing)
-    allocate (self%node(nodes), self%along_x(0:cells(1)/2, nodes, 0:2), self%along_y(0:cells(2)/2, nodes, 0:2), &
-              self%weighted(0:cells(1)/2, nodes), stat=stat)
+    nodes = count_nodes(period)
+    allocate (self%node(nodes), self%along_x(0:extent(1) - 1, nodes, 0:2), self%along_y(0:extent(2) - 1, nodes, 0:2), &
+              self%weighted(0:extent(1) - 1, nodes), self%narrow_x(0:extent(1) - 1), self%narrow_y(0:extent(2) - 1), &
+              stat=stat)
     if (stat /= 0) return
     do k = 1, nodes
       self%node(k) = SHORT*exp(STEP*real(k, dp))
-      call fill_gaussian_waves(cells(1), self%node(k)/self%spacing(1), self%along_x(:, k, :))
-      call fill_gaussian_waves(cells(2), self%node(k)/self%spacing(2), self%along_y(:, k, :))
     end do
-  end subroutine prepare
+  end subroutine allocate_sums
 
   !> Add a `term` at a `depth` >= 0 to `factor` (0:nx/2, 0:ny/2), of the waves with that many periods along x and y;
-  !> what it adds to the wave (0, 0) means nothing. Lengths in `unit`.
+  !> what it adds to the wave (0, 0) means nothing. After `prepare_places`: to the influence of unit pressure on a cell,
+  !> `factor` (0:nx/2, 0:ny - 1) or (0:nx - 1, 0:ny/2), at these distances. Lengths in `unit`.
   subroutine add_term(self, term, depth, factor)
     class(wave_sums), intent(inout) :: self
     type(wave_term), intent(in) :: term
     real(dp), intent(in) :: depth
     real(dp), intent(inout), contiguous :: factor(0:, 0:)
     real(dp) :: scaling
-    integer :: first, k
+    integer :: first, j, k
 
-    if (depth >= DEEP*maxval(self%spacing)) then
+    if (depth >= DEEP*maxval(self%spacing) .and. .not. self%places) then
       call add_wave_itself(self, term, depth, factor)
       return
     end if
-    if (all(term%power == 0)) factor = factor + part_of_cell(term, depth)
+    if (all(term%power == 0)) then
+      scaling = part_of_cell(term, depth)
+      do j = 0, ubound(factor, 2)
+        factor(:, j) = factor(:, j) + scaling*self%narrow_y(j)*self%narrow_x
+      end do
+    end if
     scaling = 1.0_dp/product(self%spacing**term%power)
+    ! A slope stands for i q, the product of two slopes for -q_x q_y.
+    if (self%places .and. all(term%power == 1)) scaling = -scaling
     first = first_node(self%node, depth)
     do k = first, size(self%node)
       self%weighted(:, k) = (scaling*weight_of(term, depth, self%node(k)))*self%along_x(:, k, term%power(1))

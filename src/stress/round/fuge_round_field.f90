@@ -27,8 +27,9 @@ module fuge_round_field
   real(dp), parameter :: SHRINKING = 0.4_dp, SHORTEST = 2.0_dp**(-80), UNRESOLVED = 1.0e-9_dp
   !> Parts of an edge grow by this factor.
   real(dp), parameter :: GROWTH = 3.0_dp
-  !> The potentials at the surface have a weak singularity, which may be left out at this height relative to r.
-  real(dp), parameter :: LEAST_HEIGHT = 2.0_dp**(-110)
+  !> At the surface the integrands have a root at t = r, which is resolved to this height relative to r; its power 3/2
+  !> is left.
+  real(dp), parameter :: LEAST_HEIGHT = 2.0_dp**(-44)
   !> A bound from below for the distance of a singularity of the angle 45 degrees or more, over its modulus.
   real(dp), parameter :: SINE = 0.7_dp
 
@@ -206,7 +207,8 @@ contains
     else
       height = abs(root)
     end if
-    height = max(SINE*height, LEAST_HEIGHT*max(r, edge%start))
+    height = SINE*height
+    if (.not. z > 0.0_dp) height = max(height, LEAST_HEIGHT*max(r, edge%start))
     last = rim_sine(edge)
     lower = 0.0_dp
     upper = min(last, edge%start)
