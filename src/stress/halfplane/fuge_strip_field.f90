@@ -24,8 +24,8 @@ module fuge_strip_field
 
   public :: add_strips, add_strip_displacements, view_angle
 
-  !> Added to squares of distances, so that none is 0: points closer to an end of a strip than about 1e-78 count as lying
-  !> at it.
+  !> Added to squares of distances, so that none is 0: points closer to an end of a strip than about 1e-78 count as
+  !> lying at it.
   real(dp), parameter, public :: LEAST_SQUARE = scale(1.0_dp, -520)
   !> Strips whose terms are computed together.
   integer, parameter :: BLOCK = 32
