@@ -127,9 +127,113 @@ int fuge_halfspace_symmetric_displacement(int n, const double *x, const double *
                                           const double *px, const double *py, const double *pz,
                                           double *displacement, char *message, size_t len);
 
-/* ---- stresses on grids --------------------------------------------------- */
+/* ---- stresses on grids ---------------------------------------------------
+ *
+ * Below the centres of equal cells side by side, by FFT: a depth costs O(n log n), and the forces
+ * are transformed once for all of them.  Numbers that the points of the sections above have, too.
+ * Results may not overlap inputs.
+ *
+ * With FUGE_PERIODIC the mean pressure is a stress zz = -mean at all depths; what stress it has
+ * along the surface depends on how the body is held far away.  Here it is 0: a body that cannot
+ * expand has in addition poisson/(1 - poisson) times the mean of zz, in plane strain and in a
+ * half-space.  Displacements count, at each depth, from the mean at that depth. */
+
+/* Stresses in a half-plane.
+ *   n          in   cells, the period with FUGE_PERIODIC
+ *   spacing    in   > 0; width of a cell, length
+ *   force      in   n; per unit depth, compression positive, of any sign
+ *   element    in   FUGE_CENTRE and FUGE_MEAN: strips of pressure force/spacing; FUGE_HAT
+ *   boundary   in   FUGE_FREE or FUGE_PERIODIC
+ *   depths     in   >= 0
+ *   depth      in   depths; >= 0, in any order, length
+ *   stress     out  xx, zz, xz of cell i at depth k at stress + 3*(i + n*k); force per length^2
+ * FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_ELEMENT,
+ * FUGE_ERR_OPTION for boundary, FUGE_ERR_GRID for a depth < 0, FUGE_ERR_OVERFLOW,
+ * FUGE_ERR_MEMORY. */
+int fuge_halfplane_stress_grid(int n, double spacing, const double *force, int element,
+                               int boundary, int depths, const double *depth, double *stress,
+                               char *message, size_t len);
+
+/* Displacements in a half-plane.
+ *   young, poisson, plane_state  in   of the body, as in fuge_plane_modulus
+ *   displacement                 out  along x and z of cell i at depth k at
+ *                                     displacement + 2*(i + n*k), length
+ * With FUGE_FREE the datum is that of fuge_halfplane_displacement.  Other arguments and errors as
+ * above; also FUGE_ERR_MODULUS, FUGE_ERR_OPTION for plane_state. */
+int fuge_halfplane_displacement_grid(int n, double spacing, const double *force, int element,
+                                     int boundary, double young, double poisson, int plane_state,
+                                     int depths, const double *depth, double *displacement,
+                                     char *message, size_t len);
+
+/* Stresses in a half-space.
+ *   nx, ny                in   cells along x and y; cell (i, j) is cell i + nx*j
+ *   spacing_x, spacing_y  in   > 0; length
+ *   force                 in   nx*ny; of the cells, compression positive, of any sign
+ *   boundary              in   FUGE_FREE, FUGE_PERIODIC, or FUGE_PERIODIC_X, FUGE_PERIODIC_Y: the
+ *                              mean along that direction is then in plane strain
+ *   poisson               in   of the body, in (-1, 0.5]
+ *   stress                out  xx, yy, zz, yz, xz, xy of cell i at depth k at
+ *                              stress + 6*(i + nx*ny*k); force per length^2
+ * Other arguments and errors as above; also FUGE_ERR_MODULUS for poisson. */
+int fuge_halfspace_stress_grid(int nx, int ny, double spacing_x, double spacing_y,
+                               const double *force, int boundary, double poisson, int depths,
+                               const double *depth, double *stress, char *message, size_t len);
+
+/* Displacements in a half-space.
+ *   young         in   of the body, > 0, INFINITY for a rigid one
+ *   displacement  out  along x, y, z of cell i at depth k at displacement + 3*(i + nx*ny*k)
+ * With FUGE_PERIODIC_X and _Y the datum is that of fuge_operator_halfspace.
+ * Other arguments and errors as above. */
+int fuge_halfspace_displacement_grid(int nx, int ny, double spacing_x, double spacing_y,
+                                     const double *force, int boundary, double young,
+                                     double poisson, int depths, const double *depth,
+                                     double *displacement, char *message, size_t len);
 
 /* ---- stresses of round bodies -------------------------------------------- */
+
+/* Stresses in a half-space under forces on rings about one axis, to rounding at any depth and
+ * distance.
+ *   n        in   rings
+ *   radius   in   n + 1, as in fuge_ring_matrix
+ *   force    in   n; the resultants of uniform pressures, compression positive, of any sign: those
+ *                 of fuge_get_force.  Rings without force cost nothing
+ *   poisson  in   Poisson's ratio of the body, in (-1, 0.5]
+ *   points   in   >= 0
+ *   pr, pz   in   points; >= 0 from the axis, and >= 0 into the body; length
+ *   stress   out  4 for each point: rr, tt (around the axis), zz, rz of point k at stress + 4*k;
+ *                 force per length^2, tension positive; it may not overlap another array
+ * At z = 0 they are the limits from inside.  At an edge of a ring, where zz jumps by the
+ * pressure, they are the means from both sides, although rz straight below it tends to
+ * pressure/pi or, at the outer edge, to -pressure/pi.
+ * Errors of fuge_ring_matrix; FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH also for
+ * pr < 0, FUGE_ERR_GRID for pz < 0, FUGE_ERR_MODULUS for poisson, FUGE_ERR_OVERFLOW for a
+ * point beyond 1e60 radii, FUGE_ERR_MEMORY. */
+int fuge_ring_stress(int n, const double *radius, const double *force, double poisson, int points,
+                     const double *pr, const double *pz, double *stress, char *message,
+                     size_t len);
+
+/* Displacements in a half-space under forces on rings; fuge_ring_displacement has those of the
+ * surface alone.
+ *   young, poisson  in   of the body; a rigid one (young INFINITY) does not move
+ *   displacement    out  2 for each point: away from the axis and into the body; length
+ * They vanish far away.  Other arguments and errors as above; FUGE_ERR_MODULUS also for young. */
+int fuge_ring_interior_displacement(int n, const double *radius, const double *force,
+                                    double young, double poisson, int points, const double *pr,
+                                    const double *pz, double *displacement, char *message,
+                                    size_t len);
+
+/* Stresses and displacements in a half-space under a round punch, to rounding, with the arguments
+ * of fuge_ring_stress and fuge_ring_interior_displacement.
+ *   contact  in  of fuge_solve_round_punch or fuge_solve_round_powers.  Without load there are
+ *                none
+ * In the tip of a cone, where the pressure is infinite, the stress zz is -DBL_MAX, and rr and tt
+ * are (1 + 2 poisson)/2 times it. */
+int fuge_round_stress(const fuge_round *contact, double poisson, int points, const double *pr,
+                      const double *pz, double *stress, char *message, size_t len);
+
+int fuge_round_displacement(const fuge_round *contact, double young, double poisson, int points,
+                            const double *pr, const double *pz, double *displacement,
+                            char *message, size_t len);
 
 /* ---- stress measures -----------------------------------------------------
  *

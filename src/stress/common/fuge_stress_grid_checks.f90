@@ -1,6 +1,6 @@
 !> Checks of forces, depths and results on grids.
 module fuge_stress_grid_checks
-  use fuge_constants, only: LARGEST_EXPONENT_OF_2
+  use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
@@ -16,9 +16,10 @@ module fuge_stress_grid_checks
 
 contains
 
-  !> Refuse forces that are not finite or out of range: FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW.
-  pure subroutine check_grid_force(force, info)
-    real(dp), intent(in) :: force(:)
+  !> Refuse forces that are not finite, or whose sizes over that of `area`, on which they act, are out of range:
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW.
+  pure subroutine check_grid_force(force, area, info)
+    real(dp), intent(in) :: force(:), area
     type(fuge_info), intent(inout) :: info
     integer :: k
 
@@ -26,8 +27,9 @@ contains
     call check_finite(force, 'force', info)
     do k = 1, size(force)
       if (info%failed()) return
-      if (exponent(force(k)) > LARGEST_EXPONENT_OF_2) call report(info, FUGE_ERR_OVERFLOW, 'force('//index_text(k)//') = ' &
-        //text(force(k))//' is out of range: choose other units')
+      if (exponent(force(k)) <= LARGEST_EXPONENT_OF_2 .and. exponent(force(k)) - exponent(area) <= LARGEST_EXPONENT) cycle
+      call report(info, FUGE_ERR_OVERFLOW, 'force('//index_text(k)//') = '//text(force(k)) &
+                  //' is out of range: choose other units')
     end do
   end subroutine check_grid_force
 

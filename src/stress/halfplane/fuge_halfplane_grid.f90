@@ -40,7 +40,7 @@ contains
     if (info%failed()) return
     if (all(boundary /= [FUGE_FREE, FUGE_PERIODIC])) call report(info, FUGE_ERR_OPTION, 'boundary = '//text(boundary) &
       //' is unknown: use FUGE_FREE or FUGE_PERIODIC')
-    call check_grid_force(force, info)
+    call check_grid_force(force, spacing, info)
     call check_grid_depth(depth, spacing, info)
     call check_grid_result(given, name, [components, size(force), size(depth)], info)
   end subroutine check_halfplane_grid
