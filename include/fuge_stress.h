@@ -191,6 +191,50 @@ int fuge_halfspace_displacement_grid(int nx, int ny, double spacing_x, double sp
 
 /* ---- stresses of round bodies -------------------------------------------- */
 
+/* Stresses in a half-space under forces on rings about one axis, to rounding at any depth and
+ * distance.
+ *   n        in   rings
+ *   radius   in   n + 1, as in fuge_ring_matrix
+ *   force    in   n; the resultants of uniform pressures, compression positive, of any sign: those
+ *                 of fuge_get_force.  Rings without force cost nothing
+ *   poisson  in   Poisson's ratio of the body, in (-1, 0.5]
+ *   points   in   >= 0
+ *   pr, pz   in   points; >= 0 from the axis, and >= 0 into the body; length
+ *   stress   out  4 for each point: rr, tt (around the axis), zz, rz of point k at stress + 4*k;
+ *                 force per length^2, tension positive; it may not overlap another array
+ * At z = 0 they are the limits from inside.  At an edge of a ring, where zz jumps by the
+ * pressure, they are the means from both sides, although rz straight below it tends to
+ * pressure/pi or, at the outer edge, to -pressure/pi.
+ * Errors of fuge_ring_matrix; FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH also for
+ * pr < 0, FUGE_ERR_GRID for pz < 0, FUGE_ERR_MODULUS for poisson, FUGE_ERR_OVERFLOW for a
+ * point beyond 1e60 radii, FUGE_ERR_MEMORY. */
+int fuge_ring_stress(int n, const double *radius, const double *force, double poisson, int points,
+                     const double *pr, const double *pz, double *stress, char *message,
+                     size_t len);
+
+/* Displacements in a half-space under forces on rings; fuge_ring_displacement has those of the
+ * surface alone.
+ *   young, poisson  in   of the body; a rigid one (young INFINITY) does not move
+ *   displacement    out  2 for each point: away from the axis and into the body; length
+ * They vanish far away.  Other arguments and errors as above; FUGE_ERR_MODULUS also for young. */
+int fuge_ring_interior_displacement(int n, const double *radius, const double *force,
+                                    double young, double poisson, int points, const double *pr,
+                                    const double *pz, double *displacement, char *message,
+                                    size_t len);
+
+/* Stresses and displacements in a half-space under a round punch, to rounding, with the arguments
+ * of fuge_ring_stress and fuge_ring_interior_displacement.
+ *   contact  in  of fuge_solve_round_punch or fuge_solve_round_powers.  Without load there are
+ *                none
+ * In the tip of a cone, where the pressure is infinite, the stress zz is -DBL_MAX, and rr and tt
+ * are (1 + 2 poisson)/2 times it. */
+int fuge_round_stress(const fuge_round *contact, double poisson, int points, const double *pr,
+                      const double *pz, double *stress, char *message, size_t len);
+
+int fuge_round_displacement(const fuge_round *contact, double young, double poisson, int points,
+                            const double *pr, const double *pz, double *displacement,
+                            char *message, size_t len);
+
 /* ---- stress measures -----------------------------------------------------
  *
  * Scalars of stresses, point by point.  A tensor is 6 x points: xx, yy, zz, yz, xz, xy.  Results

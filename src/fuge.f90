@@ -14,10 +14,12 @@ module fuge
   use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
+  use fuge_halfplane_peak_search, only: fuge_halfplane_peak, fuge_smooth_peak
   use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_halfspace_grid, only: FUGE_PERIODIC_X, FUGE_PERIODIC_Y
   use fuge_halfspace_influence, only: fuge_halfspace_matrix
+  use fuge_halfspace_peak_search, only: fuge_halfspace_peak
   use fuge_halfspace_stresses, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_hertz_theory, only: fuge_hertz_contact, fuge_hertz_ellipse
   use fuge_history_type, only: fuge_history
@@ -38,6 +40,8 @@ module fuge
   use fuge_ring_influence, only: fuge_ring_displacement, fuge_ring_matrix
   use fuge_ring_interior, only: fuge_ring_interior_displacement, fuge_ring_stress
   use fuge_round_contact_type, only: fuge_round_contact
+  use fuge_round_interior, only: fuge_round_displacement, fuge_round_stress
+  use fuge_round_peak_search, only: fuge_ring_peak, fuge_round_peak
   use fuge_round_punch, only: fuge_solve_round_punch
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_interior, only: fuge_smooth_displacement, fuge_smooth_stress
@@ -56,6 +60,8 @@ module fuge
   use fuge_stiffness_type, only: fuge_stiffness
   use fuge_stress_measures, only: fuge_halfplane_tensor, fuge_round_tensor, fuge_principal_stresses, fuge_von_mises, &
     fuge_tresca, fuge_mean_stress
+  use fuge_stress_peak_type, only: fuge_stress_peak, FUGE_MEASURE_TRESCA, FUGE_MEASURE_VON_MISES, FUGE_PEAK_INSIDE, &
+    FUGE_PEAK_SINGULAR, FUGE_PEAK_SURFACE
   use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
   use fuge_surface_levelling, only: fuge_level_surface, FUGE_LEVEL_PLANE
   use fuge_surface_type, only: fuge_surface, FUGE_FILE_ANY, FUGE_FILE_GRID, FUGE_FILE_POINTS, FUGE_FILE_SDF

@@ -76,8 +76,8 @@ contains
   end function c_halfplane_displacement
 
   !> Fourteen arguments, as in the header: the cells, the body, the points, the message.
-  function c_halfplane_symmetric_displacement(n, x, width, force, element, young, poisson, plane_state, points, px, pz, &
-                                              displacement, message, length) &
+  function c_halfplane_symmetric_displacement(n, x, width, force, element, young, poisson, plane_state, points, px, &
+                                              pz, displacement, message, length) &
     bind(c, name='fuge_halfplane_symmetric_displacement') result(status)
     integer(c_int), intent(in), value :: n, element, plane_state, points
     type(c_ptr), intent(in), value :: x, width, force, px, pz, displacement, message
@@ -93,8 +93,8 @@ contains
 
   !> Displacements of a whole or a `symmetric` model; `elastic` has Young's modulus and Poisson's ratio. Thirteen
   !> arguments: those of the two functions that call it.
-  subroutine fill_displacement(n, x, width, force, element, symmetric, elastic, plane_state, points, px, pz, displacement, &
-                               info)
+  subroutine fill_displacement(n, x, width, force, element, symmetric, elastic, plane_state, points, px, pz, &
+                               displacement, info)
     integer(c_int), intent(in) :: n, element, plane_state, points
     type(c_ptr), intent(in) :: x, width, force, px, pz, displacement
     logical, intent(in) :: symmetric

@@ -13,8 +13,10 @@ module fuge_c_round
   implicit none
   private
 
+  public :: find_contact
+
   !> Behind struct fuge_round.
-  type :: round_handle
+  type, public :: round_handle
     type(fuge_round_contact) :: contact
     type(fuge_info) :: info
   end type round_handle

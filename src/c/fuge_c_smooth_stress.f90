@@ -10,7 +10,8 @@ module fuge_c_smooth_stress
 
 contains
 
-  function c_smooth_stress(source, points, px, pz, stress, message, length) bind(c, name='fuge_smooth_stress') result(status)
+  function c_smooth_stress(source, points, px, pz, stress, message, length) &
+    bind(c, name='fuge_smooth_stress') result(status)
     type(c_ptr), intent(in), value :: source, px, pz, stress, message
     integer(c_int), intent(in), value :: points
     integer(c_size_t), intent(in), value :: length

@@ -13,7 +13,8 @@ module fuge_profile_edges
   implicit none
   private
 
-  public :: edge_depth, edge_displacement, edge_height, edge_pressure, edge_rim_slope, edge_thrust
+  public :: edge_density, edge_depth, edge_displacement, edge_height, edge_pressure, edge_rim_slope, edge_thrust, &
+    rim_sine
 
   !> One term on a contact of radius 1 that reaches beyond `start`.
   type, public :: profile_edge
@@ -43,7 +44,7 @@ contains
   end function rim_sine
 
   !> G at w.
-  elemental function density(edge, w) result(g)
+  elemental function edge_density(edge, w) result(g)
     type(profile_edge), intent(in) :: edge
     real(dp), intent(in) :: w
     real(dp) :: g
@@ -55,14 +56,14 @@ contains
     else
       g = edge%factor*(2.0_dp*w - edge%start*theta)*w/hypot(w, edge%start)
     end if
-  end function density
+  end function edge_density
 
   !> g' at the rim; no unit.
   elemental function edge_rim_slope(edge) result(slope)
     type(profile_edge), intent(in) :: edge
     real(dp) :: slope
 
-    slope = density(edge, rim_sine(edge))/rim_sine(edge)
+    slope = edge_density(edge, rim_sine(edge))/rim_sine(edge)
   end function edge_rim_slope
 
   !> The integral of g' dt up to the rim.
@@ -108,7 +109,7 @@ contains
 
     call gauss_rule(node, weight)
     node = rim_sine(edge)*node
-    moment = rim_sine(edge)*dot_product(weight, density(edge, node)*hypot(node, edge%start)**order)
+    moment = rim_sine(edge)*dot_product(weight, edge_density(edge, node)*hypot(node, edge%start)**order)
   end function density_moment
 
   !> The integral of g'/sqrt(t**2 - r**2) dt from max(r, b) to the rim; no unit.
@@ -135,7 +136,7 @@ contains
       else
         w = distance*sinh(w)
       end if
-      integral = integral + (upper - lower)*dot_product(weight, density(edge, w))
+      integral = integral + (upper - lower)*dot_product(weight, edge_density(edge, w))
       upper = lower
     end do
   end function edge_pressure
@@ -184,7 +185,7 @@ contains
       else
         arc = atan2(whole*cos(psi), t)
       end if
-      integral = integral + (to - from)*whole*dot_product(weight, density(edge, w)*arc*cos(psi))
+      integral = integral + (to - from)*whole*dot_product(weight, edge_density(edge, w)*arc*cos(psi))
       if (.not. upper < last) exit
       lower = upper
       upper = min(last, 2.0_dp*upper)

@@ -32,6 +32,7 @@ module fuge_round_contact_type
   contains
     procedure :: set => set_contact
     procedure :: coefficients => slope_coefficients
+    procedure :: abel => transform_of
     procedure, private :: pressure_at
     procedure, private :: pressures_at
     !> Contact pressure at any distance r >= 0 from the axis, one or several; force per length squared.
@@ -78,6 +79,14 @@ contains
       allocate (coefficients(0))
     end if
   end function slope_coefficients
+
+  !> For the stresses inside: Abel's transform; without load its components are not allocated.
+  pure function transform_of(self) result(transform)
+    class(fuge_round_contact), intent(in) :: self
+    type(abel_transform) :: transform
+
+    transform = self%transform
+  end function transform_of
 
   !> Pressure at one `r`, length; force per length squared, 0 outside of the contact.
   pure function pressure_at(self, r) result(pressure)

@@ -14,10 +14,11 @@ module fuge_stress_field
   abstract interface
     !> `stress` (6, points): xx, yy, zz, yz, xz, xy at `place` (3, points), x, y, z in the caller's coordinates.
     !>
+    !> Evaluating may fill what a field stores for the next points.
     !> Fields in a plane have y = 0 and no yz, xy; those with an axis take x as the radius. Tension is positive.
     subroutine field_stresses(self, place, stress, info)
       import :: stress_field, dp, fuge_info
-      class(stress_field), intent(in) :: self
+      class(stress_field), intent(inout) :: self
       real(dp), intent(in) :: place(:, :)
       real(dp), intent(out) :: stress(:, :)
       type(fuge_info), intent(inout) :: info

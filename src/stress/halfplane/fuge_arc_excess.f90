@@ -21,11 +21,11 @@ contains
     real(dp), intent(out) :: excess(n)
     integer :: j, k
     real(dp), parameter :: COEFFICIENT(0:TERMS) = [((-1)**k/real(2*k + 3, dp), k=0, TERMS)]
-    real(dp) :: s, square(n)
+    real(dp) :: s(n), square(n)
 
     do j = 1, n
-      s = u(j)/(1.0_dp + sqrt(1.0_dp + u(j)**2))
-      square(j) = s**2
+      s(j) = u(j)/(1.0_dp + sqrt(1.0_dp + u(j)**2))
+      square(j) = s(j)**2
       excess(j) = COEFFICIENT(TERMS)
     end do
     do k = TERMS - 1, 0, -1
@@ -34,8 +34,7 @@ contains
       end do
     end do
     do j = 1, n
-      s = u(j)/(1.0_dp + sqrt(1.0_dp + u(j)**2))
-      excess(j) = 2.0_dp*s*square(j)*(1.0_dp/(1.0_dp - square(j)) + excess(j))
+      excess(j) = 2.0_dp*s(j)*square(j)*(1.0_dp/(1.0_dp - square(j)) + excess(j))
     end do
   end subroutine arc_excesses
 

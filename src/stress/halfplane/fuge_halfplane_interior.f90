@@ -15,15 +15,18 @@ module fuge_halfplane_interior
 
   public :: fuge_halfplane_stress, fuge_halfplane_displacement, displacement_factors
 
+  !> From so many points on it pays to put many cells into clusters.
+  integer, parameter :: MANY_POINTS = 32
+
 contains
 
   !> Stresses in a half-plane under forces on its cells, to rounding at any depth and distance.
   !>
-  !> `x`, `width`, `element` and `symmetric` as for `fuge_halfplane_matrix`, length; `force` (n) of the cells, per unit depth,
-  !> compression positive, of any sign: those that a solver returns; `px`, `pz` (points) along the surface and into the
-  !> body, pz >= 0, length; out: `stress` (3, points) xx, zz, xz, force per length squared, tension positive. FUGE_CENTRE
-  !> and FUGE_MEAN are strips of pressure force/width, FUGE_HAT hats with the peak force/width. In plane strain yy is
-  !> nu (xx + zz). Cells without force cost nothing.
+  !> `x`, `width`, `element` and `symmetric` as for `fuge_halfplane_matrix`, length; `force` (n) of the cells, per
+  !> unit depth, compression positive, of any sign: those that a solver returns; `px`, `pz` (points) along the surface
+  !> and into the body, pz >= 0, length; out: `stress` (3, points) xx, zz, xz, force per length squared, tension
+  !> positive. FUGE_CENTRE and FUGE_MEAN are strips of pressure force/width, FUGE_HAT hats with the peak force/width.
+  !> In plane strain yy is nu (xx + zz). Cells without force cost nothing.
   !>
   !> At z = 0 xx = zz = -pressure and xz = 0; at an end of a strip they are the mean of those on both sides, although xz
   !> straight below it tends to -pressure/pi at the right end and to pressure/pi at the left one.
@@ -48,6 +51,7 @@ contains
     call check_result(shape(stress), 'stress', 3, size(pz), info)
     if (.not. info%failed()) call cells%set(x, width, force, element, info)
     call check_distances(cells, px, pz, info)
+    if (size(pz) >= MANY_POINTS) call cells%gather(info)
     if (info%failed()) return
     do k = 1, size(pz)
       scaled = scale([px(k), pz(k)], cells%power)
@@ -65,15 +69,16 @@ contains
   !> Displacements in a half-plane under forces on its cells.
   !>
   !> `x`, `width`, `force`, `element`, `px`, `pz` and `symmetric` as for `fuge_halfplane_stress`; `young`, `poisson` and
-  !> `plane_state` of the body as for `fuge_plane_modulus`; out: `displacement` (2, points) along x and z, length. Along z
-  !> the datum is that of `fuge_halfplane_matrix`, so that at the surface the displacement of a point is that matrix (with
-  !> FUGE_CENTRE or FUGE_HAT) times the forces, for the modulus of this body. A line load moves points straight below it
-  !> along z only, and x along it grows from there. A rigid body (`young` infinite) has no displacements.
+  !> `plane_state` of the body as for `fuge_plane_modulus`; out: `displacement` (2, points) along x and z, length.
+  !> Along z the datum is that of `fuge_halfplane_matrix`, so that at the surface the displacement of a point is that
+  !> matrix (with FUGE_CENTRE or FUGE_HAT) times the forces, for the modulus of this body. A line load moves points
+  !> straight below it along z only, and x along it grows from there. A rigid body (`young` infinite) has no
+  !> displacements.
   !>
-  !> Errors, displacement untouched: as for `fuge_halfplane_stress` and `fuge_plane_modulus`. Source: A.-A. Flamant, 1892;
-  !> K. L. Johnson, Contact Mechanics, 1985, equation 2.22, integrated over the pressure.
-  pure subroutine fuge_halfplane_displacement(x, width, force, element, young, poisson, plane_state, px, pz, displacement, &
-                                              info, symmetric)
+  !> Errors, displacement untouched: as for `fuge_halfplane_stress` and `fuge_plane_modulus`. Source: A.-A. Flamant,
+  !> 1892; K. L. Johnson, Contact Mechanics, 1985, section 2.2, integrated over the pressure.
+  pure subroutine fuge_halfplane_displacement(x, width, force, element, young, poisson, plane_state, px, pz, &
+                                              displacement, info, symmetric)
     real(dp), intent(in) :: x(:), width(:), force(:), young, poisson, px(:), pz(:)
     integer, intent(in) :: element, plane_state
     real(dp), intent(inout) :: displacement(:, :)
@@ -91,6 +96,7 @@ contains
     call check_result(shape(displacement), 'displacement', 2, size(pz), info)
     if (.not. info%failed()) call cells%set(x, width, force, element, info)
     call check_distances(cells, px, pz, info)
+    if (size(pz) >= MANY_POINTS) call cells%gather(info)
     if (info%failed()) return
     datum = log(scale(datum_length(x, width, folded), cells%power))*sum(force)
     do k = 1, size(pz)
@@ -124,7 +130,7 @@ contains
       call report(info, FUGE_ERR_OVERFLOW, 'young = '//text(young)//' is out of range: choose other units')
       return
     end if
-    factor = [1.0_dp + poisson, 2.0_dp*(1.0_dp - poisson)*(1.0_dp + poisson), (1.0_dp + poisson)*(1.0_dp - 2.0_dp*poisson)]
+    factor = (1.0_dp + poisson)*[1.0_dp, 2.0_dp*(1.0_dp - poisson), 1.0_dp - 2.0_dp*poisson]
     if (plane_state /= FUGE_PLANE_STRAIN) factor(2:) = [2.0_dp, 1.0_dp - poisson]
     factor = factor/young/PI
   end subroutine displacement_factors
@@ -156,8 +162,9 @@ contains
     call check_finite(force, 'force', info)
     do k = 1, n
       if (info%failed()) return
-      if (exponent(force(k)) > LARGEST_EXPONENT_OF_2) call report(info, FUGE_ERR_OVERFLOW, 'force('//index_text(k)//') = ' &
-        //text(force(k))//' is out of range: choose other units')
+      if (exponent(force(k)) <= LARGEST_EXPONENT_OF_2) cycle
+      call report(info, FUGE_ERR_OVERFLOW, 'force('//index_text(k)//') = '//text(force(k)) &
+                  //' is out of range: choose other units')
     end do
   end subroutine check_forces
 

@@ -1,8 +1,8 @@
 !> Stresses and displacements in a half-plane under hats of pressure, which fall linearly from a peak to both sides.
 !>
 !> Source: the potentials of K. L. Johnson, Contact Mechanics, 1985, section 2.5, for a pressure whose second derivative
-!> is three line loads. With the distances s of a point from the left end, the middle and the right end of a hat, r those
-!> in the plane, and d2 F = F(left) - 2 F(middle) + F(right),
+!> is three line loads. With the distances s of a point from the left end, the middle and the right end of a hat, r
+!> those in the plane, and d2 F = F(left) - 2 F(middle) + F(right),
 !>
 !>     zz = -(2 p/(pi w)) d2 (s atan(s/z)/2),   xx = zz + (2 p/(pi w)) z d2 ln(r),   xz = (p/(pi w)) z d2 atan(s/z).
 !>

@@ -1,7 +1,12 @@
 !> The cells that carry a force, in a unit of length of the order of the narrowest one.
+!>
+!> A field is a sum over the cells: a plain one, or, once `gather` has put them into clusters, one over the cells nearby
+!> and the clusters of all others.
 module fuge_loaded_cells
+  use fuge_cell_clusters, only: cell_clusters
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_hat_field, only: add_hat_displacements, add_hats, hat_rules
+  use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
@@ -12,7 +17,12 @@ module fuge_loaded_cells
   !> No distance is larger than 2**FARTHEST narrowest widths, 1.8e75.
   integer, parameter :: FARTHEST = 250
 
-  !> Strips or hats, in the caller's order.
+  !> Fewer cells are never gathered.
+  integer, parameter :: FEW_CELLS = 64
+  !> More clusters than ever wait to be looked at: two for each halving of their number.
+  integer, parameter :: MOST_WAITING = 2*bit_size(1)
+
+  !> Strips or hats, in the caller's order until they are gathered.
   type, public :: loaded_cells
     !> Lengths here are the caller's times 2**power.
     integer :: power = 0
@@ -20,8 +30,10 @@ module fuge_loaded_cells
     !> Centres, widths of strips or half bases of hats, and pressures, of hats at the peak.
     real(dp), allocatable :: centre(:), width(:), pressure(:)
     type(hat_rules) :: rules
+    type(cell_clusters) :: clusters
   contains
     procedure :: set
+    procedure :: gather
     procedure :: add_stresses
     procedure :: add_displacements
     procedure :: check_range
@@ -73,30 +85,142 @@ contains
                 //' is more than 1e75 times the narrowest width: leave it out')
   end subroutine check_range
 
+  !> Order many cells and put them into clusters. FUGE_ERR_MEMORY.
+  pure subroutine gather(self, info)
+    class(loaded_cells), intent(inout) :: self
+    type(fuge_info), intent(inout) :: info
+    integer, allocatable :: order(:)
+    integer :: k, n, stat
+
+    n = size(self%centre)
+    if (info%failed() .or. n < FEW_CELLS) return
+    if (any(self%centre(2:) < self%centre(:n - 1))) then
+      allocate (order(n), stat=stat)
+      if (stat /= 0) then
+        call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(n)//' cells')
+        return
+      end if
+      order = [(k, k=1, n)]
+      call heap_sort(self%centre, order)
+      self%centre = self%centre(order)
+      self%width = self%width(order)
+      self%pressure = self%pressure(order)
+    end if
+    call self%clusters%build(self%centre, self%width, merge(1.0_dp, 0.5_dp, self%hats), info)
+    if (.not. info%failed()) call self%clusters%fill(self%centre, self%width, self%pressure*self%width, self%hats)
+  end subroutine gather
+
   !> Add -pi times the stresses xx, zz and xz at a point to `total`; lengths and areas in the unit of the cells.
   pure subroutine add_stresses(self, px, pz, total)
     class(loaded_cells), intent(in) :: self
     real(dp), intent(in) :: px, pz
     real(dp), intent(inout) :: total(3)
+    integer :: waiting(MOST_WAITING), number, k
 
-    if (self%hats) then
-      call add_hats(self%rules, self%centre, self%width, self%pressure, px, pz, total)
-    else
-      call add_strips(self%centre, self%width, self%pressure, px, pz, total)
+    if (self%clusters%number == 0) then
+      call add_cell_stresses(self, 1, size(self%centre), px, pz, total)
+      return
     end if
+    number = 1
+    waiting(1) = 1
+    do while (number > 0)
+      k = waiting(number)
+      number = number - 1
+      if (self%clusters%is_far(k, px, pz)) then
+        call self%clusters%add_stress(k, px, pz, total)
+      else if (self%clusters%child(k) == 0) then
+        call add_cell_stresses(self, self%clusters%first(k), self%clusters%last(k), px, pz, total)
+      else
+        waiting(number + 1:number + 2) = self%clusters%child(k) + [0, 1]
+        number = number + 2
+      end if
+    end do
   end subroutine add_stresses
+
+  !> The part of the cells `first` to `last`. Halves of many cells are added up apart, which keeps the rounding of the
+  !> sum small.
+  pure recursive subroutine add_cell_stresses(self, first, last, px, pz, total)
+    class(loaded_cells), intent(in) :: self
+    integer, intent(in) :: first, last
+    real(dp), intent(in) :: px, pz
+    real(dp), intent(inout) :: total(3)
+    real(dp) :: part(3)
+    integer :: half
+
+    if (last - first >= FEW_CELLS) then
+      part = 0.0_dp
+      half = first + (last - first)/2
+      call add_cell_stresses(self, first, half, px, pz, part)
+      total = total + part
+      part = 0.0_dp
+      call add_cell_stresses(self, half + 1, last, px, pz, part)
+      total = total + part
+    else
+      associate (centre => self%centre(first:last), width => self%width(first:last), &
+                 pressure => self%pressure(first:last))
+        if (self%hats) then
+          call add_hats(self%rules, centre, width, pressure, px, pz, total)
+        else
+          call add_strips(centre, width, pressure, px, pz, total)
+        end if
+      end associate
+    end if
+  end subroutine add_cell_stresses
 
   !> Add the integrals of ln(r), z**2/r**2, x z/r**2 and atan(x/z) over the pressure to `total`.
   pure subroutine add_displacements(self, px, pz, total)
     class(loaded_cells), intent(in) :: self
     real(dp), intent(in) :: px, pz
     real(dp), intent(inout) :: total(4)
+    integer :: waiting(MOST_WAITING), number, k
 
-    if (self%hats) then
-      call add_hat_displacements(self%centre, self%width, self%pressure, px, pz, total)
-    else
-      call add_strip_displacements(self%centre, self%width, self%pressure, px, pz, total)
+    if (self%clusters%number == 0) then
+      call add_cell_displacements(self, 1, size(self%centre), px, pz, total)
+      return
     end if
+    number = 1
+    waiting(1) = 1
+    do while (number > 0)
+      k = waiting(number)
+      number = number - 1
+      if (self%clusters%is_far(k, px, pz)) then
+        call self%clusters%add_displacement(k, px, pz, total)
+      else if (self%clusters%child(k) == 0) then
+        call add_cell_displacements(self, self%clusters%first(k), self%clusters%last(k), px, pz, total)
+      else
+        waiting(number + 1:number + 2) = self%clusters%child(k) + [0, 1]
+        number = number + 2
+      end if
+    end do
   end subroutine add_displacements
+
+  !> The part of the cells `first` to `last`, as above.
+  pure recursive subroutine add_cell_displacements(self, first, last, px, pz, total)
+    class(loaded_cells), intent(in) :: self
+    integer, intent(in) :: first, last
+    real(dp), intent(in) :: px, pz
+    real(dp), intent(inout) :: total(4)
+    real(dp) :: part(4)
+    integer :: half
+
+    if (last - first >= FEW_CELLS) then
+      part = 0.0_dp
+      half = first + (last - first)/2
+      call add_cell_displacements(self, first, half, px, pz, part)
+      total = total + part
+      part = 0.0_dp
+      call add_cell_displacements(self, half + 1, last, px, pz, part)
+      total = total + part
+    else
+      associate (centre => self%centre(first:last), width => self%width(first:last), &
+                 pressure => self%pressure(first:last))
+        if (self%hats) then
+          call add_hat_displacements(centre, width, pressure, px, pz, total)
+        else
+          call add_strip_displacements(centre, width, pressure, px, pz, total)
+        end if
+      end associate
+    end if
+  end subroutine add_cell_displacements
 
 end module fuge_loaded_cells

@@ -1,11 +1,12 @@
 !> Stresses and displacements in a half-plane under the pressure sqrt(1 - t**2) sum_k c_k U_k(t) of a smooth punch, in
 !> closed form.
 !>
-!> Source: the Cauchy transform of the pressure, f = pi sum_k c_k omega**(k+1) with omega = tau - sqrt(tau**2 - 1), |omega|
-!> <= 1 (F. G. Tricomi, Integral Equations, 1957, section 4.3), in the potentials of K. L. Johnson, Contact Mechanics, 1985,
-!> section 2.3: zz, xx = (Im f -+ z Re f')/pi, xz = -(z/pi) Im f'. With tau = cosh(m + i h), confocal ellipses m and
-!> hyperbolas h about the ends, omega**n has the parts exp(-n m) T_n(cos h) and -exp(-n m) sin(h) U_(n-1)(cos h), and
-!> the powers of sin(h) by which zz and xz vanish at the surface beside the contact come out as factors.
+!> Source: the Cauchy transform of the pressure, f = pi sum_k c_k omega**(k+1) with omega = tau - sqrt(tau**2 - 1),
+!> |omega| <= 1 (F. G. Tricomi, Integral Equations, 1957, section 4.3), in the potentials of K. L. Johnson, Contact
+!> Mechanics, 1985, section 2.4: zz, xx = (Im f -+ z Re f')/pi, xz = -(z/pi) Im f'. With tau = cosh(m + i h), confocal
+!> ellipses m and hyperbolas h about the ends, omega**n has the parts exp(-n m) T_n(cos h) and -exp(-n m) sin(h)
+!> U_(n-1)(cos h), and the powers of sin(h) by which zz and xz vanish at the surface beside the contact come out as
+!> factors.
 module fuge_smooth_field
   use fuge_constants, only: PI
   use fuge_kinds, only: dp
@@ -25,8 +26,8 @@ module fuge_smooth_field
 
 contains
 
-  !> The coordinates of the point at the distances `left` and `right` from the ends along the surface, right = left - 2, and
-  !> at the depth z, in half widths.
+  !> The coordinates of the point at the distances `left` and `right` from the ends along the surface, right = left -
+  !> 2, and at the depth z, in half widths.
   pure function locate(left, right, z) result(point)
     real(dp), intent(in) :: left, right, z
     type(confocal_point) :: point
@@ -97,8 +98,8 @@ contains
     stress(3) = -(point%sinh_m*point%inner)*sums(3)
   end function smooth_stresses
 
-  !> The integrals of ln(r/D), z**2/r**2, x z/r**2 and atan(x/z) over the pressure, in half widths; `log_datum` is that of D
-  !> in half widths.
+  !> The integrals of ln(r/D), z**2/r**2, x z/r**2 and atan(x/z) over the pressure, in half widths; `log_datum` is
+  !> that of D in half widths.
   pure function smooth_displacement_integrals(c, point, z, log_datum) result(integral)
     real(dp), intent(in) :: c(:), z, log_datum
     type(confocal_point), intent(in) :: point

@@ -18,13 +18,14 @@ module fuge_smooth_interior
 
 contains
 
-  !> Stresses in a half-plane under a smooth punch, in closed form, to the rounding of the pressure at any depth and distance.
+  !> Stresses in a half-plane under a smooth punch, in closed form, to the rounding of the pressure at any depth and
+  !> distance.
   !>
-  !> `contact` of `fuge_solve_smooth_punch`; `px`, `pz` (points) along the surface and into the body, pz >= 0, length; out:
-  !> `stress` (3, points) xx, zz, xz, force per length squared, tension positive. At z = 0 they are -pressure, -pressure and 0.
-  !> In plane strain yy is nu (xx + zz). A contact without force has no stresses.
-  !> Errors, stress untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_GRID for pz < 0, FUGE_ERR_OVERFLOW for a point
-  !> farther away than 1e75 half widths. Source: `fuge_smooth_field`.
+  !> `contact` of `fuge_solve_smooth_punch`; `px`, `pz` (points) along the surface and into the body, pz >= 0, length;
+  !> out: `stress` (3, points) xx, zz, xz, force per length squared, tension positive. At z = 0 they are -pressure,
+  !> -pressure and 0. In plane strain yy is nu (xx + zz). A contact without force has no stresses.
+  !> Errors, stress untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_GRID for pz < 0, FUGE_ERR_OVERFLOW for a
+  !> point farther away than 1e75 half widths. Source: `fuge_smooth_field`.
   pure subroutine fuge_smooth_stress(contact, px, pz, stress, info)
     type(fuge_smooth_contact), intent(in) :: contact
     real(dp), intent(in) :: px(:), pz(:)
@@ -49,8 +50,8 @@ contains
   !> `contact`, `px`, `pz` as for `fuge_smooth_stress`; `young`, `poisson` and `plane_state` of the body as for
   !> `fuge_plane_modulus`; out: `displacement` (2, points) along x and z, length. Along z the datum is that of
   !> `contact%approach`; a line load moves points straight below it along z only, and x along it grows from there.
-  !> Errors, displacement untouched: as for `fuge_smooth_stress` and `fuge_plane_modulus`; FUGE_ERR_CALL_ORDER for a contact
-  !> with forces but without a datum, which is not one of `fuge_solve_smooth_punch`.
+  !> Errors, displacement untouched: as for `fuge_smooth_stress` and `fuge_plane_modulus`; FUGE_ERR_CALL_ORDER for a
+  !> contact with forces but without a datum, which is not one of `fuge_solve_smooth_punch`.
   pure subroutine fuge_smooth_displacement(contact, young, poisson, plane_state, px, pz, displacement, info)
     type(fuge_smooth_contact), intent(in) :: contact
     real(dp), intent(in) :: young, poisson, px(:), pz(:)

@@ -1,12 +1,13 @@
 !> Stresses and displacements in a half-plane under uniform strips of pressure, in closed form.
 !>
-!> Source: K. L. Johnson, Contact Mechanics, 1985, section 2.5. With x1 and x2 the distances of a point from the left and
-!> the right end of a strip, r1 and r2 its distances from them in the plane, w = x1 - x2 and A the angle under which it
-!> sees the strip,
+!> Source: K. L. Johnson, Contact Mechanics, 1985, section 2.5. With x1 and x2 the distances of a point from the left
+!> and the right end of a strip, r1 and r2 its distances from them in the plane, w = x1 - x2 and A the angle under
+!> which it sees the strip,
 !>
 !>     zz = -(p/pi) (A + w z (z**2 - x1 x2)/(r1 r2)**2),   xx with - for +,   xz = -(p/pi) w z**2 (x1 + x2)/(r1 r2)**2.
 !>
-!> The two terms of zz cancel beside the strip, those of xx below it. There, with D = x1 x2 + z**2 and t = tan(A) = w z/D,
+!> The two terms of zz cancel beside the strip, those of xx below it. There, with D = x1 x2 + z**2 and t = tan(A) = w
+!> z/D,
 !>
 !>     zz = -(p/pi) (w z**3 (w**2/D + 2)/(r1 r2)**2 - (t - atan(t))),
 !>     xx = -(p/pi) (w z (w**2 z**2/D + 2 x1 x2)/(r1 r2)**2 - (t - atan(t))),
@@ -16,7 +17,6 @@
 !> Lengths are in a unit of the order of the narrowest strip; none exceeds 2**250.
 module fuge_strip_field
   use fuge_arc_excess, only: arc_excesses
-  use fuge_compensated_sums, only: difference_rounding
   use fuge_constants, only: PI
   use fuge_kinds, only: dp
   implicit none
@@ -33,8 +33,8 @@ contains
 
   !> Add -pi times the stresses xx, zz and xz of strips to `total` (3).
   !>
-  !> `centre`, `width`, `pressure` (n) of the strips; `px`, `pz` the point. At z = 0 the stresses at an end of a strip are
-  !> the mean of those at both sides.
+  !> `centre`, `width`, `pressure` (n) of the strips; `px`, `pz` the point. At z = 0 the stresses at an end of a strip
+  !> are the mean of those at both sides.
   pure subroutine add_strips(centre, width, pressure, px, pz, total)
     real(dp), intent(in), contiguous :: centre(:), width(:), pressure(:)
     real(dp), intent(in) :: px, pz
@@ -47,61 +47,88 @@ contains
     end do
   end subroutine add_strips
 
+  !> Up to BLOCK strips, step by step for all of them, so that each step runs in vectors.
   pure subroutine add_block(n, centre, width, pressure, px, pz, total)
     integer, intent(in) :: n
     real(dp), intent(in) :: centre(n), width(n), pressure(n), px, pz
     real(dp), intent(inout) :: total(3)
-    real(dp), dimension(BLOCK) :: left, right, cross, tangent, excess
-    real(dp) :: terms(3), block_total(3)
+    real(dp), dimension(BLOCK) :: left, right, cross, tangent, excess, xx, zz, xz, wide_xx, wide_zz
+    integer :: k
+
+    call find_ends(n, centre, width, px, left, right)
+    do k = 1, n
+      cross(k) = left(k)*right(k) + pz**2
+      tangent(k) = smaller(abs(cross(k)), width(k)*pz)/(larger(abs(cross(k)), width(k)*pz) + LEAST_SQUARE)
+    end do
+    call arc_excesses(n, tangent, excess)
+    do k = 1, n
+      call strip_terms(left(k), right(k), width(k), pz, cross(k), tangent(k), excess(k), xx(k), zz(k), xz(k), &
+                       wide_xx(k), wide_zz(k))
+    end do
+    do k = 1, n
+      xx(k) = merge(xx(k), wide_xx(k), cross(k) > width(k)*pz)
+      zz(k) = merge(zz(k), wide_zz(k), cross(k) > width(k)*pz)
+    end do
+    total = total + [dot_product(pressure, xx(:n)), dot_product(pressure, zz(:n)), dot_product(pressure, xz(:n))]
+  end subroutine add_block
+
+  !> Distances from the left and the right ends, rounded once or nearly so wherever the strips are: px - centre in full,
+  !> by D. E. Knuth, The Art of Computer Programming 2, section 4.2.2.
+  pure subroutine find_ends(n, centre, width, px, left, right)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: centre(n), width(n), px
+    real(dp), intent(out) :: left(n), right(n)
+    real(dp) :: distance, rest, rounding
     integer :: k
 
     do k = 1, n
-      left(k) = beyond(px, centre(k), 0.5_dp*width(k))
-      right(k) = beyond(px, centre(k), -0.5_dp*width(k))
-      cross(k) = left(k)*right(k) + pz**2
-      tangent(k) = min(abs(cross(k)), width(k)*pz)/max(abs(cross(k)), width(k)*pz, LEAST_SQUARE)
+      distance = px - centre(k)
+      rest = px - distance
+      rounding = (px - (distance + rest)) + (rest - centre(k))
+      left(k) = (distance + 0.5_dp*width(k)) + rounding
+      right(k) = (distance - 0.5_dp*width(k)) + rounding
     end do
-    call arc_excesses(n, tangent, excess)
-    block_total = 0.0_dp
-    do k = 1, n
-      call strip_terms(left(k), right(k), width(k), pz, cross(k), tangent(k), excess(k), terms)
-      block_total = block_total + pressure(k)*terms
-    end do
-    total = total + block_total
-  end subroutine add_block
+  end subroutine find_ends
 
-  !> x - c + h, rounded once or nearly so wherever it is.
-  pure function beyond(x, c, h) result(distance)
-    real(dp), intent(in) :: x, c, h
-    real(dp) :: distance
+  !> min and max of two numbers neither of which is NaN: the intrinsics do not run in vectors.
+  pure function smaller(a, b)
+    real(dp), intent(in) :: a, b
+    real(dp) :: smaller
 
-    distance = x - c
-    distance = (distance + h) + difference_rounding(x, c, distance)
-  end function beyond
+    smaller = merge(a, b, a < b)
+  end function smaller
 
-  !> -pi times the stresses under a unit pressure, as above; `excess` is t - atan(t), or that of 1/t where t > 1.
-  pure subroutine strip_terms(left, right, width, z, cross, tangent, excess, terms)
+  pure function larger(a, b)
+    real(dp), intent(in) :: a, b
+    real(dp) :: larger
+
+    larger = merge(a, b, a > b)
+  end function larger
+
+  !> -pi times the stresses under a unit pressure, `wide_xx` and `wide_zz` those of a strip seen under more than pi/4;
+  !> `excess` is t - atan(t), or that of 1/t where t > 1.
+  !>
+  !> Both are computed, because what depends on a condition does not run in vectors.
+  pure subroutine strip_terms(left, right, width, z, cross, tangent, excess, xx, zz, xz, wide_xx, wide_zz)
     real(dp), intent(in) :: left, right, width, z, cross, tangent, excess
-    real(dp), intent(out) :: terms(3)
-    real(dp) :: over_left, over_right, steep, flat, ratio, angle, bend, small
+    real(dp), intent(out) :: xx, zz, xz, wide_xx, wide_zz
+    real(dp) :: over_left, over_right, steep, flat, ratio, angle, bend
+    logical :: obtuse
 
     over_left = 1.0_dp/(left**2 + z**2 + LEAST_SQUARE)
     over_right = 1.0_dp/(right**2 + z**2 + LEAST_SQUARE)
     steep = (z*over_left)*(z*over_right)
     flat = (left*over_left)*(right*over_right)
-    ratio = width**2/max(cross, LEAST_SQUARE)
-    small = tangent - excess
-    angle = 0.5_dp*PI - sign(small, cross)
-    if (cross < -width*z) angle = PI - small
+    xz = width*steep*(left + right)
+    ratio = width**2/larger(cross, LEAST_SQUARE)
+    xx = width*z*(ratio*steep + 2.0_dp*flat) - excess
+    zz = width*z*steep*(ratio + 2.0_dp) - excess
+    ! More than 3 pi/4.
+    obtuse = cross < -width*z
+    angle = merge(PI, 0.5_dp*PI, obtuse) - merge(-1.0_dp, 1.0_dp, obtuse)*sign(tangent - excess, cross)
     bend = width*z*(steep - flat)
-    if (cross > width*z) then
-      terms(1) = width*z*(ratio*steep + 2.0_dp*flat) - excess
-      terms(2) = width*z*steep*(ratio + 2.0_dp) - excess
-    else
-      terms(1) = angle - bend
-      terms(2) = angle + bend
-    end if
-    terms(3) = width*steep*(left + right)
+    wide_xx = angle - bend
+    wide_zz = angle + bend
   end subroutine strip_terms
 
   !> Add the means of ln(r), z**2/r**2, x z/r**2 and atan(x/z) over each strip, times its force, to `total` (4), r being
@@ -112,13 +139,12 @@ contains
     real(dp), intent(in), contiguous :: centre(:), width(:), pressure(:)
     real(dp), intent(in) :: px, pz
     real(dp), intent(inout) :: total(4)
-    real(dp) :: left, right
+    real(dp) :: left(1), right(1)
     integer :: k
 
     do k = 1, size(centre)
-      left = beyond(px, centre(k), 0.5_dp*width(k))
-      right = beyond(px, centre(k), -0.5_dp*width(k))
-      total = total + pressure(k)*strip_integrals(left, right, width(k), pz)
+      call find_ends(1, centre(k:k), width(k:k), px, left, right)
+      total = total + pressure(k)*strip_integrals(left(1), right(1), width(k), pz)
     end do
   end subroutine add_strip_displacements
 

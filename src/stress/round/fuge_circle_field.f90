@@ -17,7 +17,7 @@ module fuge_circle_field
   integer, parameter :: MOST_ANGLES = 36
   !> The rule needs DIGITS/theta points, cosh(theta) = (r**2 + s**2 + z**2)/(2 r s), or DIGITS/ln(s/r) well inside, and
   !> MORE_ANGLES; it is used where cosh(theta) - 1 is at least FAR.
-  real(dp), parameter :: DIGITS = 22.0_dp, FAR = 0.3_dp
+  real(dp), parameter :: DIGITS = 22.0_dp, FAR = 0.5_dp
   integer, parameter :: MORE_ANGLES = 3
   !> Two numbers with a smaller relative difference have the same means up to rounding.
   real(dp), parameter :: CLOSE = 1.0e-8_dp

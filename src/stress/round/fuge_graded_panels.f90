@@ -15,7 +15,7 @@ module fuge_graded_panels
 
   !> Nodes for a singularity, at most; for a smooth factor of the integrand, at most; and together.
   integer, parameter :: SINGULAR_NODES = 19
-  integer, parameter, public :: SMOOTH_NODES = 11, MOST_NODES = SINGULAR_NODES + SMOOTH_NODES
+  integer, parameter, public :: SMOOTH_NODES = 12, MOST_NODES = SINGULAR_NODES + SMOOTH_NODES
   !> The relative error of the quadrature, but for a factor that is large for strong singularities.
   real(dp), parameter :: ERROR = 1.0e-20_dp
 

@@ -1,0 +1,317 @@
+!> Places from which the search for the largest stress starts.
+!>
+!> The pressed cells are halved again and again. Below the middle of every part lies a candidate, at a depth of the order
+!> of the part: a maximum lies below what presses, at a fraction of its breadth. A part is not halved any more once
+!> nothing below it can come near the best candidate. What its cells could add to the stress is the pressure that the
+!> candidate does not see, the largest one of the cells minus the stress -zz, which is the pressure smoothed over a
+!> breadth of the order of the depth (J. Boussinesq; K. L. Johnson, Contact Mechanics, 1985, sections 2.2 and 3.2).
+module fuge_peak_starts
+  use fuge_heap_sort, only: heap_sort
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_peak_values, only: evaluate_measure
+  use fuge_pressed_cells, only: pressed_cells
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_stress_field, only: stress_field
+  implicit none
+  private
+
+  public :: find_starts
+
+  !> Candidates below this part of the best one are not followed: those beside the largest stress keep more of it.
+  real(dp), parameter, public :: START_SHARE = 0.7_dp
+  !> A part is not halved if its best value and what its cells could add remain below this part of the best one. Uniform
+  !> pressure on a patch adds up to UNSEEN_SHARE of itself.
+  real(dp), parameter :: HALVED_SHARE = 0.8_dp, UNSEEN_SHARE = 0.75_dp
+  !> After so many candidates at the surface there are no more unless the best of them has this part of the best one.
+  integer, parameter :: FIRST_SURFACE = 64
+  real(dp), parameter :: SURFACE_SHARE = 0.5_dp
+  !> Depth of a candidate over the size of its part; below a single cell it is halved twice.
+  real(dp), parameter :: DEPTH_RATIO = 1.4_dp
+  integer, parameter :: CANDIDATES = 4
+  !> Two starts that are closer than this part of the lesser depth climb to the same maximum.
+  real(dp), parameter :: NEARNESS = 0.75_dp
+  !> Parts in one portion, and the number of starts at most.
+  integer, parameter :: PORTION = 2**13, MOST_STARTS = 2000
+  !> Starts from which the list is thinned out.
+  integer, parameter :: LONG_LIST = 4*MOST_STARTS + CANDIDATES*PORTION
+
+  !> A place from which to climb.
+  type, public :: peak_start
+    real(dp) :: place(3) = 0.0_dp, value = -1.0_dp
+    !> A length over which the stress varies there, and the least depth to which the search may go.
+    real(dp) :: length = 0.0_dp, least_depth = 0.0_dp
+    !> Of uniform pressure at the surface only the middle of a cell counts.
+    logical :: fixed = .false.
+  end type peak_start
+
+  !> Cells order(first) .. order(last) of the list of a search.
+  type :: part
+    integer :: first = 0, last = 0
+    !> The cell whose middle at the surface has been tried already.
+    integer :: tried = 0
+  end type part
+
+  !> The best candidate so far, the best one at the surface, and how many are there.
+  type :: tally
+    real(dp) :: best = -1.0_dp, surface_best = -1.0_dp
+    integer :: surface_count = 0
+  end type tally
+
+  !> What is known of a part.
+  type :: survey
+    real(dp) :: middle(2) = 0.0_dp, length = 0.0_dp, split_at = 0.0_dp, pressure = 0.0_dp
+    integer :: split_axis = 0, strongest = 0
+  end type survey
+
+contains
+
+  !> The candidates of a `field` above `START_SHARE` of the best one, best first, without those next to a better one.
+  !> `cells` at least one. Errors: those of the field, FUGE_ERR_MEMORY.
+  subroutine find_starts(field, cells, measure, starts, info)
+    class(stress_field), intent(inout) :: field
+    type(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: measure
+    type(peak_start), allocatable, intent(out) :: starts(:)
+    type(fuge_info), intent(inout) :: info
+    type(peak_start), allocatable :: list(:)
+    type(part), allocatable :: parts(:), halves(:)
+    integer, allocatable :: order(:)
+    type(tally) :: so_far
+    integer :: count, first, k, last, number, number_next, stat
+
+    number = size(cells%pressure)
+    allocate (list(LONG_LIST), parts(number), halves(number), order(number), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the search below '//text(number)//' cells')
+      return
+    end if
+    order = [(k, k=1, number)]
+    parts(1)%first = 1
+    parts(1)%last = number
+    count = 0
+    number = 1
+    do while (number > 0)
+      number_next = 0
+      do first = 1, number, PORTION
+        last = min(first + PORTION - 1, number)
+        call try_parts(field, cells, measure, parts(first:last), order, list, count, so_far, halves, &
+                       number_next, info)
+        if (info%failed()) return
+      end do
+      number = number_next
+      parts(:number) = halves(:number)
+    end do
+    call thin_out(list, count)
+    allocate (starts, source=list(:count))
+  end subroutine find_starts
+
+  !> Evaluate the candidates of `parts`, add the good ones to the `list`, and halve the parts that may hide better ones.
+  !> Eleven arguments: the field, its cells, the parts, the list, what comes next.
+  subroutine try_parts(field, cells, measure, parts, order, list, count, so_far, halves, number, info)
+    class(stress_field), intent(inout) :: field
+    type(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: measure
+    type(part), intent(inout) :: parts(:)
+    integer, intent(inout) :: order(:), count, number
+    type(peak_start), intent(inout) :: list(:)
+    type(tally), intent(inout) :: so_far
+    type(part), intent(inout) :: halves(:)
+    type(fuge_info), intent(inout) :: info
+    type(survey), allocatable :: surveys(:)
+    type(peak_start), allocatable :: tried(:, :)
+    real(dp), allocatable :: normal(:, :)
+    real(dp) :: seen
+    integer :: c, p, stat
+
+    allocate (surveys(size(parts)), tried(CANDIDATES, size(parts)), normal(CANDIDATES, size(parts)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(parts))//' parts of the search')
+      return
+    end if
+    do p = 1, size(parts)
+      surveys(p) = survey_of(cells, order(parts(p)%first:parts(p)%last))
+      tried(:, p) = candidates_of(cells, surveys(p), parts(p)%tried)
+      parts(p)%tried = surveys(p)%strongest
+      if (surface_is_weak(so_far)) tried(CANDIDATES, p)%length = 0.0_dp
+      if (tried(CANDIDATES, p)%length > 0.0_dp) so_far%surface_count = so_far%surface_count + 1
+    end do
+    call evaluate_candidates(field, measure, tried, normal, info)
+    if (info%failed()) return
+
+    so_far%best = max(so_far%best, maxval(tried%value))
+    so_far%surface_best = max(so_far%surface_best, maxval(tried(CANDIDATES, :)%value))
+    do p = 1, size(parts)
+      do c = 1, CANDIDATES
+        if (tried(c, p)%value < max(0.0_dp, START_SHARE*so_far%best)) cycle
+        count = count + 1
+        list(count) = tried(c, p)
+      end do
+      if (surveys(p)%split_axis == 0) cycle
+      seen = maxval(tried(:, p)%value) + UNSEEN_SHARE*max(0.0_dp, surveys(p)%pressure - abs(normal(1, p)))
+      if (seen >= HALVED_SHARE*so_far%best) call halve(cells, surveys(p), parts(p), order, halves, number)
+    end do
+    if (count > size(list) - CANDIDATES*PORTION) call thin_out(list, count)
+  end subroutine try_parts
+
+  pure function surface_is_weak(so_far)
+    type(tally), intent(in) :: so_far
+    logical :: surface_is_weak
+
+    surface_is_weak = so_far%surface_count >= FIRST_SURFACE .and. so_far%surface_best < SURFACE_SHARE*so_far%best
+  end function surface_is_weak
+
+  !> The values of the candidates that have a length, and the stress zz there.
+  subroutine evaluate_candidates(field, measure, tried, normal, info)
+    class(stress_field), intent(inout) :: field
+    integer, intent(in) :: measure
+    type(peak_start), intent(inout) :: tried(:, :)
+    real(dp), intent(out) :: normal(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: place(:, :), value(:), zz(:)
+    integer :: c, p, stat, total
+
+    normal = 0.0_dp
+    total = count(tried%length > 0.0_dp)
+    allocate (place(3, total), value(total), zz(total), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(total)//' places of the search')
+      return
+    end if
+    total = 0
+    do p = 1, size(tried, 2)
+      do c = 1, CANDIDATES
+        if (.not. tried(c, p)%length > 0.0_dp) cycle
+        total = total + 1
+        place(:, total) = tried(c, p)%place
+      end do
+    end do
+    call evaluate_measure(field, measure, place, value, zz, info)
+    total = 0
+    do p = 1, size(tried, 2)
+      do c = 1, CANDIDATES
+        if (.not. tried(c, p)%length > 0.0_dp) cycle
+        total = total + 1
+        tried(c, p)%value = value(total)
+        normal(c, p) = zz(total)
+      end do
+    end do
+  end subroutine evaluate_candidates
+
+  !> Extent and pressure of the cells `which`.
+  pure function survey_of(cells, which) result(found)
+    type(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: which(:)
+    type(survey) :: found
+    real(dp) :: low, high, extent(2), spread, widest
+    integer :: axis
+
+    widest = 0.0_dp
+    extent = 0.0_dp
+    do axis = 1, cells%axes
+      low = minval(cells%centre(axis, which) - 0.5_dp*cells%width(axis, which))
+      high = maxval(cells%centre(axis, which) + 0.5_dp*cells%width(axis, which))
+      found%middle(axis) = low + 0.5_dp*(high - low)
+      extent(axis) = high - low
+      low = minval(cells%centre(axis, which))
+      spread = maxval(cells%centre(axis, which)) - low
+      if (spread <= widest) cycle
+      widest = spread
+      found%split_axis = axis
+      found%split_at = low + 0.5_dp*spread
+    end do
+    found%length = sqrt(extent(1))*sqrt(extent(cells%axes))
+    found%strongest = which(maxloc(abs(cells%pressure(which)), dim=1))
+    found%pressure = abs(cells%pressure(found%strongest))
+  end function survey_of
+
+  !> The candidates of a part, those without a `length` being left out: below its middle, for a single cell at three
+  !> depths, and the middle of its `strongest` cell at the surface unless that was `tried`.
+  pure function candidates_of(cells, found, tried) result(list)
+    type(pressed_cells), intent(in) :: cells
+    type(survey), intent(in) :: found
+    integer, intent(in) :: tried
+    type(peak_start) :: list(CANDIDATES)
+    integer :: c, depths
+
+    list%least_depth = cells%least_depth(found%strongest)
+    depths = 1
+    if (found%split_axis == 0) depths = 3
+    do c = 1, depths
+      list(c)%length = found%length*DEPTH_RATIO*0.5_dp**(c - 1)
+      list(c)%place(:2) = found%middle
+      list(c)%place(3) = max(list(c)%least_depth, list(c)%length)
+    end do
+    if (found%strongest == tried) return
+    list(CANDIDATES)%length = cells%size_of(found%strongest)
+    list(CANDIDATES)%place(:cells%axes) = cells%centre(:, found%strongest)
+    list(CANDIDATES)%fixed = .not. cells%continuous
+  end function candidates_of
+
+  !> Put the cells beyond the middle of their extent last, and add both halves to the list, without the one that is the
+  !> mirror image of cells elsewhere.
+  pure subroutine halve(cells, found, whole, order, halves, number)
+    type(pressed_cells), intent(in) :: cells
+    type(survey), intent(in) :: found
+    type(part), intent(in) :: whole
+    integer, intent(inout) :: order(:)
+    type(part), intent(inout) :: halves(:)
+    integer, intent(inout) :: number
+    integer :: k, moved, next
+
+    next = whole%first
+    do k = whole%first, whole%last
+      if (cells%centre(found%split_axis, order(k)) > found%split_at) cycle
+      moved = order(next)
+      order(next) = order(k)
+      order(k) = moved
+      next = next + 1
+    end do
+    if (next == whole%first .or. next > whole%last) return
+    number = number + 1
+    halves(number) = part(next, whole%last, whole%tried)
+    if (cells%symmetric(found%split_axis) &
+        .and. all(cells%centre(found%split_axis, order(whole%first:next - 1)) < 0.0_dp)) return
+    number = number + 1
+    halves(number) = part(whole%first, next - 1, whole%tried)
+  end subroutine halve
+
+  !> Keep the best starts, best first, without those next to a better one: at most MOST_STARTS.
+  pure subroutine thin_out(list, count)
+    type(peak_start), intent(inout) :: list(:)
+    integer, intent(inout) :: count
+    type(peak_start), allocatable :: kept(:)
+    integer, allocatable :: order(:)
+    real(dp) :: best
+    integer :: k, number
+
+    if (count == 0) return
+    best = maxval(list(:count)%value)
+    allocate (order(count), kept(MOST_STARTS))
+    order = [(k, k=1, count)]
+    call heap_sort(-list(:count)%value, order)
+    number = 0
+    do k = 1, count
+      if (number == MOST_STARTS) exit
+      if (list(order(k))%value < START_SHARE*best) exit
+      if (is_next_to_one(list(order(k)), kept(:number))) cycle
+      number = number + 1
+      kept(number) = list(order(k))
+    end do
+    list(:number) = kept(:number)
+    count = number
+  end subroutine thin_out
+
+  pure function is_next_to_one(start, kept)
+    type(peak_start), intent(in) :: start, kept(:)
+    logical :: is_next_to_one
+    integer :: k
+
+    is_next_to_one = .true.
+    do k = 1, size(kept)
+      if (maxval(abs(start%place - kept(k)%place)) < NEARNESS*min(start%length, kept(k)%length)) return
+    end do
+    is_next_to_one = .false.
+  end function is_next_to_one
+
+end module fuge_peak_starts

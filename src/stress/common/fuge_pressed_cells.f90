@@ -1,0 +1,65 @@
+!> The cells of a surface that carry force, as the search for the largest stress needs them.
+module fuge_pressed_cells
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  public :: allocate_cells
+
+  !> Cells on a line (`axes` 1) or on an area (`axes` 2); all carry force.
+  type, public :: pressed_cells
+    integer :: axes = 1
+    !> Is the pressure continuous? Otherwise it jumps from cell to cell, and the stresses near the surface follow the
+    !> cells rather than the contact.
+    logical :: continuous = .false.
+    !> Of cells that are symmetric about x = 0, or y = 0, the search takes those on one side.
+    logical :: symmetric(2) = .false.
+    !> (axes, cells), length.
+    real(dp), allocatable :: centre(:, :), width(:, :)
+    !> Mean, or peak of a hat, (cells), force per length squared; compressive positive.
+    real(dp), allocatable :: pressure(:)
+  contains
+    procedure :: size_of
+    procedure :: least_depth
+  end type pressed_cells
+
+  !> Below cells of uniform pressure the search begins at this part of a width.
+  real(dp), parameter :: RESOLVED_DEPTH = 0.25_dp
+
+contains
+
+  !> Room for a number of cells (FUGE_ERR_MEMORY).
+  pure subroutine allocate_cells(axes, number, cells, info)
+    integer, intent(in) :: axes, number
+    type(pressed_cells), intent(inout) :: cells
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    if (info%failed()) return
+    cells%axes = axes
+    allocate (cells%centre(axes, number), cells%width(axes, number), cells%pressure(number), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the '//text(number)//' cells with a force')
+  end subroutine allocate_cells
+
+  !> A length for a cell: its width, or the side of a square of its area.
+  pure function size_of(self, k) result(length)
+    class(pressed_cells), intent(in) :: self
+    integer, intent(in) :: k
+    real(dp) :: length
+
+    length = sqrt(self%width(1, k))*sqrt(self%width(self%axes, k))
+  end function size_of
+
+  !> Above this depth the stresses below cell k are those of its edges.
+  pure function least_depth(self, k) result(depth)
+    class(pressed_cells), intent(in) :: self
+    integer, intent(in) :: k
+    real(dp) :: depth
+
+    depth = 0.0_dp
+    if (.not. self%continuous) depth = RESOLVED_DEPTH*minval(self%width(:, k))
+  end function least_depth
+
+end module fuge_pressed_cells

@@ -1,0 +1,263 @@
+!> The largest stress in a half-plane, under cells and under smooth punches.
+module fuge_halfplane_peak_search
+  use fuge_halfplane_influence, only: FUGE_HAT
+  use fuge_halfplane_interior, only: fuge_halfplane_stress
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_peak_search, only: find_peak, singular_peak
+  use fuge_pressed_cells, only: allocate_cells, pressed_cells
+  use fuge_pressure_rims, only: find_singular_rim
+  use fuge_smooth_contact_type, only: fuge_smooth_contact
+  use fuge_smooth_interior, only: fuge_smooth_stress
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_stress_field, only: stress_field
+  use fuge_stress_measures, only: check_plane, fuge_halfplane_tensor
+  use fuge_stress_peak_type, only: check_measure, fuge_stress_peak
+  implicit none
+  private
+
+  public :: fuge_halfplane_peak, fuge_smooth_peak
+
+  !> A field in a plane: its three components become tensors.
+  type, abstract, extends(stress_field) :: plane_field
+    integer :: plane_state = 0
+    real(dp) :: poisson = 0.0_dp
+  contains
+    procedure :: stresses => tensors_in_plane
+    procedure(in_plane), deferred :: components
+  end type plane_field
+
+  abstract interface
+    !> `stress` (3, points): xx, zz, xz.
+    subroutine in_plane(self, px, pz, stress, info)
+      import :: plane_field, dp, fuge_info
+      class(plane_field), intent(inout) :: self
+      real(dp), intent(in) :: px(:), pz(:)
+      real(dp), intent(inout) :: stress(:, :)
+      type(fuge_info), intent(out) :: info
+    end subroutine in_plane
+  end interface
+
+  type, extends(plane_field) :: field_of_cells
+    real(dp), allocatable :: x(:), width(:), force(:)
+    integer :: element = 0
+  contains
+    procedure :: components => components_under_cells
+  end type field_of_cells
+
+  type, extends(plane_field) :: field_of_punch
+    type(fuge_smooth_contact) :: contact
+  contains
+    procedure :: components => components_under_punch
+  end type field_of_punch
+
+  !> A cell closer to the axis than this part of its width is its own mirror image.
+  real(dp), parameter :: AXIS_TOLERANCE = 1.0e-6_dp
+  !> Cells that stand for the pressure of a smooth punch: so many for each coefficient, and at least.
+  integer, parameter :: CELLS_EACH = 4, FEWEST_CELLS = 64
+
+contains
+
+  !> The largest von Mises or Tresca stress in a half-plane under forces on its cells, and where it is.
+  !>
+  !> `x`, `width`, `force`, `element` and `symmetric` as for `fuge_halfplane_stress`; `plane_state` and `poisson` of the body
+  !> as for `fuge_halfplane_tensor`; `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of a symmetric
+  !> model at x >= 0. Value and place are those of the field of these forces, the value to 1e-10 or better and the place to
+  !> its root.
+  !>
+  !> Uniform pressure jumps from cell to cell, and close to the surface the stresses follow the cells rather than the
+  !> contact. With FUGE_CENTRE and FUGE_MEAN the search therefore takes the middles of cells at the surface, and below it
+  !> depths from a quarter of the width of a cell on; what may lie between is not resolved by the cells. With FUGE_HAT it
+  !> takes all depths.
+  !>
+  !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution is
+  !> infinite and any largest value would be one of the grid: then the location is FUGE_PEAK_SINGULAR, the value +infinity,
+  !> the place that edge and the tensor NaN. The forces of seven cells at the edge decide, in a contact of less than twelve
+  !> cells in one piece those of its half; edges of pieces with less than twelve cells are not judged.
+  !> Without forces value, place and tensor are 0.
+  !>
+  !> Ten arguments: the cells, the body, the measure, the result. Errors, `peak` untouched: those of
+  !> `fuge_halfplane_stress` and `fuge_halfplane_tensor`; FUGE_ERR_OPTION for `measure`; FUGE_ERR_MEMORY.
+  subroutine fuge_halfplane_peak(x, width, force, element, plane_state, poisson, measure, peak, info, symmetric)
+    real(dp), intent(in) :: x(:), width(:), force(:), poisson
+    integer, intent(in) :: element, plane_state, measure
+    type(fuge_stress_peak), intent(inout) :: peak
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: symmetric
+    type(field_of_cells) :: field
+    type(pressed_cells) :: cells
+    real(dp) :: nowhere(0), nothing(3, 0), edge(2)
+    logical :: folded, singular
+
+    folded = .false.
+    if (present(symmetric)) folded = symmetric
+    call fuge_halfplane_stress(x, width, force, element, nowhere, nowhere, nothing, info, folded)
+    call check_plane(plane_state, poisson, info)
+    call check_measure(measure, info)
+    if (info%failed()) return
+    call collect_cells(x, width, force, folded, cells, info)
+    call find_singular_rim(cells, singular, edge, info)
+    if (info%failed()) return
+    if (singular) then
+      peak = singular_peak([edge(1), 0.0_dp, 0.0_dp])
+    else
+      cells%continuous = element == FUGE_HAT
+      cells%symmetric(1) = folded
+      field%plane_state = plane_state
+      field%poisson = poisson
+      field%element = element
+      call set_field(cells, field, info)
+      call find_peak(field, cells, measure, peak, info)
+    end if
+    if (folded .and. .not. info%failed()) call to_right_half(peak)
+  end subroutine fuge_halfplane_peak
+
+  !> The largest von Mises or Tresca stress in a half-plane under a smooth punch, and where it is.
+  !>
+  !> `contact` of `fuge_solve_smooth_punch`; `plane_state` and `poisson` of the body as for `fuge_halfplane_tensor`;
+  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, the value to rounding of the field and the place
+  !> to 1e-7 of its depth. Its location is never FUGE_PEAK_SINGULAR. Without force value, place and tensor are 0.
+  !> Errors, `peak` untouched: FUGE_ERR_OPTION for `plane_state` and `measure`; FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE for
+  !> `poisson`; FUGE_ERR_MEMORY.
+  subroutine fuge_smooth_peak(contact, plane_state, poisson, measure, peak, info)
+    type(fuge_smooth_contact), intent(in) :: contact
+    integer, intent(in) :: plane_state, measure
+    real(dp), intent(in) :: poisson
+    type(fuge_stress_peak), intent(inout) :: peak
+    type(fuge_info), intent(out) :: info
+    type(field_of_punch) :: field
+    type(pressed_cells) :: cells
+
+    call check_plane(plane_state, poisson, info)
+    call check_measure(measure, info)
+    if (info%failed()) return
+    field%contact = contact
+    field%plane_state = plane_state
+    field%poisson = poisson
+    call cells_of_punch(contact, cells, info)
+    call find_peak(field, cells, measure, peak, info)
+  end subroutine fuge_smooth_peak
+
+  !> The cells with a force, of a `folded` model those on both sides.
+  pure subroutine collect_cells(x, width, force, folded, cells, info)
+    real(dp), intent(in) :: x(:), width(:), force(:)
+    logical, intent(in) :: folded
+    type(pressed_cells), intent(inout) :: cells
+    type(fuge_info), intent(inout) :: info
+    logical :: has_image
+    integer :: k, number
+
+    number = 0
+    do k = 1, size(x)
+      if (.not. abs(force(k)) > 0.0_dp) cycle
+      number = number + 1
+      if (folded .and. abs(x(k)) > AXIS_TOLERANCE*width(k)) number = number + 1
+    end do
+    call allocate_cells(1, number, cells, info)
+    if (info%failed()) return
+    number = 0
+    do k = 1, size(x)
+      if (.not. abs(force(k)) > 0.0_dp) cycle
+      has_image = folded .and. abs(x(k)) > AXIS_TOLERANCE*width(k)
+      number = number + 1
+      cells%centre(1, number) = x(k)
+      cells%width(1, number) = width(k)
+      cells%pressure(number) = force(k)/width(k)
+      if (.not. has_image) cycle
+      cells%pressure(number) = 0.5_dp*cells%pressure(number)
+      number = number + 1
+      cells%centre(1, number) = -x(k)
+      cells%width(1, number) = width(k)
+      cells%pressure(number) = cells%pressure(number - 1)
+    end do
+  end subroutine collect_cells
+
+  !> The field of these cells.
+  pure subroutine set_field(cells, field, info)
+    type(pressed_cells), intent(in) :: cells
+    type(field_of_cells), intent(inout) :: field
+    type(fuge_info), intent(inout) :: info
+    integer :: number, stat
+
+    if (info%failed()) return
+    number = size(cells%pressure)
+    allocate (field%x(number), field%width(number), field%force(number), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the '//text(number)//' cells with a force')
+      return
+    end if
+    field%x = cells%centre(1, :)
+    field%width = cells%width(1, :)
+    field%force = cells%pressure*cells%width(1, :)
+  end subroutine set_field
+
+  !> Cells for the pressure of a smooth punch, narrow at both ends; none without force.
+  pure subroutine cells_of_punch(contact, cells, info)
+    type(fuge_smooth_contact), intent(in) :: contact
+    type(pressed_cells), intent(inout) :: cells
+    type(fuge_info), intent(inout) :: info
+    real(dp), parameter :: PI = acos(-1.0_dp)
+    real(dp) :: left, right
+    integer :: k, number
+
+    number = 0
+    if (allocated(contact%coefficients) .and. contact%half_width > 0.0_dp) &
+      number = max(FEWEST_CELLS, CELLS_EACH*size(contact%coefficients))
+    call allocate_cells(1, number, cells, info)
+    if (info%failed()) return
+    cells%continuous = .true.
+    do k = 1, number
+      left = -cos(PI*real(k - 1, dp)/real(number, dp))
+      right = -cos(PI*real(k, dp)/real(number, dp))
+      cells%centre(1, k) = contact%anchor + (contact%offset + 0.5_dp*(left + right)*contact%half_width)
+      cells%width(1, k) = (right - left)*contact%half_width
+    end do
+    cells%pressure = contact%pressure(cells%centre(1, :))
+  end subroutine cells_of_punch
+
+  !> The mirror image on the side of a symmetric model.
+  pure subroutine to_right_half(peak)
+    type(fuge_stress_peak), intent(inout) :: peak
+
+    if (peak%place(1) >= 0.0_dp) return
+    peak%place(1) = -peak%place(1)
+    peak%tensor(5) = -peak%tensor(5)
+  end subroutine to_right_half
+
+  subroutine tensors_in_plane(self, place, stress, info)
+    class(plane_field), intent(inout) :: self
+    real(dp), intent(in) :: place(:, :)
+    real(dp), intent(out) :: stress(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: component(:, :)
+    integer :: stat
+
+    if (info%failed()) return
+    allocate (component(3, size(place, 2)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for stresses at '//text(size(place, 2))//' points')
+      return
+    end if
+    call self%components(place(1, :), place(3, :), component, info)
+    if (.not. info%failed()) call fuge_halfplane_tensor(component, self%plane_state, self%poisson, stress, info)
+  end subroutine tensors_in_plane
+
+  subroutine components_under_cells(self, px, pz, stress, info)
+    class(field_of_cells), intent(inout) :: self
+    real(dp), intent(in) :: px(:), pz(:)
+    real(dp), intent(inout) :: stress(:, :)
+    type(fuge_info), intent(out) :: info
+
+    call fuge_halfplane_stress(self%x, self%width, self%force, self%element, px, pz, stress, info, .false.)
+  end subroutine components_under_cells
+
+  subroutine components_under_punch(self, px, pz, stress, info)
+    class(field_of_punch), intent(inout) :: self
+    real(dp), intent(in) :: px(:), pz(:)
+    real(dp), intent(inout) :: stress(:, :)
+    type(fuge_info), intent(out) :: info
+
+    call fuge_smooth_stress(self%contact, px, pz, stress, info)
+  end subroutine components_under_punch
+
+end module fuge_halfplane_peak_search
