@@ -10,7 +10,7 @@ module surface_heights
   !> The spectrum. Of all properties of a surface the real contact depends mainly on the mean square gradient.
   real(dp), parameter :: HURST = 0.8_dp, GRADIENT = 0.1_dp
   !> The longest wave is this fraction of the period, the shortest one this many cells long.
-  integer, parameter :: LONGEST = 4, SHORTEST = 8
+  integer, parameter :: LONGEST = 4, SHORTEST_WAVE = 8
   integer(int64), parameter :: SEED = 2026_int64
   real(dp), parameter :: PI = acos(-1.0_dp)
 
@@ -19,25 +19,29 @@ contains
   !> Heights of n x n cells, n a power of two, of a surface with the period 1 in both directions: a sum of waves
   !> a cos(2 pi (kx x + ky y) + phase) with a ~ k**-(1 + H), k = |(kx, ky)|, and random phases.
   !>
-  !> A wave has the same phase for all n: more cells add shorter waves.
-  subroutine self_affine_surface(n, height)
+  !> A wave has the same phase for all n: more cells add shorter waves, unless `shortest` says how many cells the
+  !> shortest one is long, SHORTEST_WAVE if it is not given.
+  subroutine self_affine_surface(n, height, shortest)
     integer, intent(in) :: n
     real(dp), intent(out) :: height(0:n - 1, 0:n - 1)
+    integer, intent(in), optional :: shortest
     complex(dp), allocatable :: wave(:, :)
     real(dp) :: square
     integer(int64) :: state
-    integer :: ring, kx, ky
+    integer :: last, ring, kx, ky
 
+    last = n/SHORTEST_WAVE
+    if (present(shortest)) last = n/shortest
     allocate (wave(0:n - 1, 0:n - 1))
     wave = (0.0_dp, 0.0_dp)
     state = SEED
     square = 0.0_dp
     ! Of a wave and its opposite only one is needed: the upper half of each square ring, from the longest waves on.
-    do ring = 1, n/SHORTEST
+    do ring = 1, last
       do ky = 0, ring
         do kx = -ring, ring
           if (max(abs(kx), ky) < ring .or. (ky == 0 .and. kx < 0)) cycle
-          call add_wave(kx, ky, n, state, wave, square)
+          call add_wave(kx, ky, last, state, wave, square)
         end do
       end do
     end do
@@ -47,9 +51,9 @@ contains
     height = GRADIENT/sqrt(square)*transpose(real(wave, dp))
   end subroutine self_affine_surface
 
-  !> Add a wave to the spectrum and its part of the mean square gradient to `square`.
-  subroutine add_wave(kx, ky, n, state, wave, square)
-    integer, intent(in) :: kx, ky, n
+  !> Add a wave, if it has at most `last` periods, to the spectrum and its part of the mean square gradient to `square`.
+  subroutine add_wave(kx, ky, last, state, wave, square)
+    integer, intent(in) :: kx, ky, last
     integer(int64), intent(inout) :: state
     complex(dp), intent(inout) :: wave(0:, 0:)
     real(dp), intent(inout) :: square
@@ -57,9 +61,9 @@ contains
 
     phase = 2.0_dp*PI*random(state)
     k = hypot(real(kx, dp), real(ky, dp))
-    if (k < LONGEST .or. k > n/SHORTEST) return
+    if (k < LONGEST .or. k > last) return
     amplitude = k**(-1.0_dp - HURST)
-    wave(modulo(kx, n), modulo(ky, n)) = amplitude*cmplx(cos(phase), sin(phase), dp)
+    wave(modulo(kx, size(wave, 1)), modulo(ky, size(wave, 2))) = amplitude*cmplx(cos(phase), sin(phase), dp)
     square = square + 0.5_dp*(2.0_dp*PI*k*amplitude)**2
   end subroutine add_wave
 

@@ -131,11 +131,11 @@ contains
     self%number = self%number + 2
   end subroutine divide
 
-  !> Set the forces and moments, from the last leaf up to the whole, for cells with a `force` each: hats, which fall
-  !> linearly from the centre to nothing over the `width` on both sides, or strips.
-  pure subroutine fill(self, centre, width, force, hats)
+  !> Set the forces and moments, from the last leaf up to the whole, for cells with a force `pressure` `width` each: hats,
+  !> which fall linearly from the centre to nothing over the `width` on both sides, or strips.
+  pure subroutine fill(self, centre, width, pressure, hats)
     class(cell_clusters), intent(inout) :: self
-    real(dp), intent(in) :: centre(:), width(:), force(:)
+    real(dp), intent(in) :: centre(:), width(:), pressure(:)
     logical, intent(in) :: hats
     real(dp) :: place(2*FULL, 2), weight(2*FULL, 2)
     real(dp) :: points(max(2*FULL*LEAF_CELLS, 2*ORDER)), shares(max(2*FULL*LEAF_CELLS, 2*ORDER)), scaled_width
@@ -152,7 +152,7 @@ contains
           number = merge(2*SHORT, 2*FULL, scaled_width < NARROW)
           points(n + 1:n + number) = (centre(j) - self%middle(k))/self%half_length(k) &
                                      + scaled_width*place(:number, rule)
-          shares(n + 1:n + number) = force(j)*weight(:number, rule)
+          shares(n + 1:n + number) = pressure(j)*width(j)*weight(:number, rule)
           n = n + number
         end do
       else

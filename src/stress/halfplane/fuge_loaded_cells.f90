@@ -4,6 +4,7 @@
 !> and the clusters of all others.
 module fuge_loaded_cells
   use fuge_cell_clusters, only: cell_clusters
+  use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_hat_field, only: add_hat_displacements, add_hats, hat_rules
   use fuge_heap_sort, only: heap_sort
@@ -37,6 +38,7 @@ module fuge_loaded_cells
     procedure :: add_stresses
     procedure :: add_displacements
     procedure :: check_range
+    procedure, private :: check_pressure
   end type loaded_cells
 
 contains
@@ -64,6 +66,8 @@ contains
       if (.not. abs(force(k)) > 0.0_dp) cycle
       call self%check_range(x(k), 'x', k, info)
       call self%check_range(width(k), 'width', k, info)
+      call self%check_pressure(force(k), k, info)
+      if (info%failed()) return
       n = n + 1
       self%centre(n) = scale(x(k), self%power)
       self%width(n) = scale(width(k), self%power)
@@ -85,30 +89,67 @@ contains
                 //' is more than 1e75 times the narrowest width: leave it out')
   end subroutine check_range
 
+  !> Refuse a force that is out of range, or its pressure on the narrowest width (FUGE_ERR_OVERFLOW).
+  pure subroutine check_pressure(self, force, k, info)
+    class(loaded_cells), intent(in) :: self
+    real(dp), intent(in) :: force
+    integer, intent(in) :: k
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed()) return
+    if (exponent(force) <= LARGEST_EXPONENT_OF_2 .and. exponent(force) + self%power <= LARGEST_EXPONENT) return
+    call report(info, FUGE_ERR_OVERFLOW, 'force('//index_text(k)//') = '//text(force) &
+                //', or its pressure on the narrowest width, is out of range: choose other units')
+  end subroutine check_pressure
+
   !> Order many cells and put them into clusters. FUGE_ERR_MEMORY.
   pure subroutine gather(self, info)
     class(loaded_cells), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
-    integer, allocatable :: order(:)
-    integer :: k, n, stat
+    integer :: n
 
     n = size(self%centre)
     if (info%failed() .or. n < FEW_CELLS) return
-    if (any(self%centre(2:) < self%centre(:n - 1))) then
-      allocate (order(n), stat=stat)
-      if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(n)//' cells')
-        return
-      end if
-      order = [(k, k=1, n)]
-      call heap_sort(self%centre, order)
-      self%centre = self%centre(order)
-      self%width = self%width(order)
-      self%pressure = self%pressure(order)
-    end if
-    call self%clusters%build(self%centre, self%width, merge(1.0_dp, 0.5_dp, self%hats), info)
-    if (.not. info%failed()) call self%clusters%fill(self%centre, self%width, self%pressure*self%width, self%hats)
+    if (any(self%centre(2:) < self%centre(:n - 1))) call sort(self, info)
+    if (.not. info%failed()) call self%clusters%build(self%centre, self%width, merge(1.0_dp, 0.5_dp, self%hats), info)
+    if (.not. info%failed()) call self%clusters%fill(self%centre, self%width, self%pressure, self%hats)
   end subroutine gather
+
+  !> Order the cells by their centres. FUGE_ERR_MEMORY.
+  pure subroutine sort(self, info)
+    class(loaded_cells), intent(inout) :: self
+    type(fuge_info), intent(inout) :: info
+    integer, allocatable :: order(:)
+    real(dp), allocatable :: unordered(:)
+    integer :: k, n, stat
+
+    n = size(self%centre)
+    allocate (order(n), unordered(n), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(n)//' cells')
+      return
+    end if
+    do k = 1, n
+      order(k) = k
+    end do
+    call heap_sort(self%centre, order)
+    call permute(order, self%centre, unordered)
+    call permute(order, self%width, unordered)
+    call permute(order, self%pressure, unordered)
+  end subroutine sort
+
+  pure subroutine permute(order, values, unordered)
+    integer, intent(in) :: order(:)
+    real(dp), intent(inout) :: values(:), unordered(:)
+    integer :: k
+
+    do k = 1, size(order)
+      unordered(k) = values(k)
+    end do
+    do k = 1, size(order)
+      values(k) = unordered(order(k))
+    end do
+  end subroutine permute
 
   !> Add -pi times the stresses xx, zz and xz at a point to `total`; lengths and areas in the unit of the cells.
   pure subroutine add_stresses(self, px, pz, total)

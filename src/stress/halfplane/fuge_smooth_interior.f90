@@ -41,7 +41,8 @@ contains
       return
     end if
     do k = 1, size(pz)
-      stress(:, k) = smooth_stresses(contact%coefficients, place(contact, px(k), pz(k)))
+      ! Nothing is 0, not -0.
+      stress(:, k) = 0.0_dp + smooth_stresses(contact%coefficients, place(contact, px(k), pz(k)))
     end do
   end subroutine fuge_smooth_stress
 

@@ -4,7 +4,7 @@
 !> small against a cluster and too near to it goes on to the halves of the cluster; one that is large is halved itself.
 module fuge_area_field
   use fuge_area_loads, only: area_loads, load_part, new_area_loads
-  use fuge_force_clusters, only: cluster_class, force_clusters, new_force_clusters, place_cluster_forces, &
+  use fuge_force_clusters, only: cluster_classes, force_clusters, new_force_clusters, place_cluster_forces, &
     prepare_cluster, CLASS_POINTS, FINEST
   use fuge_kinds, only: dp
   use fuge_median_split, only: sort_by_place
@@ -126,8 +126,11 @@ contains
     type(area_loads), intent(in) :: loads
     real(dp), intent(in) :: x, y, z
     logical :: far
+    real(dp) :: distance
 
-    far = exponent(max(abs(x), abs(y), z)) > loads%unit + FAR_EXPONENT
+    distance = max(abs(x), abs(y), z)
+    ! The exponent of zero would be that of 1/2.
+    far = distance > 0.0_dp .and. exponent(distance) > loads%unit + FAR_EXPONENT
   end function is_far
 
   !> The values at a far point.
@@ -203,13 +206,13 @@ contains
     integer, intent(in) :: first, last, cluster(3)
     integer, intent(inout) :: stat
     real(dp) :: low(3), high(3)
-    integer :: class, middle
+    integer :: class(2), middle
 
     if (stat /= 0) return
     low = [minval(batch%x(first:last)), minval(batch%y(first:last)), minval(batch%z(first:last))]
     high = [maxval(batch%x(first:last)), maxval(batch%y(first:last)), maxval(batch%z(first:last))]
-    class = cluster_class(field%clusters, cluster(1), low, high)
-    if (class > 0) then
+    class = cluster_classes(field%clusters, cluster(1), low, high)
+    if (minval(class) > 0) then
       if (is_cheaper(field, cluster, class, low, high)) then
         call add_grid_forces(field, batch, first, last, cluster(1), class, stat)
         return
@@ -231,12 +234,12 @@ contains
   !> Are there fewer forces on the grid of a cluster than nodes on its loads?
   pure function is_cheaper(field, cluster, class, low, high) result(cheaper)
     type(area_field), intent(in) :: field
-    integer, intent(in) :: cluster(3), class
+    integer, intent(in) :: cluster(3), class(2)
     real(dp), intent(in) :: low(3), high(3)
     logical :: cheaper
     integer :: k, most, nodes
 
-    most = CLASS_POINTS(class)**2
+    most = product(CLASS_POINTS(class))
     nodes = 0
     do k = cluster(2), cluster(3)
       nodes = nodes + product(load_orders(field%loads, k, low, high))
@@ -265,14 +268,14 @@ contains
   pure subroutine add_grid_forces(field, batch, first, last, k, class, stat)
     type(area_field), intent(inout) :: field
     type(point_batch), intent(inout) :: batch
-    integer, intent(in) :: first, last, k, class
+    integer, intent(in) :: first, last, k, class(2)
     integer, intent(inout) :: stat
     real(dp), dimension(FINEST**2) :: x, y, force
     integer :: n
 
     call prepare_cluster(field%clusters, k, class, stat)
     if (stat /= 0) return
-    n = CLASS_POINTS(class)**2
+    n = product(CLASS_POINTS(class))
     call place_cluster_forces(field%clusters, k, class, x(:n), y(:n), force(:n))
     call add_sources(field%poisson, batch, first, last, x(:n), y(:n), force(:n))
   end subroutine add_grid_forces

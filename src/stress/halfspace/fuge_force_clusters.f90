@@ -2,7 +2,7 @@
 !> that are far enough.
 !>
 !> Interpolating the influence of a point force on the Chebyshev points of the rectangle around a cluster gives these
-!> forces: q x q of them conserve all moments of degree q - 1 in x and in y. They follow from the moments of
+!> forces: p x q of them conserve all moments of degrees below p in x and below q in y. They follow from the moments of
 !> Chebyshev polynomials, which a cluster inherits from its halves without a loss. Source: L. Wang, R. Krasny and
 !> S. Tlupova, A kernel-independent treecode based on barycentric Lagrange interpolation, Commun. Comput. Phys. 28,
 !> 2020.
@@ -15,13 +15,14 @@ module fuge_force_clusters
   implicit none
   private
 
-  public :: cluster_class, new_force_clusters, place_cluster_forces, prepare_cluster
+  public :: cluster_classes, new_force_clusters, place_cluster_forces, prepare_cluster
 
-  !> Grids of Chebyshev points, from fine to coarse: points along a side, and the half sides from which on they are
-  !> enough for errors below 1e-13.
-  integer, parameter, public :: CLASSES = 5, FINEST = 26
-  integer, parameter, public :: CLASS_POINTS(CLASSES) = [FINEST, 22, 18, 14, 10]
-  real(dp), parameter :: CLASS_DISTANCE(CLASSES) = [2.6_dp, 3.5_dp, 5.0_dp, 9.0_dp, 25.0_dp]
+  !> Classes of Chebyshev points along a side, from fine to coarse: their numbers, and the half sides from which on they
+  !> are enough for errors below 3e-13 in the worst place.
+  integer, parameter, public :: CLASSES = 8, FINEST = 24
+  integer, parameter, public :: CLASS_POINTS(CLASSES) = [FINEST, 22, 20, 17, 14, 12, 10, 8]
+  real(dp), parameter :: CLASS_DISTANCE(CLASSES) = &
+    [2.77_dp, 3.13_dp, 3.64_dp, 4.9_dp, 7.46_dp, 11.1_dp, 19.3_dp, 43.7_dp]
   !> A cluster of at most this many loads is not divided.
   integer, parameter :: LEAST = 32
   !> Gauss's rule of this many nodes is exact for the finest grid's polynomials.
@@ -34,14 +35,14 @@ module fuge_force_clusters
 
   !> Clusters in a binary tree: number k has the halves 2 k and 2 k + 1.
   type, public :: force_clusters
-    !> Halvings, each of which halves all clusters; clusters in all.
+    !> Halvings, each of which halves all clusters, and clusters in all; without halvings there are no moments.
     integer :: levels = 0, count = 0
     !> The rectangle around cluster k: centre x, y, and half widths, (4, count).
     real(dp), allocatable :: box(:, :)
     !> Moments of T_i(x) T_j(y), (FINEST, FINEST, count).
     real(dp), allocatable :: moment(:, :, :)
-    !> Forces, made when they are first needed, (CLASSES, count).
-    type(grid_forces), allocatable :: grid(:, :)
+    !> Forces, made when they are first needed, (class along x, along y, count).
+    type(grid_forces), allocatable :: grid(:, :, :)
     !> Chebyshev points of each class, and the influence of T_k on the force at point i: (k, i, class).
     real(dp) :: point(FINEST, CLASSES) = 0.0_dp
     real(dp) :: share(FINEST, FINEST, CLASSES) = 0.0_dp
@@ -64,8 +65,15 @@ contains
       clusters%levels = clusters%levels + 1
     end do
     clusters%count = 2**(clusters%levels + 1) - 1
-    allocate (order(loads%count), places(loads%count, 2), clusters%box(4, clusters%count), &
-              clusters%moment(FINEST, FINEST, clusters%count), clusters%grid(CLASSES, clusters%count), stat=stat)
+    allocate (clusters%box(4, clusters%count), stat=stat)
+    if (stat /= 0) return
+    ! A few loads are never taken together.
+    if (clusters%levels < 1) then
+      clusters%box(:, 1) = box_around(loads, 1, loads%count)
+      return
+    end if
+    allocate (order(loads%count), places(loads%count, 2), clusters%moment(FINEST, FINEST, clusters%count), &
+              clusters%grid(CLASSES, CLASSES, clusters%count), stat=stat)
     if (stat /= 0) return
     order = [(k, k=1, loads%count)]
     places(:, 1) = loads%x
@@ -105,11 +113,7 @@ contains
     integer :: middle, part
 
     if (2*k > clusters%count) then
-      low = [minval(loads%x(first:last) - loads%half_x(first:last)), &
-             minval(loads%y(first:last) - loads%half_y(first:last))]
-      high = [maxval(loads%x(first:last) + loads%half_x(first:last)), &
-              maxval(loads%y(first:last) + loads%half_y(first:last))]
-      clusters%box(:, k) = [0.5_dp*(low + high), 0.5_dp*(high - low)]
+      clusters%box(:, k) = box_around(loads, first, last)
       call add_load_moments(loads, first, last, clusters%box(:, k), clusters%moment(:, :, k))
       return
     end if
@@ -126,6 +130,19 @@ contains
       call add_part_moments(clusters, part, k)
     end do
   end subroutine form_cluster
+
+  !> The rectangle around loads: centre and half widths.
+  pure function box_around(loads, first, last) result(box)
+    type(area_loads), intent(in) :: loads
+    integer, intent(in) :: first, last
+    real(dp) :: box(4), low(2), high(2)
+
+    low = [minval(loads%x(first:last) - loads%half_x(first:last)), &
+           minval(loads%y(first:last) - loads%half_y(first:last))]
+    high = [maxval(loads%x(first:last) + loads%half_x(first:last)), &
+            maxval(loads%y(first:last) + loads%half_y(first:last))]
+    box = [0.5_dp*(low + high), 0.5_dp*(high - low)]
+  end function box_around
 
   !> The moments of loads in a rectangle `box`.
   pure subroutine add_load_moments(loads, first, last, box, moment)
@@ -189,55 +206,67 @@ contains
     end do
   end subroutine find_polynomials
 
-  !> The class of the coarsest grid that stands for cluster `k` at all points between `low` (3) and `high` (3), in
-  !> z, too; 0 if they are too near for all.
-  pure function cluster_class(clusters, k, low, high) result(class)
+  !> The classes, along x and y, of the coarsest grid that stands for cluster `k` at all points between `low` (3) and
+  !> `high` (3), in z, too; one is 0 if they are too near for all.
+  pure function cluster_classes(clusters, k, low, high) result(class)
     type(force_clusters), intent(in) :: clusters
     integer, intent(in) :: k
     real(dp), intent(in) :: low(3), high(3)
-    integer :: class
-    real(dp) :: middle(2), beside(2), square(2)
+    integer :: class(2)
+    real(dp) :: middle(2), beside(2)
 
+    class = 0
+    if (clusters%levels < 1) return
     associate (centre => clusters%box(:2, k), half => clusters%box(3:, k))
       middle = max(low(:2) - centre, centre - high(:2), 0.0_dp)
       beside = max(middle - half, 0.0_dp)
-      square = middle**2 + beside([2, 1])**2 + low(3)**2
-      do class = CLASSES, 1, -1
-        if (all(square >= (CLASS_DISTANCE(class)*half)**2)) exit
-      end do
+      class(1) = side_class(middle(1)**2 + beside(2)**2 + low(3)**2, half(1))
+      class(2) = side_class(middle(2)**2 + beside(1)**2 + low(3)**2, half(2))
     end associate
-  end function cluster_class
+  end function cluster_classes
+
+  !> The class for a side of length 2 `half` at the distance whose square is `square`.
+  pure function side_class(square, half) result(class)
+    real(dp), intent(in) :: square, half
+    integer :: class
+
+    do class = CLASSES, 1, -1
+      if (square >= (CLASS_DISTANCE(class)*half)**2) exit
+    end do
+  end function side_class
 
   !> Make the forces on a grid of cluster `k` if they are not there yet. `stat` as in an allocate statement.
   pure subroutine prepare_cluster(clusters, k, class, stat)
     type(force_clusters), intent(inout) :: clusters
-    integer, intent(in) :: k, class
+    integer, intent(in) :: k, class(2)
     integer, intent(out) :: stat
-    integer :: q
+    integer :: p, q
 
     stat = 0
-    if (allocated(clusters%grid(class, k)%force)) return
-    q = CLASS_POINTS(class)
-    allocate (clusters%grid(class, k)%force(q, q), stat=stat)
-    if (stat /= 0) return
-    associate (share => clusters%share(:q, :q, class))
-      clusters%grid(class, k)%force = matmul(transpose(share), matmul(clusters%moment(:q, :q, k), share))
+    associate (grid => clusters%grid(class(1), class(2), k))
+      if (allocated(grid%force)) return
+      p = CLASS_POINTS(class(1))
+      q = CLASS_POINTS(class(2))
+      allocate (grid%force(p, q), stat=stat)
+      if (stat /= 0) return
+      grid%force = matmul(transpose(clusters%share(:p, :p, class(1))), &
+                          matmul(clusters%moment(:p, :q, k), clusters%share(:q, :q, class(2))))
     end associate
   end subroutine prepare_cluster
 
   !> The forces on a grid of cluster `k` that `prepare_cluster` has made, and their places.
   pure subroutine place_cluster_forces(clusters, k, class, x, y, force)
     type(force_clusters), intent(in) :: clusters
-    integer, intent(in) :: k, class
+    integer, intent(in) :: k, class(2)
     real(dp), intent(out) :: x(:), y(:), force(:)
-    integer :: first, j, q
+    integer :: first, j, p
 
-    q = CLASS_POINTS(class)
-    do j = 1, q
-      first = q*(j - 1)
-      x(first + 1:first + q) = clusters%box(1, k) + clusters%box(3, k)*clusters%point(:q, class)
-      y(first + 1:first + q) = clusters%box(2, k) + clusters%box(4, k)*clusters%point(j, class)
-      force(first + 1:first + q) = clusters%grid(class, k)%force(:, j)
+    p = CLASS_POINTS(class(1))
+    do j = 1, CLASS_POINTS(class(2))
+      first = p*(j - 1)
+      x(first + 1:first + p) = clusters%box(1, k) + clusters%box(3, k)*clusters%point(:p, class(1))
+      y(first + 1:first + p) = clusters%box(2, k) + clusters%box(4, k)*clusters%point(j, class(2))
+      force(first + 1:first + p) = clusters%grid(class(1), class(2), k)%force(:, j)
     end do
   end subroutine place_cluster_forces
 

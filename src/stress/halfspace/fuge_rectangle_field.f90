@@ -18,8 +18,8 @@ module fuge_rectangle_field
   integer, parameter, public :: MOST_NODES = 18
   !> A rule of k nodes has errors below 1e-15 of the integral from distances of NEAREST(k) half lengths on.
   real(dp), parameter :: NEAREST(MOST_NODES) = &
-    [1.2e8_dp, 1.6e4_dp, 1.0e3_dp, 2.0e2_dp, 60.0_dp, 30.0_dp, 16.0_dp, 11.0_dp, 8.0_dp, 6.0_dp, 5.0_dp, 4.0_dp, &
-     3.5_dp, 3.2_dp, 3.0_dp, 2.8_dp, 2.5_dp, 2.2_dp]
+    [7.1e7_dp, 8900.0_dp, 411.0_dp, 86.0_dp, 33.0_dp, 17.3_dp, 10.9_dp, 7.7_dp, 5.8_dp, 4.7_dp, 3.9_dp, 3.4_dp, &
+     3.0_dp, 2.7_dp, 2.45_dp, 2.27_dp, 2.12_dp, 2.0_dp]
   !> The closed form takes sides of at most this ratio.
   real(dp), parameter :: COMPACT_RATIO = 2.0_dp
   !> Outside of the rectangle, the closed form takes points deeper than this part of the distance to it.

@@ -1,0 +1,51 @@
+# The figure of doc/theory.md with the level lines of the largest shear stress in a half-plane, z |P'(x + i z)|:
+#     gnuplot doc/site/stress_fields.gp        in the root of the repository
+set terminal svg size 1200,310 font "sans-serif,14" enhanced background rgb "white"
+set output "doc/stress_fields.svg"
+i = {0, 1}
+root(w) = sqrt(w - 1)*sqrt(w + 1)
+# Under the mean pressure 1 on |x| < 1, or the line load 2 that has the same force.
+line(w) = 2/(pi*w**2)
+strip(w) = 2/(pi*(w**2 - 1))
+hertz(w) = 4/pi*(1 - w/root(w))
+flat(w) = 2*w/(pi*root(w)**3)
+tau(f) = f > 2 ? 2 : f
+names = "line strip hertz flat"
+titles = "'a line load' 'a uniform pressure' 'a cylinder (Hertz)' 'a flat punch'"
+set xrange [-2:2]
+set yrange [0.0005:3]
+set isosamples 161, 121
+set samples 161
+set contour base
+set cntrparam levels discrete 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.7, 1.0
+unset surface
+do for [k=1:4] {
+  eval sprintf("set table $lines%d", k)
+  eval sprintf("splot tau(y*abs(%s(x + i*y)))", word(names, k))
+  unset table
+}
+unset contour
+set multiplot
+set border 15
+set tics out nomirror
+unset key
+set size ratio -1
+set yrange [3:-0.15]
+set xlabel "x / a" offset 0, 0.5
+set xtics 1
+set ytics 1
+red = "#c0392b"
+do for [k=1:4] {
+  set lmargin at screen 0.05 + 0.24*(k - 1)
+  set rmargin at screen 0.05 + 0.24*(k - 1) + 0.21
+  set tmargin at screen 0.90
+  set bmargin at screen 0.22
+  set title word(titles, k) offset 0, -0.5
+  if (k == 1) { set ylabel "z / a" offset 1.5; set format y "%g" } else { unset ylabel; set format y "" }
+  data = sprintf("$lines%d", k)
+  set label 1 "×" at 0, (k == 3 ? 0.786 : -9) center front textcolor rgb red
+  plot data using 1:2 with lines lw 1.2 lc rgb "#1f4e79", \
+       "+" using 1:(k > 1 && abs($1) <= 1 ? 0 : NaN) with lines lw 5 lc rgb red, \
+       "+" using (k == 1 ? 0 : NaN):(0) every ::0::0 with points pt 7 ps 0.8 lc rgb red
+}
+unset multiplot

@@ -1,0 +1,212 @@
+!> Stresses below a ball and a barrel, for the example `stress`.
+!>
+!> Units are the longer semi-axis of the contact and p_0; E* is 1, and Poisson's ratio 0.3.
+module stress_areas
+  use example_output, only: create_file
+  use fuge, only: dp => fuge_dp, fuge_halfspace_matrix, fuge_halfspace_peak, fuge_halfspace_stress, &
+    fuge_hertz_contact, fuge_hertz_ellipse, fuge_info, fuge_power_profile, fuge_ring_matrix, fuge_ring_peak, &
+    fuge_round_contact, fuge_round_peak, fuge_round_stress, fuge_round_tensor, fuge_solve_dense, &
+    fuge_solve_round_punch, fuge_stress_peak, fuge_von_mises, FUGE_MEAN, FUGE_MEASURE_TRESCA, FUGE_MEASURE_VON_MISES
+  use stress_known, only: hertz_axis_stress, known_peaks
+  use stress_maps, only: in_plane_shear, picture, require, write_map, FOLDER_ARGUMENT
+  implicit none
+  private
+
+  public :: press_ball_and_barrel
+
+  real(dp), parameter :: PI = acos(-1.0_dp), POISSON = 0.3_dp
+  !> A quarter of the surface has so many rectangles along each axis, which cover this many semi-axes.
+  integer, parameter :: RECTANGLES = 24, RINGS = 100
+  real(dp), parameter :: COVERED = 1.1_dp
+  !> Whether the largest shear or the largest von Mises stress is asked for.
+  integer, parameter :: MEASURES(2) = [FUGE_MEASURE_TRESCA, FUGE_MEASURE_VON_MISES]
+
+  !> Rectangles on a quarter of the surface, and the forces of each with its images.
+  type :: quarter
+    real(dp), allocatable :: x(:), y(:), width_x(:), width_y(:), force(:)
+  end type quarter
+
+contains
+
+  subroutine press_ball_and_barrel()
+    type(fuge_hertz_contact) :: ball, barrel
+    type(quarter) :: cells
+    type(fuge_round_contact) :: contact
+    type(fuge_info) :: info
+
+    ! The ball's contact has the radius 1 and p_0 = 1.
+    call fuge_hertz_ellipse(2.0_dp/PI, 2.0_dp/PI, 1.0_dp, 2.0_dp*PI/3.0_dp, ball, info)
+    call require(info)
+    print '(/,a)', 'Largest stresses below a ball and a barrel, over p_0, Poisson''s ratio 0.3'
+    print '(a)', '                          shear    at z/a      error    von Mises  at z/a      error'
+    call print_known('ball, closed form', ball)
+    call press_round_ball(contact)
+    call press_rings()
+    call press_quarter(2.0_dp/PI, 2.0_dp/PI, ball, cells)
+    call draw_ball(contact, cells)
+    call write_axis(contact)
+    call fuge_hertz_ellipse(1.0_dp, 0.25_dp, 1.0_dp, 1.0_dp, barrel, info)
+    call require(info)
+    print '(a,f7.4)', 'b/a =', barrel%semi_axis_y/barrel%semi_axis_x
+    call print_known('barrel, closed form', barrel)
+    call press_quarter(1.0_dp, 0.25_dp, barrel, cells)
+  end subroutine press_ball_and_barrel
+
+  subroutine print_known(name, hertz)
+    character(len=*), intent(in) :: name
+    type(fuge_hertz_contact), intent(in) :: hertz
+    real(dp) :: value(2), depth(2)
+
+    call known_peaks(hertz%semi_axis_y/hertz%semi_axis_x, POISSON, value, depth)
+    print '(a20,2(f12.7,f9.5,10x))', name, value(1), depth(1), value(2), depth(2)
+  end subroutine print_known
+
+  !> A line of the table: the largest shear and the largest von Mises stress, in the caller's units.
+  subroutine print_peaks(name, peaks, hertz, tolerance)
+    character(len=*), intent(in) :: name
+    type(fuge_stress_peak), intent(in) :: peaks(2)
+    type(fuge_hertz_contact), intent(in) :: hertz
+    real(dp), intent(in) :: tolerance
+    real(dp) :: value(2), depth(2), found(2)
+    integer :: k
+
+    call known_peaks(hertz%semi_axis_y/hertz%semi_axis_x, POISSON, value, depth)
+    found = [0.5_dp, 1.0_dp]*peaks%value/hertz%peak_pressure
+    print '(a20,2(f12.7,f9.5,es10.1))', name, &
+      (found(k), peaks(k)%place(3)/hertz%semi_axis_x, found(k)/value(k) - 1.0_dp, k=1, 2)
+    if (any(abs(found/value - 1.0_dp) > tolerance)) error stop 'the largest stresses are not the known ones'
+  end subroutine print_peaks
+
+  subroutine press_round_ball(contact)
+    type(fuge_round_contact), intent(inout) :: contact
+    type(fuge_power_profile) :: profile
+    type(fuge_stress_peak) :: peaks(2)
+    type(fuge_hertz_contact) :: hertz
+    type(fuge_info) :: info
+    integer :: k
+
+    profile%upper = 2.0_dp
+    profile%coefficients = [0.25_dp*PI]
+    profile%powers = [2.0_dp]
+    call fuge_solve_round_punch(profile, 1.0_dp, contact, info, load=2.0_dp*PI/3.0_dp)
+    call require(info)
+    do k = 1, 2
+      call fuge_round_peak(contact, POISSON, MEASURES(k), peaks(k), info)
+      call require(info)
+    end do
+    hertz%semi_axis_x = 1.0_dp
+    hertz%semi_axis_y = 1.0_dp
+    hertz%peak_pressure = 1.0_dp
+    call print_peaks('without a grid', peaks, hertz, 1.0e-9_dp)
+  end subroutine press_round_ball
+
+  subroutine press_rings()
+    real(dp), allocatable, target :: alpha(:, :)
+    real(dp) :: radius(0:RINGS), force(RINGS), gap(RINGS), approach
+    type(fuge_stress_peak) :: peaks(2)
+    type(fuge_hertz_contact) :: hertz
+    type(fuge_info) :: info
+    integer :: k
+
+    allocate (alpha(RINGS, RINGS))
+    radius = [(COVERED*k/RINGS, k=0, RINGS)]
+    call fuge_ring_matrix(radius, 1.0_dp, FUGE_MEAN, alpha, info)
+    call require(info)
+    call fuge_solve_dense(alpha, 0.125_dp*PI*(radius(1:)**2 + radius(:RINGS - 1)**2), 2.0_dp*PI/3.0_dp, force, gap, &
+                          approach, info)
+    call require(info)
+    do k = 1, 2
+      call fuge_ring_peak(radius, force, POISSON, MEASURES(k), peaks(k), info)
+      call require(info)
+    end do
+    hertz%semi_axis_x = 1.0_dp
+    hertz%semi_axis_y = 1.0_dp
+    hertz%peak_pressure = 1.0_dp
+    call print_peaks('100 rings', peaks, hertz, 1.0e-3_dp)
+  end subroutine press_rings
+
+  !> Any two radii of curvature, on rectangles of a quarter of the surface.
+  subroutine press_quarter(radius_x, radius_y, hertz, cells)
+    real(dp), intent(in) :: radius_x, radius_y
+    type(fuge_hertz_contact), intent(in) :: hertz
+    type(quarter), intent(out) :: cells
+    integer, parameter :: N = RECTANGLES**2
+    real(dp), allocatable, target :: alpha(:, :)
+    real(dp) :: h_x, h_y, gap(N), open(N), approach, load
+    type(fuge_stress_peak) :: peaks(2)
+    type(fuge_info) :: info
+    integer :: i, j, k
+
+    allocate (alpha(N, N), cells%force(N))
+    h_x = COVERED*hertz%semi_axis_x/RECTANGLES
+    h_y = COVERED*hertz%semi_axis_y/RECTANGLES
+    cells%x = [(((i - 0.5_dp)*h_x, i=1, RECTANGLES), j=1, RECTANGLES)]
+    cells%y = [(((j - 0.5_dp)*h_y, i=1, RECTANGLES), j=1, RECTANGLES)]
+    cells%width_x = spread(h_x, 1, N)
+    cells%width_y = spread(h_y, 1, N)
+    ! The mean over a rectangle, up to a constant.
+    gap = cells%x**2/(2.0_dp*radius_x) + cells%y**2/(2.0_dp*radius_y)
+    load = 2.0_dp*PI/3.0_dp*hertz%semi_axis_x*hertz%semi_axis_y*hertz%peak_pressure
+    call fuge_halfspace_matrix(cells%x, cells%y, cells%width_x, cells%width_y, 1.0_dp, FUGE_MEAN, alpha, info, &
+                               symmetric_x=.true., symmetric_y=.true.)
+    call require(info)
+    call fuge_solve_dense(alpha, gap, load, cells%force, open, approach, info)
+    call require(info)
+    do k = 1, 2
+      call fuge_halfspace_peak(cells%x, cells%y, cells%width_x, cells%width_y, cells%force, POISSON, MEASURES(k), &
+                               peaks(k), info, symmetric_x=.true., symmetric_y=.true.)
+      call require(info)
+    end do
+    call print_peaks('48 x 48 rectangles', peaks, hertz, 5.0e-3_dp)
+  end subroutine press_quarter
+
+  !> Below the ball in the plane y = 0: the shear in that plane, for x < 0 below the rectangles, for x > 0 without a
+  !> grid, and the von Mises stress.
+  subroutine draw_ball(contact, cells)
+    type(fuge_round_contact), intent(in) :: contact
+    type(quarter), intent(in) :: cells
+    type(picture), parameter :: HALF = picture(0.0_dp, 2.0_dp, 2.0_dp, 160, 160)
+    integer, parameter :: PIXELS = HALF%columns*HALF%rows
+    real(dp), allocatable :: below_cells(:, :), round(:, :), tensor(:, :), shear(:, :), y(:)
+    type(fuge_info) :: info
+
+    allocate (below_cells(6, PIXELS), round(4, PIXELS), tensor(6, PIXELS), shear(2*HALF%columns, HALF%rows), y(PIXELS))
+    y = 0.0_dp
+    call fuge_halfspace_stress(cells%x, cells%y, cells%width_x, cells%width_y, cells%force, POISSON, HALF%x(), y, &
+                               HALF%z(), below_cells, info, symmetric_x=.true., symmetric_y=.true.)
+    call require(info)
+    call fuge_round_stress(contact, POISSON, HALF%x(), HALF%z(), round, info)
+    call require(info)
+    shear(HALF%columns:1:-1, :) = reshape(in_plane_shear(below_cells(1, :), below_cells(3, :), below_cells(5, :)), &
+                                          [HALF%columns, HALF%rows])
+    shear(HALF%columns + 1:, :) = reshape(in_plane_shear(round(1, :), round(3, :), round(4, :)), &
+                                          [HALF%columns, HALF%rows])
+    call write_map('stress_ball.dat', reshape(shear, [size(shear)]), size(shear, 1))
+    call fuge_round_tensor(round, tensor, info)
+    call require(info)
+    call write_map('stress_ball_mises.dat', fuge_von_mises(tensor), HALF%columns)
+  end subroutine draw_ball
+
+  !> The stresses on the axis of the ball, computed and known.
+  subroutine write_axis(contact)
+    type(fuge_round_contact), intent(in) :: contact
+    integer, parameter :: POINTS = 31
+    real(dp) :: depth(POINTS), stress(4, POINTS), known(3)
+    type(fuge_info) :: info
+    integer :: file, k
+
+    depth = [(0.1_dp*(k - 1), k=1, POINTS)]
+    call fuge_round_stress(contact, POISSON, 0.0_dp*depth, depth, stress, info)
+    call require(info)
+    call create_file('stress_axis.csv', FOLDER_ARGUMENT, file)
+    write (file, '(a)') 'z/a,rr,zz,rr known,zz known'
+    do k = 1, POINTS
+      known = hertz_axis_stress(1.0_dp, POISSON, depth(k))
+      write (file, '(f6.3,4('','',f12.8))') depth(k), stress(1, k), stress(3, k), known(1), known(3)
+      if (any(abs(stress([1, 2, 3], k) - known) > 1.0e-12_dp)) &
+        error stop 'the stresses on the axis are not the known ones'
+    end do
+    close (file)
+  end subroutine write_axis
+
+end module stress_areas

@@ -1,0 +1,249 @@
+!> Stresses below line contacts, for the example `stress`.
+module stress_lines
+  use example_output, only: create_file
+  use fuge, only: dp => fuge_dp, fuge_halfplane_matrix, fuge_halfplane_peak, fuge_halfplane_stress, fuge_info, &
+    fuge_polynomial_profile, fuge_problem, fuge_smooth_contact, fuge_smooth_peak, fuge_smooth_stress, fuge_solution, &
+    fuge_dense_operator, fuge_solve_dense, fuge_solve_smooth_punch, fuge_solver, fuge_stress_peak, FUGE_CENTRE, &
+    FUGE_HAT, FUGE_MEAN, FUGE_PEAK_SINGULAR, FUGE_PLANE_STRAIN, FUGE_MEASURE_TRESCA
+  use stress_known, only: flat_punch_stress, line_axis_shear
+  use stress_maps, only: in_plane_shear, picture, require, write_map, FOLDER_ARGUMENT
+  implicit none
+  private
+
+  public :: press_cylinder, press_flat_punch, press_paper_punch
+
+  real(dp), parameter :: PI = acos(-1.0_dp)
+  !> The paper's punch: y = 0.05 x**4 in mm, N/mm2.
+  real(dp), parameter :: POISSON = 0.25_dp, PAPER_E_STAR = 1.0e6_dp/(1.0_dp - POISSON**2), PAPER_PROFILE = 0.05_dp
+  !> The known largest shear stress below a cylinder over p_0, at 0.786151377757423286 half widths.
+  real(dp), parameter :: CYLINDER_SHEAR = 0.300283106000777608_dp
+
+contains
+
+  !> The paper's punch with its 33 cells, and without a grid, under two loads.
+  subroutine press_paper_punch()
+    integer, parameter :: CELLS = 33
+    real(dp), parameter :: SPACING = 0.025_dp
+    real(dp), target :: alpha(CELLS, CELLS)
+    real(dp) :: x(CELLS), width(CELLS), force(CELLS), gap(CELLS), load, approach
+    type(fuge_polynomial_profile) :: profile
+    type(fuge_smooth_contact) :: contact
+    type(fuge_stress_peak) :: peaks(2)
+    type(fuge_info) :: info
+    integer :: k
+
+    x = [(SPACING*(k - 0.5_dp), k=1, CELLS)]
+    width = SPACING
+    call fuge_halfplane_matrix(x, width, PAPER_E_STAR, FUGE_CENTRE, alpha, info, symmetric=.true.)
+    call require(info)
+    profile%lower = -1.0_dp
+    profile%upper = 1.0_dp
+    profile%coefficients = [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, PAPER_PROFILE]
+    print '(a)', 'Largest shear stress below the punch y = 0.05 x**4 mm, plane strain'
+    print '(a)', ' F [kN/mm]  half width [mm]  33 cells [N/mm2], at x, z [mm]    no grid [N/mm2], at x, z [mm]' &
+      //'  over the largest pressure'
+    do k = 1, 2
+      load = merge(10.0e3_dp, 30.0e3_dp, k == 1)
+      call fuge_solve_dense(alpha, PAPER_PROFILE*x**4, load, force, gap, approach, info)
+      call require(info)
+      call fuge_solve_smooth_punch(profile, PAPER_E_STAR, load, contact, info)
+      call require(info)
+      call fuge_halfplane_peak(x, width, force, FUGE_CENTRE, FUGE_PLANE_STRAIN, POISSON, FUGE_MEASURE_TRESCA, &
+                               peaks(1), info, symmetric=.true.)
+      call require(info)
+      call fuge_smooth_peak(contact, FUGE_PLANE_STRAIN, POISSON, FUGE_MEASURE_TRESCA, peaks(2), info)
+      call require(info)
+      print '(f8.0,f18.6,2(f15.1,2f9.4),f18.6)', load/1.0e3_dp, contact%half_width, 0.5_dp*peaks(1)%value, &
+        abs(peaks(1)%place(1)), peaks(1)%place(3), 0.5_dp*peaks(2)%value, abs(peaks(2)%place(1)), peaks(2)%place(3), &
+        0.5_dp*peaks(2)%value/contact%pressure(contact%half_width/sqrt(2.0_dp))
+      if (abs(peaks(1)%value/peaks(2)%value - 1.0_dp) > 0.02_dp) error stop '33 cells are too far from the smooth punch'
+      call draw_paper_punch(merge('stress_punch_10.dat', 'stress_punch_30.dat', k == 1), x, width, force, contact)
+    end do
+  end subroutine press_paper_punch
+
+  !> The shear stress in the plane, N/mm2: for x < 0 below the cells, for x > 0 without a grid.
+  subroutine draw_paper_punch(name, x, width, force, contact)
+    character(len=*), intent(in) :: name
+    real(dp), intent(in) :: x(:), width(:), force(:)
+    type(fuge_smooth_contact), intent(in) :: contact
+    type(picture), parameter :: HALF = picture(0.0_dp, 1.2_dp, 1.2_dp, 240, 240)
+    real(dp), allocatable :: cells(:, :), smooth(:, :), shear(:, :)
+    type(fuge_info) :: info
+
+    allocate (cells(3, HALF%columns*HALF%rows), smooth(3, HALF%columns*HALF%rows))
+    call fuge_halfplane_stress(x, width, force, FUGE_CENTRE, HALF%x(), HALF%z(), cells, info, symmetric=.true.)
+    call require(info)
+    call fuge_smooth_stress(contact, HALF%x(), HALF%z(), smooth, info)
+    call require(info)
+    allocate (shear(2*HALF%columns, HALF%rows))
+    shear(HALF%columns:1:-1, :) = reshape(in_plane_shear(cells(1, :), cells(2, :), cells(3, :)), &
+                                          [HALF%columns, HALF%rows])
+    shear(HALF%columns + 1:, :) = reshape(in_plane_shear(smooth(1, :), smooth(2, :), smooth(3, :)), &
+                                          [HALF%columns, HALF%rows])
+    call write_map(name, reshape(shear, [size(shear)]), size(shear, 1))
+  end subroutine draw_paper_punch
+
+  !> A flat punch on |x| <= 1 under a unit force at x = 1/4: it tilts and touches with its whole face.
+  subroutine press_flat_punch()
+    integer, parameter :: CELLS = 400
+    real(dp), parameter :: ECCENTRICITY = 0.25_dp
+    real(dp), allocatable, target :: alpha(:, :)
+    real(dp) :: x(CELLS), width(CELLS)
+    type(fuge_dense_operator) :: operator
+    type(fuge_problem) :: problem
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution
+    type(fuge_info) :: info
+    integer :: k
+
+    width = 2.0_dp/CELLS
+    x = [(width(1)*(k - 0.5_dp*(CELLS + 1)), k=1, CELLS)]
+    allocate (alpha(CELLS, CELLS))
+    call fuge_halfplane_matrix(x, width, 1.0_dp, FUGE_MEAN, alpha, info)
+    call require(info)
+    call operator%set(alpha, info)
+    call require(info)
+    problem%gap = 0.0_dp*x
+    problem%modes = reshape([spread(1.0_dp, 1, CELLS), x], [CELLS, 2])
+    problem%resultant = [1.0_dp, ECCENTRICITY]
+    call solver%solve(operator, problem, solution, info)
+    call require(info)
+    call compare_flat_punch(x, width, solution%force, ECCENTRICITY)
+  end subroutine press_flat_punch
+
+  subroutine compare_flat_punch(x, width, force, eccentricity)
+    real(dp), intent(in) :: x(:), width(:), force(:), eccentricity
+    type(picture), parameter :: WHOLE = picture(-2.0_dp, 2.0_dp, 2.0_dp, 480, 240)
+    real(dp), allocatable :: stress(:, :), exact(:, :), pz(:)
+    type(fuge_stress_peak) :: peak
+    type(fuge_info) :: info
+    !> Rows of the picture for the table.
+    integer, parameter :: ROWS(4) = [3, 12, 60, 180]
+    integer :: k
+
+    allocate (pz, source=WHOLE%z())
+    allocate (stress(3, size(pz)), exact(3, size(pz)))
+    call fuge_halfplane_stress(x, width, force, FUGE_MEAN, WHOLE%x(), pz, stress, info)
+    call require(info)
+    exact = flat_punch_stress_at(WHOLE%x(), pz, eccentricity)
+    print '(/,a,i0,a)', 'A flat punch, tilted by a force at x = a/4, ', size(x), ' cells: stresses in F/a'
+    print '(a)', '  depth/a   largest shear    exact      largest error of xx, zz, xz'
+    do k = 1, size(ROWS)
+      associate (last => ROWS(k)*WHOLE%columns)
+        call compare_row(pz(last), width(1), stress(:, last - WHOLE%columns + 1:last), &
+                         exact(:, last - WHOLE%columns + 1:last))
+      end associate
+    end do
+    call fuge_halfplane_peak(x, width, force, FUGE_MEAN, FUGE_PLANE_STRAIN, POISSON, FUGE_MEASURE_TRESCA, peak, info)
+    call require(info)
+    if (peak%location /= FUGE_PEAK_SINGULAR) error stop 'the corner of the punch was taken for a smooth edge'
+    print '(a,f7.4,a)', 'The largest stress has no value: singular at x/a =', peak%place(1), ', a corner of the punch'
+    call write_map('stress_tilt.dat', in_plane_shear(stress(1, :), stress(2, :), stress(3, :)), WHOLE%columns)
+  end subroutine compare_flat_punch
+
+  pure function flat_punch_stress_at(x, z, eccentricity) result(stress)
+    real(dp), intent(in) :: x(:), z(:), eccentricity
+    real(dp) :: stress(3, size(x))
+    integer :: k
+
+    do k = 1, size(x)
+      stress(:, k) = flat_punch_stress(eccentricity, x(k), z(k))
+    end do
+  end function flat_punch_stress_at
+
+  !> A line of the table, for points at one depth. The corners make an error of first order in the width of the cells.
+  subroutine compare_row(depth, width, stress, exact)
+    real(dp), intent(in) :: depth, width, stress(:, :), exact(:, :)
+    real(dp) :: error
+
+    error = maxval(abs(stress - exact))
+    print '(f9.4,2f14.6,es18.1)', depth, maxval(in_plane_shear(stress(1, :), stress(2, :), stress(3, :))), &
+      maxval(in_plane_shear(exact(1, :), exact(2, :), exact(3, :))), error
+    if (error > 0.2_dp*width/depth*maxval(abs(exact))) error stop 'the stresses are not those of the flat punch'
+  end subroutine compare_row
+
+  !> A cylinder: the largest shear stress on finer and finer grids, and without one. Units are the half width of the
+  !> contact and p_0; E* is 1, so that the radius is 1/2 and the load pi/2. The contact ends in the middle of a cell.
+  subroutine press_cylinder()
+    type(fuge_polynomial_profile) :: profile
+    type(fuge_smooth_contact) :: contact
+    type(fuge_stress_peak) :: peak
+    type(fuge_info) :: info
+    real(dp) :: error(3)
+    integer :: cells, file
+
+    print '(/,a)', 'Largest shear stress below a cylinder, over p_0: known 0.3002831 at z = 0.7861514 a'
+    print '(a)', ' cells      centre     error         mean     error          hat     error     z/a (hat)'
+    call create_file('stress_cylinder.csv', FOLDER_ARGUMENT, file)
+    write (file, '(a)') 'cells,centre,mean,hat'
+    cells = 16
+    do while (cells <= 512)
+      call press_cylinder_cells(cells, error)
+      write (file, '(i0,3('','',es11.4))') cells, abs(error)
+      cells = 2*cells
+    end do
+    close (file)
+    profile%lower = -2.0_dp
+    profile%upper = 2.0_dp
+    profile%coefficients = [0.0_dp, 0.0_dp, 1.0_dp]
+    call fuge_solve_smooth_punch(profile, 1.0_dp, 0.5_dp*PI, contact, info)
+    call require(info)
+    call fuge_smooth_peak(contact, FUGE_PLANE_STRAIN, 0.3_dp, FUGE_MEASURE_TRESCA, peak, info)
+    call require(info)
+    print '(a,f13.10,es12.1,a,f10.7)', ' no grid', 0.5_dp*peak%value, 0.5_dp*peak%value - CYLINDER_SHEAR, &
+      '   at z/a =', peak%place(3)
+    if (abs(0.5_dp*peak%value - CYLINDER_SHEAR) > 1.0e-10_dp) error stop 'the largest shear stress is not the known one'
+  end subroutine press_cylinder
+
+  !> The largest shear stress in the plane on the axis, on 64 cells and known.
+  subroutine write_axis(x, width, force)
+    real(dp), intent(in) :: x(:), width(:), force(:)
+    integer, parameter :: POINTS = 31
+    real(dp) :: depth(POINTS), stress(3, POINTS), shear(POINTS)
+    type(fuge_info) :: info
+    integer :: file, k
+
+    depth = [(0.1_dp*(k - 1), k=1, POINTS)]
+    call fuge_halfplane_stress(x, width, force, FUGE_HAT, 0.0_dp*depth, depth, stress, info, symmetric=.true.)
+    call require(info)
+    shear = in_plane_shear(stress(1, :), stress(2, :), stress(3, :))
+    call create_file('stress_axis_line.csv', FOLDER_ARGUMENT, file)
+    write (file, '(a)') 'z/a,shear,known'
+    do k = 1, POINTS
+      write (file, '(f6.3,2('','',f12.8))') depth(k), shear(k), line_axis_shear(depth(k))
+    end do
+    close (file)
+    if (any(abs(shear - line_axis_shear(depth)) > 1.0e-3_dp)) error stop 'the shear stress is not that below a cylinder'
+  end subroutine write_axis
+
+  !> A line of the table: a half model with `cells`/2 cells in contact, with each element.
+  subroutine press_cylinder_cells(cells, error)
+    integer, intent(in) :: cells
+    real(dp), intent(out) :: error(3)
+    integer, parameter :: ELEMENTS(3) = [FUGE_CENTRE, FUGE_MEAN, FUGE_HAT]
+    real(dp), target :: alpha(cells/2 + 2, cells/2 + 2)
+    real(dp), dimension(cells/2 + 2) :: x, width, force, gap
+    real(dp) :: approach, value(3)
+    type(fuge_stress_peak) :: peak
+    type(fuge_info) :: info
+    integer :: k
+
+    width = 2.0_dp/(cells + 1)
+    x = [(width(1)*(k - 0.5_dp), k=1, size(x))]
+    do k = 1, 3
+      call fuge_halfplane_matrix(x, width, 1.0_dp, ELEMENTS(k), alpha, info, symmetric=.true.)
+      call require(info)
+      call fuge_solve_dense(alpha, x**2, 0.5_dp*PI, force, gap, approach, info)
+      call require(info)
+      call fuge_halfplane_peak(x, width, force, ELEMENTS(k), FUGE_PLANE_STRAIN, 0.3_dp, FUGE_MEASURE_TRESCA, peak, &
+                               info, symmetric=.true.)
+      call require(info)
+      value(k) = 0.5_dp*peak%value
+    end do
+    if (cells == 64) call write_axis(x, width, force)
+    error = value - CYLINDER_SHEAR
+    print '(i6,3(f13.8,es10.1),f14.7)', cells, (value(k), error(k), k=1, 3), peak%place(3)
+    if (any(abs(error) > 0.1_dp/cells**2)) error stop 'the error of the largest shear stress is not of second order'
+  end subroutine press_cylinder_cells
+
+end module stress_lines

@@ -1,0 +1,89 @@
+# Fringes of constant shear in the plane, as photoelasticity shows them: bright where the largest shear stress is a
+# multiple of the fringe value; red: the contact, and the place of the largest value. Run in the folder of
+# stress_punch_10.dat, stress_punch_30.dat, stress_tilt.dat and stress_ball.dat.
+stats "stress_punch_10.dat" matrix name "punch_1" nooutput
+stats "stress_punch_30.dat" matrix name "punch_2" nooutput
+stats "stress_tilt.dat" matrix name "tilt" nooutput
+stats "stress_ball.dat" matrix name "ball" nooutput
+set terminal pngcairo size 1200,800 font "sans,13" enhanced
+set output "stress.png"
+set multiplot
+set palette defined (0 "#101418", 0.5 "#7d848a", 1 "#ffffff")
+set cbrange [0:1]
+unset colorbox
+unset key
+set border 15 front
+set tics out nomirror
+set size ratio -1
+set style textbox opaque noborder fillcolor rgb "#ffffff" margins 0.5, 0.3
+set style fill solid noborder
+set samples 481
+bright(tau) = cos(pi*tau)**2
+red = "#c0392b"
+grey = "#d5d8dc"
+margins(k, row) = sprintf("set lmargin at screen %g; set rmargin at screen %g; " \
+  ."set bmargin at screen %g; set tmargin at screen %g", \
+  0.065 + 0.495*k, 0.49 + 0.495*k, 0.575 - 0.495*row, 0.955 - 0.495*row)
+# The centre of a pixel, from its numbers in its table: the picture is twice as wide as high.
+across(k, n, width) = width*((k + 0.5)/n - 0.5)
+down(k, n, width) = 0.5*width*(k + 0.5)/n
+
+# The paper's punch, in mm.
+set xlabel "x [mm]" offset 0, 0.4
+set ylabel "z [mm]" offset 1.5
+set xrange [-1.2:1.2]
+set yrange [1.2:-0.12]
+set xtics 0.4
+set ytics 0.4
+set label 1 "33 cells" at graph 0.025, 0.06 left front boxed
+set label 2 "without a grid" at graph 0.975, 0.06 right front boxed
+do for [k=1:2] {
+  eval margins(k - 1, 0)
+  F = word("10 30", k)
+  a = (F*1e3/(0.75*pi*1e6/(1 - 0.25**2)*0.05))**0.25
+  punch(x) = abs(x) < a ? 0 : 0.05*(a**4 - x**4)
+  nx = value(sprintf("punch_%d_size_x", k))
+  nz = value(sprintf("punch_%d_size_y", k))
+  x_max = across(value(sprintf("punch_%d_index_max_x", k)), nx, 2.4)
+  z_max = down(value(sprintf("punch_%d_index_max_y", k)), nz, 2.4)
+  set title sprintf("The paper's punch under %s kN/mm: 0.5 kN/mm^2 a fringe", F) offset 0, -0.5
+  plot sprintf("stress_punch_%s.dat", F) matrix using (across($1, nx, 2.4)):(down($2, nz, 2.4)):(bright($3/500)) \
+         with image, \
+       "+" using 1:(punch($1)):(-0.12) with filledcurves fillcolor rgb grey, \
+       "+" using (abs($1) <= a ? $1 : NaN):(0) with lines lw 4 lc rgb red, \
+       "+" using (abs(x_max)):(z_max) every ::0::0 with points pt 2 ps 1.1 lw 2.5 lc rgb red, \
+       "+" using (-abs(x_max)):(z_max) every ::0::0 with points pt 2 ps 1.1 lw 2.5 lc rgb red, \
+       "+" using (0):(0):(0):(1.2) every ::0::0 with vectors nohead dt 3 lw 1 lc rgb red
+}
+
+# In units of the contact.
+set xlabel "x / a"
+set ylabel "z / a"
+set xrange [-2:2]
+set yrange [2:-0.2]
+set xtics 1
+set ytics 1
+unset label 2
+eval margins(0, 1)
+set title "A flat punch, tilted by a force at x = a/4: 0.03 F/a a fringe"
+set label 1 "F" at 0.33, -0.1 left front textcolor rgb "black"
+set arrow 1 from 0.25, -0.19 to 0.25, -0.01 front lw 2 lc rgb "black" size 0.06, 25 filled
+plot "stress_tilt.dat" matrix using (across($1, tilt_size_x, 4)):(down($2, tilt_size_y, 4)):(bright($3/0.03)) \
+       with image, \
+     "+" using (abs($1) <= 1 ? $1 : NaN):(0):(-0.2) with filledcurves fillcolor rgb grey, \
+     "+" using (abs($1) <= 1 ? $1 : NaN):(0) with lines lw 4 lc rgb red
+unset label 1
+unset arrow 1
+
+eval margins(1, 1)
+set title "A ball, in the plane y = 0: 0.04 p_0 a fringe"
+set label 1 "rectangles" at graph 0.025, 0.06 left front boxed
+set label 2 "without a grid" at graph 0.975, 0.06 right front boxed
+gap(x) = abs(x) < 1 ? 0 : -0.1*(x**2 - 1)
+plot "stress_ball.dat" matrix using (across($1, ball_size_x, 4)):(down($2, ball_size_y, 4)):(bright($3/0.04)) \
+       with image, \
+     "+" using 1:(gap($1)):(-0.2) with filledcurves fillcolor rgb grey, \
+     "+" using (abs($1) <= 1 ? $1 : NaN):(0) with lines lw 4 lc rgb red, \
+     "+" using (0):(down(ball_index_max_y, ball_size_y, 4)) every ::0::0 with points pt 2 ps 1.1 lw 2.5 lc rgb red, \
+     "+" using (0):(0):(0):(2) every ::0::0 with vectors nohead dt 3 lw 1 lc rgb red
+unset multiplot
