@@ -1,9 +1,9 @@
 !> Places from which the search for the largest stress starts.
 !>
-!> The pressed cells are halved again and again. Below the middle of every part lies a candidate, at a depth of the order
-!> of the part: a maximum lies below what presses, at a fraction of its breadth. A part is not halved any more once
-!> nothing below it can come near the best candidate. What its cells could add to the stress is the pressure that the
-!> candidate does not see, the largest one of the cells minus the stress -zz, which is the pressure smoothed over a
+!> The pressed cells are halved again and again. Below the middle of every part lies a candidate, at a depth of the
+!> order of the part: a maximum lies below what presses, at a fraction of its breadth. A part is not halved any more
+!> once nothing below it can come near the best candidate. What its cells could add to the stress is the pressure that
+!> the candidate does not see, the largest one of the cells minus the stress -zz, which is the pressure smoothed over a
 !> breadth of the order of the depth (J. Boussinesq; K. L. Johnson, Contact Mechanics, 1985, sections 2.2 and 3.2).
 module fuge_peak_starts
   use fuge_heap_sort, only: heap_sort
