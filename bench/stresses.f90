@@ -9,8 +9,9 @@
 program stresses
   use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_halfplane_stress, fuge_halfplane_stress_grid, &
     fuge_halfspace_operator, fuge_halfspace_stress, fuge_halfspace_stress_grid, fuge_info, fuge_operator, &
-    fuge_polynomial_profile, fuge_problem, fuge_round_contact, fuge_round_stress, fuge_smooth_contact, fuge_smooth_stress, fuge_solution, &
-    fuge_solve_round_punch, fuge_solve_smooth_punch, fuge_solver, FUGE_FREE, FUGE_MEAN
+    fuge_polynomial_profile, fuge_problem, fuge_round_contact, fuge_round_stress, fuge_smooth_contact, &
+    fuge_smooth_stress, fuge_solution, fuge_solve_round_punch, fuge_solve_smooth_punch, fuge_solver, FUGE_FREE, &
+    FUGE_MEAN
   implicit none
 
   integer, parameter :: REPETITIONS = 3, POINTS = 10000, DEPTHS = 10
@@ -46,7 +47,7 @@ contains
     integer :: k
 
     spacing = 2.0_dp*SIDE/real(n, dp)
-    x = [((k - 0.5_dp)*spacing - SIDE, k=1, n)]
+    allocate (x(n), source=[((k - 0.5_dp)*spacing - SIDE, k=1, n)])
     allocate (width(n), source=spacing)
     call surface%set(n, spacing, 1.0_dp, info, element=FUGE_MEAN)
     call check(info)
@@ -79,9 +80,11 @@ contains
     type(fuge_polynomial_profile) :: cylinder
     type(fuge_smooth_contact) :: contact
     type(fuge_info) :: info
-    real(dp) :: px(POINTS), pz(POINTS), found(3, POINTS), start, time
+    real(dp), allocatable :: px(:), pz(:), found(:, :)
+    real(dp) :: start, time
     integer :: k
 
+    allocate (px(POINTS), pz(POINTS), found(3, POINTS))
     cylinder%lower = -2.0_dp
     cylinder%upper = 2.0_dp
     cylinder%coefficients = [0.0_dp, 0.0_dp, 0.5_dp]
@@ -108,8 +111,8 @@ contains
     integer :: j, k
 
     spacing = 2.0_dp*SIDE/real(n, dp)
-    x = [(((k - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)]
-    y = [(((j - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)]
+    allocate (x(n*n), source=[(((k - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)])
+    allocate (y(n*n), source=[(((j - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)])
     allocate (width(n*n), source=spacing)
     call surface%set(n, n, spacing, spacing, 1.0_dp, info, element=FUGE_MEAN)
     call check(info)
@@ -141,9 +144,11 @@ contains
   subroutine measure_round()
     type(fuge_round_contact) :: contact
     type(fuge_info) :: info
-    real(dp) :: pr(POINTS), pz(POINTS), found(4, POINTS), start, time, error
+    real(dp), allocatable :: pr(:), pz(:), found(:, :)
+    real(dp) :: start, time, error
     integer :: k
 
+    allocate (pr(POINTS), pz(POINTS), found(4, POINTS))
     call press_sphere(contact)
     call scatter(pr, pz)
     pr = abs(pr)
@@ -181,9 +186,9 @@ contains
     type(fuge_solver) :: solver
     type(fuge_info) :: info
 
-    problem%gap = gap
+    allocate (problem%gap, source=gap)
     allocate (problem%modes(size(gap), 1), source=1.0_dp)
-    problem%resultant = [load]
+    allocate (problem%resultant(1), source=load)
     call solver%solve(surface, problem, solution, info)
     call check(info)
     force = solution%force
