@@ -17,7 +17,8 @@ extern "C" {
 
 /* ---- stresses of a half-plane -------------------------------------------- */
 
-/* Stresses in a half-plane under forces on its cells, to rounding at any depth and distance.
+/* Stresses in a half-plane under forces on its cells, to rounding at any depth and distance: zz
+ * relative to the sum of its terms, xx and xz relative to the largest of the three.
  *   n                  in   cells
  *   x, width, element  in   as in fuge_halfplane_matrix; FUGE_CENTRE and FUGE_MEAN are strips of
  *                           pressure force/width, FUGE_HAT hats with the peak force/width

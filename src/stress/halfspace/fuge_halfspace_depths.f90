@@ -125,7 +125,7 @@ contains
       else if (boundary == FUGE_FREE) then
         call free_displacement(work, depth(k), displacement(:, :, k))
       else
-        call row_displacement(work, depth(k), displacement(:, :, k), info)
+        call row_displacement(work, sum(force), depth(k), displacement(:, :, k), info)
       end if
       if (info%failed()) exit
       displacement(:, :, k) = displacement(:, :, k)/spacing_x/spacing_y*compliance
@@ -352,14 +352,16 @@ contains
     call convolve_tables(work%waves, STRESS_KINDS, stress)
   end subroutine row_stress
 
-  !> As `periodic_displacement`, of a surface that is periodic along one direction. FUGE_ERR_MEMORY.
-  subroutine row_displacement(work, depth, displacement, info)
+  !> As `periodic_displacement`, of a surface that is periodic along one direction; `load` is the sum of the forces.
+  !> FUGE_ERR_MEMORY.
+  subroutine row_displacement(work, load, depth, displacement, info)
     type(grid_work), intent(inout) :: work
-    real(dp), intent(in) :: depth
+    real(dp), intent(in) :: load, depth
     real(dp), intent(inout) :: displacement(:, :)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: mean(:, :)
-    integer :: c, stat
+    real(dp) :: constant
+    integer :: c, n, stat
 
     allocate (mean(3, cells_across(work)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the mean along the rows')
@@ -367,11 +369,16 @@ contains
                                                      depth/width_of_row(work), mean, info)
     if (info%failed()) return
     mean = mean*width_of_row(work)
+    ! Without the constant the wave of equal forces, and its rounding error, is not larger than the others.
+    n = size(mean, 2)
+    constant = (2.0_dp*sum(mean(3, :)) - mean(3, 1))/real(2*n - 1, dp)
+    mean(3, :) = mean(3, :) - constant
     do c = 1, 3
       call fill_factor(work, depth, displacement_terms(c, work%poisson, depth/work%sums%unit))
       call copy_table(work, mean(c, :), work%sums%unit, displacement(c, :))
     end do
     call convolve_tables(work%waves, DISPLACEMENT_KINDS, displacement)
+    displacement(3, :) = displacement(3, :) + constant*load
   end subroutine row_displacement
 
   pure function cells_in_row(work) result(cells)
