@@ -146,6 +146,43 @@ int fuge_write_matrix(const char *path, int rows, int columns, const double *mat
 int fuge_write_sparse(const char *path, int rows, int columns, const int *column, const int *row,
                       const double *value, int symmetric, char *message, size_t len);
 
+/* ---- stiffness files ----------------------------------------------------
+ *
+ * Stiffness matrices from files of finite element programs.  FUGE_ERR_FILE: the message has
+ * the file, the line and the reason. */
+
+/* Format of a file: recognised by its content; Matrix Market; CalculiX's job.sti; Abaqus's
+ * *MATRIX OUTPUT, FORMAT=MATRIX INPUT or COORDINATE; Nastran's DMIG, and formatted OUTPUT4. */
+enum {
+  FUGE_STIFFNESS_ANY = 0,
+  FUGE_STIFFNESS_MATRIX_MARKET = 1,
+  FUGE_STIFFNESS_CALCULIX = 2,
+  FUGE_STIFFNESS_ABAQUS = 3,
+  FUGE_STIFFNESS_DMIG = 4,
+  FUGE_STIFFNESS_OP4 = 5
+};
+
+/* Read a stiffness matrix into compressed columns, as fuge_body_sparse takes them: both
+ * triangles, rows ascending, counted from 0.  Where entries name nodes, rows ascend by nodes
+ * and directions.
+ *   format           in   FUGE_STIFFNESS_..
+ *   names_path       in   file with a line node.direction for each row of a matrix whose
+ *                         entries have numbers only; NULL: job.dof for a path job.sti,
+ *                         otherwise none
+ *   name             in   which matrix of a file of Nastran, such as KAAX; NULL: the only one
+ *   row_capacity     in   rows that fit into node, direction and column, which has one
+ *                         element more
+ *   entry_capacity   in   length of row and value
+ *   column, row, value   out  each may be NULL
+ *   node, direction  out  node of each row, and its direction, 1 to 3 along x, y, z, 4 to 6
+ *                         about them; 0 where no name is known; each may be NULL
+ *   rows, entries    out  sizes of the matrix; only what fits is written
+ * FUGE_ERR_FILE, FUGE_ERR_OPTION for format, FUGE_ERR_MEMORY. */
+int fuge_read_stiffness(const char *path, int format, const char *names_path, const char *name,
+                        int row_capacity, int entry_capacity, int *column, int *row, double *value,
+                        int *node, int *direction, int *rows, int *entries,
+                        char *message, size_t len);
+
 #ifdef __cplusplus
 }
 #endif

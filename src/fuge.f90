@@ -57,6 +57,9 @@ module fuge
     FUGE_ERR_GAP, FUGE_ERR_MODES, FUGE_ERR_DOF
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
+  use fuge_stiffness_files, only: fuge_read_stiffness
+  use fuge_stiffness_formats, only: FUGE_STIFFNESS_ANY, FUGE_STIFFNESS_MATRIX_MARKET, FUGE_STIFFNESS_CALCULIX, &
+    FUGE_STIFFNESS_ABAQUS, FUGE_STIFFNESS_DMIG, FUGE_STIFFNESS_OP4
   use fuge_stiffness_type, only: fuge_stiffness
   use fuge_stress_measures, only: fuge_halfplane_tensor, fuge_round_tensor, fuge_principal_stresses, fuge_von_mises, &
     fuge_tresca, fuge_mean_stress

@@ -5,7 +5,7 @@ module fuge_compressed_columns
   implicit none
   private
 
-  public :: compress_columns, sum_overflows
+  public :: compress_columns, order_triplets, sum_overflows
 
   !> Entries of a matrix in any order; entries of the same place are contributions to one sum.
   type, public :: matrix_triplets

@@ -1,0 +1,130 @@
+!> Rows of a stiffness matrix that a file names by node and direction: from a name to its number, and in order.
+module fuge_row_table
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_heap_sort, only: heap_sort
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  !> Largest direction: a node may have 1 to 6 for displacements and rotations, and more for other quantities.
+  integer, parameter, public :: LARGEST_DIRECTION = 9999
+  !> Number of slots at first, a power of two like all later ones.
+  integer, parameter :: FIRST_SLOTS = 1024
+  !> An odd factor that spreads neighbouring nodes over the slots (D. E. Knuth, The Art of Computer Programming,
+  !> volume 3, section 6.4: 2**32 over the golden ratio).
+  integer(int64), parameter :: SPREAD = 2654435761_int64, SPREAD_DIRECTION = 40503_int64
+
+  !> Names of rows, numbered as they came: a table with open addressing.
+  type, public :: row_table
+    integer :: count = 0
+    integer, allocatable :: node(:), direction(:)
+    !> Number of the row in each slot, 0 if none; at most half are taken.
+    integer, allocatable, private :: slot(:)
+  contains
+    procedure :: number_of
+    procedure :: sort
+    procedure, private :: grow
+    procedure, private :: slot_of
+  end type row_table
+
+contains
+
+  !> The number of a row, a new one if the name is new. `status` is not zero without memory.
+  pure subroutine number_of(self, node, direction, number, status)
+    class(row_table), intent(inout) :: self
+    integer, intent(in) :: node, direction
+    integer, intent(out) :: number, status
+    integer :: place
+    logical :: full
+
+    status = 0
+    number = 0
+    full = .not. allocated(self%slot)
+    if (.not. full) full = self%count >= size(self%slot)/2
+    if (full) call self%grow(status)
+    if (status /= 0) return
+    place = self%slot_of(node, direction)
+    number = self%slot(place)
+    if (number > 0) return
+    self%count = self%count + 1
+    number = self%count
+    self%slot(place) = number
+    self%node(number) = node
+    self%direction(number) = direction
+  end subroutine number_of
+
+  !> The slot of a name, or the free one where it belongs.
+  pure function slot_of(self, node, direction) result(place)
+    class(row_table), intent(in) :: self
+    integer, intent(in) :: node, direction
+    integer :: place
+    integer(int64) :: mixed
+    integer :: number
+
+    mixed = abs(int(node, int64)*SPREAD + int(direction, int64)*SPREAD_DIRECTION)
+    mixed = ieor(mixed, ishft(mixed, -15))
+    place = int(iand(mixed, int(size(self%slot) - 1, int64))) + 1
+    do
+      number = self%slot(place)
+      if (number == 0) return
+      if (self%node(number) == node .and. self%direction(number) == direction) return
+      place = place + 1
+      if (place > size(self%slot)) place = 1
+    end do
+  end function slot_of
+
+  !> Double the memory.
+  pure subroutine grow(self, status)
+    class(row_table), intent(inout) :: self
+    integer, intent(out) :: status
+    integer, allocatable :: node(:), direction(:), slot(:)
+    integer :: k, slots
+
+    slots = FIRST_SLOTS
+    status = 1
+    if (allocated(self%slot)) then
+      if (size(self%slot) >= shiftr(huge(1), 1)) return
+      slots = 2*size(self%slot)
+    end if
+    allocate (node(slots/2), direction(slots/2), slot(slots), stat=status)
+    if (status /= 0) return
+    slot = 0
+    if (self%count > 0) then
+      node(:self%count) = self%node(:self%count)
+      direction(:self%count) = self%direction(:self%count)
+    end if
+    call move_alloc(node, self%node)
+    call move_alloc(direction, self%direction)
+    call move_alloc(slot, self%slot)
+    do k = 1, self%count
+      self%slot(self%slot_of(self%node(k), self%direction(k))) = k
+    end do
+  end subroutine grow
+
+  !> The rows by nodes, those of a node by directions: row k of the table becomes row `place(k)`, and `node` and
+  !> `direction` are those of the sorted rows. `status` is not zero without memory.
+  pure subroutine sort(self, place, node, direction, status)
+    class(row_table), intent(in) :: self
+    integer, allocatable, intent(out) :: place(:), node(:), direction(:)
+    integer, intent(out) :: status
+    real(dp), allocatable :: key(:)
+    integer, allocatable :: order(:)
+    integer :: k, n
+
+    n = self%count
+    allocate (place(n), node(n), direction(n), order(n), key(n), stat=status)
+    if (status /= 0) return
+    do k = 1, n
+      order(k) = k
+      ! Exact: below 2**45.
+      key(k) = real(self%node(k), dp)*real(LARGEST_DIRECTION + 1, dp) + real(self%direction(k), dp)
+    end do
+    call heap_sort(key, order)
+    do k = 1, n
+      place(order(k)) = k
+      node(k) = self%node(order(k))
+      direction(k) = self%direction(order(k))
+    end do
+  end subroutine sort
+
+end module fuge_row_table
