@@ -183,6 +183,52 @@ int fuge_read_stiffness(const char *path, int format, const char *names_path, co
                         int *node, int *direction, int *rows, int *entries,
                         char *message, size_t len);
 
+/* ---- mesh files ---------------------------------------------------------
+ *
+ * Nodes, elements, sets and surfaces from input files of Abaqus and CalculiX: *NODE,
+ * *ELEMENT, *NSET, *ELSET (GENERATE), *SURFACE (faces S1 to S6, or nodes, which become a set),
+ * *INCLUDE; other keywords are skipped.  Nodes and elements have the order of the file; places
+ * in it count from 0. */
+
+typedef struct fuge_mesh fuge_mesh;
+
+/* Read a file.  *mesh is set on success only.  FUGE_ERR_FILE: the message has the file, the
+ * line and the reason; FUGE_ERR_MEMORY. */
+int fuge_read_mesh(const char *path, fuge_mesh **mesh, char *message, size_t len);
+
+/* Free and set *mesh to NULL; NULL and *mesh == NULL are fine. */
+void fuge_mesh_free(fuge_mesh **mesh);
+
+/* Numbers of nodes, of elements, and of the nodes of all elements together. */
+int fuge_mesh_get_sizes(const fuge_mesh *mesh, int *nodes, int *elements, int *connections);
+
+/* Number of each node in the file, and its position (3 x nodes).  Either may be NULL. */
+int fuge_mesh_get_nodes(const fuge_mesh *mesh, int *node, double *position);
+
+/* Number of each element in the file; element k has the nodes connection[p], places, for
+ * first[k] <= p < first[k+1].  Each may be NULL. */
+int fuge_mesh_get_elements(const fuge_mesh *mesh, int *element, int *first, int *connection);
+
+/* Type of element k in upper case, such as C3D8; at most 16 characters and NUL.
+ * FUGE_ERR_SIZE if there is no such element. */
+int fuge_mesh_get_type(const fuge_mesh *mesh, int k, char *type, size_t type_len);
+
+/* Places of the members of a set; `name` in upper or lower case.  Only the first `capacity` are
+ * written to member, which may be NULL; *count is their number.  FUGE_ERR_OPTION if the
+ * mesh has no such set. */
+int fuge_mesh_get_node_set(const fuge_mesh *mesh, const char *name, int capacity, int *member, int *count,
+                           char *message, size_t len);
+int fuge_mesh_get_element_set(const fuge_mesh *mesh, const char *name, int capacity, int *member, int *count,
+                              char *message, size_t len);
+
+/* Nodes of the faces of a surface, places, 8 for each face: corners first, then those on the
+ * edges, -1 beyond.  Corners of a solid's face follow each other counter-clockwise if it is seen
+ * from outside; an edge of an element of a plane goes counter-clockwise round the element.
+ * FUGE_ERR_OPTION if the mesh has no such surface, FUGE_ERR_ELEMENT for a type without such a
+ * face. */
+int fuge_mesh_get_faces(const fuge_mesh *mesh, const char *name, int capacity, int *faces, int *count,
+                        char *message, size_t len);
+
 #ifdef __cplusplus
 }
 #endif

@@ -22,6 +22,7 @@ module fuge_row_table
     integer, allocatable, private :: slot(:)
   contains
     procedure :: number_of
+    procedure :: place_of
     procedure :: sort
     procedure, private :: grow
     procedure, private :: slot_of
@@ -52,6 +53,16 @@ contains
     self%node(number) = node
     self%direction(number) = direction
   end subroutine number_of
+
+  !> The number of a row, 0 if the name is not known.
+  pure function place_of(self, node, direction) result(number)
+    class(row_table), intent(in) :: self
+    integer, intent(in) :: node, direction
+    integer :: number
+
+    number = 0
+    if (allocated(self%slot)) number = self%slot(self%slot_of(node, direction))
+  end function place_of
 
   !> The slot of a name, or the free one where it belongs.
   pure function slot_of(self, node, direction) result(place)

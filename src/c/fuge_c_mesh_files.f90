@@ -1,0 +1,208 @@
+!> C bindings, section "mesh files".
+module fuge_c_mesh_files
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
+  use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_c_string, report_to_c, require_count, &
+    require_path, require_pointer, set_handle, take_handle
+  use fuge_mesh_files, only: fuge_mesh_faces, fuge_read_mesh
+  use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set
+  use fuge_number_text, only: index_text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_text_fields, only: lower_case, quoted
+  implicit none
+  private
+
+contains
+
+  function c_read_mesh(path, destination, message, length) bind(c, name='fuge_read_mesh') result(status)
+    type(c_ptr), intent(in), value :: path, destination, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+    integer :: failure
+
+    call require_path(path, info)
+    call require_pointer(destination, 'mesh', info)
+    if (.not. info%failed()) then
+      allocate (mesh, stat=failure)
+      if (failure /= 0) then
+        call report(info, FUGE_ERR_MEMORY, 'no memory for a mesh')
+      else
+        call fuge_read_mesh(from_c_string(path), mesh, info)
+        if (info%failed()) then
+          deallocate (mesh)
+        else
+          call set_handle(c_loc(mesh), destination)
+        end if
+      end if
+    end if
+    status = report_to_c(info, message, length)
+  end function c_read_mesh
+
+  subroutine c_mesh_free(source) bind(c, name='fuge_mesh_free')
+    type(c_ptr), intent(in), value :: source
+    type(fuge_mesh), pointer :: mesh
+    type(c_ptr) :: address
+
+    address = take_handle(source)
+    if (.not. c_associated(address)) return
+    call c_f_pointer(address, mesh)
+    deallocate (mesh)
+  end subroutine c_mesh_free
+
+  !> The mesh behind a handle; unless an error is known already, NULL is one.
+  subroutine find_mesh(handle, mesh, info)
+    type(c_ptr), intent(in) :: handle
+    type(fuge_mesh), pointer, intent(out) :: mesh
+    type(fuge_info), intent(inout) :: info
+
+    nullify (mesh)
+    call require_pointer(handle, 'mesh', info)
+    if (.not. info%failed()) call c_f_pointer(handle, mesh)
+  end subroutine find_mesh
+
+  function c_mesh_get_sizes(handle, nodes, elements, connections) bind(c, name='fuge_mesh_get_sizes') result(status)
+    type(c_ptr), intent(in), value :: handle, nodes, elements, connections
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+
+    call find_mesh(handle, mesh, info)
+    status = info%status
+    if (info%failed()) return
+    call copy_integers([size(mesh%node)], nodes)
+    call copy_integers([size(mesh%element)], elements)
+    call copy_integers([size(mesh%connection)], connections)
+  end function c_mesh_get_sizes
+
+  function c_mesh_get_nodes(handle, node, position) bind(c, name='fuge_mesh_get_nodes') result(status)
+    type(c_ptr), intent(in), value :: handle, node, position
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    real(c_double), pointer :: positions(:, :)
+    type(fuge_info) :: info
+
+    call find_mesh(handle, mesh, info)
+    status = info%status
+    if (info%failed()) return
+    call copy_integers(mesh%node, node)
+    if (.not. c_associated(position)) return
+    call c_f_pointer(position, positions, [3, size(mesh%node)])
+    positions = mesh%position
+  end function c_mesh_get_nodes
+
+  function c_mesh_get_elements(handle, element, first, connection) bind(c, name='fuge_mesh_get_elements') result(status)
+    type(c_ptr), intent(in), value :: handle, element, first, connection
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+
+    call find_mesh(handle, mesh, info)
+    status = info%status
+    if (info%failed()) return
+    call copy_integers(mesh%element, element)
+    call copy_integers(mesh%first - 1, first)
+    call copy_integers(mesh%connection - 1, connection)
+  end function c_mesh_get_elements
+
+  function c_mesh_get_type(handle, k, element_type, length) bind(c, name='fuge_mesh_get_type') result(status)
+    type(c_ptr), intent(in), value :: handle, element_type
+    integer(c_int), intent(in), value :: k
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+
+    call find_mesh(handle, mesh, info)
+    if (.not. info%failed()) then
+      if (k < 0 .or. k >= size(mesh%element)) call report(info, FUGE_ERR_SIZE, 'the mesh has no element ' &
+                                                          //index_text(int(k) + 1))
+    end if
+    status = info%status
+    if (.not. info%failed()) call copy_string(mesh%element_type(k + 1), element_type, length)
+  end function c_mesh_get_type
+
+  function c_mesh_get_node_set(handle, name, capacity, member, count, message, length) &
+    bind(c, name='fuge_mesh_get_node_set') result(status)
+    type(c_ptr), intent(in), value :: handle, name, member, count, message
+    integer(c_int), intent(in), value :: capacity
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+
+    call check_arguments(handle, name, capacity, count, 'member', mesh, info)
+    if (.not. info%failed()) call copy_set(mesh%node_set, 'nodes', name, int(capacity), member, count, info)
+    status = report_to_c(info, message, length)
+  end function c_mesh_get_node_set
+
+  function c_mesh_get_element_set(handle, name, capacity, member, count, message, length) &
+    bind(c, name='fuge_mesh_get_element_set') result(status)
+    type(c_ptr), intent(in), value :: handle, name, member, count, message
+    integer(c_int), intent(in), value :: capacity
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+
+    call check_arguments(handle, name, capacity, count, 'member', mesh, info)
+    if (.not. info%failed()) call copy_set(mesh%element_set, 'elements', name, int(capacity), member, count, info)
+    status = report_to_c(info, message, length)
+  end function c_mesh_get_element_set
+
+  subroutine check_arguments(handle, name, capacity, count, array, mesh, info)
+    type(c_ptr), intent(in) :: handle, name, count
+    integer(c_int), intent(in) :: capacity
+    character(len=*), intent(in) :: array
+    type(fuge_mesh), pointer, intent(out) :: mesh
+    type(fuge_info), intent(inout) :: info
+
+    call find_mesh(handle, mesh, info)
+    call require_pointer(name, 'name', info)
+    call require_pointer(count, 'count', info)
+    call require_count(capacity, 0, 'capacity', 'elements that fit into '//array, info)
+  end subroutine check_arguments
+
+  !> Copy the members of the set with a name; FUGE_ERR_OPTION if there is none.
+  subroutine copy_set(sets, what, name, capacity, member, count, info)
+    type(fuge_mesh_set), intent(in) :: sets(:)
+    character(len=*), intent(in) :: what
+    type(c_ptr), intent(in) :: name, member, count
+    integer, intent(in) :: capacity
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    do k = 1, size(sets)
+      if (lower_case(sets(k)%name) /= lower_case(from_c_string(name))) cycle
+      call copy_integers(sets(k)%member(:min(capacity, size(sets(k)%member))) - 1, member)
+      call copy_integers([size(sets(k)%member)], count)
+      return
+    end do
+    call report(info, FUGE_ERR_OPTION, 'the mesh has no set of '//what//' '//quoted(from_c_string(name)))
+  end subroutine copy_set
+
+  function c_mesh_get_faces(handle, name, capacity, faces, count, message, length) &
+    bind(c, name='fuge_mesh_get_faces') result(status)
+    type(c_ptr), intent(in), value :: handle, name, faces, count, message
+    integer(c_int), intent(in), value :: capacity
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    integer, allocatable :: found(:, :)
+    integer(c_int), pointer :: destination(:, :)
+    type(fuge_info) :: info
+    integer :: shown
+
+    call check_arguments(handle, name, capacity, count, 'faces', mesh, info)
+    if (.not. info%failed()) call fuge_mesh_faces(mesh, from_c_string(name), found, info)
+    status = report_to_c(info, message, length)
+    if (info%failed()) return
+    if (c_associated(faces)) then
+      shown = min(size(found, 2), int(capacity))
+      call c_f_pointer(faces, destination, [size(found, 1), shown])
+      destination = found(:, :shown) - 1
+    end if
+    call copy_integers([size(found, 2)], count)
+  end function c_mesh_get_faces
+
+end module fuge_c_mesh_files

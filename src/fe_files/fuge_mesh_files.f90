@@ -1,0 +1,276 @@
+!> Meshes from input files of Abaqus and CalculiX: what both programs have in common.
+module fuge_mesh_files
+  use fuge_element_faces, only: face_nodes, MOST_FACE_NODES
+  use fuge_input_deck, only: input_deck, upper_case, LINE_DATA, LINE_END, LINE_KEYWORD, VALUE_LENGTH
+  use fuge_mesh_draft, only: draft_sets, finish_mesh, mesh_draft
+  use fuge_mesh_lines, only: mesh_block, read_element_line, read_node_line, read_set_line, read_surface_line
+  use fuge_mesh_type, only: fuge_mesh, NAME_LENGTH, TYPE_LENGTH
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION
+  use fuge_text_fields, only: quoted
+  implicit none
+  private
+
+  public :: fuge_mesh_faces, fuge_read_mesh
+
+  !> What the data lines under a keyword are.
+  integer, parameter :: DATA_SKIPPED = 0, DATA_NODES = 1, DATA_ELEMENTS = 2, DATA_NODE_SET = 3, DATA_ELEMENT_SET = 4, &
+    DATA_SURFACE = 5
+  !> Keywords that make or move nodes and elements in ways that are not read: without them the mesh would be another one.
+  character(len=8), parameter :: REFUSED(9) = [character(len=8) :: 'PART', 'INSTANCE', 'NGEN', 'NFILL', 'NCOPY', 'NMAP', &
+    'ELGEN', 'ELCOPY', 'SYSTEM']
+
+contains
+
+  !> Read nodes, elements, sets and surfaces from an input file of Abaqus or CalculiX.
+  !>
+  !> Read are *NODE (NSET), *ELEMENT (TYPE, ELSET), *NSET, *ELSET (GENERATE), *SURFACE of elements (faces S1 to S6) or of
+  !> nodes, which becomes a set of nodes, and *INCLUDE; other keywords are skipped with their data. Words may be in upper
+  !> or lower case, names are returned in upper case. A label of GENERATE that does not exist is left out.
+  !> Errors, `mesh` unchanged: FUGE_ERR_FILE with file, line and reason, also for *PART, *INSTANCE, *NGEN and other
+  !> keywords without which the mesh would be another one, and if there is no node; FUGE_ERR_MEMORY.
+  subroutine fuge_read_mesh(path, mesh, info)
+    character(len=*), intent(in) :: path
+    type(fuge_mesh), intent(inout) :: mesh
+    type(fuge_info), intent(out) :: info
+    type(input_deck) :: deck
+    type(mesh_draft) :: draft
+    type(fuge_mesh) :: found
+
+    call deck%open(path, info)
+    if (.not. info%failed()) call read_deck(deck, draft, info)
+    if (info%failed()) return
+    if (draft%nodes%count == 0) then
+      call report(info, FUGE_ERR_FILE, deck%file(1)%name//' has no *NODE: is it an input file of Abaqus or CalculiX?')
+      return
+    end if
+    call finish_mesh(draft, found, info)
+    if (.not. info%failed()) call move_mesh(found, mesh)
+  end subroutine fuge_read_mesh
+
+  !> Move a mesh; nothing is copied.
+  pure subroutine move_mesh(from, to)
+    type(fuge_mesh), intent(inout) :: from, to
+
+    call move_alloc(from%node, to%node)
+    call move_alloc(from%position, to%position)
+    call move_alloc(from%element, to%element)
+    call move_alloc(from%element_type, to%element_type)
+    call move_alloc(from%first, to%first)
+    call move_alloc(from%connection, to%connection)
+    call move_alloc(from%node_set, to%node_set)
+    call move_alloc(from%element_set, to%element_set)
+    call move_alloc(from%surface, to%surface)
+  end subroutine move_mesh
+
+  !> Read all lines.
+  subroutine read_deck(deck, draft, info)
+    type(input_deck), intent(inout) :: deck
+    type(mesh_draft), intent(inout) :: draft
+    type(fuge_info), intent(inout) :: info
+    type(mesh_block) :: block
+    character(len=:), allocatable :: reason
+    integer :: content, line_kind
+
+    content = DATA_SKIPPED
+    do
+      call deck%next(line_kind, info)
+      if (info%failed()) return
+      if (line_kind /= LINE_DATA) then
+        call check_last_element(deck, draft, block, info)
+        if (info%failed() .or. line_kind == LINE_END) return
+      end if
+      if (line_kind == LINE_KEYWORD) then
+        call begin_block(deck, draft, block, content, info)
+      else if (content /= DATA_SKIPPED) then
+        call draft%file_number(deck%file(deck%depth)%name, block%file)
+        block%line = deck%file(deck%depth)%line
+        call read_data(deck%file(deck%depth)%content(deck%file(deck%depth)%first:deck%file(deck%depth)%last), content, &
+                       draft, block, reason)
+        if (allocated(reason)) call deck%refuse(reason, info)
+      end if
+      if (draft%status /= 0 .and. .not. info%failed()) &
+        call report(info, FUGE_ERR_MEMORY, deck%file(1)%name//': no memory for the mesh')
+      if (info%failed()) return
+    end do
+  end subroutine read_deck
+
+  pure subroutine read_data(line, content, draft, block, reason)
+    character(len=*), intent(in) :: line
+    integer, intent(in) :: content
+    type(mesh_draft), intent(inout) :: draft
+    type(mesh_block), intent(inout) :: block
+    character(len=:), allocatable, intent(out) :: reason
+
+    select case (content)
+    case (DATA_NODES)
+      call read_node_line(line, block, draft, reason)
+    case (DATA_ELEMENTS)
+      call read_element_line(line, block, draft, reason)
+    case (DATA_NODE_SET)
+      call read_set_line(line, 'node', block, draft%node_sets, draft%status, reason)
+    case (DATA_ELEMENT_SET)
+      call read_set_line(line, 'element', block, draft%element_sets, draft%status, reason)
+    case (DATA_SURFACE)
+      call read_surface_line(line, block, draft, reason)
+    end select
+  end subroutine read_data
+
+  !> Refuse an element with fewer nodes than its type has, where the lines of elements end.
+  pure subroutine check_last_element(deck, draft, block, info)
+    type(input_deck), intent(in) :: deck
+    type(mesh_draft), intent(in) :: draft
+    type(mesh_block), intent(in) :: block
+    type(fuge_info), intent(inout) :: info
+
+    if (block%missing == 0) return
+    call deck%refuse('element '//text(draft%elements%node(draft%elements%count))//' above has '//text(block%missing) &
+                     //' nodes less than the '//text(block%nodes)//' of its type ' &
+                     //trim(draft%types(block%element_type)), info)
+  end subroutine check_last_element
+
+  !> A keyword: what are the data lines under it?
+  subroutine begin_block(deck, draft, block, content, info)
+    type(input_deck), intent(inout) :: deck
+    type(mesh_draft), intent(inout) :: draft
+    type(mesh_block), intent(out) :: block
+    integer, intent(out) :: content
+    type(fuge_info), intent(inout) :: info
+    character(len=VALUE_LENGTH) :: set_type
+
+    content = DATA_SKIPPED
+    if (deck%keyword == 'NODE') then
+      content = DATA_NODES
+      set_type = upper_case(deck%parameter('SYSTEM'))
+      if (set_type /= '' .and. set_type /= 'R') call deck%refuse('SYSTEM = '//trim(set_type)//' is not read: write ' &
+                                                                 //'rectangular coordinates', info)
+      call choose_set(deck, 'NSET', .false., draft%node_sets, block, draft%status, info)
+    else if (deck%keyword == 'ELEMENT') then
+      content = DATA_ELEMENTS
+      call choose_type(deck, draft, block, info)
+      call choose_set(deck, 'ELSET', .false., draft%element_sets, block, draft%status, info)
+    else if (deck%keyword == 'NSET') then
+      content = DATA_NODE_SET
+      if (deck%has('ELSET')) call deck%refuse('a set of the nodes of a set of elements is not read: list the nodes', info)
+      call choose_set(deck, 'NSET', .true., draft%node_sets, block, draft%status, info)
+    else if (deck%keyword == 'ELSET') then
+      content = DATA_ELEMENT_SET
+      call choose_set(deck, 'ELSET', .true., draft%element_sets, block, draft%status, info)
+    else if (deck%keyword == 'SURFACE') then
+      call begin_surface(deck, draft, block, content, info)
+    else if (deck%keyword == 'INCLUDE') then
+      call deck%include(trim(deck%parameter('INPUT')), info)
+      return
+    else if (any(deck%keyword == REFUSED)) then
+      call deck%refuse('*'//trim(deck%keyword)//' is not read, and without it the mesh would be another one: write a ' &
+                       //'file that lists all nodes and elements', info)
+    end if
+    block%generate = deck%has('GENERATE')
+    if (content /= DATA_SKIPPED .and. deck%has('INPUT')) call deck%refuse('INPUT = is not read here: use *INCLUDE', info)
+  end subroutine begin_block
+
+  !> The surface of a keyword line: of faces, or of nodes.
+  subroutine begin_surface(deck, draft, block, content, info)
+    type(input_deck), intent(inout) :: deck
+    type(mesh_draft), intent(inout) :: draft
+    type(mesh_block), intent(inout) :: block
+    integer, intent(out) :: content
+    type(fuge_info), intent(inout) :: info
+    character(len=VALUE_LENGTH) :: surface_type
+
+    surface_type = upper_case(deck%parameter('TYPE'))
+    content = DATA_SKIPPED
+    if (surface_type == 'NODE') then
+      content = DATA_NODE_SET
+      call choose_set(deck, 'NAME', .true., draft%node_sets, block, draft%status, info)
+    else if (surface_type == '' .or. surface_type == 'ELEMENT') then
+      content = DATA_SURFACE
+      call choose_set(deck, 'NAME', .true., draft%surfaces, block, draft%status, info)
+    end if
+  end subroutine begin_surface
+
+  !> The set that a parameter names; refused without it if it is `needed`.
+  subroutine choose_set(deck, name, needed, sets, block, status, info)
+    type(input_deck), intent(inout) :: deck
+    character(len=*), intent(in) :: name
+    logical, intent(in) :: needed
+    type(draft_sets), intent(inout) :: sets
+    type(mesh_block), intent(inout) :: block
+    integer, intent(inout) :: status
+    type(fuge_info), intent(inout) :: info
+    character(len=VALUE_LENGTH) :: set_name
+
+    if (info%failed()) return
+    set_name = upper_case(deck%parameter(name))
+    if (set_name == '') then
+      if (needed) call deck%refuse('*'//trim(deck%keyword)//' needs '//name//' = and a name', info)
+    else if (len_trim(set_name) > NAME_LENGTH) then
+      call deck%refuse('the name '//quoted(trim(set_name))//' has more than '//text(NAME_LENGTH)//' characters', info)
+    else
+      call sets%named(trim(set_name), block%set, status)
+    end if
+  end subroutine choose_set
+
+  subroutine choose_type(deck, draft, block, info)
+    type(input_deck), intent(inout) :: deck
+    type(mesh_draft), intent(inout) :: draft
+    type(mesh_block), intent(inout) :: block
+    type(fuge_info), intent(inout) :: info
+    character(len=VALUE_LENGTH) :: element_type
+
+    element_type = upper_case(deck%parameter('TYPE'))
+    if (element_type == '' .or. len_trim(element_type) > TYPE_LENGTH) then
+      call deck%refuse('*ELEMENT needs TYPE = and a type of at most '//text(TYPE_LENGTH)//' characters', info)
+    else
+      call draft%type_number(trim(element_type), block%element_type)
+    end if
+  end subroutine choose_type
+
+  !> The nodes of the faces of a surface.
+  !>
+  !> `name`: in upper or lower case. `faces` (8, faces), allocated afresh: places of the nodes in mesh%node, corners first,
+  !> then those on the edges, 0 beyond. Corners of a solid's face follow each other counter-clockwise if it is seen from
+  !> outside; an edge of an element of a plane goes counter-clockwise round the element.
+  !> Errors, `faces` unchanged: FUGE_ERR_OPTION if the mesh has no such surface, FUGE_ERR_ELEMENT for a type of elements
+  !> that has no such face or whose faces are not known; FUGE_ERR_MEMORY.
+  subroutine fuge_mesh_faces(mesh, name, faces, info)
+    type(fuge_mesh), intent(in) :: mesh
+    character(len=*), intent(in) :: name
+    integer, allocatable, intent(inout) :: faces(:, :)
+    type(fuge_info), intent(out) :: info
+    integer, allocatable :: found(:, :)
+    integer :: count, element, i, k, nodes(MOST_FACE_NODES), status, surface
+
+    surface = 0
+    if (allocated(mesh%surface)) then
+      do k = 1, size(mesh%surface)
+        if (mesh%surface(k)%name == upper_case(name)) surface = k
+      end do
+    end if
+    if (surface == 0) then
+      call report(info, FUGE_ERR_OPTION, 'the mesh has no surface '//quoted(name))
+      return
+    end if
+    allocate (found(MOST_FACE_NODES, size(mesh%surface(surface)%element)), stat=status)
+    if (status /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the faces of '//quoted(name))
+      return
+    end if
+    found = 0
+    do k = 1, size(found, 2)
+      element = mesh%surface(surface)%element(k)
+      call face_nodes(mesh%element_type(element), mesh%surface(surface)%face(k), count, nodes)
+      if (count == 0) then
+        call report(info, FUGE_ERR_ELEMENT, 'surface '//quoted(name)//': element '//text(mesh%element(element)) &
+                    //' of type '//trim(mesh%element_type(element))//' has no face S' &
+                    //text(mesh%surface(surface)%face(k))//', or its faces are not known')
+        return
+      end if
+      do i = 1, count
+        found(i, k) = mesh%connection(mesh%first(element) + nodes(i) - 1)
+      end do
+    end do
+    call move_alloc(found, faces)
+  end subroutine fuge_mesh_faces
+
+end module fuge_mesh_files

@@ -1,0 +1,274 @@
+!> The data lines of an input file of Abaqus or CalculiX: nodes, elements, members of sets, faces of surfaces.
+module fuge_mesh_lines
+  use fuge_element_faces, only: nodes_of_type
+  use fuge_entry_fields, only: read_label, read_value
+  use fuge_input_deck, only: upper_case
+  use fuge_integer_list, only: integer_list
+  use fuge_kinds, only: dp
+  use fuge_mesh_draft, only: draft_sets, mesh_draft, GENERATED
+  use fuge_mesh_type, only: NAME_LENGTH
+  use fuge_number_text, only: text
+  use fuge_text_columns, only: begin_columns, next_column, SEPARATOR_COMMA
+  use fuge_text_fields, only: quoted
+  implicit none
+  private
+
+  public :: read_element_line, read_node_line, read_set_line, read_surface_line
+
+  !> Most members that one line of GENERATE may make.
+  integer, parameter :: MOST_GENERATED = 20000000
+
+  !> The block of data lines under a keyword.
+  type, public :: mesh_block
+    !> Present file and line, for the draft.
+    integer :: file = 0, line = 0
+    !> Set to which the nodes or elements are added, 0 if none.
+    integer :: set = 0
+    !> *NSET and *ELSET: lines are first, last and step.
+    logical :: generate = .false.
+    !> *ELEMENT: number and name of the type, nodes of an element (0 unknown), and those still missing of the last one.
+    integer :: element_type = 0, nodes = 0, missing = 0
+    !> The last line of an element of unknown type ended with a comma.
+    logical :: continues = .false.
+  end type mesh_block
+
+contains
+
+  !> The next column of a line, line(first:last).
+  pure subroutine next_field(line, k, first, last, separator)
+    character(len=*), intent(in) :: line
+    integer, intent(inout) :: k
+    integer, intent(out) :: first, last, separator
+
+    first = 1
+    last = 0
+    separator = 0
+    if (k <= len(line)) call next_column(line, k, first, last, separator)
+  end subroutine next_field
+
+  !> A node: label, x, y, z; coordinates that are missing are 0.
+  pure subroutine read_node_line(line, block, draft, reason)
+    character(len=*), intent(in) :: line
+    type(mesh_block), intent(in) :: block
+    type(mesh_draft), intent(inout) :: draft
+    character(len=:), allocatable, intent(out) :: reason
+    real(dp) :: position(3)
+    integer :: first, i, k, label, last, separator
+    logical :: is_new
+
+    k = begin_columns(line)
+    call next_field(line, k, first, last, separator)
+    call read_label(line(first:last), 'node', 1, huge(1), label, reason)
+    position = 0.0_dp
+    do i = 1, 3
+      call next_field(line, k, first, last, separator)
+      if (first <= last) call read_value(line(first:last), position(i), reason)
+    end do
+    if (.not. allocated(reason) .and. k <= len(line)) then
+      ! Some programs write direction cosines behind the coordinates.
+      call next_field(line, k, first, last, separator)
+      if (first <= last) reason = 'more than three coordinates of node '//text(label)
+    end if
+    if (allocated(reason)) return
+    call draft%add_node(label, position, is_new)
+    if (.not. is_new .and. draft%status == 0) reason = 'node '//text(label)//' is defined a second time'
+    if (is_new) call add_member(draft%node_sets, block, label, 0, block%line, draft%status)
+  end subroutine read_node_line
+
+  !> Add a member to the set of a block, if it has one.
+  pure subroutine add_member(sets, block, label, face, line, status)
+    type(draft_sets), intent(inout) :: sets
+    type(mesh_block), intent(in) :: block
+    integer, intent(in) :: label, face, line
+    integer, intent(inout) :: status
+
+    if (block%set == 0) return
+    call sets%set(block%set)%label%append(label, status)
+    call sets%set(block%set)%face%append(face, status)
+    call sets%set(block%set)%line%append(line, status)
+    call sets%set(block%set)%file%append(block%file, status)
+  end subroutine add_member
+
+  !> An element, label and nodes, or more nodes of the last one.
+  pure subroutine read_element_line(line, block, draft, reason)
+    character(len=*), intent(in) :: line
+    type(mesh_block), intent(inout) :: block
+    type(mesh_draft), intent(inout) :: draft
+    character(len=:), allocatable, intent(out) :: reason
+    integer :: first, k, label, last, separator
+
+    k = begin_columns(line)
+    if (block%missing == 0 .and. .not. block%continues) then
+      call next_field(line, k, first, last, separator)
+      call read_label(line(first:last), 'element', 1, huge(1), label, reason)
+      if (.not. allocated(reason)) call begin_element(label, block, draft, reason)
+    end if
+    separator = SEPARATOR_COMMA
+    do while (k <= len(line) .and. .not. allocated(reason))
+      call next_field(line, k, first, last, separator)
+      call read_label(line(first:last), 'node', 1, huge(1), label, reason)
+      if (allocated(reason)) return
+      if (block%nodes > 0 .and. block%missing == 0) then
+        reason = 'more than '//text(block%nodes)//' nodes of element ' &
+          //text(draft%elements%node(draft%elements%count))//' of type '//trim(draft%types(block%element_type))
+        return
+      end if
+      call draft%connection%append(label, draft%status)
+      if (block%nodes > 0) block%missing = block%missing - 1
+    end do
+    block%continues = block%nodes == 0 .and. separator == SEPARATOR_COMMA
+  end subroutine read_element_line
+
+  pure subroutine begin_element(label, block, draft, reason)
+    integer, intent(in) :: label
+    type(mesh_block), intent(inout) :: block
+    type(mesh_draft), intent(inout) :: draft
+    character(len=:), allocatable, intent(inout) :: reason
+    integer :: elements, number
+
+    elements = draft%elements%count
+    call draft%elements%number_of(label, 0, number, draft%status)
+    if (draft%status /= 0) return
+    if (number <= elements) then
+      reason = 'element '//text(label)//' is defined a second time'
+      return
+    end if
+    block%nodes = nodes_of_type(draft%types(block%element_type))
+    block%missing = block%nodes
+    call draft%element_type%append(block%element_type, draft%status)
+    call draft%element_line%append(block%line, draft%status)
+    call draft%element_file%append(block%file, draft%status)
+    call draft%first%append(draft%connection%count + 1, draft%status)
+    call add_member(draft%element_sets, block, label, 0, block%line, draft%status)
+  end subroutine begin_element
+
+  !> Members of a set: labels, and names of other sets; or first, last and step.
+  pure subroutine read_set_line(line, what, block, sets, status, reason)
+    character(len=*), intent(in) :: line, what
+    type(mesh_block), intent(in) :: block
+    type(draft_sets), intent(inout) :: sets
+    integer, intent(inout) :: status
+    character(len=:), allocatable, intent(out) :: reason
+    integer :: first, k, label, last, separator, other
+
+    if (block%generate) then
+      call generate_members(line, what, block, sets, status, reason)
+      return
+    end if
+    k = begin_columns(line)
+    do while (k <= len(line) .and. status == 0)
+      call next_field(line, k, first, last, separator)
+      if (is_name(line(first:last))) then
+        other = known_set(line(first:last), sets)
+        if (other == 0) then
+          reason = 'the set '//quoted(line(first:last))//' is not defined above'
+          return
+        end if
+        if (other /= block%set) call add_all(sets, other, block, 0, status)
+      else
+        call read_label(line(first:last), what, 1, huge(1), label, reason)
+        if (allocated(reason)) return
+        call add_member(sets, block, label, 0, block%line, status)
+      end if
+    end do
+  end subroutine read_set_line
+
+  !> Is the field a name, and no number?
+  pure function is_name(field) result(name)
+    character(len=*), intent(in) :: field
+    logical :: name
+
+    name = len(field) > 0
+    if (name) name = verify(field(1:1), '0123456789+-.') > 0
+  end function is_name
+
+  pure function known_set(field, sets) result(number)
+    character(len=*), intent(in) :: field
+    type(draft_sets), intent(in) :: sets
+    integer :: number
+    character(len=NAME_LENGTH) :: name
+
+    name = upper_case(field)
+    if (len(field) > 2 .and. field(1:1) == '"') name = upper_case(field(2:len(field) - 1))
+    number = sets%known(trim(name))
+  end function known_set
+
+  !> Add all members of another set.
+  pure subroutine add_all(sets, other, block, face, status)
+    type(draft_sets), intent(inout) :: sets
+    integer, intent(in) :: other, face
+    type(mesh_block), intent(in) :: block
+    integer, intent(inout) :: status
+    integer :: i, line
+
+    do i = 1, sets%set(other)%label%count
+      line = merge(GENERATED, block%line, sets%set(other)%line%item(i) == GENERATED)
+      call add_member(sets, block, sets%set(other)%label%item(i), face, line, status)
+      if (status /= 0) return
+    end do
+  end subroutine add_all
+
+  pure subroutine generate_members(line, what, block, sets, status, reason)
+    character(len=*), intent(in) :: line, what
+    type(mesh_block), intent(in) :: block
+    type(draft_sets), intent(inout) :: sets
+    integer, intent(inout) :: status
+    character(len=:), allocatable, intent(out) :: reason
+    integer :: first, i, k, last, separator, range(3)
+
+    k = begin_columns(line)
+    range = 1
+    do i = 1, 3
+      call next_field(line, k, first, last, separator)
+      if (first > last .and. i == 3) exit
+      call read_label(line(first:last), what, 1, huge(1), range(i), reason)
+    end do
+    if (allocated(reason)) return
+    if (range(1) > range(2)) then
+      reason = 'from '//text(range(1))//' to '//text(range(2))//': the first number must not be above the last one'
+    else if ((range(2) - range(1))/range(3) >= MOST_GENERATED) then
+      reason = 'more than '//text(MOST_GENERATED)//' members from '//text(range(1))//' to '//text(range(2))
+    else
+      do i = 0, (range(2) - range(1))/range(3)
+        call add_member(sets, block, range(1) + i*range(3), 0, GENERATED, status)
+      end do
+    end if
+  end subroutine generate_members
+
+  !> A face of a surface: an element or a set of them, and Sn.
+  pure subroutine read_surface_line(line, block, draft, reason)
+    character(len=*), intent(in) :: line
+    type(mesh_block), intent(in) :: block
+    type(mesh_draft), intent(inout) :: draft
+    character(len=:), allocatable, intent(out) :: reason
+    integer :: face, face_first, face_last, first, k, label, last, other, separator
+
+    k = begin_columns(line)
+    call next_field(line, k, first, last, separator)
+    call next_field(line, k, face_first, face_last, separator)
+    if (face_first > face_last) then
+      reason = 'the face of '//quoted(line(first:last))//' is missing: write its number, as in S1'
+    else if (scan(line(face_first:face_first), 'sS') == 0) then
+      reason = quoted(line(face_first:face_last))//' is no face: S1 to S6 are read'
+    else
+      call read_label(line(face_first + 1:face_last), 'face S', 1, 6, face, reason)
+    end if
+    if (allocated(reason)) return
+    if (.not. is_name(line(first:last))) then
+      call read_label(line(first:last), 'element', 1, huge(1), label, reason)
+      if (.not. allocated(reason)) call add_member(draft%surfaces, block, label, face, block%line, draft%status)
+      return
+    end if
+    other = known_set(line(first:last), draft%element_sets)
+    if (other == 0) then
+      reason = 'the element set '//quoted(line(first:last))//' is not defined above'
+      return
+    end if
+    do k = 1, draft%element_sets%set(other)%label%count
+      label = draft%element_sets%set(other)%label%item(k)
+      if (draft%elements%place_of(label, 0) == 0 .and. draft%element_sets%set(other)%line%item(k) == GENERATED) cycle
+      call add_member(draft%surfaces, block, label, face, block%line, draft%status)
+    end do
+  end subroutine read_surface_line
+
+end module fuge_mesh_lines

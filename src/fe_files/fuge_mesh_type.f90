@@ -1,0 +1,42 @@
+!> A mesh as an input file of a finite element program describes it: nodes, elements, sets and surfaces.
+module fuge_mesh_type
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  !> Longest name of a set or a surface.
+  integer, parameter, public :: NAME_LENGTH = 80
+  !> Longest name of a type of elements.
+  integer, parameter, public :: TYPE_LENGTH = 16
+
+  !> A set of nodes or elements.
+  type, public :: fuge_mesh_set
+    !> In upper case.
+    character(len=NAME_LENGTH) :: name = ''
+    !> Places of its members in `node` or `element` of the mesh, in the order of the file, each once.
+    integer, allocatable :: member(:)
+  end type fuge_mesh_set
+
+  !> A surface of faces of elements.
+  type, public :: fuge_mesh_surface
+    !> In upper case.
+    character(len=NAME_LENGTH) :: name = ''
+    !> For each face the place of its element in `element` of the mesh, and its number n, of Sn.
+    integer, allocatable :: element(:), face(:)
+  end type fuge_mesh_surface
+
+  !> A mesh. Nodes and elements have the order of the file.
+  type, public :: fuge_mesh
+    !> Number of each node in the file, and its position (3, nodes); coordinates that the file leaves out are 0.
+    integer, allocatable :: node(:)
+    real(dp), allocatable :: position(:, :)
+    !> Number of each element in the file, and its type in upper case, such as C3D8.
+    integer, allocatable :: element(:)
+    character(len=TYPE_LENGTH), allocatable :: element_type(:)
+    !> The nodes of element k: `connection`(`first`(k) : `first`(k + 1) - 1), their places in `node`.
+    integer, allocatable :: first(:), connection(:)
+    type(fuge_mesh_set), allocatable :: node_set(:), element_set(:)
+    type(fuge_mesh_surface), allocatable :: surface(:)
+  end type fuge_mesh
+
+end module fuge_mesh_type
