@@ -1,6 +1,6 @@
 !> Meshes from input files of Abaqus and CalculiX: what both programs have in common.
 module fuge_mesh_files
-  use fuge_element_faces, only: face_nodes, MOST_FACE_NODES
+  use fuge_element_faces, only: face_nodes, nodes_of_type, MOST_FACE_NODES
   use fuge_input_deck, only: input_deck, upper_case, LINE_DATA, LINE_END, LINE_KEYWORD, VALUE_LENGTH
   use fuge_mesh_draft, only: draft_sets, finish_mesh, mesh_draft
   use fuge_mesh_lines, only: mesh_block, read_element_line, read_node_line, read_set_line, read_surface_line
@@ -223,6 +223,7 @@ contains
       call deck%refuse('*ELEMENT needs TYPE = and a type of at most '//text(TYPE_LENGTH)//' characters', info)
     else
       call draft%type_number(trim(element_type), block%element_type)
+      block%nodes = nodes_of_type(trim(element_type))
     end if
   end subroutine choose_type
 

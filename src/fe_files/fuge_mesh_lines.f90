@@ -1,6 +1,5 @@
 !> The data lines of an input file of Abaqus or CalculiX: nodes, elements, members of sets, faces of surfaces.
 module fuge_mesh_lines
-  use fuge_element_faces, only: nodes_of_type
   use fuge_entry_fields, only: read_label, read_value
   use fuge_input_deck, only: upper_case
   use fuge_integer_list, only: integer_list
@@ -26,7 +25,7 @@ module fuge_mesh_lines
     integer :: set = 0
     !> *NSET and *ELSET: lines are first, last and step.
     logical :: generate = .false.
-    !> *ELEMENT: number and name of the type, nodes of an element (0 unknown), and those still missing of the last one.
+    !> *ELEMENT: number of the type, nodes of an element (0 unknown), and those still missing of the last one.
     integer :: element_type = 0, nodes = 0, missing = 0
     !> The last line of an element of unknown type ended with a comma.
     logical :: continues = .false.
@@ -133,7 +132,6 @@ contains
       reason = 'element '//text(label)//' is defined a second time'
       return
     end if
-    block%nodes = nodes_of_type(draft%types(block%element_type))
     block%missing = block%nodes
     call draft%element_type%append(block%element_type, draft%status)
     call draft%element_line%append(block%line, draft%status)

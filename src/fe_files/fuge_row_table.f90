@@ -10,9 +10,11 @@ module fuge_row_table
   integer, parameter, public :: LARGEST_DIRECTION = 9999
   !> Number of slots at first, a power of two like all later ones.
   integer, parameter :: FIRST_SLOTS = 1024
-  !> An odd factor that spreads neighbouring nodes over the slots (D. E. Knuth, The Art of Computer Programming,
+  !> Slots of a block, 16, as a power of two.
+  integer, parameter :: BLOCK_BITS = 4
+  !> An odd factor that spreads the blocks over the slots (D. E. Knuth, The Art of Computer Programming,
   !> volume 3, section 6.4: 2**32 over the golden ratio).
-  integer(int64), parameter :: SPREAD = 2654435761_int64, SPREAD_DIRECTION = 40503_int64
+  integer(int64), parameter :: SPREAD = 2654435761_int64
 
   !> Names of rows, numbered as they came: a table with open addressing.
   type, public :: row_table
@@ -69,12 +71,15 @@ contains
     class(row_table), intent(in) :: self
     integer, intent(in) :: node, direction
     integer :: place
-    integer(int64) :: mixed
+    integer(int64) :: key, mixed
     integer :: number
 
-    mixed = abs(int(node, int64)*SPREAD + int(direction, int64)*SPREAD_DIRECTION)
-    mixed = ieor(mixed, ishft(mixed, -15))
-    place = int(iand(mixed, int(size(self%slot) - 1, int64))) + 1
+    ! Neighbouring nodes and the directions of a node share a block of slots, and so a line of the cache.
+    key = abs(4_int64*int(node, int64) + int(direction, int64))
+    mixed = shiftr(key, BLOCK_BITS)*SPREAD
+    mixed = ieor(mixed, shiftr(mixed, 15))
+    place = int(iand(shiftl(mixed, BLOCK_BITS) + iand(key, shiftl(1_int64, BLOCK_BITS) - 1_int64), &
+                     int(size(self%slot) - 1, int64))) + 1
     do
       number = self%slot(place)
       if (number == 0) return
