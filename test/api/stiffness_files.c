@@ -89,7 +89,70 @@ static void test_refusals(void) {
   CHECK(rows == -1 && entries == -1 && node[0] == -1);
 }
 
-int main(void) {
+enum { DEGREES = 12, NODES = 6 };
+
+/* K of the two elements of block.inp, by names; rows of another file may have another order. */
+static void read_sample(const char *folder, const char *name, const char *names, double *k) {
+  char path[512], names_path[512], message[256] = "";
+  int column[DEGREES + 1], row[DEGREES * DEGREES], node[DEGREES], direction[DEGREES], rows = -1, entries = -1;
+  double value[DEGREES * DEGREES];
+  const int nodes[NODES] = {1, 2, 3, 4, 11, 12};
+  int place[DEGREES];
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  snprintf(names_path, sizeof names_path, "%s/block.dof", folder);
+  CHECK_STATUS(fuge_read_stiffness(path, FUGE_STIFFNESS_ANY, names != NULL ? names_path : NULL, NULL, DEGREES,
+                                   DEGREES * DEGREES, column, row, value, node, direction, &rows, &entries, message,
+                                   sizeof message), FUGE_DONE);
+  CHECK_STRING(message, "");
+  CHECK_INT(rows, DEGREES);
+  for (int i = 0; i < DEGREES * DEGREES; i++) k[i] = 0.0;
+  if (rows != DEGREES) return;
+  for (int i = 0; i < DEGREES; i++) {
+    place[i] = -1;
+    for (int l = 0; l < NODES; l++)
+      if (nodes[l] == node[i]) place[i] = 2 * l + direction[i] - 1;
+    CHECK(place[i] >= 0 && place[i] < DEGREES);
+    if (place[i] < 0 || place[i] >= DEGREES) return;
+  }
+  for (int j = 0; j < DEGREES; j++)
+    for (int p = column[j]; p < column[j + 1]; p++) k[place[row[p]] + DEGREES * place[j]] = value[p];
+}
+
+/* The samples in all formats hold one matrix, and rigid motions of the mesh need no force. */
+static void test_samples(const char *folder) {
+  const char *const names[7] = {"block.sti", "block_matrix_input.mtx", "block_coordinate.mtx", "block.pch",
+                                "block_dense.op4", "block_sparse.op4", "block.mtx"};
+  const int without_names[7] = {0, 0, 1, 0, 1, 1, 1};
+  double k[DEGREES * DEGREES], other[DEGREES * DEGREES], position[3 * NODES];
+  fuge_mesh *mesh = NULL;
+  char path[512];
+  int faces[8], count = -1;
+  read_sample(folder, names[0], NULL, k);
+  for (int f = 1; f < 7; f++) {
+    read_sample(folder, names[f], without_names[f] ? "block.dof" : NULL, other);
+    CHECK(memcmp(k, other, sizeof k) == 0);
+  }
+  snprintf(path, sizeof path, "%s/block.inp", folder);
+  CHECK_STATUS(fuge_read_mesh(path, &mesh, NULL, 0), FUGE_DONE);
+  if (mesh == NULL) return;
+  CHECK_STATUS(fuge_mesh_get_nodes(mesh, NULL, position), FUGE_DONE);
+  CHECK_STATUS(fuge_mesh_get_faces(mesh, "TOP", 1, faces, &count, NULL, 0), FUGE_DONE);
+  CHECK(count == 1 && faces[0] == 4 && faces[1] == 5 && faces[2] == -1);
+  fuge_mesh_free(&mesh);
+  CHECK_NEAR(k[0], 12.0, 0.0);
+  for (int i = 0; i < DEGREES; i++) {
+    double force[3] = {0.0, 0.0, 0.0};
+    for (int l = 0; l < NODES; l++) {
+      force[0] += k[i + DEGREES * (2 * l)];
+      force[1] += k[i + DEGREES * (2 * l + 1)];
+      force[2] += k[i + DEGREES * (2 * l + 1)] * position[3 * l] - k[i + DEGREES * (2 * l)] * position[3 * l + 1];
+    }
+    CHECK(force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0);
+  }
+}
+
+int main(int argc, char **argv) {
+  if (argc > 1) test_samples(argv[1]);
   test_named_entries();
   test_names_and_matrices();
   test_refusals();
