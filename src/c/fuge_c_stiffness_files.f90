@@ -19,7 +19,8 @@ contains
   !> Fifteen arguments, as in the header: the file and its options, five arrays with their sizes, the message.
   function c_read_stiffness(path, format, names_path, name, row_capacity, entry_capacity, column, row, value, node, &
     direction, rows, entries, message, length) bind(c, name='fuge_read_stiffness') result(status)
-    type(c_ptr), intent(in), value :: path, names_path, name, column, row, value, node, direction, rows, entries, message
+    type(c_ptr), intent(in), value :: path, names_path, name, column, row, value, node, direction, rows, entries
+    type(c_ptr), intent(in), value :: message
     integer(c_int), intent(in), value :: format, row_capacity, entry_capacity
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status

@@ -1,8 +1,8 @@
 !> A matrix of Nastran's bulk data, DMIG, as a punch file holds it.
 !>
 !> A header, DMIG NAME 0 IFO TIN .., says what the matrix is: IFO = 6 symmetric, 1 square; TIN = 1 or 2 real. A column
-!> is DMIG NAME GJ CJ and then, four fields each, Gi Ci Ai Bi: node and direction of the row, the value, and its imaginary
-!> part. Four fields never part at the end of a line.
+!> is DMIG NAME GJ CJ and then, four fields each, Gi Ci Ai Bi: node and direction of the row, the value, and its
+!> imaginary part. Four fields never part at the end of a line.
 module fuge_dmig_reader
   use fuge_bulk_fields, only: bulk_fields, split_bulk_line
   use fuge_entry_fields, only: read_label, read_value
@@ -133,10 +133,11 @@ contains
     call read_label(line(fields%first(4):fields%last(4)), 'type TIN', 0, huge(1), number_type, reason)
     if (allocated(reason)) return
     if (form /= SQUARE .and. form /= SYMMETRIC) then
-      reason = 'IFO = '//line(fields%first(3):fields%last(3))//' is no stiffness matrix: it has the form 6 (symmetric) ' &
-        //'or 1 (square)'
+      reason = 'IFO = '//line(fields%first(3):fields%last(3))//' is no stiffness matrix: it has the form ' &
+        //'6 (symmetric) or 1 (square)'
     else if (number_type < 1 .or. number_type > DOUBLE_PRECISION) then
-      reason = 'TIN = '//line(fields%first(4):fields%last(4))//' is not read: a stiffness matrix is real, of type 1 or 2'
+      reason = 'TIN = '//line(fields%first(4):fields%last(4))//' is not read: a stiffness matrix is real, ' &
+        //'of type 1 or 2'
     end if
     entries%whole = form == SQUARE
   end subroutine check_header

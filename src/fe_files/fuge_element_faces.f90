@@ -16,18 +16,18 @@ module fuge_element_faces
   !> Corners of the faces S1, S2 .. as the programs list them, their normal into the element; 0 where a face has three.
   integer, parameter :: TETRAHEDRON(4, 4) = reshape([1, 2, 3, 0, 1, 4, 2, 0, 2, 4, 3, 0, 3, 4, 1, 0], [4, 4])
   integer, parameter :: WEDGE(4, 5) = reshape([1, 2, 3, 0, 4, 6, 5, 0, 1, 4, 5, 2, 2, 5, 6, 3, 3, 6, 4, 1], [4, 5])
-  integer, parameter :: BRICK(4, 6) = reshape([1, 2, 3, 4, 5, 8, 7, 6, 1, 5, 6, 2, 2, 6, 7, 3, 3, 7, 8, 4, 4, 8, 5, 1], &
-                                              [4, 6])
+  integer, parameter :: BRICK(4, 6) = reshape([1, 2, 3, 4, 5, 8, 7, 6, 1, 5, 6, 2, 2, 6, 7, 3, 3, 7, 8, 4, &
+                                               4, 8, 5, 1], [4, 6])
   !> Ends of the edges on which the nodes behind the corners lie.
   integer, parameter :: TETRAHEDRON_EDGES(2, 6) = reshape([1, 2, 2, 3, 3, 1, 1, 4, 2, 4, 3, 4], [2, 6])
   integer, parameter :: WEDGE_EDGES(2, 9) = reshape([1, 2, 2, 3, 3, 1, 4, 5, 5, 6, 6, 4, 1, 4, 2, 5, 3, 6], [2, 9])
-  integer, parameter :: BRICK_EDGES(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1, 5, 6, 6, 7, 7, 8, 8, 5, 1, 5, 2, 6, 3, 7, &
-                                                      4, 8], [2, 12])
+  integer, parameter :: BRICK_EDGES(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1, 5, 6, 6, 7, 7, 8, 8, 5, 1, 5, 2, 6, &
+                                                      3, 7, 4, 8], [2, 12])
 
 contains
 
-  !> The family of a type in upper case, and the number behind it, both empty if the type is unknown. Families: 3 a solid,
-  !> 2 an element of a plane, 1 another one whose number of nodes is known, 0 unknown.
+  !> The family of a type in upper case, and the number behind it, both empty if the type is unknown. Families: 3 a
+  !> solid, 2 an element of a plane, 1 another one whose number of nodes is known, 0 unknown.
   pure subroutine split_type(element_type, family, nodes)
     character(len=*), intent(in) :: element_type
     integer, intent(out) :: family, nodes

@@ -67,8 +67,8 @@ contains
     call self%file(1)%load(path, info)
   end subroutine open
 
-  !> Go on with an included file, up to its end. A path that does not begin at the root begins at the folder of the first
-  !> file. Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
+  !> Go on with an included file, up to its end. A path that does not begin at the root begins at the folder of the
+  !> first file. Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
   subroutine include(self, path, info)
     class(input_deck), intent(inout) :: self
     character(len=*), intent(in) :: path
@@ -97,8 +97,8 @@ contains
     call self%file(self%depth)%refuse(reason, info)
   end subroutine refuse
 
-  !> Advance to the next line that is neither blank nor a comment (**), in the included file or behind it. A keyword line
-  !> is parsed, with the lines on which it goes on. The data line is that of `file(depth)`.
+  !> Advance to the next line that is neither blank nor a comment (**), in the included file or behind it. A keyword
+  !> line is parsed, with the lines on which it goes on. The data line is that of `file(depth)`.
   subroutine next(self, line_kind, info)
     class(input_deck), intent(inout) :: self
     integer, intent(out) :: line_kind

@@ -238,8 +238,8 @@ contains
     character(len=*), intent(in) :: what, owner
     type(fuge_info), intent(inout) :: info
 
-    call report(info, FUGE_ERR_FILE, trim(draft%files(file))//', line '//text(line)//': '//what//' '//text(label)//owner &
-                //' is not defined in any file')
+    call report(info, FUGE_ERR_FILE, trim(draft%files(file))//', line '//text(line)//': '//what//' '//text(label) &
+                //owner//' is not defined in any file')
   end subroutine undefined
 
   !> Places of the members of each set, each once.

@@ -16,17 +16,18 @@ module fuge_mesh_files
   !> What the data lines under a keyword are.
   integer, parameter :: DATA_SKIPPED = 0, DATA_NODES = 1, DATA_ELEMENTS = 2, DATA_NODE_SET = 3, DATA_ELEMENT_SET = 4, &
     DATA_SURFACE = 5
-  !> Keywords that make or move nodes and elements in ways that are not read: without them the mesh would be another one.
-  character(len=8), parameter :: REFUSED(9) = [character(len=8) :: 'PART', 'INSTANCE', 'NGEN', 'NFILL', 'NCOPY', 'NMAP', &
-    'ELGEN', 'ELCOPY', 'SYSTEM']
+  !> Keywords that make or move nodes and elements in ways that are not read: without them the mesh would be another
+  !> one.
+  character(len=8), parameter :: REFUSED(9) = [character(len=8) :: 'PART', 'INSTANCE', 'NGEN', 'NFILL', 'NCOPY', &
+    'NMAP', 'ELGEN', 'ELCOPY', 'SYSTEM']
 
 contains
 
   !> Read nodes, elements, sets and surfaces from an input file of Abaqus or CalculiX.
   !>
-  !> Read are *NODE (NSET), *ELEMENT (TYPE, ELSET), *NSET, *ELSET (GENERATE), *SURFACE of elements (faces S1 to S6) or of
-  !> nodes, which becomes a set of nodes, and *INCLUDE; other keywords are skipped with their data. Words may be in upper
-  !> or lower case, names are returned in upper case. A label of GENERATE that does not exist is left out.
+  !> Read are *NODE (NSET), *ELEMENT (TYPE, ELSET), *NSET, *ELSET (GENERATE), *SURFACE of elements (faces S1 to S6) or
+  !> of nodes, which becomes a set of nodes, and *INCLUDE; other keywords are skipped with their data. Words may be in
+  !> upper or lower case, names are returned in upper case. A label of GENERATE that does not exist is left out.
   !> Errors, `mesh` unchanged: FUGE_ERR_FILE with file, line and reason, also for *PART, *INSTANCE, *NGEN and other
   !> keywords without which the mesh would be another one, and if there is no node; FUGE_ERR_MEMORY.
   subroutine fuge_read_mesh(path, mesh, info)
@@ -151,7 +152,7 @@ contains
       call choose_set(deck, 'ELSET', .false., draft%element_sets, block, draft%status, info)
     else if (deck%keyword == 'NSET') then
       content = DATA_NODE_SET
-      if (deck%has('ELSET')) call deck%refuse('a set of the nodes of a set of elements is not read: list the nodes', info)
+      if (deck%has('ELSET')) call deck%refuse('the nodes of a set of elements are not read: list the nodes', info)
       call choose_set(deck, 'NSET', .true., draft%node_sets, block, draft%status, info)
     else if (deck%keyword == 'ELSET') then
       content = DATA_ELEMENT_SET
@@ -166,7 +167,8 @@ contains
                        //'file that lists all nodes and elements', info)
     end if
     block%generate = deck%has('GENERATE')
-    if (content /= DATA_SKIPPED .and. deck%has('INPUT')) call deck%refuse('INPUT = is not read here: use *INCLUDE', info)
+    if (content /= DATA_SKIPPED .and. deck%has('INPUT')) &
+      call deck%refuse('INPUT = is not read here: use *INCLUDE', info)
   end subroutine begin_block
 
   !> The surface of a keyword line: of faces, or of nodes.
@@ -229,9 +231,9 @@ contains
 
   !> The nodes of the faces of a surface.
   !>
-  !> `name`: in upper or lower case. `faces` (8, faces), allocated afresh: places of the nodes in mesh%node, corners first,
-  !> then those on the edges, 0 beyond. Corners of a solid's face follow each other counter-clockwise if it is seen from
-  !> outside; an edge of an element of a plane goes counter-clockwise round the element.
+  !> `name`: in upper or lower case. `faces` (8, faces), allocated afresh: places of the nodes in mesh%node, corners
+  !> first, then those on the edges, 0 beyond. Corners of a solid's face follow each other counter-clockwise if it is
+  !> seen from outside; an edge of an element of a plane goes counter-clockwise round the element.
   !> Errors, `faces` unchanged: FUGE_ERR_OPTION if the mesh has no such surface, FUGE_ERR_ELEMENT for a type of elements
   !> that has no such face or whose faces are not known; FUGE_ERR_MEMORY.
   subroutine fuge_mesh_faces(mesh, name, faces, info)

@@ -21,21 +21,31 @@ module fuge_mesh_type
   type, public :: fuge_mesh_surface
     !> In upper case.
     character(len=NAME_LENGTH) :: name = ''
-    !> For each face the place of its element in `element` of the mesh, and its number n, of Sn.
-    integer, allocatable :: element(:), face(:)
+    !> The element of each face: its place in `element` of the mesh.
+    integer, allocatable :: element(:)
+    !> The number n, of Sn, of each face.
+    integer, allocatable :: face(:)
   end type fuge_mesh_surface
 
   !> A mesh. Nodes and elements have the order of the file.
   type, public :: fuge_mesh
-    !> Number of each node in the file, and its position (3, nodes); coordinates that the file leaves out are 0.
+    !> Number of each node in the file.
     integer, allocatable :: node(:)
+    !> Position of each node (3, nodes); coordinates that the file leaves out are 0.
     real(dp), allocatable :: position(:, :)
-    !> Number of each element in the file, and its type in upper case, such as C3D8.
+    !> Number of each element in the file.
     integer, allocatable :: element(:)
+    !> Type of each element in upper case, such as C3D8.
     character(len=TYPE_LENGTH), allocatable :: element_type(:)
+    !> Where the nodes of each element begin in `connection`, one more than elements.
+    integer, allocatable :: first(:)
     !> The nodes of element k: `connection`(`first`(k) : `first`(k + 1) - 1), their places in `node`.
-    integer, allocatable :: first(:), connection(:)
-    type(fuge_mesh_set), allocatable :: node_set(:), element_set(:)
+    integer, allocatable :: connection(:)
+    !> Sets of nodes, in the order in which the file first names them.
+    type(fuge_mesh_set), allocatable :: node_set(:)
+    !> Sets of elements.
+    type(fuge_mesh_set), allocatable :: element_set(:)
+    !> Surfaces of faces.
     type(fuge_mesh_surface), allocatable :: surface(:)
   end type fuge_mesh
 

@@ -2,10 +2,10 @@
 !>
 !> Records: the header, NCOL NR FORM TYPE NAME FORMAT (4I8, 2A4, and the format of the values); for each column that
 !> is not zero ICOL IROW NW (3I8); after the last one column NCOL + 1, with one value. A dense column has IROW > 0 and
-!> the values from row IROW on. A sparse one has IROW = 0 and strings: the header IS = IROW + 65536 (L + 1), or L + 1 and
-!> IROW if NR is negative (BIGMAT), and the values from row IROW on. L and NW count words, of which a value has two in
-!> double precision, TYPE = 2. The values end where a line without a decimal point begins, and their number is held against
-!> L or NW, which some programs give in values.
+!> the values from row IROW on. A sparse one has IROW = 0 and strings: the header IS = IROW + 65536 (L + 1), or L + 1
+!> and IROW if NR is negative (BIGMAT), and the values from row IROW on. L and NW count words, of which a value has two
+!> in double precision, TYPE = 2. The values end where a line without a decimal point begins, and their number is held
+!> against L or NW, which some programs give in values.
 module fuge_op4_reader
   use fuge_entry_fields, only: line_fields, read_label, read_value, split_line
   use fuge_kinds, only: dp
@@ -172,8 +172,8 @@ contains
       reason = 'the matrix '//quoted(trim(state%name))//' is '//text(state%rows)//' x '//text(state%columns) &
         //': a stiffness matrix is square'
     else if (entries%rows > 0 .and. entries%rows /= state%columns) then
-      reason = 'the matrix '//quoted(trim(state%name))//' has '//text(state%columns)//' rows, but '//text(entries%rows) &
-        //' are named'
+      reason = 'the matrix '//quoted(trim(state%name))//' has '//text(state%columns)//' rows, but ' &
+        //text(entries%rows)//' are named'
     end if
     entries%rows = state%columns
   end subroutine check_form

@@ -57,8 +57,8 @@ contains
       call file%refuse(reason, info)
       return
     end do
-    if (names%count == 0) call file%refuse('the file names no row: a line like 17.3 (node.direction) is needed for each', &
-                                           info)
+    if (names%count == 0) &
+      call file%refuse('the file names no row: a line like 17.3 (node.direction) is needed for each', info)
   end subroutine read_names
 
   !> Read node and direction from a line.

@@ -75,8 +75,8 @@ contains
     call move_alloc(directions, direction)
   end subroutine fuge_read_stiffness
 
-  !> Read the names of the rows, from the file of the caller or from CalculiX's beside the matrix; not allocated if there
-  !> is neither.
+  !> Read the names of the rows, from the file of the caller or from CalculiX's beside the matrix; not allocated if
+  !> there is neither.
   subroutine read_names(path, format, node, direction, info, names_path)
     character(len=*), intent(in) :: path
     integer, intent(in) :: format

@@ -13,7 +13,8 @@ module fuge_stiffness_formats
   integer, parameter, public :: FUGE_STIFFNESS_ANY = 0
   !> Matrix Market, array or coordinate, general or symmetric.
   integer, parameter, public :: FUGE_STIFFNESS_MATRIX_MARKET = 1
-  !> CalculiX, SOLVER=MATRIXSTORAGE: row, column and value on each line (.sti), names of the rows in another file (.dof).
+  !> CalculiX, SOLVER=MATRIXSTORAGE: row, column and value on each line (.sti), names of the rows in another file
+  !> (.dof).
   integer, parameter, public :: FUGE_STIFFNESS_CALCULIX = 2
   !> Abaqus, *MATRIX OUTPUT: node, direction, node, direction and value (MATRIX INPUT), or row, column and value
   !> (COORDINATE).
