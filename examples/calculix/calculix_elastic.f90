@@ -1,8 +1,8 @@
 !> The elastic body of the contact: the influence matrix of the nodes that may touch, from
 !> the stiffness that CalculiX assembles, and the same matrix by unit loads, as a check.
 module calculix_elastic
-  use calculix_files, only: read_degrees, read_stiffness, read_table, run_job, wall_clock
-  use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_info
+  use calculix_files, only: read_table, run_job, wall_clock
+  use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_info, fuge_read_stiffness
   use fuge_sparse, only: fuge_sparse_stiffness
   implicit none
   private
@@ -35,8 +35,8 @@ contains
 
     call run_job(command, 'stiffness', 'stiffness.sti', block%assembling)
     start = wall_clock()
-    call read_degrees('stiffness', block%node, block%direction)
-    call read_stiffness('stiffness', size(block%node), column, row, value)
+    call fuge_read_stiffness('stiffness.sti', column, row, value, block%node, block%direction, info)
+    if (info%failed()) call give_up(info)
     block%reading = wall_clock() - start
 
     start = wall_clock()

@@ -1,11 +1,11 @@
-!> Runs CalculiX and reads what it writes.
+!> Runs CalculiX and reads its tables.
 module calculix_files
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp => fuge_dp
   implicit none
   private
 
-  public :: wall_clock, run_job, read_stiffness, read_degrees, read_table, count_iterations
+  public :: wall_clock, run_job, read_table, count_iterations
 
 contains
 
@@ -37,69 +37,12 @@ contains
     error stop 'no result from CalculiX'
   end subroutine run_job
 
-  !> Node and direction (1 to 3) of each row of the matrix: job.dof, lines such as 17.3.
-  subroutine read_degrees(job, node, direction)
-    character(len=*), intent(in) :: job
-    integer, allocatable, intent(out) :: node(:), direction(:)
-    character(len=32) :: line
-    integer :: file, dot, k
-
-    allocate (node(lines_of(job//'.dof')))
-    allocate (direction(size(node)))
-    open (newunit=file, file=job//'.dof', status='old', action='read')
-    do k = 1, size(node)
-      read (file, '(a)') line
-      dot = index(line, '.')
-      read (line(:dot - 1), *) node(k)
-      read (line(dot + 1:), *) direction(k)
-    end do
-    close (file)
-  end subroutine read_degrees
-
-  !> The matrix as compressed columns: job.sti, a line with row, column and value for each
-  !> entry of one triangle, column by column.
-  subroutine read_stiffness(job, degrees, column, row, value)
-    character(len=*), intent(in) :: job
-    integer, intent(in) :: degrees
-    integer, allocatable, intent(out) :: column(:), row(:)
-    real(dp), allocatable, intent(out) :: value(:)
-    integer :: file, j, k, last
-
-    allocate (row(lines_of(job//'.sti')))
-    allocate (column(degrees + 1), value(size(row)))
-    column = size(row) + 1
-    open (newunit=file, file=job//'.sti', status='old', action='read')
-    last = 0
-    do k = 1, size(row)
-      read (file, *) row(k), j, value(k)
-      if (j < last) error stop 'the entries of the .sti file are not column by column'
-      column(last + 1:j) = k
-      last = j
-    end do
-    close (file)
-  end subroutine read_stiffness
-
   pure function filled(text)
     character(len=*), intent(in) :: text
     logical :: filled
 
     filled = len_trim(text) > 0
   end function filled
-
-  function lines_of(path) result(lines)
-    character(len=*), intent(in) :: path
-    integer :: lines
-    integer :: file, status
-
-    open (newunit=file, file=path, status='old', action='read')
-    lines = 0
-    do
-      read (file, *, iostat=status)
-      if (status /= 0) exit
-      lines = lines + 1
-    end do
-    close (file)
-  end function lines_of
 
   !> A table of job.dat: node and three values on each line. Of those whose heading begins
   !> with `heading`, the one with number `table`, or the last one.
