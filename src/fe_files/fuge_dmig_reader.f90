@@ -22,7 +22,7 @@ module fuge_dmig_reader
 
   !> Where in the file the reader is.
   type :: dmig_state
-    !> Name of the matrix that is read, in lower case; blank before the first one if the caller names none.
+    !> Name of the matrix that is read; blank before the first one if the caller names none.
     character(len=8) :: wanted = ''
     !> The caller names the matrix.
     logical :: chosen = .false.
@@ -47,7 +47,7 @@ contains
     character(len=:), allocatable :: reason
     logical :: exists
 
-    state%wanted = lower_case(name)
+    state%wanted = name
     state%chosen = len_trim(name) > 0
     do
       call file%advance(exists)
@@ -97,13 +97,13 @@ contains
     character(len=8) :: name
     integer :: direction, node
 
-    name = lower_case(line(fields%first(1):fields%last(1)))
+    name = line(fields%first(1):fields%last(1))
     if (name == '') then
       reason = 'the name of the matrix is missing: DMIG and the name are needed'
       return
     end if
     if (state%wanted == '') state%wanted = name
-    if (name /= state%wanted) then
+    if (lower_case(name) /= lower_case(state%wanted)) then
       state%other = name
       if (.not. state%chosen) reason = 'the file holds the matrices '//quoted(trim(state%wanted))//' and ' &
         //quoted(trim(name))//': pass the name of the one to read'
