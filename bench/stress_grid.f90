@@ -10,7 +10,7 @@ program stress_grid
   use bench_watch, only: stopwatch
   use fuge, only: dp => fuge_dp, fuge_halfplane_displacement_grid, fuge_halfplane_stress, fuge_halfplane_stress_grid, &
     fuge_halfspace_displacement_grid, fuge_halfspace_stress, fuge_halfspace_stress_grid, fuge_info, FUGE_CENTRE, &
-    FUGE_FREE, FUGE_HAT, FUGE_PERIODIC, FUGE_PLANE_STRAIN
+    FUGE_FREE, FUGE_HAT, FUGE_PERIODIC, FUGE_PERIODIC_X, FUGE_PLANE_STRAIN
   implicit none
 
   !> More digits, where the compiler has them.
@@ -55,6 +55,7 @@ contains
     call time_halfplane('half-plane hats, periodic', FUGE_HAT, FUGE_PERIODIC, force, depth)
     call time_halfspace('half-space, free', side, FUGE_FREE, force, depth)
     call time_halfspace('half-space, periodic', side, FUGE_PERIODIC, force, depth)
+    call time_halfspace('half-space, periodic along x', side, FUGE_PERIODIC_X, force, depth)
   end subroutine time_all
 
   subroutine time_halfplane(name, element, boundary, force, depth)

@@ -17,7 +17,8 @@ extern "C" {
 
 /* ---- stresses of a half-plane -------------------------------------------- */
 
-/* Stresses in a half-plane under forces on its cells, to rounding at any depth and distance.
+/* Stresses in a half-plane under forces on its cells, to rounding at any depth and distance: zz
+ * relative to the sum of its terms, xx and xz relative to the largest of the three.
  *   n                  in   cells
  *   x, width, element  in   as in fuge_halfplane_matrix; FUGE_CENTRE and FUGE_MEAN are strips of
  *                           pressure force/width, FUGE_HAT hats with the peak force/width
@@ -267,7 +268,87 @@ int fuge_von_mises(int points, const double *tensor, double *value, char *messag
 int fuge_tresca(int points, const double *tensor, double *value, char *message, size_t len);
 int fuge_mean_stress(int points, const double *tensor, double *value, char *message, size_t len);
 
-/* ---- largest stresses ---------------------------------------------------- */
+/* ---- largest stresses ----------------------------------------------------
+ *
+ * The largest von Mises or Tresca stress under a contact and where it is, by a search from
+ * candidates at all depths below all parts of the contact: value and place of the field that
+ * these forces have, the value to 1e-10 or better and the place to its root.
+ *
+ * Uniform pressure jumps from cell to cell, and close to the surface the stresses follow the cells
+ * rather than the contact.  On strips, rectangles and rings the search therefore takes the middles
+ * of cells at the surface, and below it depths from a quarter of the (lesser) width of a cell on:
+ * what may lie between is not resolved by the cells.  Under hats, smooth and round punches it takes
+ * all depths.
+ *
+ * Where the pressure of the contact is infinite so is the stress, and any number found would be one
+ * of the grid: then location is FUGE_PEAK_SINGULAR, value +infinity, place that edge or tip and
+ * tensor NaN.  Cells tell it from the forces of up to seven cells at an edge, which grow towards it
+ * as under a flat punch (on rectangles in three rows side by side); edges of very small pieces of
+ * contact are not judged.  Tips of round punches and edges within their contact are singular unless
+ * Poisson's ratio is 0.5. */
+
+/* measure: which stress is to be largest. */
+enum {
+  FUGE_MEASURE_VON_MISES = 0,   /* sqrt(3 J_2) */
+  FUGE_MEASURE_TRESCA = 1       /* twice the largest shear stress */
+};
+
+/* location of a largest stress */
+enum {
+  FUGE_PEAK_INSIDE = 0,         /* below the surface */
+  FUGE_PEAK_SURFACE = 1,        /* at the surface */
+  FUGE_PEAK_SINGULAR = 2        /* infinite, at an edge of the contact or in a tip */
+};
+
+/* Without forces value, place and tensor are 0. */
+typedef struct fuge_stress_peak {
+  int location;                 /* FUGE_PEAK_... */
+  int reserved_int[7];
+  double value;                 /* force per length^2; +infinity if singular */
+  double place[3];              /* x, y, z, length; y is 0 in a plane; about an axis: radius, 0, z */
+  double tensor[6];             /* xx, yy, zz, yz, xz, xy there; about an axis x is the radius */
+  double reserved[6];
+} fuge_stress_peak;
+
+/* Under the forces of cells on a half-plane: n .. element as in fuge_halfplane_stress, plane_state
+ * and poisson of the body as in fuge_halfplane_tensor.  *peak is untouched if there is an error.
+ * FUGE_ERR_OPTION for plane_state or measure, FUGE_ERR_MODULUS for poisson, otherwise those of
+ * fuge_halfplane_stress. */
+int fuge_halfplane_peak(int n, const double *x, const double *width, const double *force,
+                        int element, int plane_state, double poisson, int measure,
+                        fuge_stress_peak *peak, char *message, size_t len);
+
+/* The same for a model symmetric about x = 0; the peak is at x >= 0. */
+int fuge_halfplane_symmetric_peak(int n, const double *x, const double *width,
+                                  const double *force, int element, int plane_state,
+                                  double poisson, int measure, fuge_stress_peak *peak,
+                                  char *message, size_t len);
+
+/* Under a smooth punch, the value to rounding. */
+int fuge_smooth_peak(const fuge_smooth *contact, int plane_state, double poisson, int measure,
+                     fuge_stress_peak *peak, char *message, size_t len);
+
+/* Under the forces of rectangles on a half-space, arguments and errors as for
+ * fuge_halfspace_stress; FUGE_ERR_OPTION for measure. */
+int fuge_halfspace_peak(int n, const double *x, const double *y, const double *width_x,
+                        const double *width_y, const double *force, double poisson, int measure,
+                        fuge_stress_peak *peak, char *message, size_t len);
+
+/* The same for a symmetric model, as fuge_halfspace_symmetric_stress; the peak is at x >= 0, or
+ * y >= 0. */
+int fuge_halfspace_symmetric_peak(int n, const double *x, const double *y, const double *width_x,
+                                  const double *width_y, const double *force, double poisson,
+                                  int symmetric_x, int symmetric_y, int measure,
+                                  fuge_stress_peak *peak, char *message, size_t len);
+
+/* Under the forces of n rings between n + 1 radii, arguments and errors as for fuge_ring_stress;
+ * FUGE_ERR_OPTION for measure. */
+int fuge_ring_peak(int n, const double *radius, const double *force, double poisson, int measure,
+                   fuge_stress_peak *peak, char *message, size_t len);
+
+/* Under a round punch. */
+int fuge_round_peak(const fuge_round *contact, double poisson, int measure, fuge_stress_peak *peak,
+                    char *message, size_t len);
 
 #ifdef __cplusplus
 }

@@ -30,7 +30,7 @@ static void test_disc_displacement(void) {
   CHECK_STATUS(fuge_ring_interior_displacement(N, RADIUS, FORCE, YOUNG, POISSON, POINTS, r, z, u, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_ring_displacement(N, RADIUS, FORCE, YOUNG / (1.0 - POISSON * POISSON), POINTS, r, surface, NULL, 0),
                FUGE_DONE);
-  for (int k = 0; k < POINTS; k++) CHECK_NEAR(u[2 * k + 1], surface[k], 1e-15);
+  for (int k = 0; k < POINTS; k++) CHECK_NEAR(u[2 * k + 1], surface[k], 2e-15);
   CHECK_NEAR(u[0], 0.0, 0.0);
   CHECK_NEAR(u[4], -0.5 * 1.25 / (2.0 * PI * YOUNG) * 4.0 / 4.0, 1e-16);
   CHECK_UNTOUCHED(u + 2 * POINTS, 1);
@@ -53,15 +53,15 @@ static void test_sphere(void) {
   fill(stress, 4 * POINTS + 1);
   fill(u, 2 * POINTS + 1);
   CHECK_STATUS(fuge_round_stress(contact, POISSON, POINTS, r, z, stress, NULL, 0), FUGE_DONE);
-  CHECK_NEAR(stress[2], -p0 / 1.25, 1e-15);
-  CHECK_NEAR(stress[0], -p0 * (1.25 * (1.0 - 0.5 * atan(2.0)) - 0.5 / 1.25), 1e-15);
+  CHECK_NEAR(stress[2], -p0 / 1.25, 5e-15);
+  CHECK_NEAR(stress[0], -p0 * (1.25 * (1.0 - 0.5 * atan(2.0)) - 0.5 / 1.25), 5e-15);
   CHECK_NEAR(stress[1], stress[0], 1e-15);
-  CHECK_NEAR(stress[6], -0.8 * p0, 1e-15);
-  CHECK_NEAR(stress[8], -0.75 * p0, 1e-15);
+  CHECK_NEAR(stress[6], -0.8 * p0, 5e-15);
+  CHECK_NEAR(stress[8], -0.75 * p0, 5e-15);
   CHECK_UNTOUCHED(stress + 4 * POINTS, 1);
   CHECK_STATUS(fuge_round_displacement(contact, 1.0 - POISSON * POISSON, POISSON, POINTS, r, z, u, NULL, 0), FUGE_DONE);
-  CHECK_NEAR(u[3], 1.0 - 0.18, 1e-15);
-  CHECK_NEAR(u[5], 1.0, 1e-15);
+  CHECK_NEAR(u[3], 1.0 - 0.18, 5e-15);
+  CHECK_NEAR(u[5], 1.0, 5e-15);
   CHECK_UNTOUCHED(u + 2 * POINTS, 1);
   fuge_round_free(&contact);
 }

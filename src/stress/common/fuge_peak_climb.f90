@@ -17,9 +17,9 @@ module fuge_peak_climb
 
   public :: climb
 
-  !> Steps of the stencil over the length of a start: the first one, and the last one if the values of its stencil differ
-  !> by less than NEARLY_SAME of the largest. Where they do not, as at a cusp of the stress at the rim of a contact, finer
-  !> ones follow.
+  !> Steps of the stencil over the length of a start: the first one, and the last one if the values of its stencil
+  !> differ by less than NEARLY_SAME of the largest. Where they do not, as at a cusp of the stress at the rim of a
+  !> contact, finer ones follow.
   real(dp), parameter :: FIRST_STEP = 0.25_dp, LAST_STEP = 2.0e-4_dp, NEARLY_SAME = 3.0e-7_dp
   !> A step is at least so many roundings of the coordinates.
   real(dp), parameter :: LEAST_ROUNDINGS = 64.0_dp
@@ -235,8 +235,8 @@ contains
     offset(:n - 1) = newton_step(gradient(:n - 1) - room*hessian(:n - 1, n), hessian(:n - 1, :n - 1))
   end function best_offset
 
-  !> Newton's step to a maximum, cut to REACH. Where the model is not concave, the curvature that it lacks is added along
-  !> all axes, as by E. M. Levenberg and D. W. Marquardt.
+  !> Newton's step to a maximum, cut to REACH. Where the model is not concave, the curvature that it lacks is added
+  !> along all axes, as by E. M. Levenberg and D. W. Marquardt.
   pure function newton_step(gradient, hessian) result(step)
     real(dp), intent(in) :: gradient(:), hessian(:, :)
     real(dp) :: step(size(gradient))
@@ -255,7 +255,8 @@ contains
     step = step/max(1.0_dp, maxval(abs(step))/REACH)
   end function newton_step
 
-  !> Solve (added I - hessian) step = gradient by Cholesky's method; not `solved` unless the matrix is positive definite.
+  !> Solve (added I - hessian) step = gradient by Cholesky's method; not `solved` unless the matrix is positive
+  !> definite.
   pure subroutine solve_concave(gradient, hessian, added, step, solved)
     real(dp), intent(in) :: gradient(:), hessian(:, :), added
     real(dp), intent(out) :: step(:)

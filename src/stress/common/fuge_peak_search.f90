@@ -35,7 +35,12 @@ contains
       return
     end if
     call find_starts(field, cells, measure, starts, info)
-    if (.not. info%failed()) call climb(field, cells%axes, measure, starts, best, info)
+    if (info%failed()) return
+    if (size(starts) == 0) then
+      peak = fuge_stress_peak()
+      return
+    end if
+    call climb(field, cells%axes, measure, starts, best, info)
     if (.not. info%failed()) call field%stresses(reshape(best%place, [3, 1]), tensor, info)
     if (info%failed()) return
     peak%value = best%value

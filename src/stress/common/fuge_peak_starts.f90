@@ -1,9 +1,9 @@
 !> Places from which the search for the largest stress starts.
 !>
-!> The pressed cells are halved again and again. Below the middle of every part lies a candidate, at a depth of the order
-!> of the part: a maximum lies below what presses, at a fraction of its breadth. A part is not halved any more once
-!> nothing below it can come near the best candidate. What its cells could add to the stress is the pressure that the
-!> candidate does not see, the largest one of the cells minus the stress -zz, which is the pressure smoothed over a
+!> The pressed cells are halved again and again. Below the middle of every part lies a candidate, at a depth of the
+!> order of the part: a maximum lies below what presses, at a fraction of its breadth. A part is not halved any more
+!> once nothing below it can come near the best candidate. What its cells could add to the stress is the pressure that
+!> the candidate does not see, the largest one of the cells minus the stress -zz, which is the pressure smoothed over a
 !> breadth of the order of the depth (J. Boussinesq; K. L. Johnson, Contact Mechanics, 1985, sections 2.2 and 3.2).
 module fuge_peak_starts
   use fuge_heap_sort, only: heap_sort
@@ -29,6 +29,8 @@ module fuge_peak_starts
   !> Depth of a candidate over the size of its part; below a single cell it is halved twice.
   real(dp), parameter :: DEPTH_RATIO = 1.4_dp
   integer, parameter :: CANDIDATES = 4
+  !> The size of a long part is at most so many times its breadth.
+  real(dp), parameter :: LONGEST = 3.0_dp
   !> Two starts that are closer than this part of the lesser depth climb to the same maximum.
   real(dp), parameter :: NEARNESS = 0.75_dp
   !> Parts in one portion, and the number of starts at most.
@@ -203,27 +205,45 @@ contains
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: which(:)
     type(survey) :: found
-    real(dp) :: low, high, extent(2), spread, widest
-    integer :: axis
+    real(dp) :: bounds(4), extent(2), widest
+    integer :: axis, k
 
     widest = 0.0_dp
     extent = 0.0_dp
     do axis = 1, cells%axes
-      low = minval(cells%centre(axis, which) - 0.5_dp*cells%width(axis, which))
-      high = maxval(cells%centre(axis, which) + 0.5_dp*cells%width(axis, which))
-      found%middle(axis) = low + 0.5_dp*(high - low)
-      extent(axis) = high - low
-      low = minval(cells%centre(axis, which))
-      spread = maxval(cells%centre(axis, which)) - low
-      if (spread <= widest) cycle
-      widest = spread
+      bounds = bounds_of(cells, which, axis)
+      extent(axis) = bounds(2) - bounds(1)
+      found%middle(axis) = bounds(1) + 0.5_dp*extent(axis)
+      if (bounds(4) - bounds(3) <= widest) cycle
+      widest = bounds(4) - bounds(3)
       found%split_axis = axis
-      found%split_at = low + 0.5_dp*spread
+      found%split_at = bounds(3) + 0.5_dp*widest
     end do
-    found%length = sqrt(extent(1))*sqrt(extent(cells%axes))
-    found%strongest = which(maxloc(abs(cells%pressure(which)), dim=1))
+    if (cells%axes == 1) extent(2) = extent(1)
+    found%length = min(sqrt(extent(1))*sqrt(extent(2)), LONGEST*minval(extent))
+    found%strongest = which(1)
+    do k = 2, size(which)
+      if (abs(cells%pressure(which(k))) > abs(cells%pressure(found%strongest))) found%strongest = which(k)
+    end do
     found%pressure = abs(cells%pressure(found%strongest))
   end function survey_of
+
+  !> Along an axis: the least and the greatest coordinate of the cells, and of their middles.
+  pure function bounds_of(cells, which, axis) result(bounds)
+    type(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: which(:), axis
+    real(dp) :: bounds(4)
+    real(dp) :: centre, half
+    integer :: k
+
+    bounds = huge(bounds)*[1, -1, 1, -1]
+    do k = 1, size(which)
+      centre = cells%centre(axis, which(k))
+      half = 0.5_dp*cells%width(axis, which(k))
+      bounds = [min(bounds(1), centre - half), max(bounds(2), centre + half), min(bounds(3), centre), &
+                max(bounds(4), centre)]
+    end do
+  end function bounds_of
 
   !> The candidates of a part, those without a `length` being left out: below its middle, for a single cell at three
   !> depths, and the middle of its `strongest` cell at the surface unless that was `tried`.

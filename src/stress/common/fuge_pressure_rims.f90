@@ -1,8 +1,8 @@
 !> Rims of a contact where the pressure is infinite: under the edge of a flat punch, under a corner.
 !>
-!> Near such a rim the pressure is K s**(-1/2) + L s**(1/2), s being the distance from it, and a fit to the second cell and
-!> the next ones foretells the first one; under a smooth body K is 0, or, because the contact ends within a cell, small
-!> (K. L. Johnson, Contact Mechanics, 1985, sections 2.8 and 5.1).
+!> Near such a rim the pressure is K s**(-1/2) + L s**(1/2), s being the distance from it, and a fit to the second cell
+!> and the next ones foretells the first one; under a smooth body K is 0, or, because the contact ends within a cell,
+!> small (K. L. Johnson, Contact Mechanics, 1985, sections 2.8 and 5.1).
 module fuge_pressure_rims
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
@@ -19,8 +19,8 @@ module fuge_pressure_rims
   integer, parameter :: MOST_FITTED = 7, FITTED_WHOLE = 4, FITTED_AREA = 5, FITTED_PIECE = 7
   !> On an area so many neighbouring rows have such a rim.
   integer, parameter :: ROWS = 3
-  !> The first cell over any other one, at least: 2.4 for K alone and the second cell. With 1.5 a square root with the same K and L would end
-  !> three cells beyond the rim.
+  !> The first cell over any other one, at least: 2.4 for K alone and the second cell. With 1.5 a square root with the
+  !> same K and L would end three cells beyond the rim.
   real(dp), parameter :: LEAST_DROP = 1.5_dp
   !> The fit is good if its errors are below this part of the largest pressure in it, and if the first cell, where the
   !> discrete forces differ from the means of the pressure by up to 16 %, is in this range of what it foretells.
@@ -210,7 +210,8 @@ contains
     normal = matmul(mean(:, 2:), transpose(mean(:, 2:)))
     right = matmul(mean(:, 2:), p(2:))
     determinant = normal(1, 1)*normal(2, 2) - normal(1, 2)**2
-    coefficient = [right(1)*normal(2, 2) - right(2)*normal(1, 2), right(2)*normal(1, 1) - right(1)*normal(1, 2)]/determinant
+    coefficient = [right(1)*normal(2, 2) - right(2)*normal(1, 2), &
+                   right(2)*normal(1, 1) - right(1)*normal(1, 2)]/determinant
     foretold = dot_product(coefficient, mean(:, 1))
     error = maxval(abs(p(2:) - matmul(coefficient, mean(:, 2:))))
     if (.not. coefficient(1) > 0.0_dp .or. error > FIT_ERROR*maxval(p(2:))) return

@@ -1,6 +1,6 @@
 !> Checks of forces, depths and results on grids.
 module fuge_stress_grid_checks
-  use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2
+  use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
@@ -9,7 +9,7 @@ module fuge_stress_grid_checks
   implicit none
   private
 
-  public :: check_grid_depth, check_grid_force, check_grid_result
+  public :: check_grid_depth, check_grid_force, check_grid_result, check_grid_strain
 
   !> No depth is larger than 2**DEEPEST spacings, 1.8e75.
   integer, parameter :: DEEPEST = 250
@@ -27,11 +27,23 @@ contains
     call check_finite(force, 'force', info)
     do k = 1, size(force)
       if (info%failed()) return
-      if (exponent(force(k)) <= LARGEST_EXPONENT_OF_2 .and. exponent(force(k)) - exponent(area) <= LARGEST_EXPONENT) cycle
+      if (max(exponent(force(k)) - exponent(area), 2*exponent(force(k))) <= LARGEST_EXPONENT) cycle
       call report(info, FUGE_ERR_OVERFLOW, 'force('//index_text(k)//') = '//text(force(k)) &
                   //' is out of range: choose other units')
     end do
   end subroutine check_grid_force
+
+  !> Refuse forces whose pressure over Young's modulus is out of range (FUGE_ERR_OVERFLOW); `young` may be infinite.
+  pure subroutine check_grid_strain(force, area, young, info)
+    real(dp), intent(in) :: force(:), area, young
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: largest
+
+    if (info%failed() .or. young > huge(young)) return
+    largest = maxval(abs(force))
+    if (exponent(largest) - exponent(area) - exponent(young) > LARGEST_EXPONENT) call report(info, FUGE_ERR_OVERFLOW, &
+      'the largest force, '//text(largest)//', is out of range for young = '//text(young)//': choose other units')
+  end subroutine check_grid_strain
 
   !> Refuse depths that are not finite, above the surface, or more than 1e75 times the least `spacing`:
   !> FUGE_ERR_NOT_FINITE, FUGE_ERR_GRID, FUGE_ERR_OVERFLOW.

@@ -1,8 +1,8 @@
 !> Scalars of a stress: principal stresses, von Mises and Tresca stress, mean stress.
 !>
-!> A tensor is a column xx, yy, zz, yz, xz, xy; tension is positive. Von Mises and Tresca stress come from differences of
-!> components and not from principal stresses or invariants, so that a large hydrostatic part costs no digits. Numbers
-!> are scaled by powers of two: whatever the unit, no square leaves the range of double precision.
+!> A tensor is a column xx, yy, zz, yz, xz, xy; tension is positive. Von Mises and Tresca stress come from differences
+!> of components and not from principal stresses or invariants, so that a large hydrostatic part costs no digits.
+!> Numbers are scaled by powers of two: whatever the unit, no square leaves the range of double precision.
 module fuge_stress_measures
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use fuge_elastic_moduli, only: check_poisson, FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS

@@ -14,7 +14,8 @@ contains
   !> u - atan(u) of each u in 0 .. 1, accurate to rounding.
   !>
   !> With u = 2 s/(1 - s**2), so that atan(u) = 2 atan(s), it is 2 s**3/(1 - s**2) + 2 (s - atan(s)): both are positive,
-  !> and the series of s - atan(s) converges quickly. Term by term over the whole array, so that it runs in vectors.
+  !> and the series of s - atan(s) converges quickly. Each term is computed for the whole array, so that it is
+  !> vectorised.
   pure subroutine arc_excesses(n, u, excess)
     integer, intent(in) :: n
     real(dp), intent(in) :: u(n)

@@ -1,10 +1,11 @@
 !> Clusters of cells in a binary tree, each of which acts from afar like a few point forces.
 !>
 !> The field of a cluster at a distance is that of forces at the Chebyshev nodes of its interval, whose sizes are the
-!> integrals of the pressure times the Lagrange polynomials of these nodes: the kernels are interpolated, and as they
-!> hardly change over a cluster that is seen from far away, each stress is as accurate relative to the sum of its terms
-!> as the plain sum is (W. Fong, E. Darve, J. Comput. Phys. 228, 2009, section 2). For displacements the sum over the
-!> nodes is that of the Chebyshev series of the logarithm, with fewer operations.
+!> integrals of the pressure times the Lagrange polynomials of these nodes: the kernels are interpolated (W. Fong, E.
+!> Darve, J. Comput. Phys. 228, 2009, section 2). They hardly change over a cluster that is seen from far away, so that
+!> zz is as accurate relative to the sum of its terms as the plain sum is, however close to the surface; xx and xz,
+!> which change their sign or vanish straight below a force, are so relative to the largest stress. For displacements
+!> the sum over the nodes is that of the Chebyshev series of the logarithm, with fewer operations.
 module fuge_cell_clusters
   use fuge_constants, only: PI
   use fuge_gauss_legendre, only: gauss_rule
@@ -14,14 +15,14 @@ module fuge_cell_clusters
   implicit none
   private
 
-  !> Nodes of a cluster, and from how many half lengths away, from its middle, they suffice.
+  !> Nodes of a cluster, and the distance from its middle, in half lengths, from which on they suffice.
   integer, parameter :: ORDER = 28
   real(dp), parameter :: SEPARATION = 2.5_dp
   !> Nodes in each half of a cell for the integrals over its pressure, even: exact for the polynomials; and enough for
   !> cells that are NARROW times as long as their cluster, because a point far from it is still farther from them.
   integer, parameter :: FULL = ORDER/2 + 2, SHORT = 8
   real(dp), parameter :: NARROW = 0.25_dp
-  !> Partial sums, so that they run in vectors.
+  !> Partial sums, so that compilers vectorise them.
   integer, parameter :: LANES = 4
   !> Cells in a leaf of the tree, at most.
   integer, parameter :: LEAF_CELLS = 16
@@ -131,8 +132,8 @@ contains
     self%number = self%number + 2
   end subroutine divide
 
-  !> Set the forces and moments, from the last leaf up to the whole, for cells with a force `pressure` `width` each: hats,
-  !> which fall linearly from the centre to nothing over the `width` on both sides, or strips.
+  !> Set the forces and moments, from the last leaf up to the whole, for cells with a force `pressure` `width` each:
+  !> hats, which fall linearly from the centre to nothing over the `width` on both sides, or strips.
   pure subroutine fill(self, centre, width, pressure, hats)
     class(cell_clusters), intent(inout) :: self
     real(dp), intent(in) :: centre(:), width(:), pressure(:)

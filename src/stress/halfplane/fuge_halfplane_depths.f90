@@ -14,6 +14,7 @@ module fuge_halfplane_depths
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_stress_grid_checks, only: check_grid_strain
   implicit none
   private
 
@@ -78,7 +79,8 @@ contains
   !> surface they are those of `fuge_halfplane_displacement`, with its datum. Of a periodic surface they count, at each
   !> depth, from the mean at that depth: the compression of the body by the mean pressure is left out.
   !>
-  !> Errors, displacement untouched: as for `fuge_halfplane_stress_grid` and `fuge_plane_modulus`. Source: as there.
+  !> Ten arguments: those of the cells and of the body. Errors, displacement untouched: as for
+  !> `fuge_halfplane_stress_grid` and `fuge_plane_modulus`. Source: as there.
   subroutine fuge_halfplane_displacement_grid(spacing, force, element, boundary, young, poisson, plane_state, depth, &
                                               displacement, info)
     real(dp), intent(in) :: spacing, force(:), young, poisson, depth(:)
@@ -92,6 +94,7 @@ contains
     call displacement_factors(young, poisson, plane_state, factor, info)
     if (.not. info%failed()) call check_halfplane_grid(spacing, force, element, boundary, depth, shape(displacement), &
                                                        'displacement', 2, info)
+    call check_grid_strain(force, spacing, young, info)
     if (.not. info%failed()) call start(force, boundary, work, info)
     ! From the D of one cell to that of all.
     datum = factor(2)*log(real(size(force), dp))

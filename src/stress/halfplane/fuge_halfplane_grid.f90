@@ -19,7 +19,8 @@ contains
   !> Refuse what makes no grid: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION,
   !> FUGE_ERR_GRID, FUGE_ERR_OVERFLOW.
   !>
-  !> `given` (3): the shape of the result `name`, which must be (`components`, n, depths).
+  !> `given` (3): the shape of the result `name`, which must be (`components`, n, depths). Nine arguments: those of the
+  !> public procedures.
   pure subroutine check_halfplane_grid(spacing, force, element, boundary, depth, given, name, components, info)
     real(dp), intent(in) :: spacing, force(:), depth(:)
     integer, intent(in) :: element, boundary, given(3), components

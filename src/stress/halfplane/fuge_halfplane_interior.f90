@@ -20,7 +20,8 @@ module fuge_halfplane_interior
 
 contains
 
-  !> Stresses in a half-plane under forces on its cells, to rounding at any depth and distance.
+  !> Stresses in a half-plane under forces on its cells, to rounding at any depth and distance: zz relative to the sum
+  !> of its terms, xx and xz relative to the largest of the three.
   !>
   !> `x`, `width`, `element` and `symmetric` as for `fuge_halfplane_matrix`, length; `force` (n) of the cells, per
   !> unit depth, compression positive, of any sign: those that a solver returns; `px`, `pz` (points) along the surface
@@ -32,8 +33,8 @@ contains
   !> straight below it tends to -pressure/pi at the right end and to pressure/pi at the left one.
   !>
   !> Errors, stress untouched: those of `fuge_halfplane_matrix`; FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE; FUGE_ERR_GRID for
-  !> pz < 0; FUGE_ERR_OVERFLOW also for a length beyond 1e75 times the narrowest width. Source: `fuge_strip_field`,
-  !> `fuge_hat_field`.
+  !> pz < 0; FUGE_ERR_OVERFLOW also for a length beyond 1e75 times the narrowest width. Many points under many cells
+  !> cost O((n + points) log(n)). Source: `fuge_strip_field`, `fuge_hat_field`, `fuge_cell_clusters`.
   pure subroutine fuge_halfplane_stress(x, width, force, element, px, pz, stress, info, symmetric)
     real(dp), intent(in) :: x(:), width(:), force(:), px(:), pz(:)
     integer, intent(in) :: element

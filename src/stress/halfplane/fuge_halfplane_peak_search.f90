@@ -1,8 +1,10 @@
 !> The largest stress in a half-plane, under cells and under smooth punches.
 module fuge_halfplane_peak_search
+  use fuge_constants, only: PI
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_halfplane_interior, only: fuge_halfplane_stress
   use fuge_kinds, only: dp
+  use fuge_loaded_cells, only: loaded_cells
   use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
   use fuge_pressed_cells, only: allocate_cells, pressed_cells
@@ -39,8 +41,7 @@ module fuge_halfplane_peak_search
   end interface
 
   type, extends(plane_field) :: field_of_cells
-    real(dp), allocatable :: x(:), width(:), force(:)
-    integer :: element = 0
+    type(loaded_cells) :: cells
   contains
     procedure :: components => components_under_cells
   end type field_of_cells
@@ -60,20 +61,20 @@ contains
 
   !> The largest von Mises or Tresca stress in a half-plane under forces on its cells, and where it is.
   !>
-  !> `x`, `width`, `force`, `element` and `symmetric` as for `fuge_halfplane_stress`; `plane_state` and `poisson` of the body
-  !> as for `fuge_halfplane_tensor`; `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of a symmetric
-  !> model at x >= 0. Value and place are those of the field of these forces, the value to 1e-10 or better and the place to
-  !> its root.
+  !> `x`, `width`, `force`, `element` and `symmetric` as for `fuge_halfplane_stress`; `plane_state` and `poisson` of the
+  !> body as for `fuge_halfplane_tensor`; `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of a
+  !> symmetric model at x >= 0. Value and place are those of the field of these forces, the value to 1e-10 or better and
+  !> the place to its root.
   !>
   !> Uniform pressure jumps from cell to cell, and close to the surface the stresses follow the cells rather than the
-  !> contact. With FUGE_CENTRE and FUGE_MEAN the search therefore takes the middles of cells at the surface, and below it
-  !> depths from a quarter of the width of a cell on; what may lie between is not resolved by the cells. With FUGE_HAT it
-  !> takes all depths.
+  !> contact. With FUGE_CENTRE and FUGE_MEAN the search therefore takes the middles of cells at the surface, and below
+  !> it depths from a quarter of the width of a cell on; what may lie between is not resolved by the cells. With
+  !> FUGE_HAT it takes all depths.
   !>
-  !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution is
-  !> infinite and any largest value would be one of the grid: then the location is FUGE_PEAK_SINGULAR, the value +infinity,
-  !> the place that edge and the tensor NaN. The forces of seven cells at the edge decide, in a contact of less than twelve
-  !> cells in one piece those of its half; edges of pieces with less than twelve cells are not judged.
+  !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution
+  !> is infinite and any largest value would be one of the grid: then the location is FUGE_PEAK_SINGULAR, the value
+  !> +infinity, the place that edge and the tensor NaN. The forces of seven cells at the edge decide, in a contact of
+  !> less than twelve cells in one piece those of its half; edges of pieces with less than twelve cells are not judged.
   !> Without forces value, place and tensor are 0.
   !>
   !> Ten arguments: the cells, the body, the measure, the result. Errors, `peak` untouched: those of
@@ -105,8 +106,7 @@ contains
       cells%symmetric(1) = folded
       field%plane_state = plane_state
       field%poisson = poisson
-      field%element = element
-      call set_field(cells, field, info)
+      call set_field(cells, element, field, info)
       call find_peak(field, cells, measure, peak, info)
     end if
     if (folded .and. .not. info%failed()) call to_right_half(peak)
@@ -115,10 +115,10 @@ contains
   !> The largest von Mises or Tresca stress in a half-plane under a smooth punch, and where it is.
   !>
   !> `contact` of `fuge_solve_smooth_punch`; `plane_state` and `poisson` of the body as for `fuge_halfplane_tensor`;
-  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, the value to rounding of the field and the place
-  !> to 1e-7 of its depth. Its location is never FUGE_PEAK_SINGULAR. Without force value, place and tensor are 0.
-  !> Errors, `peak` untouched: FUGE_ERR_OPTION for `plane_state` and `measure`; FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE for
-  !> `poisson`; FUGE_ERR_MEMORY.
+  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, the value to rounding of the field and the
+  !> place to 1e-7 of its depth. Its location is never FUGE_PEAK_SINGULAR. Without force value, place and tensor are 0.
+  !> Errors, `peak` untouched: FUGE_ERR_OPTION for `plane_state` and `measure`; FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE
+  !> for `poisson`; FUGE_ERR_MEMORY.
   subroutine fuge_smooth_peak(contact, plane_state, poisson, measure, peak, info)
     type(fuge_smooth_contact), intent(in) :: contact
     integer, intent(in) :: plane_state, measure
@@ -172,23 +172,24 @@ contains
     end do
   end subroutine collect_cells
 
-  !> The field of these cells.
-  pure subroutine set_field(cells, field, info)
+  !> The field of these cells, in clusters if they are many.
+  pure subroutine set_field(cells, element, field, info)
     type(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: element
     type(field_of_cells), intent(inout) :: field
     type(fuge_info), intent(inout) :: info
-    integer :: number, stat
+    real(dp), allocatable :: force(:)
+    integer :: stat
 
     if (info%failed()) return
-    number = size(cells%pressure)
-    allocate (field%x(number), field%width(number), field%force(number), stat=stat)
+    allocate (force(size(cells%pressure)), stat=stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the '//text(number)//' cells with a force')
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the '//text(size(cells%pressure))//' cells with a force')
       return
     end if
-    field%x = cells%centre(1, :)
-    field%width = cells%width(1, :)
-    field%force = cells%pressure*cells%width(1, :)
+    force = cells%pressure*cells%width(1, :)
+    call field%cells%set(cells%centre(1, :), cells%width(1, :), force, element, info)
+    if (.not. info%failed()) call field%cells%gather(info)
   end subroutine set_field
 
   !> Cells for the pressure of a smooth punch, narrow at both ends; none without force.
@@ -196,7 +197,6 @@ contains
     type(fuge_smooth_contact), intent(in) :: contact
     type(pressed_cells), intent(inout) :: cells
     type(fuge_info), intent(inout) :: info
-    real(dp), parameter :: PI = acos(-1.0_dp)
     real(dp) :: left, right
     integer :: k, number
 
@@ -247,8 +247,14 @@ contains
     real(dp), intent(in) :: px(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
+    real(dp) :: total(3)
+    integer :: k
 
-    call fuge_halfplane_stress(self%x, self%width, self%force, self%element, px, pz, stress, info, .false.)
+    do k = 1, size(pz)
+      total = 0.0_dp
+      call self%cells%add_stresses(scale(px(k), self%cells%power), scale(pz(k), self%cells%power), total)
+      stress(:, k) = -scale(total/PI, self%cells%power)
+    end do
   end subroutine components_under_cells
 
   subroutine components_under_punch(self, px, pz, stress, info)

@@ -25,8 +25,8 @@ module fuge_hat_field
   !> Numbers of nodes in each half of a hat, and from which distance beside or below it, in half bases, they suffice.
   integer, parameter :: RULES = 5, NODES(RULES) = [17, 12, 8, 6, 4], MOST_NODES = maxval(NODES)
   real(dp), parameter :: FROM(RULES) = [1.0_dp, 2.0_dp, 5.0_dp, 12.0_dp, 200.0_dp]
-  !> Terms of the series for displacements from two half bases on.
-  integer, parameter :: TERMS = 24
+  !> Terms of the series for displacements from two half bases on, and from eight on.
+  integer, parameter :: TERMS = 24, TERMS_FAR = 9
 
   !> Places in the half base, 0 .. 1, and weights of the rules for a unit force in half a hat.
   type, public :: hat_rules
@@ -191,13 +191,14 @@ contains
     real(dp), intent(in) :: x, z, width
     real(dp) :: mean(4)
     complex(dp) :: small, ratio, logarithm, inverse
-    integer :: k
+    integer :: k, last
 
     small = width/cmplx(x, z, dp)
     ratio = small**2
     logarithm = 0.0_dp
     inverse = 0.0_dp
-    do k = TERMS, 1, -1
+    last = merge(TERMS_FAR, TERMS, max(abs(x), z) >= 8.0_dp*width)
+    do k = last, 1, -1
       logarithm = ratio*(logarithm + 1.0_dp/real(k*(2*k + 1)*(2*k + 2), dp))
       inverse = ratio*(inverse + 1.0_dp/real((2*k + 1)*(k + 1), dp))
     end do

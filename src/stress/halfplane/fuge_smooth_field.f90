@@ -26,8 +26,8 @@ module fuge_smooth_field
 
 contains
 
-  !> The coordinates of the point at the distances `left` and `right` from the ends along the surface, right = left -
-  !> 2, and at the depth z, in half widths.
+  !> The coordinates of a point at the depth z whose distances from the ends, along the surface, are `left` and `right`,
+  !> all in half widths; `left` - `right` is 2.
   pure function locate(left, right, z) result(point)
     real(dp), intent(in) :: left, right, z
     type(confocal_point) :: point
@@ -55,7 +55,7 @@ contains
 
   !> Stresses xx, zz, xz under the coefficients `c`.
   !>
-  !> The terms of one sign of a pressure without tension do not cancel each other.
+  !> Each term is accurate relative to itself.
   pure function smooth_stresses(c, point) result(stress)
     real(dp), intent(in) :: c(:)
     type(confocal_point), intent(in) :: point

@@ -6,13 +6,13 @@
 !>
 !>     zz = -(p/pi) (A + w z (z**2 - x1 x2)/(r1 r2)**2),   xx with - for +,   xz = -(p/pi) w z**2 (x1 + x2)/(r1 r2)**2.
 !>
-!> The two terms of zz cancel beside the strip, those of xx below it. There, with D = x1 x2 + z**2 and t = tan(A) = w
-!> z/D,
+!> The two terms of zz cancel beside the strip, those of xx below it. With D = x1 x2 + z**2 and t = tan(A) = w z/D
 !>
 !>     zz = -(p/pi) (w z**3 (w**2/D + 2)/(r1 r2)**2 - (t - atan(t))),
 !>     xx = -(p/pi) (w z (w**2 z**2/D + 2 x1 x2)/(r1 r2)**2 - (t - atan(t))),
 !>
-!> where they do not, so that zz and xx are accurate relative to themselves everywhere, however deep or far away.
+!> have no such terms; they are used where A < pi/4, so that zz and xx are accurate relative to themselves at any depth
+!> and distance.
 !>
 !> Lengths are in a unit of the order of the narrowest strip; none exceeds 2**250.
 module fuge_strip_field
@@ -24,7 +24,8 @@ module fuge_strip_field
 
   public :: add_strips, add_strip_displacements, view_angle
 
-  !> Added to squares of distances: what lies closer to an end of a strip, 1e-78 of its width, counts as the end.
+  !> Added to squares of distances, so that none is 0: points closer to an end of a strip than about 1e-78 count as
+  !> lying at it.
   real(dp), parameter, public :: LEAST_SQUARE = scale(1.0_dp, -520)
   !> Strips whose terms are computed together.
   integer, parameter :: BLOCK = 32
@@ -47,7 +48,7 @@ contains
     end do
   end subroutine add_strips
 
-  !> Up to BLOCK strips, step by step for all of them, so that each step runs in vectors.
+  !> The same for at most BLOCK strips, one step after the other for all of them, so that compilers vectorise each step.
   pure subroutine add_block(n, centre, width, pressure, px, pz, total)
     integer, intent(in) :: n
     real(dp), intent(in) :: centre(n), width(n), pressure(n), px, pz
@@ -90,7 +91,7 @@ contains
     end do
   end subroutine find_ends
 
-  !> min and max of two numbers neither of which is NaN: the intrinsics do not run in vectors.
+  !> The smaller one of two numbers, neither of which is NaN. Unlike the intrinsic function it is vectorised.
   pure function smaller(a, b)
     real(dp), intent(in) :: a, b
     real(dp) :: smaller
@@ -108,7 +109,7 @@ contains
   !> -pi times the stresses under a unit pressure, `wide_xx` and `wide_zz` those of a strip seen under more than pi/4;
   !> `excess` is t - atan(t), or that of 1/t where t > 1.
   !>
-  !> Both are computed, because what depends on a condition does not run in vectors.
+  !> Both pairs are always computed, because a loop with a branch is not vectorised.
   pure subroutine strip_terms(left, right, width, z, cross, tangent, excess, xx, zz, xz, wide_xx, wide_zz)
     real(dp), intent(in) :: left, right, width, z, cross, tangent, excess
     real(dp), intent(out) :: xx, zz, xz, wide_xx, wide_zz

@@ -5,7 +5,7 @@
 module fuge_area_field
   use fuge_area_loads, only: area_loads, load_part, new_area_loads
   use fuge_force_clusters, only: cluster_classes, force_clusters, new_force_clusters, place_cluster_forces, &
-    prepare_cluster, CLASS_POINTS, FINEST
+    prepare_cluster, set_single_cluster, CLASS_POINTS, FINEST, LEAST
   use fuge_kinds, only: dp
   use fuge_median_split, only: sort_by_place
   use fuge_point_forces, only: add_force_displacements, add_force_stresses, finish_displacement, finish_stress
@@ -22,16 +22,20 @@ module fuge_area_field
   integer, parameter :: SOURCES = 1024
   !> From so many units of the loads on, these are one force.
   integer, parameter :: FAR_EXPONENT = 60
+  !> As many points cost less than the moments of clusters.
+  integer, parameter :: FEW_POINTS = 8
   !> A batch is halved if its extent is a greater part of that of the cluster.
   real(dp), parameter :: BATCH_EXTENT = 0.5_dp
 
-  !> The loads of an area, for any number of points. Its clusters fill as they are needed.
+  !> The loads of an area, for any number of points. Clusters are made when they are needed.
   type, public :: area_field
     private
     type(area_loads) :: loads
     type(force_clusters) :: clusters
     type(rectangle_rules) :: rules
     real(dp) :: poisson = 0.0_dp
+    !> Points asked for so far.
+    integer :: asked = 0
   end type area_field
 
   !> Points close to each other, in the unit of the loads, and what has been summed for them.
@@ -58,7 +62,7 @@ contains
     if (stat /= 0 .or. field%loads%count < 1) return
     call new_rectangle_rules(field%rules)
     field%poisson = poisson
-    call new_force_clusters(field%loads, field%clusters, stat)
+    call set_single_cluster(field%loads, field%clusters, stat)
   end subroutine new_area_field
 
   !> Add the stresses at points, for `values` (6, n), or Young's modulus times the displacements, for `values` (3, n).
@@ -75,6 +79,11 @@ contains
 
     stat = 0
     if (field%loads%count < 1 .or. size(z) < 1) return
+    if (field%asked <= FEW_POINTS) then
+      field%asked = field%asked + min(size(z), FEW_POINTS + 1)
+      if (field%asked > FEW_POINTS) call new_force_clusters(field%loads, field%clusters, stat)
+      if (stat /= 0) return
+    end if
     allocate (order(size(z)), places(size(z), 3), stat=stat)
     if (stat /= 0) return
     do k = 1, size(z)
@@ -218,7 +227,7 @@ contains
         return
       end if
     end if
-    if (last > first .and. maxval(high - low) > BATCH_EXTENT*2.0_dp*maxval(field%clusters%box(3:, cluster(1)))) then
+    if (last > first .and. is_to_be_halved(field%clusters, cluster, maxval(high - low))) then
       middle = (first + last)/2
       call add_cluster_field(field, batch, first, middle, cluster, stat)
       call add_cluster_field(field, batch, middle + 1, last, cluster, stat)
@@ -230,6 +239,18 @@ contains
       call add_cluster_field(field, batch, first, last, [2*cluster(1) + 1, middle + 1, cluster(3)], stat)
     end if
   end subroutine add_cluster_field
+
+  !> Is a batch of this `extent` too large for a cluster?
+  pure function is_to_be_halved(clusters, cluster, extent) result(halved)
+    type(force_clusters), intent(in) :: clusters
+    integer, intent(in) :: cluster(3)
+    real(dp), intent(in) :: extent
+    logical :: halved
+
+    halved = extent > BATCH_EXTENT*2.0_dp*maxval(clusters%box(3:, cluster(1)))
+    ! Many loads, but few points: each for itself, since most loads would be close to one of them.
+    if (2*cluster(1) > clusters%count .and. cluster(3) - cluster(2) >= LEAST) halved = extent > 0.0_dp
+  end function is_to_be_halved
 
   !> Are there fewer forces on the grid of a cluster than nodes on its loads?
   pure function is_cheaper(field, cluster, class, low, high) result(cheaper)

@@ -15,7 +15,8 @@ module fuge_force_clusters
   implicit none
   private
 
-  public :: cluster_classes, new_force_clusters, place_cluster_forces, prepare_cluster
+  public :: cluster_classes, new_force_clusters, place_cluster_forces, prepare_cluster, &
+    set_single_cluster
 
   !> Classes of Chebyshev points along a side, from fine to coarse: their numbers, and the half sides from which on they
   !> are enough for errors below 3e-13 in the worst place.
@@ -24,7 +25,7 @@ module fuge_force_clusters
   real(dp), parameter :: CLASS_DISTANCE(CLASSES) = &
     [2.77_dp, 3.13_dp, 3.64_dp, 4.9_dp, 7.46_dp, 11.1_dp, 19.3_dp, 43.7_dp]
   !> A cluster of at most this many loads is not divided.
-  integer, parameter :: LEAST = 32
+  integer, parameter, public :: LEAST = 32
   !> Gauss's rule of this many nodes is exact for the finest grid's polynomials.
   integer, parameter :: NODES = FINEST/2
 
@@ -32,6 +33,11 @@ module fuge_force_clusters
   type :: grid_forces
     real(dp), allocatable :: force(:, :)
   end type grid_forces
+
+  !> All grids of a cluster, (class along x, along y), made when they are first needed.
+  type :: cluster_grids
+    type(grid_forces), allocatable :: of(:, :)
+  end type cluster_grids
 
   !> Clusters in a binary tree: number k has the halves 2 k and 2 k + 1.
   type, public :: force_clusters
@@ -41,8 +47,8 @@ module fuge_force_clusters
     real(dp), allocatable :: box(:, :)
     !> Moments of T_i(x) T_j(y), (FINEST, FINEST, count).
     real(dp), allocatable :: moment(:, :, :)
-    !> Forces, made when they are first needed, (class along x, along y, count).
-    type(grid_forces), allocatable :: grid(:, :, :)
+    !> Grids, (count).
+    type(cluster_grids), allocatable :: grids(:)
     !> Chebyshev points of each class, and the influence of T_k on the force at point i: (k, i, class).
     real(dp) :: point(FINEST, CLASSES) = 0.0_dp
     real(dp) :: share(FINEST, FINEST, CLASSES) = 0.0_dp
@@ -65,15 +71,13 @@ contains
       clusters%levels = clusters%levels + 1
     end do
     clusters%count = 2**(clusters%levels + 1) - 1
-    allocate (clusters%box(4, clusters%count), stat=stat)
-    if (stat /= 0) return
     ! A few loads are never taken together.
     if (clusters%levels < 1) then
-      clusters%box(:, 1) = box_around(loads, 1, loads%count)
+      call set_single_cluster(loads, clusters, stat)
       return
     end if
-    allocate (order(loads%count), places(loads%count, 2), clusters%moment(FINEST, FINEST, clusters%count), &
-              clusters%grid(CLASSES, CLASSES, clusters%count), stat=stat)
+    allocate (order(loads%count), places(loads%count, 2), clusters%box(4, clusters%count), &
+              clusters%moment(FINEST, FINEST, clusters%count), clusters%grids(clusters%count), stat=stat)
     if (stat /= 0) return
     order = [(k, k=1, loads%count)]
     places(:, 1) = loads%x
@@ -85,6 +89,18 @@ contains
     call set_tables(clusters)
     call form_cluster(loads, clusters, 1, 1, loads%count)
   end subroutine new_force_clusters
+
+  !> One cluster of all loads, whose sums take these one by one. `stat` as in an allocate statement.
+  pure subroutine set_single_cluster(loads, clusters, stat)
+    type(area_loads), intent(in) :: loads
+    type(force_clusters), intent(out) :: clusters
+    integer, intent(out) :: stat
+
+    allocate (clusters%box(4, 1), stat=stat)
+    if (stat /= 0) return
+    clusters%count = 1
+    clusters%box(:, 1) = box_around(loads, 1, loads%count)
+  end subroutine set_single_cluster
 
   !> Chebyshev points of the first kind, and the weights by which values of polynomials there become coefficients.
   pure subroutine set_tables(clusters)
@@ -243,7 +259,9 @@ contains
     integer :: p, q
 
     stat = 0
-    associate (grid => clusters%grid(class(1), class(2), k))
+    if (.not. allocated(clusters%grids(k)%of)) allocate (clusters%grids(k)%of(CLASSES, CLASSES), stat=stat)
+    if (stat /= 0) return
+    associate (grid => clusters%grids(k)%of(class(1), class(2)))
       if (allocated(grid%force)) return
       p = CLASS_POINTS(class(1))
       q = CLASS_POINTS(class(2))
@@ -266,7 +284,7 @@ contains
       first = p*(j - 1)
       x(first + 1:first + p) = clusters%box(1, k) + clusters%box(3, k)*clusters%point(:p, class(1))
       y(first + 1:first + p) = clusters%box(2, k) + clusters%box(4, k)*clusters%point(j, class(2))
-      force(first + 1:first + p) = clusters%grid(class(1), class(2), k)%force(:, j)
+      force(first + 1:first + p) = clusters%grids(k)%of(class(1), class(2))%force(:, j)
     end do
   end subroutine place_cluster_forces
 

@@ -2,11 +2,7 @@
 !>
 !> The forces are transformed once for all depths. On a free surface the influence of a rectangle at each distance comes
 !> from the closed forms of fuge_rectangle_field; of a periodic surface the factor of each wave is known
-!> (fuge_halfspace_wave_factors), and from it the influence on one that is periodic along one direction: with s = |q|, by K. L. Johnson, Contact Mechanics, 1985, section 3.2 (Boussinesq),
-!>
-!>     zz = -(1 + s z) exp(-s z) p,   xz = i q_x z exp(-s z) p,
-!>     xx = -(q_x**2 (1 - s z) + 2 nu q_y**2) exp(-s z)/s**2 p,   xy = -q_x q_y (1 - 2 nu - s z) exp(-s z)/s**2 p,
-!>     2 mu u_z = (2 (1 - nu) + s z) exp(-s z)/s p,   2 mu u_x = i q_x (1 - 2 nu - s z) exp(-s z)/s**2 p.
+!> (fuge_halfspace_wave_terms), and from it the influence on one that is periodic along one direction.
 module fuge_halfspace_depths
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_constants, only: LARGEST_EXPONENT_OF_2
@@ -16,12 +12,13 @@ module fuge_halfspace_depths
   use fuge_halfspace_grid, only: check_grid, halfspace_grid, periodic, FUGE_PERIODIC_X
   use fuge_halfspace_mean_rows, only: mean_displacements, mean_stresses
   use fuge_halfspace_wave_factors, only: bytes_of_waves, wave_sums, wave_term
+  use fuge_halfspace_wave_terms, only: displacement_terms, stress_terms
   use fuge_kinds, only: dp
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
   use fuge_rectangle_field, only: new_rectangle_rules, rectangle_displacement, rectangle_rules, rectangle_stress
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
-  use fuge_stress_grid_checks, only: check_grid_depth, check_grid_force, check_grid_result
+  use fuge_stress_grid_checks, only: check_grid_depth, check_grid_force, check_grid_result, check_grid_strain
   implicit none
   private
 
@@ -62,7 +59,7 @@ contains
   !> y has in addition xx = yy = nu/(1 - nu) times the mean of zz. With one periodic direction the mean along it is in
   !> plane strain.
   !>
-  !> Nine arguments and two for results: the grid has four. Errors, stress untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
+  !> Ten arguments, because the grid alone has four. Errors, stress untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_WIDTH, FUGE_ERR_MODULUS (poisson), FUGE_ERR_OPTION (boundary), FUGE_ERR_GRID for a depth < 0,
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. Source: A. E. H. Love, Phil. Trans. R. Soc. A 228, 1929; K. L. Johnson, Contact
   !> Mechanics, 1985, section 3.2.
@@ -102,7 +99,8 @@ contains
   !> depth, from the mean at that depth: the compression of the body by the mean pressure is left out. With one periodic
   !> direction the datum is that of `fuge_halfspace_operator`. A rigid body (`young` infinite) has none.
   !>
-  !> Errors, displacement untouched: as for `fuge_halfspace_stress_grid`, FUGE_ERR_MODULUS also for young. Source: as there.
+  !> Eleven arguments: also Young's modulus. Errors, displacement untouched: as for `fuge_halfspace_stress_grid`,
+  !> FUGE_ERR_MODULUS also for young. Source: as there.
   subroutine fuge_halfspace_displacement_grid(nx, ny, spacing_x, spacing_y, force, boundary, young, poisson, depth, &
                                               displacement, info)
     integer, intent(in) :: nx, ny, boundary
@@ -117,6 +115,7 @@ contains
     call check_body(young, poisson, info)
     call describe(nx, ny, spacing_x, spacing_y, boundary, poisson, work)
     call check_arguments(work, force, depth, shape(displacement), 'displacement', 3, info)
+    call check_grid_strain(force, product(work%grid%spacing), young, info)
     if (.not. info%failed()) call start(work, force, info)
     if (.not. info%failed() .and. ieee_is_finite(young)) compliance = 1.0_dp/young
     do k = 1, size(depth)
@@ -126,7 +125,7 @@ contains
       else if (boundary == FUGE_FREE) then
         call free_displacement(work, depth(k), displacement(:, :, k))
       else
-        call row_displacement(work, depth(k), displacement(:, :, k), info)
+        call row_displacement(work, sum(force), depth(k), displacement(:, :, k), info)
       end if
       if (info%failed()) exit
       displacement(:, :, k) = displacement(:, :, k)/spacing_x/spacing_y*compliance
@@ -353,14 +352,16 @@ contains
     call convolve_tables(work%waves, STRESS_KINDS, stress)
   end subroutine row_stress
 
-  !> As `periodic_displacement`, of a surface that is periodic along one direction. FUGE_ERR_MEMORY.
-  subroutine row_displacement(work, depth, displacement, info)
+  !> As `periodic_displacement`, of a surface that is periodic along one direction; `load` is the sum of the forces.
+  !> FUGE_ERR_MEMORY.
+  subroutine row_displacement(work, load, depth, displacement, info)
     type(grid_work), intent(inout) :: work
-    real(dp), intent(in) :: depth
+    real(dp), intent(in) :: load, depth
     real(dp), intent(inout) :: displacement(:, :)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: mean(:, :)
-    integer :: c, stat
+    real(dp) :: constant
+    integer :: c, n, stat
 
     allocate (mean(3, cells_across(work)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the mean along the rows')
@@ -368,11 +369,16 @@ contains
                                                      depth/width_of_row(work), mean, info)
     if (info%failed()) return
     mean = mean*width_of_row(work)
+    ! Without the constant the wave of equal forces, and its rounding error, is not larger than the others.
+    n = size(mean, 2)
+    constant = (2.0_dp*sum(mean(3, :)) - mean(3, 1))/real(2*n - 1, dp)
+    mean(3, :) = mean(3, :) - constant
     do c = 1, 3
       call fill_factor(work, depth, displacement_terms(c, work%poisson, depth/work%sums%unit))
       call copy_table(work, mean(c, :), work%sums%unit, displacement(c, :))
     end do
     call convolve_tables(work%waves, DISPLACEMENT_KINDS, displacement)
+    displacement(3, :) = displacement(3, :) + constant*load
   end subroutine row_displacement
 
   pure function cells_in_row(work) result(cells)
@@ -424,46 +430,5 @@ contains
       call work%sums%add_term(terms(k), depth/work%sums%unit, work%factor)
     end do
   end subroutine fill_factor
-
-  !> Component 1 .. 6 of the stress at the depth `z` in the unit of the waves.
-  pure function stress_terms(component, nu, z) result(terms)
-    integer, intent(in) :: component
-    real(dp), intent(in) :: nu, z
-    type(wave_term), allocatable :: terms(:)
-
-    select case (component)
-    case (1)
-      terms = [wave_term([2, 0], over_square=-1.0_dp, over_wave=z), wave_term([0, 2], over_square=-2.0_dp*nu)]
-    case (2)
-      terms = [wave_term([0, 2], over_square=-1.0_dp, over_wave=z), wave_term([2, 0], over_square=-2.0_dp*nu)]
-    case (3)
-      terms = [wave_term([0, 0], rising=-1.0_dp)]
-    case (4)
-      terms = [wave_term([0, 1], plain=z)]
-    case (5)
-      terms = [wave_term([1, 0], plain=z)]
-    case default
-      terms = [wave_term([1, 1], over_square=2.0_dp*nu - 1.0_dp, over_wave=z)]
-    end select
-  end function stress_terms
-
-  !> Component 1 .. 3 of the displacement, times Young's modulus, in the unit of the waves, as is the depth `z`.
-  pure function displacement_terms(component, nu, z) result(terms)
-    integer, intent(in) :: component
-    real(dp), intent(in) :: nu, z
-    type(wave_term) :: terms(1)
-    real(dp) :: factor
-
-    ! Young's modulus over twice the shear modulus.
-    factor = 1.0_dp + nu
-    select case (component)
-    case (1)
-      terms = wave_term([1, 0], over_square=factor*(1.0_dp - 2.0_dp*nu), over_wave=-factor*z)
-    case (2)
-      terms = wave_term([0, 1], over_square=factor*(1.0_dp - 2.0_dp*nu), over_wave=-factor*z)
-    case default
-      terms = wave_term([0, 0], over_wave=2.0_dp*factor*(1.0_dp - nu), plain=factor*z)
-    end select
-  end function displacement_terms
 
 end module fuge_halfspace_depths

@@ -30,18 +30,19 @@ contains
   !> The largest von Mises or Tresca stress in a half-space under forces on rectangles, and where it is.
   !>
   !> `x`, `y`, `width_x`, `width_y`, `force`, `poisson`, `symmetric_x` and `symmetric_y` as for `fuge_halfspace_stress`;
-  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of a symmetric model at x >= 0, y >= 0. Value and
-  !> place are those of the field of these forces, the value to 1e-10 or better and the place to its root.
+  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of a symmetric model at x >= 0, y >= 0. Value
+  !> and place are those of the field of these forces, the value to 1e-10 or better and the place to its root.
   !>
   !> The pressure jumps from rectangle to rectangle, and close to the surface the stresses follow the rectangles rather
-  !> than the contact; at their corners one is infinite. The search therefore takes the middles of rectangles at the surface,
-  !> and below it depths from a quarter of the lesser width on: what may lie between is not resolved by the rectangles.
+  !> than the contact; at their corners one is infinite. The search therefore takes the middles of rectangles at the
+  !> surface, and below it depths from a quarter of the lesser width on: what may lie between is not resolved by the
+  !> rectangles.
   !>
-  !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution is
-  !> infinite and any largest value would be one of the grid: then the location is FUGE_PEAK_SINGULAR, the value +infinity,
-  !> the place that edge and the tensor NaN. The forces of five to seven rectangles at the edge decide, in three rows side by
-  !> side; pieces of the contact with less than eight rectangles in a row are not judged.
-  !> Without forces value, place and tensor are 0.
+  !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution
+  !> is infinite and any largest value would be one of the grid: then the location is FUGE_PEAK_SINGULAR, the value
+  !> +infinity, the place that edge and the tensor NaN. The forces of five to seven rectangles at the edge decide, in
+  !> three rows side by side; pieces of the contact with less than eight rectangles in a row are not judged. Without
+  !> forces value, place and tensor are 0.
   !>
   !> Eleven arguments: the rectangles, the body, the measure, the result. Errors, `peak` untouched: those of
   !> `fuge_halfspace_stress`; FUGE_ERR_OPTION for `measure`; FUGE_ERR_MEMORY.

@@ -30,7 +30,10 @@ contains
     real(dp) :: lane(LANES, 6), seen_x(LANES), seen_y(LANES), depth(LANES)
     integer :: first, i, n
 
-    if (size(x) >= FEW) then
+    if (.not. maxval(z) > 0.0_dp) then
+      call add_surface_stresses(source_x, source_y, force, poisson, x, y, sums)
+      return
+    else if (size(x) >= FEW) then
       call add_stress_lanes(source_x, source_y, force, poisson, size(x), x, y, z, sums)
       return
     end if
@@ -46,6 +49,28 @@ contains
       end do
     end do
   end subroutine add_force_stresses
+
+  !> The same for points on the surface, where only xx, yy = -xx and xy are left.
+  pure subroutine add_surface_stresses(source_x, source_y, force, poisson, x, y, sums)
+    real(dp), intent(in), contiguous :: source_x(:), source_y(:), force(:), x(:), y(:)
+    real(dp), intent(in) :: poisson
+    real(dp), intent(inout), contiguous :: sums(:, :)
+    real(dp) :: dx, dy, factor, inverse, normal
+    integer :: i, j
+
+    do j = 1, size(force)
+      factor = (1.0_dp - 2.0_dp*poisson)*force(j)
+      do i = 1, size(x)
+        dx = x(i) - source_x(j)
+        dy = y(i) - source_y(j)
+        inverse = 1.0_dp/(dx**2 + dy**2)
+        normal = factor*inverse**2*((dx - dy)*(dx + dy))
+        sums(i, 1) = sums(i, 1) + normal
+        sums(i, 2) = sums(i, 2) - normal
+        sums(i, 6) = sums(i, 6) + 2.0_dp*factor*inverse**2*(dx*dy)
+      end do
+    end do
+  end subroutine add_surface_stresses
 
   !> The same for the first `n` points.
   pure subroutine add_stress_lanes(source_x, source_y, force, poisson, n, x, y, z, sums)

@@ -17,7 +17,7 @@ module fuge_circle_field
   integer, parameter :: MOST_ANGLES = 36
   !> The rule needs DIGITS/theta points, cosh(theta) = (r**2 + s**2 + z**2)/(2 r s), or DIGITS/ln(s/r) well inside, and
   !> MORE_ANGLES; it is used where cosh(theta) - 1 is at least FAR.
-  real(dp), parameter :: DIGITS = 22.0_dp, FAR = 0.5_dp
+  real(dp), parameter :: DIGITS = 20.5_dp, FAR = 0.5_dp
   integer, parameter :: MORE_ANGLES = 3
   !> Two numbers with a smaller relative difference have the same means up to rounding.
   real(dp), parameter :: CLOSE = 1.0e-8_dp
@@ -81,7 +81,7 @@ contains
     real(dp), intent(in) :: s, r, z, offset, sine(:), half_square(:)
     logical, intent(in) :: inside
     real(dp) :: field(INTEGRALS)
-    real(dp) :: inverse, root, depth, dr, dt, spread_term
+    real(dp) :: inverse, sum_inverse, root, depth, dr, dt, square, spread_term
     integer :: j
 
     field = 0.0_dp
@@ -94,16 +94,20 @@ contains
       if (inside) then
         spread_term = depth*(inverse*inverse)*sine(j)*winding(s, r, offset, sine(j), half_square(j))
       else
-        spread_term = (inverse - dt**2*(2.0_dp*root + z)/(root + z)*inverse)/(root + z)
+        sum_inverse = 1.0_dp/(root + z)
+        spread_term = (1.0_dp - dt**2*((2.0_dp*root + z)*sum_inverse))*(inverse*sum_inverse)
       end if
+      square = inverse**2
       field(POTENTIAL) = field(POTENTIAL) + inverse
       field(SPREAD) = field(SPREAD) + spread_term
-      field(FLUX) = field(FLUX) + depth*inverse**2
-      field(RADIAL) = field(RADIAL) + 3.0_dp*depth*dr**2*inverse**2
-      field(HOOP) = field(HOOP) + 3.0_dp*depth*dt**2*inverse**2
-      field(SHEAR) = field(SHEAR) + 3.0_dp*r*depth**2*inverse**3*(1.0_dp - 5.0_dp*dt**2)
-      field(AXIAL) = field(AXIAL) + 3.0_dp*depth**3*inverse**2
+      field(FLUX) = field(FLUX) + depth*square
+      field(RADIAL) = field(RADIAL) + depth*dr**2*square
+      field(HOOP) = field(HOOP) + depth*dt**2*square
+      field(SHEAR) = field(SHEAR) + depth**2*(inverse*square)*(1.0_dp - 5.0_dp*dt**2)
+      field(AXIAL) = field(AXIAL) + depth**3*square
     end do
+    field([RADIAL, HOOP, AXIAL]) = 3.0_dp*field([RADIAL, HOOP, AXIAL])
+    field(SHEAR) = 3.0_dp*r*field(SHEAR)
     field = field/real(size(sine), dp)
     ! By parts over the angle: no difference of the two sides of the circle.
     field(SIDEWARD) = r*(field(FLUX) - field(HOOP))

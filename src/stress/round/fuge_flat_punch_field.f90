@@ -52,13 +52,14 @@ contains
     real(dp), intent(out) :: lambda, mu
     real(dp) :: square, size_of_square
 
-    square = offset*(r + t) + z**2
-    size_of_square = hypot(offset, z)*hypot(r + t, z)
+    ! In units of t, whose own square may vanish close to the axis.
+    square = (offset/t)*((r + t)/t) + (z/t)**2
+    size_of_square = hypot(offset/t, z/t)*hypot((r + t)/t, z/t)
     if (square >= 0.0_dp) then
-      lambda = sqrt(0.5_dp*(size_of_square + square))/t
+      lambda = sqrt(0.5_dp*(size_of_square + square))
       mu = z/t/lambda
     else
-      mu = sqrt(0.5_dp*(size_of_square - square))/t
+      mu = sqrt(0.5_dp*(size_of_square - square))
       lambda = z/t/mu
     end if
   end subroutine spheroidal_coordinates

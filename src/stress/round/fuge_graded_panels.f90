@@ -58,7 +58,8 @@ contains
     if (near + far < least*(length - left)) then
       ! The longest panel for which that many nodes suffice.
       right = left + 2.0_dp*((distance + left) + least*near)/((least - 1.0_dp)*(least + 1.0_dp))
-      right = min(right, length)
+      ! No sliver is left, whose nodes might fall on the end.
+      if (length - right < 0.5_dp*(right - left)) right = 0.5_dp*(left + length)
       nodes = SINGULAR_NODES
       return
     end if

@@ -14,9 +14,10 @@ module fuge_round_interior
 
   public :: fuge_round_displacement, fuge_round_stress
 
-  !> In the contact the field of a lesser depth is that of the surface, relative to the distance from the axis; on the
-  !> axis that of this depth, relative to the radius.
-  real(dp), parameter :: LEAST_DEPTH = 2.0_dp**(-104), LEAST_DEPTH_OF_AXIS = 2.0_dp**(-200)
+  !> In the contact the field of a lesser depth, relative to the distance from the axis, is that of the surface.
+  real(dp), parameter :: LEAST_DEPTH = 2.0_dp**(-104)
+  !> Depths below count as this one, relative to the radius, and so close to the axis is on it: squares stay in range.
+  real(dp), parameter :: LEAST_LENGTH = 2.0_dp**(-300)
 
 contains
 
@@ -100,19 +101,39 @@ contains
     type(round_rules), intent(in) :: rules
     real(dp), intent(in) :: pr, pz
     real(dp) :: field(INTEGRALS)
-    real(dp) :: r, z, pressure
+    real(dp) :: r, z
 
     r = pr/contact%radius
     z = pz/contact%radius
-    if (z > 0.0_dp .and. (z > LEAST_DEPTH*r .or. r > 1.0_dp)) then
-      field = round_field(rules, transform, r, max(z, merge(LEAST_DEPTH_OF_AXIS, 0.0_dp, r <= 1.0_dp)))
+    if (r > 1.0_dp .and. z > 0.0_dp) then
+      field = round_field(rules, transform, r, z)
+    else if (z > LEAST_DEPTH*r) then
+      field = round_field(rules, transform, merge(r, 0.0_dp, r >= LEAST_LENGTH), max(z, LEAST_LENGTH))
     else
-      field = round_field(rules, transform, r, 0.0_dp)
-      ! On the axis the spread is pi times the pressure.
-      pressure = field(SPREAD)/PI
-      if (r > 0.0_dp) pressure = contact%pressure(pr)/contact%e_star*PI
-      field = surface_field(pressure, field(SPREAD), field(POTENTIAL))
+      field = surface_field_at(contact, transform, rules, pr)
     end if
   end function field_at
+
+  !> The same at the surface.
+  pure function surface_field_at(contact, transform, rules, pr) result(field)
+    type(fuge_round_contact), intent(in) :: contact
+    type(abel_transform), intent(in) :: transform
+    type(round_rules), intent(in) :: rules
+    real(dp), intent(in) :: pr
+    real(dp) :: field(INTEGRALS)
+    real(dp) :: r, pressure
+
+    r = pr/contact%radius
+    if (r >= LEAST_LENGTH) then
+      field = round_field(rules, transform, r, 0.0_dp)
+      pressure = contact%pressure(pr)/contact%e_star*PI
+    else
+      field = round_field(rules, transform, merge(LEAST_LENGTH, 0.0_dp, r > 0.0_dp), 0.0_dp)
+      ! Beside a tip the pressure grows like the logarithm of 1/r; the spread is pi times its mean nearer to the axis.
+      if (r > 0.0_dp) field(SPREAD) = field(SPREAD) + PI*transform%tip*log(LEAST_LENGTH/r)
+      pressure = field(SPREAD)/PI - 0.5_dp*transform%tip
+    end if
+    field = surface_field(pressure, field(SPREAD), field(POTENTIAL))
+  end function surface_field_at
 
 end module fuge_round_interior

@@ -62,16 +62,15 @@ contains
   !> Out: `peak`, its place being the distance from the axis, 0 and the depth. Value and place are those of the field of
   !> these forces, the value to 1e-10 or better and the place to its root.
   !>
-  !> The pressure jumps from ring to ring, and close to the surface the stresses follow the rings rather than the contact.
-  !> The search therefore takes the middles of rings at the surface, and below it depths from a quarter of the width of a
-  !> ring on; what may lie between is not resolved by the rings.
+  !> The pressure jumps from ring to ring, and close to the surface the stresses follow the rings rather than the
+  !> contact. The search therefore takes the middles of rings at the surface, and below it depths from a quarter of the
+  !> width of a ring on; what may lie between is not resolved by the rings.
   !>
-  !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution is
-  !> infinite and any largest value would be one of the rings: then the location is FUGE_PEAK_SINGULAR, the value
-  !> +infinity, the place that edge and the tensor NaN. The forces of seven rings at the edge decide, in a disc of less than
-  !> six rings those of four; edges of annuli with less than twelve rings are not judged.
-  !> Without forces value, place and tensor are 0.
-  !> Errors, `peak` untouched: those of `fuge_ring_stress`; FUGE_ERR_OPTION for `measure`.
+  !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution
+  !> is infinite and any largest value would be one of the rings: then the location is FUGE_PEAK_SINGULAR, the value
+  !> +infinity, the place that edge and the tensor NaN. The forces of seven rings at the edge decide, in a disc of less
+  !> than six rings those of four; edges of annuli with less than twelve rings are not judged. Without forces value,
+  !> place and tensor are 0. Errors, `peak` untouched: those of `fuge_ring_stress`; FUGE_ERR_OPTION for `measure`.
   subroutine fuge_ring_peak(radius, force, poisson, measure, peak, info)
     real(dp), intent(in) :: radius(:), force(:), poisson
     integer, intent(in) :: measure
@@ -107,17 +106,17 @@ contains
 
   !> The largest von Mises or Tresca stress in a half-space under a round punch, and where it is.
   !>
-  !> `contact` of `fuge_solve_round_punch`; `poisson` of the body, above -1 and up to 0.5; `measure` FUGE_MEASURE_VON_MISES
-  !> or FUGE_MEASURE_TRESCA. Out: `peak`, the value to 1e-12 or better and its place, the distance from the axis, 0 and the
-  !> depth, to its root; where the stress has a cusp, as at the rim of a sphere on a body with a negative Poisson's ratio,
-  !> to 1e-6.
+  !> `contact` of `fuge_solve_round_punch`; `poisson` of the body, above -1 and up to 0.5; `measure`
+  !> FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, the value to 1e-12 or better and its place, the
+  !> distance from the axis, 0 and the depth, to its root; where the stress has a cusp, as at the rim of a sphere on a
+  !> body with a negative Poisson's ratio, to 1e-6.
   !>
-  !> In the tip of a cone and along an edge of the punch within the contact the pressure p is infinite like a logarithm, and
-  !> so is every stress, but not in the same ratio: in a tip rr = tt = -(1/2 + poisson) p beside zz = -p, and along an edge tt
-  !> = poisson (rr + zz). Unless poisson = 0.5 the measures are infinite with them: then the location is FUGE_PEAK_SINGULAR,
-  !> the value +infinity, the place that tip or edge and the tensor NaN. Without load value, place and tensor are 0.
-  !> Errors, `peak` untouched: FUGE_ERR_OPTION for `measure`; FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE for `poisson`;
-  !> FUGE_ERR_MEMORY.
+  !> In the tip of a cone and along an edge of the punch within the contact the pressure p is infinite like a logarithm,
+  !> and so is every stress, but not in the same ratio: in a tip rr = tt = -(1/2 + poisson) p beside zz = -p, and along
+  !> an edge tt = poisson (rr + zz). Unless poisson = 0.5 the measures are infinite with them: then the location is
+  !> FUGE_PEAK_SINGULAR, the value +infinity, the place that tip or edge and the tensor NaN. Without load value, place
+  !> and tensor are 0. Errors, `peak` untouched: FUGE_ERR_OPTION for `measure`; FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE
+  !> for `poisson`; FUGE_ERR_MEMORY.
   subroutine fuge_round_peak(contact, poisson, measure, peak, info)
     type(fuge_round_contact), intent(in) :: contact
     real(dp), intent(in) :: poisson

@@ -1,0 +1,75 @@
+/* A roller on a plate: the stresses in the plate and where it yields first, from C.
+ *
+ *     c_stress
+ *
+ * Half of the cells are passed, because of the symmetry.  Below the middle of the contact the
+ * stresses are compared with the exact ones, and the largest von Mises stress with the known
+ * one. */
+#include <math.h>
+#include <stdio.h>
+#include "fuge.h"
+
+enum { N = 64, POINTS = 6 };
+/* Steel on steel, N and mm; the load is that of 1 mm of the roller. */
+static const double RADIUS = 10.0, YOUNG = 2.1e5, POISSON = 0.3, LOAD = 500.0;
+static const double PI = 3.14159265358979324;
+/* For nu = 0.3 in plane strain, over p_0, and its depth over the half width. */
+static const double KNOWN_MISES = 0.557516, KNOWN_DEPTH = 0.704292;
+
+static char message[FUGE_MESSAGE_LENGTH + 1];
+
+static int failed(int status) {
+  if (status == FUGE_DONE) return 0;
+  fprintf(stderr, "%s: %s\n", fuge_status_text(status), message);
+  return 1;
+}
+
+/* Forces on cells of equal widths; each is the sum over a cell and its mirror image. */
+static int press(const double *x, const double *width, double e_star, double *force) {
+  static double alpha[N * N], gap[N], open[N];
+  double approach;
+
+  for (int k = 0; k < N; k++) gap[k] = x[k] * x[k] / (2.0 * RADIUS);
+  return failed(fuge_halfplane_symmetric_matrix(N, x, width, e_star, FUGE_HAT, alpha, N, message, sizeof message))
+         || failed(fuge_solve_dense(N, alpha, N, gap, LOAD, force, open, &approach, message, sizeof message));
+}
+
+/* The table; not 0 if something failed or is far from the exact stresses. */
+static int go_down(const double *x, const double *width, const double *force, double a, double p0) {
+  double px[POINTS] = {0.0}, pz[POINTS], stress[3 * POINTS], tensor[6 * POINTS], mises[POINTS];
+
+  for (int k = 0; k < POINTS; k++) pz[k] = 0.4 * a * k;
+  if (failed(fuge_halfplane_symmetric_stress(N, x, width, force, FUGE_HAT, POINTS, px, pz, stress, message,
+                                             sizeof message))
+      || failed(fuge_halfplane_tensor(POINTS, stress, FUGE_PLANE_STRAIN, POISSON, tensor, message, sizeof message))
+      || failed(fuge_von_mises(POINTS, tensor, mises, message, sizeof message)))
+    return 1;
+  printf("  z/a     xx/p0   exact      zz/p0   exact   von Mises/p0\n");
+  for (int k = 0; k < POINTS; k++) {
+    double z = pz[k] / a, root = sqrt(1.0 + z * z);
+    double xx = 2.0 * z - (1.0 + 2.0 * z * z) / root, zz = -1.0 / root;
+    printf("%5.2f %9.4f %8.4f %9.4f %8.4f %11.4f\n", z, stress[3 * k] / p0, xx, stress[3 * k + 1] / p0, zz,
+           mises[k] / p0);
+    if (fabs(stress[3 * k] / p0 - xx) > 1e-3 || fabs(stress[3 * k + 1] / p0 - zz) > 1e-3) return 1;
+  }
+  return 0;
+}
+
+int main(void) {
+  double x[N], width[N], force[N], e_star = 0.5 * YOUNG / (1.0 - POISSON * POISSON);
+  double a = sqrt(4.0 * LOAD * RADIUS / (PI * e_star)), p0 = 2.0 * LOAD / (PI * a);
+  fuge_stress_peak peak;
+
+  for (int k = 0; k < N; k++) {
+    width[k] = 1.2 * a / N;
+    x[k] = width[k] * (k + 0.5);
+  }
+  if (press(x, width, e_star, force) || go_down(x, width, force, a, p0)) return 1;
+  if (failed(fuge_halfplane_symmetric_peak(N, x, width, force, FUGE_HAT, FUGE_PLANE_STRAIN, POISSON,
+                                           FUGE_MEASURE_VON_MISES, &peak, message, sizeof message)))
+    return 1;
+  printf("largest von Mises stress %7.2f N/mm2, %.6f p0 at z = %.6f a\n", peak.value, peak.value / p0,
+         peak.place[2] / a);
+  printf("known                    %7.2f N/mm2, %.6f p0 at z = %.6f a\n", KNOWN_MISES * p0, KNOWN_MISES, KNOWN_DEPTH);
+  return fabs(peak.value / p0 - KNOWN_MISES) > 1e-4 || peak.location != FUGE_PEAK_INSIDE;
+}
