@@ -30,7 +30,8 @@ contains
   end function c_ring_stress
 
   !> Eleven arguments, as in the header: the rings, the body, the points, the message.
-  function c_ring_interior_displacement(n, radius, force, young, poisson, points, pr, pz, displacement, message, length) &
+  function c_ring_interior_displacement(n, radius, force, young, poisson, points, pr, pz, displacement, message, &
+                                        length) &
     bind(c, name='fuge_ring_interior_displacement') result(status)
     integer(c_int), intent(in), value :: n, points
     type(c_ptr), intent(in), value :: radius, force, pr, pz, displacement, message

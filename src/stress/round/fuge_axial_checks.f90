@@ -38,7 +38,8 @@ contains
         return
       else if (exponent(max(pr(k), pz(k))) > min(exponent(radius) + MOST_ORDERS, LARGEST_EXPONENT_OF_2)) then
         call report(info, FUGE_ERR_OVERFLOW, 'the point pr('//index_text(k)//') = '//text(pr(k))//', pz(' &
-                    //index_text(k)//') = '//text(pz(k))//' is out of range: so far away the field is that of one force')
+                    //index_text(k)//') = '//text(pz(k)) &
+                    //' is out of range: so far away the field is that of one force')
         return
       end if
     end do

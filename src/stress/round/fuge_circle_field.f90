@@ -47,8 +47,8 @@ contains
 
   !> The integrals of `fuge_axial_field` for a unit force on a circle of radius `s` > 0.
   !>
-  !> `r`, `z` >= 0: the point in the body; `offset` = s - r, which may have more digits than the difference. z and offset
-  !> are not both 0; all of them within a few orders of 1 that keep their fifth powers in range, or far below.
+  !> `r`, `z` >= 0: the point in the body; `offset` = s - r, which may have more digits than the difference. z and
+  !> offset are not both 0. The largest length is about 1.
   pure function circle_field(rules, s, r, z, offset) result(field)
     type(circle_rules), intent(in) :: rules
     real(dp), intent(in) :: s, r, z, offset
@@ -161,11 +161,11 @@ contains
     if (offset < 0.0_dp) part = 1.0_dp
   end function passed
 
-  !> Integrals over a quarter of the circle, with c = cos**2, s = sin**2, Delta = sqrt(c + ratio**2 s) and 0 < `ratio` < 1:
+  !> Integrals over a quarter of the circle, with c = cos**2, s = sin**2, Delta = sqrt(c + ratio**2 s), 0 < `ratio` < 1:
   !> `b` of c/Delta, `d` of s/Delta, `third` of (c + side s)/((c + side**2 s) Delta), its principal value for side = 0.
   !>
-  !> Each is an integral of (x c + y s)/((c + p**2 s) sqrt(m**2 c + g**2 s)). It keeps its value while m and g are replaced
-  !> by their means, until they are equal.
+  !> Each is an integral of (x c + y s)/((c + p**2 s) sqrt(m**2 c + g**2 s)). It keeps its value while m and g are
+  !> replaced by their means, until they are equal.
   pure subroutine elliptic_integrals(ratio, side, b, d, third)
     real(dp), intent(in) :: ratio, side
     real(dp), intent(out) :: b, d, third

@@ -20,8 +20,8 @@ contains
 
   !> The integrals of `fuge_axial_field` over the disc of radius `t` > 0.
   !>
-  !> `r`, `z` >= 0: the point in the body; `offset` = r - t, which may have more digits than the difference. z and offset
-  !> are not both 0.
+  !> `r`, `z` >= 0: the point in the body; `offset` = r - t, which may have more digits than the difference. z and
+  !> offset are not both 0.
   pure function flat_punch_field(t, r, z, offset) result(field)
     real(dp), intent(in) :: t, r, z, offset
     real(dp) :: field(INTEGRALS)

@@ -54,10 +54,10 @@ contains
 
   !> Displacements of a half-space under forces on rings, at its surface and inside.
   !>
-  !> `radius`, `force`, `poisson`, `pr` and `pz` as in `fuge_ring_stress`; `young` > 0: Young's modulus of the body, force
-  !> per length squared, +infinity for a rigid one. Out: `displacement` (2, points): away from the axis, and into
-  !> the body; length. They vanish far away. At pz = 0 the second one is that of `fuge_ring_displacement` for e_star
-  !> = young/(1 - poisson**2).
+  !> `radius`, `force`, `poisson`, `pr` and `pz` as in `fuge_ring_stress`; `young` > 0: Young's modulus of the body,
+  !> force per length squared, +infinity for a rigid one. Out: `displacement` (2, points): away from the axis, and
+  !> into the body; length. They vanish far away. At pz = 0 the second one is that of `fuge_ring_displacement` for
+  !> e_star = young/(1 - poisson**2).
   !> Errors, displacement untouched: those of `fuge_ring_stress`.
   pure subroutine fuge_ring_interior_displacement(radius, force, young, poisson, pr, pz, displacement, info)
     real(dp), intent(in) :: radius(:), force(:), young, poisson, pr(:), pz(:)

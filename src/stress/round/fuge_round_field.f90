@@ -189,8 +189,8 @@ contains
     end do
   end subroutine add_punches
 
-  !> Add the flat punches of an edge, over w = sqrt(t**2 - start**2), in which it is smooth; the kernel has a singularity
-  !> at the root of (r + i z)**2 - start**2.
+  !> Add the flat punches of an edge, over w = sqrt(t**2 - start**2), in which it is smooth; the kernel has a
+  !> singularity at the root of (r + i z)**2 - start**2.
   pure subroutine add_edge(rules, edge, r, z, field)
     type(round_rules), intent(in) :: rules
     type(profile_edge), intent(in) :: edge
@@ -213,16 +213,18 @@ contains
     lower = 0.0_dp
     upper = min(last, edge%start)
     do
-      if (place < upper) call add_edge_punches(rules, edge, max(lower, place), 1.0_dp, upper, r, z, place, height, field)
-      if (place > lower) call add_edge_punches(rules, edge, min(upper, place), -1.0_dp, lower, r, z, place, height, field)
+      if (place < upper) &
+        call add_edge_punches(rules, edge, max(lower, place), 1.0_dp, upper, r, z, place, height, field)
+      if (place > lower) &
+        call add_edge_punches(rules, edge, min(upper, place), -1.0_dp, lower, r, z, place, height, field)
       if (.not. upper < last) exit
       lower = upper
       upper = min(last, GROWTH*upper)
     end do
   end subroutine add_edge
 
-  !> Add those from w = `first` to `last`; `place` and `height` of the singularity. Ten arguments: those of a piece of the
-  !> edge, the point, and the singularity.
+  !> Add those from w = `first` to `last`; `place` and `height` of the singularity. Eleven arguments: a piece of the
+  !> edge, the point, the singularity, the sum.
   pure subroutine add_edge_punches(rules, edge, first, direction, last, r, z, place, height, field)
     type(round_rules), intent(in) :: rules
     type(profile_edge), intent(in) :: edge

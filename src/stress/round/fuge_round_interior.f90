@@ -23,8 +23,8 @@ contains
 
   !> Stresses in a half-space under a round punch.
   !>
-  !> `contact` of `fuge_solve_round_punch`. `poisson`: Poisson's ratio of the body, above -1 and up to 0.5. `pr`, `pz` >= 0
-  !> (points): distances from the axis, and depths; length. Out: `stress` (4, points): rr, tt (around the axis),
+  !> `contact` of `fuge_solve_round_punch`. `poisson`: Poisson's ratio of the body, above -1 and up to 0.5. `pr`, `pz`
+  !> >= 0 (points): distances from the axis, and depths; length. Out: `stress` (4, points): rr, tt (around the axis),
   !> zz, rz; force per length squared, tension positive. At the surface, pz = 0, they are the limits from inside. In the
   !> tip of a cone, where the pressure is infinite, zz is minus the largest number, and rr and tt are (1 + 2 poisson)/2
   !> times it. Without load all are 0.
