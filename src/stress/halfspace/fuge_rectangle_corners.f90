@@ -163,8 +163,8 @@ contains
     real(dp) :: d
 
     d = 0.0_dp
-    if (abs(y(2)) > 0.0_dp) d = y(2)*log(sums(2, 2)/sums(1, 2))
-    if (abs(y(1)) > 0.0_dp) d = d - y(1)*log(sums(2, 1)/sums(1, 1))
+    if (abs(y(2)) > 0.0_dp) d = y(2)*log_ratio(sums(2, 2), sums(1, 2))
+    if (abs(y(1)) > 0.0_dp) d = d - y(1)*log_ratio(sums(2, 1), sums(1, 1))
   end function log_moment
 
   !> ln(r + Y) at `y`(2) less that at `y`(1), the potential of an edge; `r` (2), and `distance` from its line. Zero on
@@ -176,12 +176,24 @@ contains
     potential = 0.0_dp
     if (.not. distance > 0.0_dp) return
     if (y(1) > 0.0_dp) then
-      potential = log((r(2) + y(2))/(r(1) + y(1)))
+      potential = log_ratio(r(2) + y(2), r(1) + y(1))
     else if (y(2) < 0.0_dp) then
-      potential = log((r(1) - y(1))/(r(2) - y(2)))
+      potential = log_ratio(r(1) - y(1), r(2) - y(2))
     else
-      potential = log((r(2) + y(2))/distance) + log((r(1) - y(1))/distance)
+      potential = log_ratio(r(2) + y(2), distance) + log_ratio(r(1) - y(1), distance)
     end if
   end function line_potential
+
+  !> ln(a/b) of numbers that may be so small that the quotient overflows.
+  pure function log_ratio(a, b) result(value)
+    real(dp), intent(in) :: a, b
+    real(dp) :: value
+
+    if (min(a, b) > sqrt(tiny(a))) then
+      value = log(a/b)
+    else
+      value = log(a) - log(b)
+    end if
+  end function log_ratio
 
 end module fuge_rectangle_corners
