@@ -1,13 +1,14 @@
 # Below a rough surface: pressure, von Mises stress at the depth where it is largest, and on a cut below the highest
 # pressure, which is in the middle. Run in the folder of stress_rough_pressure.dat, stress_rough_depth.dat,
 # stress_rough_cut.dat and stress_rough_place.dat.
-stats "stress_rough_place.dat" using 1:2 name "place" nooutput
+stats "stress_rough_place.dat" using 1 name "shortest" nooutput
+stats "stress_rough_place.dat" using 2 name "deepest" nooutput
 stats "stress_rough_depth.dat" matrix name "m" nooutput
 stats "stress_rough_pressure.dat" matrix name "p" nooutput
 stats "stress_rough_cut.dat" matrix name "c" nooutput
 # Cells for the shortest wave, and the depth of the map in cells.
-wave = place_max_x
-depth = place_max_y
+wave = shortest_max
+depth = deepest_max
 along(k, n) = (k - floor(n/2))/wave
 set terminal pngcairo size 1200,880 font "sans,13" enhanced
 set output "stress_rough.png"
