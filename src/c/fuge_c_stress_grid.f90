@@ -36,8 +36,8 @@ contains
   end function c_halfplane_stress_grid
 
   !> Thirteen arguments, as in the header: the cells, the body, the depths, the message.
-  function c_halfplane_displacement_grid(n, spacing, force, element, boundary, young, poisson, plane_state, depths, depth, &
-                                         displacement, message, length) &
+  function c_halfplane_displacement_grid(n, spacing, force, element, boundary, young, poisson, plane_state, depths, &
+                                         depth, displacement, message, length) &
     bind(c, name='fuge_halfplane_displacement_grid') result(status)
     integer(c_int), intent(in), value :: n, element, boundary, plane_state, depths
     real(c_double), intent(in), value :: spacing, young, poisson
@@ -88,9 +88,9 @@ contains
 
     call require_grid(nx, ny, info)
     call find_arrays(cells_of(nx, ny, info), force, depths, depth, displacement, 'displacement', 3, arrays, info)
-    if (.not. info%failed()) call fuge_halfspace_displacement_grid(int(nx), int(ny), spacing_x, spacing_y, arrays%force, &
-                                                                   int(boundary), young, poisson, arrays%depth, &
-                                                                   arrays%field, info)
+    if (.not. info%failed()) call fuge_halfspace_displacement_grid(int(nx), int(ny), spacing_x, spacing_y, &
+                                                                   arrays%force, int(boundary), young, poisson, &
+                                                                   arrays%depth, arrays%field, info)
     status = report_to_c(info, message, length)
   end function c_halfspace_displacement_grid
 
