@@ -4,12 +4,11 @@ module fuge_halfplane_interior
   use fuge_constants, only: LARGEST_EXPONENT_OF_4, PI
   use fuge_elastic_moduli, only: fuge_plane_modulus, FUGE_PLANE_STRAIN
   use fuge_halfplane_influence, only: check_halfplane, datum_length
-  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_loaded_cells, only: loaded_cells
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
-  use fuge_stress_checks, only: check_coordinate, check_depth, check_result
+  use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW
+  use fuge_stress_checks, only: check_coordinate, check_depth, check_forces, check_result
   implicit none
   private
 
@@ -146,22 +145,10 @@ contains
 
     call check_halfplane(x, width, 1.0_dp, element, symmetric, info)
     if (.not. info%failed()) call check_overlaps(x, width, symmetric, info)
-    if (.not. info%failed()) call check_forces(force, size(x), info)
+    call check_forces(force, size(x), 'cells', info)
     call check_depth(pz, 'pz', info)
     call check_coordinate(px, 'px', pz, info)
   end subroutine check_cells_and_points
-
-  pure subroutine check_forces(force, n, info)
-    real(dp), intent(in) :: force(:)
-    integer, intent(in) :: n
-    type(fuge_info), intent(inout) :: info
-
-    if (size(force) /= n) then
-      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' values for the '//text(n)//' cells')
-    else
-      call check_finite(force, 'force', info)
-    end if
-  end subroutine check_forces
 
   !> Refuse points that are too far away (FUGE_ERR_OVERFLOW).
   pure subroutine check_distances(cells, px, pz, info)

@@ -7,7 +7,7 @@ module fuge_loaded_cells
   use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_hat_field, only: add_hat_displacements, add_hats, hat_rules
-  use fuge_heap_sort, only: heap_sort
+  use fuge_heap_sort, only: heap_sort, reorder
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
@@ -108,8 +108,9 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: n
 
+    if (info%failed()) return
     n = size(self%centre)
-    if (info%failed() .or. n < FEW_CELLS) return
+    if (n < FEW_CELLS) return
     if (any(self%centre(2:) < self%centre(:n - 1))) call sort(self, info)
     if (.not. info%failed()) call self%clusters%build(self%centre, self%width, merge(1.0_dp, 0.5_dp, self%hats), info)
     if (.not. info%failed()) call self%clusters%fill(self%centre, self%width, self%pressure, self%hats)
@@ -120,11 +121,11 @@ contains
     class(loaded_cells), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
     integer, allocatable :: order(:)
-    real(dp), allocatable :: unordered(:)
+    real(dp), allocatable :: work(:)
     integer :: k, n, stat
 
     n = size(self%centre)
-    allocate (order(n), unordered(n), stat=stat)
+    allocate (order(n), work(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(n)//' cells')
       return
@@ -133,23 +134,10 @@ contains
       order(k) = k
     end do
     call heap_sort(self%centre, order)
-    call permute(order, self%centre, unordered)
-    call permute(order, self%width, unordered)
-    call permute(order, self%pressure, unordered)
+    call reorder(order, self%centre, work)
+    call reorder(order, self%width, work)
+    call reorder(order, self%pressure, work)
   end subroutine sort
-
-  pure subroutine permute(order, values, unordered)
-    integer, intent(in) :: order(:)
-    real(dp), intent(inout) :: values(:), unordered(:)
-    integer :: k
-
-    do k = 1, size(order)
-      unordered(k) = values(k)
-    end do
-    do k = 1, size(order)
-      values(k) = unordered(order(k))
-    end do
-  end subroutine permute
 
   !> Add -pi times the stresses xx, zz and xz at a point to `total`; lengths and areas in the unit of the cells.
   pure subroutine add_stresses(self, px, pz, total)
