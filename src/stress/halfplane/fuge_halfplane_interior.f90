@@ -42,7 +42,6 @@ contains
     logical, intent(in), optional :: symmetric
     type(loaded_cells) :: cells
     logical :: folded
-    real(dp) :: total(3), image(3), scaled(2)
     integer :: k
 
     folded = .false.
@@ -54,16 +53,7 @@ contains
     if (size(pz) >= MANY_POINTS) call cells%gather(info)
     if (info%failed()) return
     do k = 1, size(pz)
-      scaled = scale([px(k), pz(k)], cells%power)
-      total = 0.0_dp
-      call cells%add_stresses(scaled(1), scaled(2), total)
-      if (folded) then
-        image = 0.0_dp
-        call cells%add_stresses(-scaled(1), scaled(2), image)
-        total = 0.5_dp*(total + [image(1), image(2), -image(3)])
-      end if
-      ! Nothing is 0, not -0.
-      stress(:, k) = 0.0_dp - scale(total/PI, cells%power)
+      call cells%find_stress(px(k), pz(k), folded, stress(:, k))
     end do
   end subroutine fuge_halfplane_stress
 

@@ -4,7 +4,7 @@
 !> and the clusters of all others.
 module fuge_loaded_cells
   use fuge_cell_clusters, only: cell_clusters
-  use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2
+  use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2, PI
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_hat_field, only: add_hat_displacements, add_hats, hat_rules
   use fuge_heap_sort, only: heap_sort, reorder
@@ -35,6 +35,7 @@ module fuge_loaded_cells
   contains
     procedure :: set
     procedure :: gather
+    procedure :: find_stress
     procedure :: add_stresses
     procedure :: add_displacements
     procedure :: check_range
@@ -138,6 +139,27 @@ contains
     call reorder(order, self%width, work)
     call reorder(order, self%pressure, work)
   end subroutine sort
+
+  !> The stresses xx, zz and xz at a point, in the caller's units. Of a `folded` model half of each force acts on the
+  !> mirror image of its cell.
+  pure subroutine find_stress(self, px, pz, folded, stress)
+    class(loaded_cells), intent(in) :: self
+    real(dp), intent(in) :: px, pz
+    logical, intent(in) :: folded
+    real(dp), intent(out) :: stress(3)
+    real(dp) :: total(3), image(3), scaled(2)
+
+    scaled = scale([px, pz], self%power)
+    total = 0.0_dp
+    call self%add_stresses(scaled(1), scaled(2), total)
+    if (folded) then
+      image = 0.0_dp
+      call self%add_stresses(-scaled(1), scaled(2), image)
+      total = 0.5_dp*(total + [image(1), image(2), -image(3)])
+    end if
+    ! Nothing is 0, not -0.
+    stress = 0.0_dp - scale(total/PI, self%power)
+  end subroutine find_stress
 
   !> Add -pi times the stresses xx, zz and xz at a point to `total`; lengths and areas in the unit of the cells.
   pure subroutine add_stresses(self, px, pz, total)
