@@ -18,6 +18,8 @@ module fuge_loaded_cells
   !> No distance is larger than 2**FARTHEST narrowest widths, 1.8e75.
   integer, parameter :: FARTHEST = 250
 
+  !> How many sums make the stresses at a point, and the displacements.
+  integer, parameter :: STRESSES = 3, DISPLACEMENTS = 4
   !> Fewer cells are never gathered.
   integer, parameter :: FEW_CELLS = 64
   !> More clusters than ever wait to be looked at: two for each halving of their number.
@@ -165,68 +167,30 @@ contains
   pure subroutine add_stresses(self, px, pz, total)
     class(loaded_cells), intent(in) :: self
     real(dp), intent(in) :: px, pz
-    real(dp), intent(inout) :: total(3)
-    integer :: waiting(MOST_WAITING), number, k
+    real(dp), intent(inout) :: total(STRESSES)
 
-    if (self%clusters%number == 0) then
-      call add_cell_stresses(self, 1, size(self%centre), px, pz, total)
-      return
-    end if
-    number = 1
-    waiting(1) = 1
-    do while (number > 0)
-      k = waiting(number)
-      number = number - 1
-      if (self%clusters%is_far(k, px, pz)) then
-        call self%clusters%add_stress(k, px, pz, total)
-      else if (self%clusters%child(k) == 0) then
-        call add_cell_stresses(self, self%clusters%first(k), self%clusters%last(k), px, pz, total)
-      else
-        waiting(number + 1:number + 2) = self%clusters%child(k) + [0, 1]
-        number = number + 2
-      end if
-    end do
+    call add_clusters(self, STRESSES, px, pz, total)
   end subroutine add_stresses
-
-  !> The part of the cells `first` to `last`. Halves of many cells are added up apart, which keeps the rounding of the
-  !> sum small.
-  pure recursive subroutine add_cell_stresses(self, first, last, px, pz, total)
-    class(loaded_cells), intent(in) :: self
-    integer, intent(in) :: first, last
-    real(dp), intent(in) :: px, pz
-    real(dp), intent(inout) :: total(3)
-    real(dp) :: part(3)
-    integer :: half
-
-    if (last - first >= FEW_CELLS) then
-      part = 0.0_dp
-      half = first + (last - first)/2
-      call add_cell_stresses(self, first, half, px, pz, part)
-      total = total + part
-      part = 0.0_dp
-      call add_cell_stresses(self, half + 1, last, px, pz, part)
-      total = total + part
-    else
-      associate (centre => self%centre(first:last), width => self%width(first:last), &
-                 pressure => self%pressure(first:last))
-        if (self%hats) then
-          call add_hats(self%rules, centre, width, pressure, px, pz, total)
-        else
-          call add_strips(centre, width, pressure, px, pz, total)
-        end if
-      end associate
-    end if
-  end subroutine add_cell_stresses
 
   !> Add the integrals of ln(r), z**2/r**2, x z/r**2 and atan(x/z) over the pressure to `total`.
   pure subroutine add_displacements(self, px, pz, total)
     class(loaded_cells), intent(in) :: self
     real(dp), intent(in) :: px, pz
-    real(dp), intent(inout) :: total(4)
+    real(dp), intent(inout) :: total(DISPLACEMENTS)
+
+    call add_clusters(self, DISPLACEMENTS, px, pz, total)
+  end subroutine add_displacements
+
+  !> Add so many `sums`, STRESSES or DISPLACEMENTS, over the clusters that are far and the cells of the others.
+  pure subroutine add_clusters(self, sums, px, pz, total)
+    class(loaded_cells), intent(in) :: self
+    integer, intent(in) :: sums
+    real(dp), intent(in) :: px, pz
+    real(dp), intent(inout) :: total(sums)
     integer :: waiting(MOST_WAITING), number, k
 
     if (self%clusters%number == 0) then
-      call add_cell_displacements(self, 1, size(self%centre), px, pz, total)
+      call add_cells(self, sums, 1, size(self%centre), px, pz, total)
       return
     end if
     number = 1
@@ -235,43 +199,49 @@ contains
       k = waiting(number)
       number = number - 1
       if (self%clusters%is_far(k, px, pz)) then
-        call self%clusters%add_displacement(k, px, pz, total)
+        if (sums == STRESSES) call self%clusters%add_stress(k, px, pz, total)
+        if (sums == DISPLACEMENTS) call self%clusters%add_displacement(k, px, pz, total)
       else if (self%clusters%child(k) == 0) then
-        call add_cell_displacements(self, self%clusters%first(k), self%clusters%last(k), px, pz, total)
+        call add_cells(self, sums, self%clusters%first(k), self%clusters%last(k), px, pz, total)
       else
         waiting(number + 1:number + 2) = self%clusters%child(k) + [0, 1]
         number = number + 2
       end if
     end do
-  end subroutine add_displacements
+  end subroutine add_clusters
 
-  !> The part of the cells `first` to `last`, as above.
-  pure recursive subroutine add_cell_displacements(self, first, last, px, pz, total)
+  !> The part of the cells `first` to `last`. Halves of many cells are added up apart, which keeps the rounding of the
+  !> sum small.
+  pure recursive subroutine add_cells(self, sums, first, last, px, pz, total)
     class(loaded_cells), intent(in) :: self
-    integer, intent(in) :: first, last
+    integer, intent(in) :: sums, first, last
     real(dp), intent(in) :: px, pz
-    real(dp), intent(inout) :: total(4)
-    real(dp) :: part(4)
+    real(dp), intent(inout) :: total(sums)
+    real(dp) :: part(sums)
     integer :: half
 
     if (last - first >= FEW_CELLS) then
       part = 0.0_dp
       half = first + (last - first)/2
-      call add_cell_displacements(self, first, half, px, pz, part)
+      call add_cells(self, sums, first, half, px, pz, part)
       total = total + part
       part = 0.0_dp
-      call add_cell_displacements(self, half + 1, last, px, pz, part)
+      call add_cells(self, sums, half + 1, last, px, pz, part)
       total = total + part
-    else
-      associate (centre => self%centre(first:last), width => self%width(first:last), &
-                 pressure => self%pressure(first:last))
-        if (self%hats) then
-          call add_hat_displacements(centre, width, pressure, px, pz, total)
-        else
-          call add_strip_displacements(centre, width, pressure, px, pz, total)
-        end if
-      end associate
+      return
     end if
-  end subroutine add_cell_displacements
+    associate (centre => self%centre(first:last), width => self%width(first:last), &
+               pressure => self%pressure(first:last))
+      if (sums == STRESSES .and. self%hats) then
+        call add_hats(self%rules, centre, width, pressure, px, pz, total)
+      else if (sums == STRESSES) then
+        call add_strips(centre, width, pressure, px, pz, total)
+      else if (self%hats) then
+        call add_hat_displacements(centre, width, pressure, px, pz, total)
+      else
+        call add_strip_displacements(centre, width, pressure, px, pz, total)
+      end if
+    end associate
+  end subroutine add_cells
 
 end module fuge_loaded_cells
