@@ -3,7 +3,7 @@ module fuge_c_halfspace_stress
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array
   use fuge_c_types, only: report_to_c, require_count
-  use fuge_halfspace_stresses, only: fuge_halfspace_displacement, fuge_halfspace_stress
+  use fuge_halfspace_interior, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_status, only: fuge_info
   implicit none
   private

@@ -2,7 +2,7 @@
 module fuge_halfspace_peak_search
   use fuge_area_field, only: add_area_field, area_field, new_area_field
   use fuge_elastic_moduli, only: check_poisson
-  use fuge_halfspace_stresses, only: check_loaded_rectangles
+  use fuge_halfspace_interior, only: check_loaded_rectangles
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak

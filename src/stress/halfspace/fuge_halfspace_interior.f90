@@ -1,5 +1,5 @@
 !> Stresses and displacements inside an elastic half-space, under uniform pressures on rectangles.
-module fuge_halfspace_stresses
+module fuge_halfspace_interior
   use fuge_area_field, only: add_area_field, area_field, new_area_field
   use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_4
   use fuge_elastic_moduli, only: check_poisson, fuge_plane_modulus, FUGE_PLANE_STRAIN
@@ -166,4 +166,4 @@ contains
     call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(n)//' rectangle(s) and '//text(points)//' point(s)')
   end subroutine report_memory
 
-end module fuge_halfspace_stresses
+end module fuge_halfspace_interior
