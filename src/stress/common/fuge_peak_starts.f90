@@ -106,8 +106,14 @@ contains
       number = number_next
       parts(:number) = halves(:number)
     end do
-    call thin_out(list, count)
-    allocate (starts, source=list(:count))
+    call thin_out(list, count, info)
+    if (info%failed()) return
+    allocate (starts(count), stat=stat)
+    if (stat == 0) then
+      starts = list(:count)
+    else
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(count)//' starts of the search')
+    end if
   end subroutine find_starts
 
   !> Evaluate the candidates of `parts`, add the good ones to the `list`, and halve the parts that may hide better ones.
@@ -157,7 +163,7 @@ contains
       seen = maxval(tried(:, p)%value) + hidden_share*max(0.0_dp, surveys(p)%pressure - abs(normal(1, p)))
       if (seen >= HALVED_SHARE*so_far%best) call halve(cells, surveys(p), parts(p), order, halves, number)
     end do
-    if (count > size(list) - CANDIDATES*PORTION) call thin_out(list, count)
+    if (count > size(list) - CANDIDATES*PORTION) call thin_out(list, count, info)
   end subroutine try_parts
 
   pure function surface_is_weak(so_far)
@@ -317,18 +323,23 @@ contains
     halves(number) = part(whole%first, next - 1, whole%tried)
   end subroutine halve
 
-  !> Keep the best starts, best first, without those next to a better one: at most MOST_STARTS.
-  pure subroutine thin_out(list, count)
+  !> Keep the best starts, best first, without those next to a better one: at most MOST_STARTS. FUGE_ERR_MEMORY.
+  pure subroutine thin_out(list, count, info)
     type(peak_start), intent(inout) :: list(:)
     integer, intent(inout) :: count
+    type(fuge_info), intent(inout) :: info
     type(peak_start), allocatable :: kept(:)
     integer, allocatable :: order(:)
     real(dp) :: best
-    integer :: k, number
+    integer :: k, number, stat
 
     if (count == 0) return
     best = maxval(list(:count)%value)
-    allocate (order(count), kept(MOST_STARTS))
+    allocate (order(count), kept(MOST_STARTS), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(count)//' candidates of the search')
+      return
+    end if
     order = [(k, k=1, count)]
     call heap_sort(-list(:count)%value, order)
     number = 0
