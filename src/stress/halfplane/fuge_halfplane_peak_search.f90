@@ -91,6 +91,7 @@ contains
 
     folded = .false.
     if (present(symmetric)) folded = symmetric
+    nowhere = 0.0_dp
     call fuge_halfplane_stress(x, width, force, element, nowhere, nowhere, nothing, info, folded)
     call check_plane(plane_state, poisson, info)
     call check_measure(measure, info)
