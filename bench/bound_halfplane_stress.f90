@@ -3,10 +3,10 @@
 !>
 !>     bound_halfplane_stress [n]
 !>
-!> n points under n cells, 10000 unless given. Prints rows | problem | bound | fuge | ratio | wanted | error | to standard
-!> output, times for a point in microseconds; the bound is measured on some of the points. The error is the largest
-!> difference from the plain sum: of zz relative to itself, or of the displacements relative to the largest one. Both
-!> sides alternate and the least time of each counts, because other programs may run.
+!> n points under n cells, 10000 unless given. Prints rows | problem | bound | fuge | ratio | wanted | error | to
+!> standard output, times for a point in microseconds; the bound is measured on some of the points. The error is the
+!> largest difference from the plain sum: of zz relative to itself, or of the displacements relative to the largest one.
+!> Both sides alternate and the least time of each counts, because other programs may run.
 program bound_halfplane_stress
   use fuge, only: dp => fuge_dp, fuge_halfplane_displacement, fuge_halfplane_stress, fuge_info, FUGE_HAT, FUGE_MEAN, &
     FUGE_PLANE_STRAIN

@@ -4,8 +4,8 @@
 !>
 !> Half-planes of SIDE**2 cells and half-spaces of SIDE x SIDE (default: 316 at ten depths and 1024 at one), free and
 !> periodic. The errors are the largest differences, at some cells, from the sum over all cells of the influence of one,
-!> in more digits, relative to the largest value at that depth, and those of the procedures for points, with the time they
-!> take for the compared cells.
+!> in more digits, relative to the largest value at that depth, and those of the procedures for points, with the time
+!> they take for the compared cells.
 program stress_grid
   use bench_watch, only: stopwatch
   use fuge, only: dp => fuge_dp, fuge_halfplane_displacement_grid, fuge_halfplane_stress, fuge_halfplane_stress_grid, &
@@ -98,8 +98,8 @@ contains
       call stresses%stop()
       if (info%failed()) error stop 'stresses failed'
       call displacements%start()
-      call fuge_halfspace_displacement_grid(side, side, 1.0_dp, 1.0_dp, force, boundary, YOUNG, NU, depth, displacement, &
-                                            info)
+      call fuge_halfspace_displacement_grid(side, side, 1.0_dp, 1.0_dp, force, boundary, YOUNG, NU, depth, &
+                                            displacement, info)
       call displacements%stop()
       if (info%failed()) error stop 'displacements failed'
     end do
@@ -191,8 +191,8 @@ contains
     of_points = 0.0_dp
     do k = 1, size(depth)
       level = depth(k)
-      call fuge_halfspace_stress([0.0_dp], [0.0_dp], [1.0_dp], [1.0_dp], [1.0_dp], NU, x, y, level, table, info, .false., &
-                                 .false.)
+      call fuge_halfspace_stress([0.0_dp], [0.0_dp], [1.0_dp], [1.0_dp], [1.0_dp], NU, x, y, level, table, info, &
+                                 .false., .false.)
       call watch%start()
       call fuge_halfspace_stress(x, y, width, width, force, NU, x(sampled_cells(n)), y(sampled_cells(n)), &
                                  level(:SAMPLES), points, info, .false., .false.)

@@ -131,8 +131,8 @@ int fuge_halfspace_symmetric_displacement(int n, const double *x, const double *
 /* ---- stresses on grids ---------------------------------------------------
  *
  * Below the centres of equal cells side by side, by FFT: a depth costs O(n log n), and the forces
- * are transformed once for all of them.  Numbers that the points of the sections above have, too.
- * Results may not overlap inputs.
+ * are transformed once for all of them.  The results are those of the sections above at these
+ * points.  They may not overlap inputs.
  *
  * With FUGE_PERIODIC the mean pressure is a stress zz = -mean at all depths; what stress it has
  * along the surface depends on how the body is held far away.  Here it is 0: a body that cannot
@@ -217,7 +217,8 @@ int fuge_ring_stress(int n, const double *radius, const double *force, double po
  * surface alone.
  *   young, poisson  in   of the body; a rigid one (young INFINITY) does not move
  *   displacement    out  2 for each point: away from the axis and into the body; length
- * They vanish far away.  Other arguments and errors as above; FUGE_ERR_MODULUS also for young. */
+ * They vanish far away.  Other arguments and errors as above; FUGE_ERR_MODULUS also for young,
+ * FUGE_ERR_OVERFLOW for displacements out of range. */
 int fuge_ring_interior_displacement(int n, const double *radius, const double *force,
                                     double young, double poisson, int points, const double *pr,
                                     const double *pz, double *displacement, char *message,

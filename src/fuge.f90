@@ -22,8 +22,8 @@ module fuge
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_halfspace_grid, only: FUGE_PERIODIC_X, FUGE_PERIODIC_Y
   use fuge_halfspace_influence, only: fuge_halfspace_matrix
+  use fuge_halfspace_interior, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_halfspace_peak_search, only: fuge_halfspace_peak
-  use fuge_halfspace_stresses, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_hertz_theory, only: fuge_hertz_contact, fuge_hertz_ellipse
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: fuge_dp

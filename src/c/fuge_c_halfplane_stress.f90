@@ -1,7 +1,8 @@
 !> C bindings, section "stresses of a half-plane": cells.
 module fuge_c_halfplane_stress
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
-  use fuge_c_types, only: report_to_c, require_count, require_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
+  use fuge_c_types, only: report_to_c, require_count
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
@@ -52,9 +53,8 @@ contains
     real(c_double), pointer :: components(:, :)
 
     call find_arrays(n, x, width, force, points, px, pz, model, info)
-    call require_pointer(stress, 'stress', info)
+    call find_array(3, points, stress, 'stress', components, info)
     if (info%failed()) return
-    call c_f_pointer(stress, components, [3, int(points)])
     call fuge_halfplane_stress(model%x, model%width, model%force, int(element), model%px, model%pz, components, info, &
                                symmetric)
   end subroutine fill_stress
@@ -104,9 +104,8 @@ contains
     real(c_double), pointer :: components(:, :)
 
     call find_arrays(n, x, width, force, points, px, pz, model, info)
-    call require_pointer(displacement, 'displacement', info)
+    call find_array(2, points, displacement, 'displacement', components, info)
     if (info%failed()) return
-    call c_f_pointer(displacement, components, [2, int(points)])
     call fuge_halfplane_displacement(model%x, model%width, model%force, int(element), elastic(1), elastic(2), &
                                      int(plane_state), model%px, model%pz, components, info, symmetric)
   end subroutine fill_displacement
@@ -120,17 +119,11 @@ contains
 
     call require_count(n, 1, 'n', 'cells', info)
     call require_count(points, 0, 'points', 'points', info)
-    call require_pointer(x, 'x', info)
-    call require_pointer(width, 'width', info)
-    call require_pointer(force, 'force', info)
-    call require_pointer(px, 'px', info)
-    call require_pointer(pz, 'pz', info)
-    if (info%failed()) return
-    call c_f_pointer(x, model%x, [n])
-    call c_f_pointer(width, model%width, [n])
-    call c_f_pointer(force, model%force, [n])
-    call c_f_pointer(px, model%px, [points])
-    call c_f_pointer(pz, model%pz, [points])
+    call find_array(n, x, 'x', model%x, info)
+    call find_array(n, width, 'width', model%width, info)
+    call find_array(n, force, 'force', model%force, info)
+    call find_array(points, px, 'px', model%px, info)
+    call find_array(points, pz, 'pz', model%pz, info)
   end subroutine find_arrays
 
 end module fuge_c_halfplane_stress

@@ -1,6 +1,7 @@
 !> C bindings, section "half-space": influence matrices of rectangles, and grids of them.
 module fuge_c_halfspace
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
   use fuge_c_operator, only: find_matrix, new_operator
   use fuge_c_types, only: report_to_c, require_pointer
   use fuge_halfspace_fft, only: fuge_halfspace_operator
@@ -38,10 +39,10 @@ contains
     type(fuge_info) :: info
 
     call find_matrix(n, alpha, lda, matrix, info)
-    call find_values(n, x, 'x', centre_x, info)
-    call find_values(n, y, 'y', centre_y, info)
-    call find_values(n, width_x, 'width_x', breadth_x, info)
-    call find_values(n, width_y, 'width_y', breadth_y, info)
+    call find_array(n, x, 'x', centre_x, info)
+    call find_array(n, y, 'y', centre_y, info)
+    call find_array(n, width_x, 'width_x', breadth_x, info)
+    call find_array(n, width_y, 'width_y', breadth_y, info)
     if (.not. info%failed()) call fuge_halfspace_matrix(centre_x, centre_y, breadth_x, breadth_y, e_star, int(element), &
                                                         matrix, info, symmetric_x /= 0, symmetric_y /= 0)
     status = report_to_c(info, message, length)
@@ -67,18 +68,5 @@ contains
     if (.not. info%failed()) call new_operator(operator, destination, info)
     status = report_to_c(info, message, length)
   end function c_operator_halfspace
-
-  !> An array of C of `n` values; unless an error is known already, NULL is one (FUGE_ERR_POINTER).
-  subroutine find_values(n, address, name, values, info)
-    integer(c_int), intent(in) :: n
-    type(c_ptr), intent(in) :: address
-    character(len=*), intent(in) :: name
-    real(c_double), pointer, intent(out) :: values(:)
-    type(fuge_info), intent(inout) :: info
-
-    nullify (values)
-    call require_pointer(address, name, info)
-    if (.not. info%failed()) call c_f_pointer(address, values, [n])
-  end subroutine find_values
 
 end module fuge_c_halfspace

@@ -1,8 +1,9 @@
 !> C bindings, section "stresses of a half-space": at points under rectangles.
 module fuge_c_halfspace_stress
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
-  use fuge_c_types, only: report_to_c, require_count, require_pointer
-  use fuge_halfspace_stresses, only: fuge_halfspace_displacement, fuge_halfspace_stress
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
+  use fuge_c_types, only: report_to_c, require_count
+  use fuge_halfspace_interior, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_status, only: fuge_info
   implicit none
   private
@@ -43,12 +44,10 @@ contains
 
     call find_rectangles(n, x, y, width_x, width_y, force, arrays, info)
     call find_points(points, px, py, pz, arrays, info)
-    call require_pointer(stress, 'stress', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(stress, found, [6, int(points)])
-      call fuge_halfspace_stress(arrays%x, arrays%y, arrays%width_x, arrays%width_y, arrays%force, poisson, arrays%px, &
-                                 arrays%py, arrays%pz, found, info, symmetric_x /= 0, symmetric_y /= 0)
-    end if
+    call find_array(6, points, stress, 'stress', found, info)
+    if (.not. info%failed()) call fuge_halfspace_stress(arrays%x, arrays%y, arrays%width_x, arrays%width_y, &
+                                                        arrays%force, poisson, arrays%px, arrays%py, arrays%pz, found, &
+                                                        info, symmetric_x /= 0, symmetric_y /= 0)
     status = report_to_c(info, message, length)
   end function c_halfspace_symmetric_stress
 
@@ -82,13 +81,11 @@ contains
 
     call find_rectangles(n, x, y, width_x, width_y, force, arrays, info)
     call find_points(points, px, py, pz, arrays, info)
-    call require_pointer(displacement, 'displacement', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(displacement, found, [3, int(points)])
-      call fuge_halfspace_displacement(arrays%x, arrays%y, arrays%width_x, arrays%width_y, arrays%force, young, &
-                                       poisson, arrays%px, arrays%py, arrays%pz, found, info, symmetric_x /= 0, &
-                                       symmetric_y /= 0)
-    end if
+    call find_array(3, points, displacement, 'displacement', found, info)
+    if (.not. info%failed()) call fuge_halfspace_displacement(arrays%x, arrays%y, arrays%width_x, arrays%width_y, &
+                                                              arrays%force, young, poisson, arrays%px, arrays%py, &
+                                                              arrays%pz, found, info, symmetric_x /= 0, &
+                                                              symmetric_y /= 0)
     status = report_to_c(info, message, length)
   end function c_halfspace_symmetric_displacement
 
@@ -100,11 +97,11 @@ contains
     type(fuge_info), intent(inout) :: info
 
     call require_count(n, 1, 'n', 'rectangles', info)
-    call find_values(n, x, 'x', arrays%x, info)
-    call find_values(n, y, 'y', arrays%y, info)
-    call find_values(n, width_x, 'width_x', arrays%width_x, info)
-    call find_values(n, width_y, 'width_y', arrays%width_y, info)
-    call find_values(n, force, 'force', arrays%force, info)
+    call find_array(n, x, 'x', arrays%x, info)
+    call find_array(n, y, 'y', arrays%y, info)
+    call find_array(n, width_x, 'width_x', arrays%width_x, info)
+    call find_array(n, width_y, 'width_y', arrays%width_y, info)
+    call find_array(n, force, 'force', arrays%force, info)
   end subroutine find_rectangles
 
   !> The arrays of the points.
@@ -115,21 +112,9 @@ contains
     type(fuge_info), intent(inout) :: info
 
     call require_count(points, 0, 'points', 'points', info)
-    call find_values(points, px, 'px', arrays%px, info)
-    call find_values(points, py, 'py', arrays%py, info)
-    call find_values(points, pz, 'pz', arrays%pz, info)
+    call find_array(points, px, 'px', arrays%px, info)
+    call find_array(points, py, 'py', arrays%py, info)
+    call find_array(points, pz, 'pz', arrays%pz, info)
   end subroutine find_points
-
-  !> An array of C of `n` values; unless an error is known already, NULL is one (FUGE_ERR_POINTER).
-  subroutine find_values(n, address, name, values, info)
-    integer(c_int), intent(in) :: n
-    type(c_ptr), intent(in) :: address
-    character(len=*), intent(in) :: name
-    real(c_double), pointer, intent(inout) :: values(:)
-    type(fuge_info), intent(inout) :: info
-
-    call require_pointer(address, name, info)
-    if (.not. info%failed()) call c_f_pointer(address, values, [n])
-  end subroutine find_values
 
 end module fuge_c_halfspace_stress

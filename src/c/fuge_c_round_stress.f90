@@ -1,8 +1,9 @@
 !> C bindings, section "stresses of round bodies".
 module fuge_c_round_stress
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
   use fuge_c_round, only: find_contact, round_handle
-  use fuge_c_types, only: report_to_c, require_count, require_pointer
+  use fuge_c_types, only: report_to_c, require_count
   use fuge_ring_interior, only: fuge_ring_interior_displacement, fuge_ring_stress
   use fuge_round_interior, only: fuge_round_displacement, fuge_round_stress
   use fuge_status, only: fuge_info
@@ -90,13 +91,9 @@ contains
     real(c_double), pointer, intent(out) :: radii(:), forces(:)
     type(fuge_info), intent(inout) :: info
 
-    nullify (radii, forces)
     call require_count(n, 1, 'n', 'rings', info)
-    call require_pointer(radius, 'radius', info)
-    call require_pointer(force, 'force', info)
-    if (info%failed()) return
-    call c_f_pointer(radius, radii, [int(n) + 1])
-    call c_f_pointer(force, forces, [n])
+    call find_array(n + 1_c_int, radius, 'radius', radii, info)
+    call find_array(n, force, 'force', forces, info)
   end subroutine find_rings
 
   !> The arrays of points and of the result, `name`, none of which may be NULL. Ten arguments: three arrays and what
@@ -109,15 +106,10 @@ contains
     real(c_double), pointer, intent(out) :: distance(:), depth(:), components(:, :)
     type(fuge_info), intent(inout) :: info
 
-    nullify (distance, depth, components)
     call require_count(points, 0, 'points', 'points', info)
-    call require_pointer(pr, 'pr', info)
-    call require_pointer(pz, 'pz', info)
-    call require_pointer(found, name, info)
-    if (info%failed()) return
-    call c_f_pointer(pr, distance, [points])
-    call c_f_pointer(pz, depth, [points])
-    call c_f_pointer(found, components, [rows, int(points)])
+    call find_array(points, pr, 'pr', distance, info)
+    call find_array(points, pz, 'pz', depth, info)
+    call find_array(rows, points, found, name, components, info)
   end subroutine find_points
 
 end module fuge_c_round_stress

@@ -1,8 +1,9 @@
 !> C bindings, section "stresses of a half-plane": smooth punches.
 module fuge_c_smooth_stress
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
   use fuge_c_smooth, only: find_contact, smooth_handle
-  use fuge_c_types, only: report_to_c, require_count, require_pointer
+  use fuge_c_types, only: report_to_c, require_count
   use fuge_smooth_interior, only: fuge_smooth_displacement, fuge_smooth_stress
   use fuge_status, only: fuge_info
   implicit none
@@ -22,11 +23,8 @@ contains
 
     call find_contact(source, handle, info)
     call find_points(points, px, pz, place, depth, info)
-    call require_pointer(stress, 'stress', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(stress, components, [3, int(points)])
-      call fuge_smooth_stress(handle%contact, place, depth, components, info)
-    end if
+    call find_array(3, points, stress, 'stress', components, info)
+    if (.not. info%failed()) call fuge_smooth_stress(handle%contact, place, depth, components, info)
     status = report_to_c(info, message, length)
   end function c_smooth_stress
 
@@ -44,11 +42,9 @@ contains
 
     call find_contact(source, handle, info)
     call find_points(points, px, pz, place, depth, info)
-    call require_pointer(displacement, 'displacement', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(displacement, components, [2, int(points)])
-      call fuge_smooth_displacement(handle%contact, young, poisson, int(plane_state), place, depth, components, info)
-    end if
+    call find_array(2, points, displacement, 'displacement', components, info)
+    if (.not. info%failed()) call fuge_smooth_displacement(handle%contact, young, poisson, int(plane_state), place, &
+                                                           depth, components, info)
     status = report_to_c(info, message, length)
   end function c_smooth_displacement
 
@@ -59,13 +55,9 @@ contains
     real(c_double), pointer, intent(out) :: place(:), depth(:)
     type(fuge_info), intent(inout) :: info
 
-    nullify (place, depth)
     call require_count(points, 0, 'points', 'points', info)
-    call require_pointer(px, 'px', info)
-    call require_pointer(pz, 'pz', info)
-    if (info%failed()) return
-    call c_f_pointer(px, place, [points])
-    call c_f_pointer(pz, depth, [points])
+    call find_array(points, px, 'px', place, info)
+    call find_array(points, pz, 'pz', depth, info)
   end subroutine find_points
 
 end module fuge_c_smooth_stress

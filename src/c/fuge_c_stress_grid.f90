@@ -1,6 +1,7 @@
 !> C bindings, section "stresses on grids".
 module fuge_c_stress_grid
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use fuge_c_arrays, only: find_array
   use fuge_c_types, only: report_to_c, require_count, require_pointer
   use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid, fuge_halfplane_stress_grid
   use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
@@ -35,8 +36,8 @@ contains
   end function c_halfplane_stress_grid
 
   !> Thirteen arguments, as in the header: the cells, the body, the depths, the message.
-  function c_halfplane_displacement_grid(n, spacing, force, element, boundary, young, poisson, plane_state, depths, depth, &
-                                         displacement, message, length) &
+  function c_halfplane_displacement_grid(n, spacing, force, element, boundary, young, poisson, plane_state, depths, &
+                                         depth, displacement, message, length) &
     bind(c, name='fuge_halfplane_displacement_grid') result(status)
     integer(c_int), intent(in), value :: n, element, boundary, plane_state, depths
     real(c_double), intent(in), value :: spacing, young, poisson
@@ -87,9 +88,9 @@ contains
 
     call require_grid(nx, ny, info)
     call find_arrays(cells_of(nx, ny, info), force, depths, depth, displacement, 'displacement', 3, arrays, info)
-    if (.not. info%failed()) call fuge_halfspace_displacement_grid(int(nx), int(ny), spacing_x, spacing_y, arrays%force, &
-                                                                   int(boundary), young, poisson, arrays%depth, &
-                                                                   arrays%field, info)
+    if (.not. info%failed()) call fuge_halfspace_displacement_grid(int(nx), int(ny), spacing_x, spacing_y, &
+                                                                   arrays%force, int(boundary), young, poisson, &
+                                                                   arrays%depth, arrays%field, info)
     status = report_to_c(info, message, length)
   end function c_halfspace_displacement_grid
 
@@ -125,13 +126,10 @@ contains
     type(fuge_info), intent(inout) :: info
 
     call require_count(depths, 0, 'depths', 'depths', info)
-    call require_pointer(force, 'force', info)
-    call require_pointer(depth, 'depth', info)
+    call find_array(int(cells, c_int), force, 'force', arrays%force, info)
+    call find_array(depths, depth, 'depth', arrays%depth, info)
     call require_pointer(field, name, info)
-    if (info%failed()) return
-    call c_f_pointer(force, arrays%force, [cells])
-    call c_f_pointer(depth, arrays%depth, [depths])
-    call c_f_pointer(field, arrays%field, [components, cells, int(depths)])
+    if (.not. info%failed()) call c_f_pointer(field, arrays%field, [components, cells, int(depths)])
   end subroutine find_arrays
 
 end module fuge_c_stress_grid

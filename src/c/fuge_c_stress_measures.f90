@@ -1,7 +1,8 @@
 !> C bindings, section "stress measures".
 module fuge_c_stress_measures
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
-  use fuge_c_types, only: report_to_c, require_count, require_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
+  use fuge_c_types, only: report_to_c, require_count
   use fuge_status, only: fuge_info
   use fuge_stress_measures, only: fuge_halfplane_tensor, fuge_mean_stress, fuge_principal_stresses, fuge_round_tensor, &
     fuge_tresca, fuge_von_mises
@@ -23,8 +24,8 @@ contains
     real(c_double), pointer :: in_plane(:, :), tensors(:, :)
     type(fuge_info) :: info
 
-    call find_array(points, stress, 'stress', 3, in_plane, info)
-    call find_array(points, tensor, 'tensor', 6, tensors, info)
+    call find_components(3, points, stress, 'stress', in_plane, info)
+    call find_components(6, points, tensor, 'tensor', tensors, info)
     if (.not. info%failed()) call fuge_halfplane_tensor(in_plane, int(plane_state), poisson, tensors, info)
     status = report_to_c(info, message, length)
   end function c_halfplane_tensor
@@ -37,8 +38,8 @@ contains
     real(c_double), pointer :: about_axis(:, :), tensors(:, :)
     type(fuge_info) :: info
 
-    call find_array(points, stress, 'stress', 4, about_axis, info)
-    call find_array(points, tensor, 'tensor', 6, tensors, info)
+    call find_components(4, points, stress, 'stress', about_axis, info)
+    call find_components(6, points, tensor, 'tensor', tensors, info)
     if (.not. info%failed()) call fuge_round_tensor(about_axis, tensors, info)
     status = report_to_c(info, message, length)
   end function c_round_tensor
@@ -52,8 +53,8 @@ contains
     real(c_double), pointer :: tensors(:, :), three(:, :)
     type(fuge_info) :: info
 
-    call find_array(points, tensor, 'tensor', 6, tensors, info)
-    call find_array(points, principal, 'principal', 3, three, info)
+    call find_components(6, points, tensor, 'tensor', tensors, info)
+    call find_components(3, points, principal, 'principal', three, info)
     if (.not. info%failed()) call fuge_principal_stresses(tensors, three, info)
     status = report_to_c(info, message, length)
   end function c_principal_stresses
@@ -100,8 +101,8 @@ contains
     real(c_double), pointer :: tensors(:, :), values(:, :)
     integer :: k
 
-    call find_array(points, tensor, 'tensor', 6, tensors, info)
-    call find_array(points, value, 'value', 1, values, info)
+    call find_components(6, points, tensor, 'tensor', tensors, info)
+    call find_components(1, points, value, 'value', values, info)
     if (info%failed()) return
     do k = 1, int(points)
       select case (scalar)
@@ -115,19 +116,17 @@ contains
     end do
   end subroutine evaluate
 
-  !> The array (`components`, `points`) at an address; FUGE_ERR_SIZE, FUGE_ERR_POINTER.
-  subroutine find_array(points, address, name, components, array, info)
+  !> The tensors or stresses of the points, so many `components` each.
+  subroutine find_components(components, points, address, name, array, info)
+    integer, intent(in) :: components
     integer(c_int), intent(in) :: points
     type(c_ptr), intent(in) :: address
     character(len=*), intent(in) :: name
-    integer, intent(in) :: components
     real(c_double), pointer, intent(out) :: array(:, :)
     type(fuge_info), intent(inout) :: info
 
-    nullify (array)
     call require_count(points, 0, 'points', 'points', info)
-    call require_pointer(address, name, info)
-    if (.not. info%failed()) call c_f_pointer(address, array, [components, int(points)])
-  end subroutine find_array
+    call find_array(components, points, address, name, array, info)
+  end subroutine find_components
 
 end module fuge_c_stress_measures

@@ -1,6 +1,7 @@
 !> C bindings, section "largest stresses".
 module fuge_c_stress_peak
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use fuge_c_arrays, only: find_array
   use fuge_c_round, only: find_round => find_contact, round_handle
   use fuge_c_smooth, only: find_smooth => find_contact, smooth_handle
   use fuge_c_types, only: report_to_c, require_count, require_pointer
@@ -112,14 +113,10 @@ contains
     type(fuge_info) :: info
 
     call require_count(n, 1, 'n', 'rings', info)
-    call require_pointer(radius, 'radius', info)
-    call require_pointer(force, 'force', info)
+    call find_array(n + 1_c_int, radius, 'radius', radii, info)
+    call find_array(n, force, 'force', forces, info)
     call require_pointer(destination, 'peak', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(radius, radii, [int(n) + 1])
-      call c_f_pointer(force, forces, [n])
-      call fuge_ring_peak(radii, forces, poisson, int(measure), peak, info)
-    end if
+    if (.not. info%failed()) call fuge_ring_peak(radii, forces, poisson, int(measure), peak, info)
     call give_peak(peak, destination, info)
     status = report_to_c(info, message, length)
   end function c_ring_peak
@@ -154,14 +151,11 @@ contains
     type(fuge_stress_peak) :: peak
 
     call require_count(n, 1, 'n', 'cells', info)
-    call require_pointer(x, 'x', info)
-    call require_pointer(width, 'width', info)
-    call require_pointer(force, 'force', info)
+    call find_array(n, x, 'x', centre, info)
+    call find_array(n, width, 'width', breadth, info)
+    call find_array(n, force, 'force', forces, info)
     call require_pointer(destination, 'peak', info)
     if (info%failed()) return
-    call c_f_pointer(x, centre, [n])
-    call c_f_pointer(width, breadth, [n])
-    call c_f_pointer(force, forces, [n])
     call fuge_halfplane_peak(centre, breadth, forces, int(element), int(plane_state), poisson, int(measure), peak, &
                              info, symmetric)
     call give_peak(peak, destination, info)
@@ -179,18 +173,13 @@ contains
     type(fuge_stress_peak) :: peak
 
     call require_count(n, 1, 'n', 'rectangles', info)
-    call require_pointer(x, 'x', info)
-    call require_pointer(y, 'y', info)
-    call require_pointer(width_x, 'width_x', info)
-    call require_pointer(width_y, 'width_y', info)
-    call require_pointer(force, 'force', info)
+    call find_array(n, x, 'x', along_x, info)
+    call find_array(n, y, 'y', along_y, info)
+    call find_array(n, width_x, 'width_x', breadth, info)
+    call find_array(n, width_y, 'width_y', length, info)
+    call find_array(n, force, 'force', forces, info)
     call require_pointer(destination, 'peak', info)
     if (info%failed()) return
-    call c_f_pointer(x, along_x, [n])
-    call c_f_pointer(y, along_y, [n])
-    call c_f_pointer(width_x, breadth, [n])
-    call c_f_pointer(width_y, length, [n])
-    call c_f_pointer(force, forces, [n])
     call fuge_halfspace_peak(along_x, along_y, breadth, length, forces, poisson, int(measure), peak, info, &
                              symmetric_x, symmetric_y)
     call give_peak(peak, destination, info)

@@ -36,8 +36,8 @@ contains
     corner = 0.0_dp
     if (present(origin)) corner = origin
     call check_grid(nx, ny, [spacing_x, spacing_y], corner, info)
-    if (.not. info%failed()) call check_fields(int(nx, int64)*int(ny, int64), text(nx)//' x '//text(ny), names, fields, &
-                                               info)
+    if (.not. info%failed()) call check_fields(int(nx, int64)*int(ny, int64), text(nx)//' x '//text(ny), names, &
+                                               fields, info)
     if (.not. info%failed()) call file%create(path, info)
     if (info%failed()) return
     corner = corner - 0.5_dp*[spacing_x, spacing_y]

@@ -188,10 +188,10 @@ contains
 
   !> Plan transforms of `length` >= 1 values.
   !>
-  !> `threads` (default 1) share each transform; with `measured` (default .false.) FFTW measures
-  !> which algorithm is fastest, which takes seconds for long transforms. `separate` (default .false.) plans
-  !> for `transform_to`; then `length` must be even. With `lines` >= 1 the values are a grid of as many lines, transformed
-  !> in both directions; then `separate` is not allowed.
+  !> `threads` (default 1) share each transform; with `measured` (default .false.) FFTW measures which algorithm is
+  !> fastest, which takes seconds for long transforms. `separate` (default .false.) plans for `transform_to`; then
+  !> `length` must be even. With `lines` >= 1 the values are a grid of as many lines, transformed in both directions;
+  !> then `separate` is not allowed.
   !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
   subroutine set(self, length, info, threads, measured, separate, lines)
     class(fft_plan), intent(inout) :: self

@@ -4,7 +4,7 @@ module fuge_heap_sort
   implicit none
   private
 
-  public :: heap_sort
+  public :: heap_sort, reorder
 
 contains
 
@@ -24,6 +24,20 @@ contains
       call sift_down(keys, 1, order(:k - 1))
     end do
   end subroutine heap_sort
+
+  !> Put the value at `order`(k) at place k; `work` has room for all of them.
+  pure subroutine reorder(order, values, work)
+    integer, intent(in) :: order(:)
+    real(dp), intent(inout) :: values(:), work(:)
+    integer :: k
+
+    do k = 1, size(order)
+      work(k) = values(order(k))
+    end do
+    do k = 1, size(order)
+      values(k) = work(k)
+    end do
+  end subroutine reorder
 
   !> Restore a heap, the greatest key first, in which only element `start` may be out of place.
   pure subroutine sift_down(keys, start, heap)

@@ -46,7 +46,8 @@ static void test_symmetric(void) {
   const double both_x[2] = {0.5, -0.5}, half[2] = {1.0, 1.0};
   for (int element = FUGE_CENTRE; element <= FUGE_HAT; element++) {
     double folded[3 * POINTS], whole[3 * POINTS], folded_motion[2 * POINTS], motion[2 * POINTS];
-    CHECK_STATUS(fuge_halfplane_symmetric_stress(1, X, WIDTH, FORCE, element, POINTS, PX, PZ, folded, NULL, 0), FUGE_DONE);
+    CHECK_STATUS(fuge_halfplane_symmetric_stress(1, X, WIDTH, FORCE, element, POINTS, PX, PZ, folded, NULL, 0),
+                 FUGE_DONE);
     CHECK_STATUS(fuge_halfplane_stress(2, both_x, WIDTH, half, element, POINTS, PX, PZ, whole, NULL, 0), FUGE_DONE);
     for (int k = 0; k < 3 * POINTS; k++) CHECK_NEAR(folded[k], whole[k], 1e-15);
     CHECK_STATUS(fuge_halfplane_symmetric_displacement(1, X, WIDTH, FORCE, element, YOUNG, POISSON, FUGE_PLANE_STRESS,
@@ -115,8 +116,8 @@ static void test_refusals(void) {
 static void test_materials(void) {
   double displacement[2 * POINTS];
   fill(displacement, 2 * POINTS);
-  CHECK_STATUS(fuge_halfplane_displacement(N, X, WIDTH, FORCE, FUGE_MEAN, 0.0, POISSON, FUGE_PLANE_STRAIN, POINTS, PX, PZ,
-                                           displacement, NULL, 0), FUGE_ERR_MODULUS);
+  CHECK_STATUS(fuge_halfplane_displacement(N, X, WIDTH, FORCE, FUGE_MEAN, 0.0, POISSON, FUGE_PLANE_STRAIN, POINTS, PX,
+                                           PZ, displacement, NULL, 0), FUGE_ERR_MODULUS);
   CHECK_STATUS(fuge_halfplane_displacement(N, X, WIDTH, FORCE, FUGE_MEAN, YOUNG, 0.6, FUGE_PLANE_STRAIN, POINTS, PX, PZ,
                                            displacement, NULL, 0), FUGE_ERR_MODULUS);
   CHECK_STATUS(fuge_halfplane_displacement(N, X, WIDTH, FORCE, FUGE_MEAN, YOUNG, POISSON, 7, POINTS, PX, PZ,

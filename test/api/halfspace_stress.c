@@ -23,8 +23,8 @@ static void test_centre_of_a_square(void) {
   CHECK_NEAR(stress[1], -0.8, 1e-15);
   CHECK_NEAR(stress[2], -1.0, 1e-15);
   for (int k = 3; k < 6; k++) CHECK_NEAR(stress[k], 0.0, 1e-15);
-  CHECK_STATUS(fuge_halfspace_displacement(N, X, Y, ONES, ONES, ONES, YOUNG, POISSON, POINTS, PX, PY, PZ, moved, message,
-                                           sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_displacement(N, X, Y, ONES, ONES, ONES, YOUNG, POISSON, POINTS, PX, PY, PZ, moved,
+                                           message, sizeof message), FUGE_DONE);
   CHECK_NEAR(moved[0], 0.0, 1e-15);
   CHECK_NEAR(moved[1], 0.0, 1e-15);
   CHECK_NEAR(moved[2], 8.0 * log(1.0 + root) / pi * (1.0 - POISSON * POISSON) / YOUNG, 2e-15);
@@ -32,7 +32,8 @@ static void test_centre_of_a_square(void) {
 
 /* The forces of a quarter and of a half are sums over the images. */
 static void test_folded(void) {
-  const double whole[N] = {1, 1, 2, 2}, half[2] = {2, 4}, quarter = 4.0, half_x[2] = {0.5, 0.5}, half_y[2] = {0.5, -0.5};
+  const double whole[N] = {1, 1, 2, 2}, half[2] = {2, 4}, quarter = 4.0, half_x[2] = {0.5, 0.5},
+    half_y[2] = {0.5, -0.5};
   double expected[6 * POINTS], found[6 * POINTS], moved[3 * POINTS], again[3 * POINTS];
   CHECK_STATUS(stress_of(N, whole, PZ, expected, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_halfspace_symmetric_stress(2, half_x, half_y, ONES, ONES, half, POISSON, 1, 0, POINTS, PX, PY, PZ,
@@ -79,8 +80,8 @@ static void test_refusals(void) {
   CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, flat, ONES, POISSON, POINTS, PX, PY, PZ, stress, message,
                                      sizeof message), FUGE_ERR_WIDTH);
   CHECK_CONTAINS(message, "width_y(1) = 0.");
-  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, 0.6, POINTS, PX, PY, PZ, stress, message, sizeof message),
-               FUGE_ERR_MODULUS);
+  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, 0.6, POINTS, PX, PY, PZ, stress, message,
+               sizeof message), FUGE_ERR_MODULUS);
   CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, POISSON, -1, PX, PY, PZ, stress, message,
                                      sizeof message), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_halfspace_symmetric_stress(N, X, Y, ONES, ONES, ONES, POISSON, 1, 0, POINTS, PX, PY, PZ, stress,

@@ -38,8 +38,8 @@ static void test_cylinder(void) {
   for (int k = 5; k < 9; k++) CHECK_NEAR(stress[k], 0.0, 0.0);
   CHECK_UNTOUCHED(stress + 3 * POINTS, 1);
   fill(displacement, 2 * POINTS + 1);
-  CHECK_STATUS(fuge_smooth_displacement(contact, YOUNG, POISSON, FUGE_PLANE_STRESS, POINTS, x, z, displacement, NULL, 0),
-               FUGE_DONE);
+  CHECK_STATUS(fuge_smooth_displacement(contact, YOUNG, POISSON, FUGE_PLANE_STRESS, POINTS, x, z, displacement, NULL,
+               0), FUGE_DONE);
   CHECK_NEAR(displacement[0], 0.0, 1e-15);
   CHECK_NEAR(displacement[3], report.approach - x[1] * x[1], 1e-13);
   CHECK_NEAR(displacement[4], -(1.0 - POISSON) / (2.0 * YOUNG) * FORCE, 1e-14);

@@ -18,10 +18,12 @@ static void test_halfplane_points(void) {
     }
   }
   for (int element = FUGE_CENTRE; element <= FUGE_HAT; element++) {
-    double stress[3 * N * DEPTHS + 1], expected[3 * N * DEPTHS], motion[2 * N * DEPTHS + 1], expected_motion[2 * N * DEPTHS];
+    double stress[3 * N * DEPTHS + 1], expected[3 * N * DEPTHS], motion[2 * N * DEPTHS + 1],
+      expected_motion[2 * N * DEPTHS];
     fill(stress, 3 * N * DEPTHS + 1);
     fill(motion, 2 * N * DEPTHS + 1);
-    CHECK_STATUS(fuge_halfplane_stress_grid(N, 0.5, FORCE, element, FUGE_FREE, DEPTHS, DEPTH, stress, NULL, 0), FUGE_DONE);
+    CHECK_STATUS(fuge_halfplane_stress_grid(N, 0.5, FORCE, element, FUGE_FREE, DEPTHS, DEPTH, stress, NULL, 0),
+                 FUGE_DONE);
     CHECK_STATUS(fuge_halfplane_stress(N, x, width, FORCE, element, N * DEPTHS, px, pz, expected, NULL, 0), FUGE_DONE);
     for (int k = 0; k < 3 * N * DEPTHS; k++) CHECK_NEAR(stress[k], expected[k], 1e-13);
     CHECK_STATUS(fuge_halfplane_displacement_grid(N, 0.5, FORCE, element, FUGE_FREE, YOUNG, POISSON, FUGE_PLANE_STRAIN,
@@ -48,11 +50,12 @@ static void test_waves(void) {
   CHECK_NEAR(stress[1], -(1.0 + q * z) * exp(-q * z), 1e-3);
   CHECK_NEAR(stress[3 * MANY / 4 + 2], -q * z * exp(-q * z), 1e-3);
   CHECK_STATUS(fuge_halfplane_stress_grid(MANY, h, line, FUGE_MEAN, FUGE_PERIODIC, 1, &z, stress, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfspace_stress_grid(MANY, NY, h, 3.0, area, FUGE_PERIODIC, POISSON, 1, &z, solid, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_stress_grid(MANY, NY, h, 3.0, area, FUGE_PERIODIC, POISSON, 1, &z, solid, NULL, 0),
+               FUGE_DONE);
   CHECK_STATUS(fuge_halfplane_displacement_grid(MANY, h, line, FUGE_MEAN, FUGE_PERIODIC, YOUNG, POISSON,
                                                 FUGE_PLANE_STRAIN, 1, &z, motion, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfspace_displacement_grid(MANY, NY, h, 3.0, area, FUGE_PERIODIC, YOUNG, POISSON, 1, &z, moved, NULL,
-                                                0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_displacement_grid(MANY, NY, h, 3.0, area, FUGE_PERIODIC, YOUNG, POISSON, 1, &z, moved,
+                                                NULL, 0), FUGE_DONE);
   for (int i = 0; i < MANY * NY; i++) {
     const double *plane = stress + 3 * (i % MANY), *point = solid + 6 * i;
     CHECK_NEAR(point[0], plane[0], 1e-14);
@@ -71,7 +74,8 @@ static void test_waves(void) {
 static void test_halfspace_order(void) {
   const double a = 0.5, r = sqrt(2.0 * a * a + 1.0), single = 1.0, one = 1.0;
   double stress[6 * N * DEPTHS + 1], displacement[3 * N * DEPTHS + 1];
-  CHECK_STATUS(fuge_halfspace_stress_grid(1, 1, 1.0, 1.0, &single, FUGE_FREE, POISSON, 1, &one, stress, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_stress_grid(1, 1, 1.0, 1.0, &single, FUGE_FREE, POISSON, 1, &one, stress, NULL, 0),
+               FUGE_DONE);
   CHECK_NEAR(stress[2], -2.0 / PI * (atan(a * a / r) + a * a / r * (1.0 / (a * a + 1.0) + 1.0 / (a * a + 1.0))), 1e-15);
   fill(stress, 6 * N * DEPTHS + 1);
   fill(displacement, 3 * N * DEPTHS + 1);
@@ -95,14 +99,15 @@ static void check_refusal(int nx, int ny, double spacing, const double *force, i
   double result[6 * N * DEPTHS];
   char message[FUGE_MESSAGE_LENGTH + 1] = "not written";
   fill(result, 6 * N * DEPTHS);
-  CHECK_STATUS(fuge_halfspace_stress_grid(nx, ny, spacing, 1.0, force, boundary, POISSON, depths, depth, result, message,
-                                          sizeof message), status);
+  CHECK_STATUS(fuge_halfspace_stress_grid(nx, ny, spacing, 1.0, force, boundary, POISSON, depths, depth, result,
+                                          message, sizeof message), status);
   CHECK_CONTAINS(message, part);
   CHECK_STATUS(fuge_halfspace_displacement_grid(nx, ny, spacing, 1.0, force, boundary, YOUNG, POISSON, depths, depth,
                                                 result, message, sizeof message), status);
   CHECK_CONTAINS(message, part);
   if (ny == 1) {
-    CHECK_STATUS(fuge_halfplane_stress_grid(nx, spacing, force, FUGE_MEAN, boundary, depths, depth, result, NULL, 0), status);
+    CHECK_STATUS(fuge_halfplane_stress_grid(nx, spacing, force, FUGE_MEAN, boundary, depths, depth, result, NULL, 0),
+                 status);
     CHECK_STATUS(fuge_halfplane_displacement_grid(nx, spacing, force, FUGE_MEAN, boundary, YOUNG, POISSON,
                                                   FUGE_PLANE_STRESS, depths, depth, result, NULL, 0), status);
   }
@@ -122,7 +127,8 @@ static void test_refusals(void) {
   check_refusal(N, 1, 0.0, FORCE, DEPTHS, DEPTH, FUGE_PERIODIC, FUGE_ERR_WIDTH, "spacing");
   check_refusal(N, 1, 1.0, FORCE, DEPTHS, above, FUGE_PERIODIC, FUGE_ERR_GRID, "depth(1) = -0.5");
   check_refusal(N, 1, 1.0, FORCE, DEPTHS, DEPTH, 9, FUGE_ERR_OPTION, "boundary = 9");
-  CHECK_STATUS(fuge_halfplane_stress_grid(N, 1.0, FORCE, 7, FUGE_FREE, DEPTHS, DEPTH, result, NULL, 0), FUGE_ERR_ELEMENT);
+  CHECK_STATUS(fuge_halfplane_stress_grid(N, 1.0, FORCE, 7, FUGE_FREE, DEPTHS, DEPTH, result, NULL, 0),
+               FUGE_ERR_ELEMENT);
   CHECK_STATUS(fuge_halfplane_stress_grid(N, 1.0, FORCE, FUGE_MEAN, FUGE_FREE, DEPTHS, DEPTH, NULL, NULL, 0),
                FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_halfspace_displacement_grid(NX, NY, 1.0, 1.0, FORCE, FUGE_FREE, 0.0, POISSON, DEPTHS, DEPTH, result,
@@ -130,7 +136,8 @@ static void test_refusals(void) {
   CHECK_STATUS(fuge_halfspace_stress_grid(NX, NY, 1.0, 1.0, FORCE, FUGE_FREE, 0.6, DEPTHS, DEPTH, result, NULL, 0),
                FUGE_ERR_MODULUS);
   fill(result, 6 * N * DEPTHS);
-  CHECK_STATUS(fuge_halfspace_stress_grid(NX, NY, 1.0, 1.0, FORCE, FUGE_FREE, POISSON, 0, DEPTH, result, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_stress_grid(NX, NY, 1.0, 1.0, FORCE, FUGE_FREE, POISSON, 0, DEPTH, result, NULL, 0),
+               FUGE_DONE);
   CHECK_UNTOUCHED(result, 6 * N * DEPTHS);
 }
 

@@ -158,8 +158,8 @@ static void test_volume(void) {
   CHECK_CONTAINS(message, "depth(2) = 0.5");
   CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 0, depth, 1, names, fields, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, NULL, 1, names, fields, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_write_volume(NAME, 32768, 32768, spacing, NULL, 3, depth, 1, names, fields, message, sizeof message),
-               FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_volume(NAME, 32768, 32768, spacing, NULL, 3, depth, 1, names, fields, message,
+               sizeof message), FUGE_ERR_SIZE);
 }
 
 static void test_fields(void) {

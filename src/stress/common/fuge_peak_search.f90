@@ -5,7 +5,7 @@ module fuge_peak_search
   use fuge_peak_climb, only: climb
   use fuge_peak_starts, only: find_starts, peak_start
   use fuge_pressed_cells, only: pressed_cells
-  use fuge_status, only: fuge_info
+  use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW
   use fuge_stress_field, only: stress_field
   use fuge_stress_peak_type, only: fuge_stress_peak, FUGE_PEAK_INSIDE, FUGE_PEAK_SINGULAR, FUGE_PEAK_SURFACE
   implicit none
@@ -18,7 +18,8 @@ contains
   !> The largest stress of a `field` below `cells` of pressure, which may be none.
   !>
   !> Its relative error is of the order of 1e-12, if the field has as many digits, unless the maximum keeps less than
-  !> `START_SHARE` of its value at all candidates nearby. Errors, `peak` untouched: those of the field, FUGE_ERR_MEMORY.
+  !> `START_SHARE` of its value at all candidates nearby. Errors, `peak` untouched: those of the field, FUGE_ERR_MEMORY,
+  !> FUGE_ERR_OVERFLOW if no stress is finite.
   subroutine find_peak(field, cells, measure, peak, info)
     class(stress_field), intent(inout) :: field
     type(pressed_cells), intent(in) :: cells
@@ -37,7 +38,7 @@ contains
     call find_starts(field, cells, measure, starts, info)
     if (info%failed()) return
     if (size(starts) == 0) then
-      peak = fuge_stress_peak()
+      call report(info, FUGE_ERR_OVERFLOW, 'no stress is in range: choose another unit of force')
       return
     end if
     call climb(field, cells%axes, measure, starts, best, info)

@@ -21,14 +21,16 @@ module fuge_peak_starts
   !> Candidates below this part of the best one are not followed: those beside the largest stress keep more of it.
   real(dp), parameter, public :: START_SHARE = 0.7_dp
   !> A part is not halved if its best value and what its cells could add remain below this part of the best one. Uniform
-  !> pressure on a patch adds up to UNSEEN_SHARE of itself.
-  real(dp), parameter :: HALVED_SHARE = 0.8_dp, UNSEEN_SHARE = 0.75_dp
+  !> pressure on a patch adds up to UNSEEN_SHARE of itself, and as much again beside a patch that is pulled.
+  real(dp), parameter :: HALVED_SHARE = 0.8_dp, UNSEEN_SHARE = 0.85_dp
   !> After so many candidates at the surface there are no more unless the best of them has this part of the best one.
   integer, parameter :: FIRST_SURFACE = 64
   real(dp), parameter :: SURFACE_SHARE = 0.5_dp
   !> Depth of a candidate over the size of its part; below a single cell it is halved twice.
   real(dp), parameter :: DEPTH_RATIO = 1.4_dp
-  integer, parameter :: CANDIDATES = 4
+  !> Candidates of a part: DEPTHS below its middle, one at the surface, and those below the edges of a cell, where the
+  !> pressure jumps.
+  integer, parameter :: DEPTHS = 3, AT_SURFACE = DEPTHS + 1, CANDIDATES = AT_SURFACE + 4
   !> The size of a long part is at most so many times its breadth.
   real(dp), parameter :: LONGEST = 3.0_dp
   !> Two starts that are closer than this part of the lesser depth climb to the same maximum.
@@ -104,8 +106,14 @@ contains
       number = number_next
       parts(:number) = halves(:number)
     end do
-    call thin_out(list, count)
-    allocate (starts, source=list(:count))
+    call thin_out(list, count, info)
+    if (info%failed()) return
+    allocate (starts(count), stat=stat)
+    if (stat == 0) then
+      starts = list(:count)
+    else
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(count)//' starts of the search')
+    end if
   end subroutine find_starts
 
   !> Evaluate the candidates of `parts`, add the good ones to the `list`, and halve the parts that may hide better ones.
@@ -123,9 +131,11 @@ contains
     type(survey), allocatable :: surveys(:)
     type(peak_start), allocatable :: tried(:, :)
     real(dp), allocatable :: normal(:, :)
-    real(dp) :: seen
+    real(dp) :: seen, hidden_share
     integer :: c, p, stat
 
+    hidden_share = UNSEEN_SHARE
+    if (minval(cells%pressure) < 0.0_dp .and. maxval(cells%pressure) > 0.0_dp) hidden_share = 2.0_dp*UNSEEN_SHARE
     allocate (surveys(size(parts)), tried(CANDIDATES, size(parts)), normal(CANDIDATES, size(parts)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(parts))//' parts of the search')
@@ -135,14 +145,14 @@ contains
       surveys(p) = survey_of(cells, order(parts(p)%first:parts(p)%last))
       tried(:, p) = candidates_of(cells, surveys(p), parts(p)%tried)
       parts(p)%tried = surveys(p)%strongest
-      if (surface_is_weak(so_far)) tried(CANDIDATES, p)%length = 0.0_dp
-      if (tried(CANDIDATES, p)%length > 0.0_dp) so_far%surface_count = so_far%surface_count + 1
+      if (surface_is_weak(so_far)) tried(AT_SURFACE, p)%length = 0.0_dp
+      if (tried(AT_SURFACE, p)%length > 0.0_dp) so_far%surface_count = so_far%surface_count + 1
     end do
     call evaluate_candidates(field, measure, tried, normal, info)
     if (info%failed()) return
 
     so_far%best = max(so_far%best, maxval(tried%value))
-    so_far%surface_best = max(so_far%surface_best, maxval(tried(CANDIDATES, :)%value))
+    so_far%surface_best = max(so_far%surface_best, maxval(tried(AT_SURFACE, :)%value))
     do p = 1, size(parts)
       do c = 1, CANDIDATES
         if (tried(c, p)%value < max(0.0_dp, START_SHARE*so_far%best)) cycle
@@ -150,10 +160,10 @@ contains
         list(count) = tried(c, p)
       end do
       if (surveys(p)%split_axis == 0) cycle
-      seen = maxval(tried(:, p)%value) + UNSEEN_SHARE*max(0.0_dp, surveys(p)%pressure - abs(normal(1, p)))
+      seen = maxval(tried(:, p)%value) + hidden_share*max(0.0_dp, surveys(p)%pressure - abs(normal(1, p)))
       if (seen >= HALVED_SHARE*so_far%best) call halve(cells, surveys(p), parts(p), order, halves, number)
     end do
-    if (count > size(list) - CANDIDATES*PORTION) call thin_out(list, count)
+    if (count > size(list) - CANDIDATES*PORTION) call thin_out(list, count, info)
   end subroutine try_parts
 
   pure function surface_is_weak(so_far)
@@ -246,27 +256,44 @@ contains
   end function bounds_of
 
   !> The candidates of a part, those without a `length` being left out: below its middle, for a single cell at three
-  !> depths, and the middle of its `strongest` cell at the surface unless that was `tried`.
+  !> depths and below its edges, and the middle of its `strongest` cell at the surface unless that was `tried`.
   pure function candidates_of(cells, found, tried) result(list)
     type(pressed_cells), intent(in) :: cells
     type(survey), intent(in) :: found
     integer, intent(in) :: tried
     type(peak_start) :: list(CANDIDATES)
-    integer :: c, depths
+    integer :: c
 
     list%least_depth = cells%least_depth(found%strongest)
-    depths = 1
-    if (found%split_axis == 0) depths = 3
-    do c = 1, depths
+    do c = 1, merge(DEPTHS, 1, found%split_axis == 0)
       list(c)%length = found%length*DEPTH_RATIO*0.5_dp**(c - 1)
       list(c)%place(:2) = found%middle
       list(c)%place(3) = max(list(c)%least_depth, list(c)%length)
     end do
+    if (found%split_axis == 0 .and. .not. cells%continuous) &
+      list(AT_SURFACE + 1:AT_SURFACE + 2*cells%axes) = edges_of(cells, found%strongest)
     if (found%strongest == tried) return
-    list(CANDIDATES)%length = cells%size_of(found%strongest)
-    list(CANDIDATES)%place(:cells%axes) = cells%centre(:, found%strongest)
-    list(CANDIDATES)%fixed = .not. cells%continuous
+    list(AT_SURFACE)%length = cells%size_of(found%strongest)
+    list(AT_SURFACE)%place(:cells%axes) = cells%centre(:, found%strongest)
+    list(AT_SURFACE)%fixed = .not. cells%continuous
   end function candidates_of
+
+  !> The candidates below the middles of the edges of cell `k`, at the least depth.
+  pure function edges_of(cells, k) result(list)
+    type(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: k
+    type(peak_start) :: list(2*cells%axes)
+    integer :: axis, c
+
+    list%least_depth = cells%least_depth(k)
+    list%length = cells%least_depth(k)
+    do c = 1, size(list)
+      axis = (c + 1)/2
+      list(c)%place(:cells%axes) = cells%centre(:, k)
+      list(c)%place(axis) = cells%centre(axis, k) + merge(-0.5_dp, 0.5_dp, mod(c, 2) == 1)*cells%width(axis, k)
+      list(c)%place(3) = cells%least_depth(k)
+    end do
+  end function edges_of
 
   !> Put the cells beyond the middle of their extent last, and add both halves to the list, without the one that is the
   !> mirror image of cells elsewhere.
@@ -296,18 +323,23 @@ contains
     halves(number) = part(whole%first, next - 1, whole%tried)
   end subroutine halve
 
-  !> Keep the best starts, best first, without those next to a better one: at most MOST_STARTS.
-  pure subroutine thin_out(list, count)
+  !> Keep the best starts, best first, without those next to a better one: at most MOST_STARTS. FUGE_ERR_MEMORY.
+  pure subroutine thin_out(list, count, info)
     type(peak_start), intent(inout) :: list(:)
     integer, intent(inout) :: count
+    type(fuge_info), intent(inout) :: info
     type(peak_start), allocatable :: kept(:)
     integer, allocatable :: order(:)
     real(dp) :: best
-    integer :: k, number
+    integer :: k, number, stat
 
     if (count == 0) return
     best = maxval(list(:count)%value)
-    allocate (order(count), kept(MOST_STARTS))
+    allocate (order(count), kept(MOST_STARTS), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(count)//' candidates of the search')
+      return
+    end if
     order = [(k, k=1, count)]
     call heap_sort(-list(:count)%value, order)
     number = 0

@@ -6,7 +6,7 @@ module fuge_pressed_cells
   implicit none
   private
 
-  public :: allocate_cells
+  public :: allocate_cells, is_own_image
 
   !> Cells on a line (`axes` 1) or on an area (`axes` 2); all carry force.
   type, public :: pressed_cells
@@ -42,6 +42,15 @@ contains
     allocate (cells%centre(axes, number), cells%width(axes, number), cells%pressure(number), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the '//text(number)//' cells with a force')
   end subroutine allocate_cells
+
+  !> Is a cell of a symmetric model its own mirror image? The checks of such models refuse cells that overlap their
+  !> images otherwise: none lies between the axis, but for rounding, and half of its width.
+  elemental function is_own_image(place, width) result(own)
+    real(dp), intent(in) :: place, width
+    logical :: own
+
+    own = abs(place) < 0.25_dp*width
+  end function is_own_image
 
   !> A length for a cell: its width, or the side of a square of its area.
   pure function size_of(self, k) result(length)

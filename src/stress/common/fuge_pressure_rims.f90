@@ -17,6 +17,8 @@ module fuge_pressure_rims
   !> Cells of a fit at most; at least for a contact in one piece on a line, for an area, for a contact in pieces. From
   !> each side of a run of cells they reach to its middle.
   integer, parameter :: MOST_FITTED = 7, FITTED_WHOLE = 4, FITTED_AREA = 5, FITTED_PIECE = 7
+  !> A shorter run of cells side by side has too few for any fit.
+  integer, parameter :: SHORTEST_RUN = 2*(FITTED_WHOLE - 1)
   !> On an area so many neighbouring rows have such a rim.
   integer, parameter :: ROWS = 3
   !> The first cell over any other one, at least: 2.4 for K alone and the second cell. With 1.5 a square root with the
@@ -43,13 +45,15 @@ contains
     real(dp), intent(out) :: place(2)
     type(fuge_info), intent(inout) :: info
     integer, allocatable :: order(:)
+    type(rim), allocatable :: rims(:)
     real(dp) :: strength
     integer :: along, k, stat
 
     found = .false.
     place = 0.0_dp
     if (info%failed()) return
-    allocate (order(size(cells%pressure)), stat=stat)
+    ! A run of cells side by side has two rims at most.
+    allocate (order(size(cells%pressure)), rims(2*size(cells%pressure)/SHORTEST_RUN), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the order of '//text(size(cells%pressure))//' cells')
       return
@@ -57,23 +61,22 @@ contains
     order = [(k, k=1, size(order))]
     strength = 0.0_dp
     do along = 1, cells%axes
-      call search_rows(cells, along, order, strength, place)
+      call search_rows(cells, along, order, rims, strength, place)
     end do
     found = strength > 0.0_dp
   end subroutine find_singular_rim
 
   !> Search the rows of cells along one axis for a stronger rim than `strength`.
-  pure subroutine search_rows(cells, along, order, strength, place)
+  pure subroutine search_rows(cells, along, order, rims, strength, place)
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: along
     integer, intent(inout) :: order(:)
+    type(rim), intent(inout) :: rims(:)
     real(dp), intent(inout) :: strength, place(2)
-    type(rim), allocatable :: rims(:)
     integer :: across, first, last, row, number, needed, k
 
     across = cells%axes + 1 - along
     if (cells%axes == 2) call heap_sort(cells%centre(across, :), order)
-    allocate (rims(8))
     number = 0
     row = 0
     first = 1
@@ -111,7 +114,7 @@ contains
   pure subroutine search_row(cells, along, order, row, rims, number)
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: along, order(:), row
-    type(rim), allocatable, intent(inout) :: rims(:)
+    type(rim), intent(inout) :: rims(:)
     integer, intent(inout) :: number
     integer :: first, last
 
@@ -143,9 +146,8 @@ contains
   pure subroutine try_rim(cells, along, run, in_row, side, row, rims, number)
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: along, run(:), in_row, side, row
-    type(rim), allocatable, intent(inout) :: rims(:)
+    type(rim), intent(inout) :: rims(:)
     integer, intent(inout) :: number
-    type(rim), allocatable :: more(:)
     type(rim) :: new
     integer :: fitted, needed
 
@@ -165,11 +167,6 @@ contains
     end if
     new%edge = cells%centre(along, run(1)) + 0.5_dp*real(side, dp)*cells%width(along, run(1))
     new%chain = chain_to(new, rims(:number))
-    if (number == size(rims)) then
-      allocate (more(2*number))
-      more(:number) = rims
-      call move_alloc(more, rims)
-    end if
     number = number + 1
     rims(number) = new
   end subroutine try_rim

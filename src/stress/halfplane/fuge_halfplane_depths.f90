@@ -7,7 +7,7 @@ module fuge_halfplane_depths
   use fuge_constants, only: PI
   use fuge_grid_waves, only: grid_waves
   use fuge_halfplane_fft, only: FUGE_PERIODIC
-  use fuge_halfplane_grid, only: check_halfplane_grid
+  use fuge_halfplane_grid_checks, only: check_halfplane_grid
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_halfplane_interior, only: displacement_factors, fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_halfplane_wave_factors, only: fill_wave_factors, wave_response
@@ -37,13 +37,13 @@ contains
   !> Stresses in a half-plane below the centres of equal cells side by side, in O(n log n) operations for each depth.
   !>
   !> `spacing` width of the cells, length; `force` (n) of the cells, per unit depth, compression positive; `element`
-  !> FUGE_CENTRE or FUGE_MEAN (strips of pressure force/spacing), FUGE_HAT; `boundary` FUGE_FREE or FUGE_PERIODIC with the
-  !> period n*spacing; `depth` (m) >= 0 in any order, length; out: `stress` (3, n, m) xx, zz, xz below the centre of each
-  !> cell at each depth, force per length squared, tension positive.
+  !> FUGE_CENTRE or FUGE_MEAN (strips of pressure force/spacing), FUGE_HAT; `boundary` FUGE_FREE or FUGE_PERIODIC with
+  !> the period n*spacing; `depth` (m) >= 0 in any order, length; out: `stress` (3, n, m) xx, zz, xz below the centre of
+  !> each cell at each depth, force per length squared, tension positive.
   !>
-  !> Of a free surface they are those of `fuge_halfplane_stress`, with errors of about 1e-15 of the largest stress at that
-  !> depth. A periodic surface has a mean pressure, which is compressive stress zz at all depths; what xx it has depends
-  !> on how the body is held far away. Here it is 0: a body that is held so that it cannot expand along x has in
+  !> Of a free surface they are those of `fuge_halfplane_stress`, with errors of about 1e-15 of the largest stress at
+  !> that depth. A periodic surface has a mean pressure, which is compressive stress zz at all depths; what xx it has
+  !> depends on how the body is held far away. Here it is 0: a body that is held so that it cannot expand along x has in
   !> addition xx = nu/(1 - nu) times the mean of zz in plane strain.
   !>
   !> Errors, stress untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION
@@ -72,12 +72,13 @@ contains
     call work%waves%free()
   end subroutine fuge_halfplane_stress_grid
 
-  !> Displacements in a half-plane below the centres of equal cells side by side, in O(n log n) operations for each depth.
+  !> Displacements in a half-plane below the centres of equal cells side by side, in O(n log n) operations for each
+  !> depth.
   !>
   !> `spacing`, `force`, `element`, `boundary` and `depth` as for `fuge_halfplane_stress_grid`; `young`, `poisson` and
-  !> `plane_state` of the body as for `fuge_plane_modulus`; out: `displacement` (2, n, m) along x and z, length. Of a free
-  !> surface they are those of `fuge_halfplane_displacement`, with its datum. Of a periodic surface they count, at each
-  !> depth, from the mean at that depth: the compression of the body by the mean pressure is left out.
+  !> `plane_state` of the body as for `fuge_plane_modulus`; out: `displacement` (2, n, m) along x and z, length. Of a
+  !> free surface they are those of `fuge_halfplane_displacement`, with its datum. Of a periodic surface they count, at
+  !> each depth, from the mean at that depth: the compression of the body by the mean pressure is left out.
   !>
   !> Ten arguments: those of the cells and of the body. Errors, displacement untouched: as for
   !> `fuge_halfplane_stress_grid` and `fuge_plane_modulus`. Source: as there.
@@ -104,8 +105,8 @@ contains
         call periodic_displacement(work, element == FUGE_HAT, depth(k)/spacing, PI*factor, displacement(:, :, k))
       else
         work%level = depth(k)/spacing
-        call fuge_halfplane_displacement([0.0_dp], [1.0_dp], [1.0_dp], element, young, poisson, plane_state, work%offset, &
-                                         work%level, displacement(:, :, k), info, .false.)
+        call fuge_halfplane_displacement([0.0_dp], [1.0_dp], [1.0_dp], element, young, poisson, plane_state, &
+                                         work%offset, work%level, displacement(:, :, k), info, .false.)
         if (.not. info%failed()) call free_displacement(work, sum(force), datum, displacement(:, :, k))
       end if
     end do
@@ -192,8 +193,8 @@ contains
     call waves%convolve(ODD, odd_field)
   end subroutine convolve_pair
 
-  !> Replace the displacements by one cell by those by all; `load` is the sum of the forces, `datum` what is added to the
-  !> displacement along z by each unit of it.
+  !> Replace the displacements by one cell by those by all; `load` is the sum of the forces, `datum` what is added to
+  !> the displacement along z by each unit of it.
   subroutine free_displacement(work, load, datum, displacement)
     type(grid_work), intent(inout) :: work
     real(dp), intent(in) :: load, datum

@@ -4,12 +4,11 @@ module fuge_halfplane_interior
   use fuge_constants, only: LARGEST_EXPONENT_OF_4, PI
   use fuge_elastic_moduli, only: fuge_plane_modulus, FUGE_PLANE_STRAIN
   use fuge_halfplane_influence, only: check_halfplane, datum_length
-  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_loaded_cells, only: loaded_cells
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
-  use fuge_stress_checks, only: check_coordinate, check_depth, check_result
+  use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW
+  use fuge_stress_checks, only: check_coordinate, check_depth, check_forces, check_result
   implicit none
   private
 
@@ -43,7 +42,6 @@ contains
     logical, intent(in), optional :: symmetric
     type(loaded_cells) :: cells
     logical :: folded
-    real(dp) :: total(3), image(3), scaled(2)
     integer :: k
 
     folded = .false.
@@ -55,16 +53,7 @@ contains
     if (size(pz) >= MANY_POINTS) call cells%gather(info)
     if (info%failed()) return
     do k = 1, size(pz)
-      scaled = scale([px(k), pz(k)], cells%power)
-      total = 0.0_dp
-      call cells%add_stresses(scaled(1), scaled(2), total)
-      if (folded) then
-        image = 0.0_dp
-        call cells%add_stresses(-scaled(1), scaled(2), image)
-        total = 0.5_dp*(total + [image(1), image(2), -image(3)])
-      end if
-      ! Nothing is 0, not -0.
-      stress(:, k) = 0.0_dp - scale(total/PI, cells%power)
+      call cells%find_stress(px(k), pz(k), folded, stress(:, k))
     end do
   end subroutine fuge_halfplane_stress
 
@@ -146,22 +135,10 @@ contains
 
     call check_halfplane(x, width, 1.0_dp, element, symmetric, info)
     if (.not. info%failed()) call check_overlaps(x, width, symmetric, info)
-    if (.not. info%failed()) call check_forces(force, size(x), info)
+    call check_forces(force, size(x), 'cells', info)
     call check_depth(pz, 'pz', info)
     call check_coordinate(px, 'px', pz, info)
   end subroutine check_cells_and_points
-
-  pure subroutine check_forces(force, n, info)
-    real(dp), intent(in) :: force(:)
-    integer, intent(in) :: n
-    type(fuge_info), intent(inout) :: info
-
-    if (size(force) /= n) then
-      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' values for the '//text(n)//' cells')
-    else
-      call check_finite(force, 'force', info)
-    end if
-  end subroutine check_forces
 
   !> Refuse points that are too far away (FUGE_ERR_OVERFLOW).
   pure subroutine check_distances(cells, px, pz, info)

@@ -7,7 +7,7 @@ module fuge_halfplane_peak_search
   use fuge_loaded_cells, only: loaded_cells
   use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
-  use fuge_pressed_cells, only: allocate_cells, pressed_cells
+  use fuge_pressed_cells, only: allocate_cells, is_own_image, pressed_cells
   use fuge_pressure_rims, only: find_singular_rim
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_interior, only: fuge_smooth_stress
@@ -42,6 +42,7 @@ module fuge_halfplane_peak_search
 
   type, extends(plane_field) :: field_of_cells
     type(loaded_cells) :: cells
+    logical :: folded = .false.
   contains
     procedure :: components => components_under_cells
   end type field_of_cells
@@ -52,8 +53,6 @@ module fuge_halfplane_peak_search
     procedure :: components => components_under_punch
   end type field_of_punch
 
-  !> A cell closer to the axis than this part of its width is its own mirror image.
-  real(dp), parameter :: AXIS_TOLERANCE = 1.0e-6_dp
   !> Cells that stand for the pressure of a smooth punch: so many for each coefficient, and at least.
   integer, parameter :: CELLS_EACH = 4, FEWEST_CELLS = 64
 
@@ -92,6 +91,7 @@ contains
 
     folded = .false.
     if (present(symmetric)) folded = symmetric
+    nowhere = 0.0_dp
     call fuge_halfplane_stress(x, width, force, element, nowhere, nowhere, nothing, info, folded)
     call check_plane(plane_state, poisson, info)
     call check_measure(measure, info)
@@ -106,7 +106,9 @@ contains
       cells%symmetric(1) = folded
       field%plane_state = plane_state
       field%poisson = poisson
-      call set_field(cells, element, field, info)
+      field%folded = folded
+      call field%cells%set(x, width, force, element, info)
+      call field%cells%gather(info)
       call find_peak(field, cells, measure, peak, info)
     end if
     if (folded .and. .not. info%failed()) call to_right_half(peak)
@@ -151,14 +153,14 @@ contains
     do k = 1, size(x)
       if (.not. abs(force(k)) > 0.0_dp) cycle
       number = number + 1
-      if (folded .and. abs(x(k)) > AXIS_TOLERANCE*width(k)) number = number + 1
+      if (folded .and. .not. is_own_image(x(k), width(k))) number = number + 1
     end do
     call allocate_cells(1, number, cells, info)
     if (info%failed()) return
     number = 0
     do k = 1, size(x)
       if (.not. abs(force(k)) > 0.0_dp) cycle
-      has_image = folded .and. abs(x(k)) > AXIS_TOLERANCE*width(k)
+      has_image = folded .and. .not. is_own_image(x(k), width(k))
       number = number + 1
       cells%centre(1, number) = x(k)
       cells%width(1, number) = width(k)
@@ -171,26 +173,6 @@ contains
       cells%pressure(number) = cells%pressure(number - 1)
     end do
   end subroutine collect_cells
-
-  !> The field of these cells, in clusters if they are many.
-  pure subroutine set_field(cells, element, field, info)
-    type(pressed_cells), intent(in) :: cells
-    integer, intent(in) :: element
-    type(field_of_cells), intent(inout) :: field
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: force(:)
-    integer :: stat
-
-    if (info%failed()) return
-    allocate (force(size(cells%pressure)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the '//text(size(cells%pressure))//' cells with a force')
-      return
-    end if
-    force = cells%pressure*cells%width(1, :)
-    call field%cells%set(cells%centre(1, :), cells%width(1, :), force, element, info)
-    if (.not. info%failed()) call field%cells%gather(info)
-  end subroutine set_field
 
   !> Cells for the pressure of a smooth punch, narrow at both ends; none without force.
   pure subroutine cells_of_punch(contact, cells, info)
@@ -247,13 +229,10 @@ contains
     real(dp), intent(in) :: px(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
-    real(dp) :: total(3)
     integer :: k
 
     do k = 1, size(pz)
-      total = 0.0_dp
-      call self%cells%add_stresses(scale(px(k), self%cells%power), scale(pz(k), self%cells%power), total)
-      stress(:, k) = -scale(total/PI, self%cells%power)
+      call self%cells%find_stress(px(k), pz(k), self%folded, stress(:, k))
     end do
   end subroutine components_under_cells
 

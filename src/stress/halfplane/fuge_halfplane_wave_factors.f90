@@ -8,8 +8,8 @@
 !>
 !> The wave itself is taken directly. The sum of the others is a smooth function of q h in [0, pi], with no singularity
 !> before 2 pi, so that a Chebyshev series of degree 32 gives it to rounding (error 5.8**(-32)). Its values at the nodes
-!> are sums of an alternating series (H. Cohen, F. Rodriguez Villegas, D. Zagier, Experiment. Math. 9, 2000, algorithm 1);
-!> the series of the hat is first made alternating as by A. van Wijngaarden.
+!> are sums of an alternating series (H. Cohen, F. Rodriguez Villegas, D. Zagier, Experiment. Math. 9, 2000, algorithm
+!> 1); the series of the hat is first made alternating as by A. van Wijngaarden.
 module fuge_halfplane_wave_factors
   use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_points, chebyshev_sum
   use fuge_constants, only: PI
@@ -131,7 +131,8 @@ contains
     total = total/d
   end function series_sum
 
-  !> The sum of 2**j times term 2**j `k` over j = 0, 1, ..: the alternating series of these sums has the sum of the terms.
+  !> The sum of 2**j times term 2**j `k` over j = 0, 1, ..: the alternating series of these sums has the sum of the
+  !> terms.
   pure function doubled_sum(response, shift, k, depth) result(total)
     type(wave_response), intent(in) :: response
     real(dp), intent(in) :: shift, depth

@@ -4,10 +4,10 @@
 !> and the clusters of all others.
 module fuge_loaded_cells
   use fuge_cell_clusters, only: cell_clusters
-  use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2
+  use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2, PI
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_hat_field, only: add_hat_displacements, add_hats, hat_rules
-  use fuge_heap_sort, only: heap_sort
+  use fuge_heap_sort, only: heap_sort, reorder
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
@@ -18,6 +18,8 @@ module fuge_loaded_cells
   !> No distance is larger than 2**FARTHEST narrowest widths, 1.8e75.
   integer, parameter :: FARTHEST = 250
 
+  !> How many sums make the stresses at a point, and the displacements.
+  integer, parameter :: STRESSES = 3, DISPLACEMENTS = 4
   !> Fewer cells are never gathered.
   integer, parameter :: FEW_CELLS = 64
   !> More clusters than ever wait to be looked at: two for each halving of their number.
@@ -35,6 +37,7 @@ module fuge_loaded_cells
   contains
     procedure :: set
     procedure :: gather
+    procedure :: find_stress
     procedure :: add_stresses
     procedure :: add_displacements
     procedure :: check_range
@@ -108,8 +111,9 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: n
 
+    if (info%failed()) return
     n = size(self%centre)
-    if (info%failed() .or. n < FEW_CELLS) return
+    if (n < FEW_CELLS) return
     if (any(self%centre(2:) < self%centre(:n - 1))) call sort(self, info)
     if (.not. info%failed()) call self%clusters%build(self%centre, self%width, merge(1.0_dp, 0.5_dp, self%hats), info)
     if (.not. info%failed()) call self%clusters%fill(self%centre, self%width, self%pressure, self%hats)
@@ -120,11 +124,11 @@ contains
     class(loaded_cells), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
     integer, allocatable :: order(:)
-    real(dp), allocatable :: unordered(:)
+    real(dp), allocatable :: work(:)
     integer :: k, n, stat
 
     n = size(self%centre)
-    allocate (order(n), unordered(n), stat=stat)
+    allocate (order(n), work(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(n)//' cells')
       return
@@ -133,90 +137,60 @@ contains
       order(k) = k
     end do
     call heap_sort(self%centre, order)
-    call permute(order, self%centre, unordered)
-    call permute(order, self%width, unordered)
-    call permute(order, self%pressure, unordered)
+    call reorder(order, self%centre, work)
+    call reorder(order, self%width, work)
+    call reorder(order, self%pressure, work)
   end subroutine sort
 
-  pure subroutine permute(order, values, unordered)
-    integer, intent(in) :: order(:)
-    real(dp), intent(inout) :: values(:), unordered(:)
-    integer :: k
+  !> The stresses xx, zz and xz at a point, in the caller's units. Of a `folded` model half of each force acts on the
+  !> mirror image of its cell.
+  pure subroutine find_stress(self, px, pz, folded, stress)
+    class(loaded_cells), intent(in) :: self
+    real(dp), intent(in) :: px, pz
+    logical, intent(in) :: folded
+    real(dp), intent(out) :: stress(3)
+    real(dp) :: total(3), image(3), scaled(2)
 
-    do k = 1, size(order)
-      unordered(k) = values(k)
-    end do
-    do k = 1, size(order)
-      values(k) = unordered(order(k))
-    end do
-  end subroutine permute
+    scaled = scale([px, pz], self%power)
+    total = 0.0_dp
+    call self%add_stresses(scaled(1), scaled(2), total)
+    if (folded) then
+      image = 0.0_dp
+      call self%add_stresses(-scaled(1), scaled(2), image)
+      total = 0.5_dp*(total + [image(1), image(2), -image(3)])
+    end if
+    ! Nothing is 0, not -0.
+    stress = 0.0_dp - scale(total/PI, self%power)
+  end subroutine find_stress
 
   !> Add -pi times the stresses xx, zz and xz at a point to `total`; lengths and areas in the unit of the cells.
   pure subroutine add_stresses(self, px, pz, total)
     class(loaded_cells), intent(in) :: self
     real(dp), intent(in) :: px, pz
-    real(dp), intent(inout) :: total(3)
-    integer :: waiting(MOST_WAITING), number, k
+    real(dp), intent(inout) :: total(STRESSES)
 
-    if (self%clusters%number == 0) then
-      call add_cell_stresses(self, 1, size(self%centre), px, pz, total)
-      return
-    end if
-    number = 1
-    waiting(1) = 1
-    do while (number > 0)
-      k = waiting(number)
-      number = number - 1
-      if (self%clusters%is_far(k, px, pz)) then
-        call self%clusters%add_stress(k, px, pz, total)
-      else if (self%clusters%child(k) == 0) then
-        call add_cell_stresses(self, self%clusters%first(k), self%clusters%last(k), px, pz, total)
-      else
-        waiting(number + 1:number + 2) = self%clusters%child(k) + [0, 1]
-        number = number + 2
-      end if
-    end do
+    call add_clusters(self, STRESSES, px, pz, total)
   end subroutine add_stresses
-
-  !> The part of the cells `first` to `last`. Halves of many cells are added up apart, which keeps the rounding of the
-  !> sum small.
-  pure recursive subroutine add_cell_stresses(self, first, last, px, pz, total)
-    class(loaded_cells), intent(in) :: self
-    integer, intent(in) :: first, last
-    real(dp), intent(in) :: px, pz
-    real(dp), intent(inout) :: total(3)
-    real(dp) :: part(3)
-    integer :: half
-
-    if (last - first >= FEW_CELLS) then
-      part = 0.0_dp
-      half = first + (last - first)/2
-      call add_cell_stresses(self, first, half, px, pz, part)
-      total = total + part
-      part = 0.0_dp
-      call add_cell_stresses(self, half + 1, last, px, pz, part)
-      total = total + part
-    else
-      associate (centre => self%centre(first:last), width => self%width(first:last), &
-                 pressure => self%pressure(first:last))
-        if (self%hats) then
-          call add_hats(self%rules, centre, width, pressure, px, pz, total)
-        else
-          call add_strips(centre, width, pressure, px, pz, total)
-        end if
-      end associate
-    end if
-  end subroutine add_cell_stresses
 
   !> Add the integrals of ln(r), z**2/r**2, x z/r**2 and atan(x/z) over the pressure to `total`.
   pure subroutine add_displacements(self, px, pz, total)
     class(loaded_cells), intent(in) :: self
     real(dp), intent(in) :: px, pz
-    real(dp), intent(inout) :: total(4)
+    real(dp), intent(inout) :: total(DISPLACEMENTS)
+
+    call add_clusters(self, DISPLACEMENTS, px, pz, total)
+  end subroutine add_displacements
+
+  !> Add so many `sums`, STRESSES or DISPLACEMENTS, over the clusters that are far and the cells of the others.
+  pure subroutine add_clusters(self, sums, px, pz, total)
+    class(loaded_cells), intent(in) :: self
+    integer, intent(in) :: sums
+    real(dp), intent(in) :: px, pz
+    real(dp), intent(inout) :: total(sums)
     integer :: waiting(MOST_WAITING), number, k
 
     if (self%clusters%number == 0) then
-      call add_cell_displacements(self, 1, size(self%centre), px, pz, total)
+      call add_cells(self, sums, 1, size(self%centre), px, pz, total)
       return
     end if
     number = 1
@@ -225,43 +199,49 @@ contains
       k = waiting(number)
       number = number - 1
       if (self%clusters%is_far(k, px, pz)) then
-        call self%clusters%add_displacement(k, px, pz, total)
+        if (sums == STRESSES) call self%clusters%add_stress(k, px, pz, total)
+        if (sums == DISPLACEMENTS) call self%clusters%add_displacement(k, px, pz, total)
       else if (self%clusters%child(k) == 0) then
-        call add_cell_displacements(self, self%clusters%first(k), self%clusters%last(k), px, pz, total)
+        call add_cells(self, sums, self%clusters%first(k), self%clusters%last(k), px, pz, total)
       else
         waiting(number + 1:number + 2) = self%clusters%child(k) + [0, 1]
         number = number + 2
       end if
     end do
-  end subroutine add_displacements
+  end subroutine add_clusters
 
-  !> The part of the cells `first` to `last`, as above.
-  pure recursive subroutine add_cell_displacements(self, first, last, px, pz, total)
+  !> The part of the cells `first` to `last`. Halves of many cells are added up apart, which keeps the rounding of the
+  !> sum small.
+  pure recursive subroutine add_cells(self, sums, first, last, px, pz, total)
     class(loaded_cells), intent(in) :: self
-    integer, intent(in) :: first, last
+    integer, intent(in) :: sums, first, last
     real(dp), intent(in) :: px, pz
-    real(dp), intent(inout) :: total(4)
-    real(dp) :: part(4)
+    real(dp), intent(inout) :: total(sums)
+    real(dp) :: part(sums)
     integer :: half
 
     if (last - first >= FEW_CELLS) then
       part = 0.0_dp
       half = first + (last - first)/2
-      call add_cell_displacements(self, first, half, px, pz, part)
+      call add_cells(self, sums, first, half, px, pz, part)
       total = total + part
       part = 0.0_dp
-      call add_cell_displacements(self, half + 1, last, px, pz, part)
+      call add_cells(self, sums, half + 1, last, px, pz, part)
       total = total + part
-    else
-      associate (centre => self%centre(first:last), width => self%width(first:last), &
-                 pressure => self%pressure(first:last))
-        if (self%hats) then
-          call add_hat_displacements(centre, width, pressure, px, pz, total)
-        else
-          call add_strip_displacements(centre, width, pressure, px, pz, total)
-        end if
-      end associate
+      return
     end if
-  end subroutine add_cell_displacements
+    associate (centre => self%centre(first:last), width => self%width(first:last), &
+               pressure => self%pressure(first:last))
+      if (sums == STRESSES .and. self%hats) then
+        call add_hats(self%rules, centre, width, pressure, px, pz, total)
+      else if (sums == STRESSES) then
+        call add_strips(centre, width, pressure, px, pz, total)
+      else if (self%hats) then
+        call add_hat_displacements(centre, width, pressure, px, pz, total)
+      else
+        call add_strip_displacements(centre, width, pressure, px, pz, total)
+      end if
+    end associate
+  end subroutine add_cells
 
 end module fuge_loaded_cells

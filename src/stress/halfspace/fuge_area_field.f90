@@ -297,11 +297,11 @@ contains
     call prepare_cluster(field%clusters, k, class, stat)
     if (stat /= 0) return
     n = product(CLASS_POINTS(class))
-    call place_cluster_forces(field%clusters, k, class, x(:n), y(:n), force(:n))
+    call place_cluster_forces(field%clusters, k, class, [batch%x(first), batch%y(first)], x(:n), y(:n), force(:n))
     call add_sources(field%poisson, batch, first, last, x(:n), y(:n), force(:n))
   end subroutine add_grid_forces
 
-  !> Add the field of point forces.
+  !> Add the field of point forces, whose places count from point `first`.
   pure subroutine add_sources(poisson, batch, first, last, x, y, force)
     real(dp), intent(in) :: poisson
     type(point_batch), intent(inout) :: batch
@@ -310,8 +310,8 @@ contains
     real(dp) :: sums(last - first + 1, 6)
 
     sums = 0.0_dp
-    call add_forces(batch%components, x, y, force, poisson, batch%x(first:last), batch%y(first:last), &
-                    batch%z(first:last), sums)
+    call add_forces(batch%components, x, y, force, poisson, batch%x(first:last) - batch%x(first), &
+                    batch%y(first:last) - batch%y(first), batch%z(first:last), sums)
     batch%sums(first:last, :) = batch%sums(first:last, :) + sums
   end subroutine add_sources
 
@@ -337,8 +337,9 @@ contains
           call add_sources(field%poisson, batch, first, last, x(:count), y(:count), force(:count))
           count = 0
         end if
-        call place_nodes(field%rules, order, [loads%x(k), loads%y(k)], [loads%half_x(k), loads%half_y(k)], &
-                         loads%force(k), x(count + 1:count + n), y(count + 1:count + n), force(count + 1:count + n))
+        call place_nodes(field%rules, order, [loads%x(k) - batch%x(first), loads%y(k) - batch%y(first)], &
+                         [loads%half_x(k), loads%half_y(k)], loads%force(k), x(count + 1:count + n), &
+                         y(count + 1:count + n), force(count + 1:count + n))
         count = count + n
       end do
     end associate

@@ -1,6 +1,7 @@
 !> Uniform pressures on rectangles of a half-space, in a unit of length and a unit of force of their own.
 module fuge_area_loads
   use fuge_compensated_sums, only: difference_rounding
+  use fuge_heap_sort, only: reorder
   use fuge_kinds, only: dp
   use fuge_rectangle_field, only: rectangle_part
   implicit none
@@ -74,28 +75,16 @@ contains
     integer, intent(in) :: order(:)
     type(area_loads), intent(inout) :: loads
     integer, intent(out) :: stat
-    real(dp), allocatable :: moved(:)
+    real(dp), allocatable :: work(:)
 
-    allocate (moved(size(order)), stat=stat)
+    allocate (work(size(order)), stat=stat)
     if (stat /= 0) return
-    call reorder(order, moved, loads%x)
-    call reorder(order, moved, loads%y)
-    call reorder(order, moved, loads%half_x)
-    call reorder(order, moved, loads%half_y)
-    call reorder(order, moved, loads%force)
+    call reorder(order, loads%x, work)
+    call reorder(order, loads%y, work)
+    call reorder(order, loads%half_x, work)
+    call reorder(order, loads%half_y, work)
+    call reorder(order, loads%force, work)
   end subroutine reorder_loads
-
-  !> Put value `order`(k) at place k; `moved` is work space of the same size.
-  pure subroutine reorder(order, moved, values)
-    integer, intent(in) :: order(:)
-    real(dp), intent(inout) :: moved(:), values(:)
-    integer :: k
-
-    do k = 1, size(order)
-      moved(k) = values(order(k))
-    end do
-    values = moved
-  end subroutine reorder
 
   !> Load `k` as it is seen from the point (`x`, `y`), in the unit of the loads.
   pure function load_part(loads, k, x, y) result(part)

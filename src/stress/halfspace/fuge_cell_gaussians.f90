@@ -1,7 +1,7 @@
 !> A Gaussian averaged over a cell, and its derivatives: the factors of its waves on a circle of cells, and its values.
 !>
-!> A factor is the sum over all waves that are the same on the cells, or for a narrow Gaussian its transform from cell to
-!> cell, both of which converge like a Gaussian (Poisson's summation formula).
+!> A factor is the sum over all waves that are the same on the cells, or for a narrow Gaussian its transform from cell
+!> to cell, both of which converge like a Gaussian (Poisson's summation formula).
 module fuge_cell_gaussians
   use fuge_constants, only: PI
   use fuge_gauss_legendre, only: gauss_rule
@@ -124,8 +124,8 @@ contains
     end do
   end subroutine add_waves
 
-  !> At the distances 0, 1, ..: the part of a Gaussian of variance 2 t**2 that lies in a cell, minus its slope, and minus
-  !> the slope of that.
+  !> At the distances 0, 1, ..: the part of a Gaussian of variance 2 t**2 that lies in a cell, minus its slope, and
+  !> minus the slope of that.
   pure subroutine fill_parts(t, part)
     real(dp), intent(in) :: t
     real(dp), intent(out) :: part(0:, 0:)

@@ -272,18 +272,20 @@ contains
     end associate
   end subroutine prepare_cluster
 
-  !> The forces on a grid of cluster `k` that `prepare_cluster` has made, and their places.
-  pure subroutine place_cluster_forces(clusters, k, class, x, y, force)
+  !> The forces on a grid of cluster `k` that `prepare_cluster` has made, and their places, counted from `origin`: close
+  !> to the points that see them, so that clusters far from 0 lose no digits.
+  pure subroutine place_cluster_forces(clusters, k, class, origin, x, y, force)
     type(force_clusters), intent(in) :: clusters
     integer, intent(in) :: k, class(2)
+    real(dp), intent(in) :: origin(2)
     real(dp), intent(out) :: x(:), y(:), force(:)
     integer :: first, j, p
 
     p = CLASS_POINTS(class(1))
     do j = 1, CLASS_POINTS(class(2))
       first = p*(j - 1)
-      x(first + 1:first + p) = clusters%box(1, k) + clusters%box(3, k)*clusters%point(:p, class(1))
-      y(first + 1:first + p) = clusters%box(2, k) + clusters%box(4, k)*clusters%point(j, class(2))
+      x(first + 1:first + p) = (clusters%box(1, k) - origin(1)) + clusters%box(3, k)*clusters%point(:p, class(1))
+      y(first + 1:first + p) = (clusters%box(2, k) - origin(2)) + clusters%box(4, k)*clusters%point(j, class(2))
       force(first + 1:first + p) = clusters%grids(k)%of(class(1), class(2))%force(:, j)
     end do
   end subroutine place_cluster_forces

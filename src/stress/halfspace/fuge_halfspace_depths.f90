@@ -49,15 +49,15 @@ contains
   !>
   !> `nx`, `ny` cells along x and y of `spacing_x` by `spacing_y`, length; `force` (nx*ny) of the cells, compression
   !> positive, cell (i, j) at i + nx*(j - 1); `boundary` FUGE_FREE, or FUGE_PERIODIC with the periods nx*spacing_x and
-  !> ny*spacing_y, or FUGE_PERIODIC_X, FUGE_PERIODIC_Y along one direction; `poisson` in (-1, 0.5]; `depth` (m) >= 0 in any
-  !> order, length; out: `stress` (6, nx*ny, m) xx, yy, zz, yz, xz, xy below the centre of each cell at each depth, force
-  !> per length squared, tension positive.
+  !> ny*spacing_y, or FUGE_PERIODIC_X, FUGE_PERIODIC_Y along one direction; `poisson` in (-1, 0.5]; `depth` (m) >= 0 in
+  !> any order, length; out: `stress` (6, nx*ny, m) xx, yy, zz, yz, xz, xy below the centre of each cell at each depth,
+  !> force per length squared, tension positive.
   !>
-  !> Of a free surface they are those of `fuge_halfspace_stress`, with errors of about 1e-15 of the largest stress at that
-  !> depth. With FUGE_PERIODIC there is a mean pressure, which is compressive stress zz at all depths; what xx and yy it has
-  !> depends on how the body is held far away. Here they are 0: a body that is held so that it cannot expand along x and
-  !> y has in addition xx = yy = nu/(1 - nu) times the mean of zz. With one periodic direction the mean along it is in
-  !> plane strain.
+  !> Of a free surface they are those of `fuge_halfspace_stress`, with errors of about 1e-15 of the largest stress at
+  !> that depth. With FUGE_PERIODIC there is a mean pressure, which is compressive stress zz at all depths; what xx and
+  !> yy it has depends on how the body is held far away. Here they are 0: a body that is held so that it cannot expand
+  !> along x and y has in addition xx = yy = nu/(1 - nu) times the mean of zz. With one periodic direction the mean
+  !> along it is in plane strain.
   !>
   !> Ten arguments, because the grid alone has four. Errors, stress untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_WIDTH, FUGE_ERR_MODULUS (poisson), FUGE_ERR_OPTION (boundary), FUGE_ERR_GRID for a depth < 0,
@@ -93,11 +93,11 @@ contains
   !> Displacements in a half-space below the centres of a grid of equal rectangles, in O(n log n) operations for each
   !> depth.
   !>
-  !> `nx`, `ny`, `spacing_x`, `spacing_y`, `force`, `boundary` and `depth` as for `fuge_halfspace_stress_grid`; `young` > 0
-  !> and `poisson` of the body, force per length squared and in (-1, 0.5]; out: `displacement` (3, nx*ny, m) along x, y, z,
-  !> length. Of a free surface they are those of `fuge_halfspace_displacement`. With FUGE_PERIODIC they count, at each
-  !> depth, from the mean at that depth: the compression of the body by the mean pressure is left out. With one periodic
-  !> direction the datum is that of `fuge_halfspace_operator`. A rigid body (`young` infinite) has none.
+  !> `nx`, `ny`, `spacing_x`, `spacing_y`, `force`, `boundary` and `depth` as for `fuge_halfspace_stress_grid`; `young`
+  !> > 0 and `poisson` of the body, force per length squared and in (-1, 0.5]; out: `displacement` (3, nx*ny, m) along
+  !> x, y, z, length. Of a free surface they are those of `fuge_halfspace_displacement`. With FUGE_PERIODIC they count,
+  !> at each depth, from the mean at that depth: the compression of the body by the mean pressure is left out. With one
+  !> periodic direction the datum is that of `fuge_halfspace_operator`. A rigid body (`young` infinite) has none.
   !>
   !> Eleven arguments: also Young's modulus. Errors, displacement untouched: as for `fuge_halfspace_stress_grid`,
   !> FUGE_ERR_MODULUS also for young. Source: as there.
@@ -170,8 +170,8 @@ contains
     if (.not. info%failed()) call check_poisson(work%poisson, info)
     if (info%failed()) return
     if (size(force) /= product(work%grid%cells)) then
-      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' values for '//text(work%grid%cells(1))//' by ' &
-                  //text(work%grid%cells(2))//' cells')
+      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' values for '//text(work%grid%cells(1)) &
+                  //' by '//text(work%grid%cells(2))//' cells')
     end if
     if (.not. info%failed()) call check_grid_force(force, product(work%grid%spacing), info)
     call check_grid_depth(depth, minval(work%grid%spacing), info)
@@ -249,14 +249,15 @@ contains
     do j = 0, work%grid%cells(2) - 1
       do i = 0, nx - 1
         stress(:, 1 + i + nx*j) = rectangle_stress(work%rules, real(i, dp)*work%grid%spacing(1), &
-                                                   real(j, dp)*work%grid%spacing(2), depth, half(1), half(2), work%poisson)
+                                                   real(j, dp)*work%grid%spacing(2), depth, half(1), half(2), &
+                                                   work%poisson)
       end do
     end do
     call convolve_tables(work%waves, STRESS_KINDS, stress)
   end subroutine free_stress
 
-  !> Replace kernels of the `kinds` (2, components) by the forces convolved with them: `field` (components, nx*ny). As many
-  !> as possible are transformed together.
+  !> Replace kernels of the `kinds` (2, components) by the forces convolved with them: `field` (components, nx*ny). As
+  !> many as possible are transformed together.
   subroutine convolve_tables(waves, kinds, field)
     type(grid_waves), intent(inout) :: waves
     logical, intent(in) :: kinds(:, :)
@@ -269,7 +270,8 @@ contains
       together = .false.
       call waves%clear_kernels()
       do c = 1, size(kinds, 2)
-        if (done(c) .or. any(together .and. (kinds(1, :) .eqv. kinds(1, c)) .and. (kinds(2, :) .eqv. kinds(2, c)))) cycle
+        if (done(c) .or. any(together .and. (kinds(1, :) .eqv. kinds(1, c)) .and. (kinds(2, :) .eqv. kinds(2, c)))) &
+          cycle
         call waves%add_kernel(kinds(:, c), field(c, :))
         together(c) = .true.
       end do
@@ -294,8 +296,8 @@ contains
     do j = 0, work%grid%cells(2) - 1
       do i = 0, nx - 1
         displacement(:, 1 + i + nx*j) = rectangle_displacement(work%rules, real(i, dp)*work%grid%spacing(1), &
-                                                               real(j, dp)*work%grid%spacing(2), depth, half(1), half(2), &
-                                                               work%poisson)
+                                                               real(j, dp)*work%grid%spacing(2), depth, half(1), &
+                                                               half(2), work%poisson)
       end do
     end do
     call convolve_tables(work%waves, DISPLACEMENT_KINDS, displacement)
@@ -402,8 +404,8 @@ contains
     width = work%grid%spacing(3 - direction_of_rows(work))
   end function width_of_row
 
-  !> The table of one component (nx*ny): its mean along the rows and `unit` times `factor`, as far as that goes: along the
-  !> rows to half of a period, which is all that counts.
+  !> The table of one component (nx*ny): its mean along the rows and `unit` times `factor`, as far as that goes: along
+  !> the rows to half of a period, which is all that counts.
   pure subroutine copy_table(work, mean, unit, table)
     type(grid_work), intent(in) :: work
     real(dp), intent(in) :: mean(0:), unit

@@ -29,8 +29,8 @@ contains
     integer :: across
 
     call prepare(size(stress, 2), 3, depth, offset, level, plane, info)
-    if (.not. info%failed()) call fuge_halfplane_stress([0.0_dp], [1.0_dp], [1.0_dp], FUGE_CENTRE, offset, level, plane, &
-                                                        info, .false.)
+    if (.not. info%failed()) call fuge_halfplane_stress([0.0_dp], [1.0_dp], [1.0_dp], FUGE_CENTRE, offset, level, &
+                                                        plane, info, .false.)
     stress = 0.0_dp
     if (info%failed()) return
     plane = plane/real(period, dp)
@@ -55,7 +55,8 @@ contains
 
     n = size(displacement, 2)
     call prepare(n, 2, depth, offset, level, plane, info)
-    if (.not. info%failed()) call fuge_halfplane_displacement([0.0_dp], [1.0_dp], [1.0_dp], FUGE_CENTRE, 1.0_dp, poisson, &
+    if (.not. info%failed()) call fuge_halfplane_displacement([0.0_dp], [1.0_dp], [1.0_dp], FUGE_CENTRE, 1.0_dp, &
+                                                              poisson, &
                                                               FUGE_PLANE_STRAIN, offset, level, plane, info, .false.)
     displacement = 0.0_dp
     if (info%failed()) return

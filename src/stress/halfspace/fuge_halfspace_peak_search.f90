@@ -2,11 +2,11 @@
 module fuge_halfspace_peak_search
   use fuge_area_field, only: add_area_field, area_field, new_area_field
   use fuge_elastic_moduli, only: check_poisson
-  use fuge_halfspace_stresses, only: check_loaded_rectangles
+  use fuge_halfspace_interior, only: check_loaded_rectangles
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
-  use fuge_pressed_cells, only: allocate_cells, pressed_cells
+  use fuge_pressed_cells, only: allocate_cells, is_own_image, pressed_cells
   use fuge_pressure_rims, only: find_singular_rim
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   use fuge_stress_field, only: stress_field
@@ -21,9 +21,6 @@ module fuge_halfspace_peak_search
   contains
     procedure :: stresses
   end type field_of_rectangles
-
-  !> A rectangle closer to an axis than this part of its width is its own mirror image.
-  real(dp), parameter :: AXIS_TOLERANCE = 1.0e-6_dp
 
 contains
 
@@ -131,9 +128,7 @@ contains
     logical, intent(in) :: symmetric(2)
     integer :: images(2)
 
-    images = 1
-    if (symmetric(1) .and. abs(x) > AXIS_TOLERANCE*width_x) images(1) = 2
-    if (symmetric(2) .and. abs(y) > AXIS_TOLERANCE*width_y) images(2) = 2
+    images = merge(2, 1, symmetric .and. .not. [is_own_image(x, width_x), is_own_image(y, width_y)])
   end function images_of
 
   !> The mirror image along an axis.

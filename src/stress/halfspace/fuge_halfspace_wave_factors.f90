@@ -1,9 +1,9 @@
 !> What a wave of forces on a grid of rectangles on a periodic half-space does at a depth, at the centres of the cells.
 !>
-!> A wave of pressure exp(i(q_x x + q_y y)) gives at the depth z, with s = |q|, stresses and displacements that are powers
-!> of q_x and q_y times exp(-s z), exp(-s z)/s, exp(-s z)/s**2 and (1 + s z) exp(-s z). Waves that are the same on the
-!> cells add up, each times sinc(q_x h_x/2) sinc(q_y h_y/2). That sum over two directions converges slowly near the
-!> surface. As in fuge_halfspace_waves, integrals over t > 0 of exp(-t**2 s**2),
+!> A wave of pressure exp(i(q_x x + q_y y)) gives at the depth z, with s = |q|, stresses and displacements that are
+!> powers of q_x and q_y times exp(-s z), exp(-s z)/s, exp(-s z)/s**2 and (1 + s z) exp(-s z). Waves that are the same
+!> on the cells add up, each times sinc(q_x h_x/2) sinc(q_y h_y/2). That sum over two directions converges slowly near
+!> the surface. As in fuge_halfspace_waves, integrals over t > 0 of exp(-t**2 s**2),
 !>
 !>     exp(-s z)/s**2 = integral of 2 t erfc(z/(2t)) exp(-t**2 s**2),
 !>     exp(-s z)/s = integral of 2/sqrt(pi) g exp(-t**2 s**2), g = exp(-z**2/(4t**2)),
@@ -14,8 +14,8 @@
 !> trapezoidal rule in log t converges exponentially: some 80 values of t give the factors of all waves, as a product of
 !> two matrices for each term. The sums are the same at all depths. Deep below the surface only the wave itself counts.
 !>
-!> On a surface that is periodic along one direction only the same products are taken at places instead of waves, without
-!> the wave of equal forces along that direction, which is a half-plane's.
+!> On a surface that is periodic along one direction only the same products are taken at places instead of waves,
+!> without the wave of equal forces along that direction, which is a half-plane's.
 module fuge_halfspace_wave_factors
   use fuge_cell_gaussians, only: circle_work, fill_gaussian_circle, fill_gaussian_places, fill_gaussian_waves
   use fuge_constants, only: PI
@@ -65,7 +65,8 @@ module fuge_halfspace_wave_factors
 
 contains
 
-  !> How many values of t are taken beyond SHORT for waves up to the length of a `period`, in units of the smaller spacing.
+  !> How many values of t are taken beyond SHORT for waves up to the length of a `period`, in units of the smaller
+  !> spacing.
   pure function count_nodes(period) result(count)
     real(dp), intent(in) :: period
     integer :: count
@@ -80,7 +81,8 @@ contains
     real(dp) :: bytes, nodes
 
     nodes = real(count_nodes(maxval(cells*(spacing/minval(spacing)))), dp)
-    bytes = 8.0_dp*(real(extent(1), dp)*real(extent(2), dp) + nodes*(4.0_dp*real(extent(1), dp) + 3.0_dp*real(extent(2), dp)))
+    bytes = 8.0_dp*(real(extent(1), dp)*real(extent(2), dp) + nodes*(4.0_dp*real(extent(1), &
+                                                                                 dp) + 3.0_dp*real(extent(2), dp)))
   end function bytes_of_waves
 
   !> Compute the sums for the waves of a grid of `cells` (2) with `spacing` (2), length. `stat` as in an allocate
@@ -103,8 +105,8 @@ contains
     end do
   end subroutine prepare
 
-  !> Compute the sums for the places on a grid that is periodic along `direction`, 1 for x or 2 for y, with the period of
-  !> the grid: at distances up to half of it, and along the other direction up to all cells.
+  !> Compute the sums for the places on a grid that is periodic along `direction`, 1 for x or 2 for y, with the period
+  !> of the grid: at distances up to half of it, and along the other direction up to all cells.
   !>
   !> Other arguments as for `prepare`.
   pure subroutine prepare_places(self, cells, spacing, direction, stat)
@@ -120,7 +122,8 @@ contains
     if (stat /= 0) return
     self%places = .true.
     call fill_places(cells(1), direction == 1, self%node/self%spacing(1), self%along_x, self%narrow_x, stat)
-    if (stat == 0) call fill_places(cells(2), direction == 2, self%node/self%spacing(2), self%along_y, self%narrow_y, stat)
+    if (stat == 0) call fill_places(cells(2), direction == 2, self%node/self%spacing(2), self%along_y, self%narrow_y, &
+                                    stat)
   end subroutine prepare_places
 
   !> The sums at the places along one direction of `n` cells, periodic or not, at the values `t` in units of a cell.
@@ -200,8 +203,8 @@ contains
       self%weighted(:, k) = (scaling*weight_of(term, depth, self%node(k)))*self%along_x(:, k, term%power(1))
     end do
     call dgemm('N', 'T', size(factor, 1), size(factor, 2), size(self%node) - first + 1, 1.0_dp, &
-               self%weighted(:, first:), size(factor, 1), self%along_y(:, first:, term%power(2)), size(factor, 2), 1.0_dp, &
-               factor, size(factor, 1))
+               self%weighted(:, first:), size(factor, 1), self%along_y(:, first:, term%power(2)), size(factor, 2), &
+               1.0_dp, factor, size(factor, 1))
   end subroutine add_term
 
   !> The first node whose weight at this depth is more than rounding.

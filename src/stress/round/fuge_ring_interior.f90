@@ -7,12 +7,12 @@ module fuge_ring_interior
   use fuge_axial_field, only: axial_displacement, axial_stress, INTEGRALS, POTENTIAL, SIDEWARD
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_elastic_moduli, only: check_poisson, fuge_plane_modulus, FUGE_PLANE_STRAIN
-  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_ring_field, only: new_ring_rules, ring_field, ring_rules
   use fuge_ring_influence, only: check_rings
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_stress_checks, only: check_displacement_range, check_forces
   implicit none
   private
 
@@ -71,6 +71,7 @@ contains
     call fuge_plane_modulus(young, poisson, FUGE_PLANE_STRAIN, modulus, info)
     call check_ring_forces(radius, force, info)
     if (info%failed()) return
+    call check_displacement_range(force, minval(radius(2:) - radius(:size(force))), young, info)
     call check_axial_points(pr, pz, radius(size(radius)), shape(displacement), 'displacement', 2, info)
     call start_rules(rules, info)
     if (info%failed()) return
@@ -88,13 +89,8 @@ contains
 
     if (info%failed()) return
     call check_rings(radius, info)
-    if (.not. info%failed()) call check_finite(force, 'force', info)
+    call check_forces(force, size(radius) - 1, 'rings, one less than there are radii', info)
     if (info%failed()) return
-    if (size(force) /= size(radius) - 1) then
-      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' value(s) for '//text(size(radius) - 1) &
-                  //' ring(s): one less than there are radii')
-      return
-    end if
     do k = 1, size(force)
       if (exponent(force(k)) - exponent(radius(k + 1) - radius(k)) - exponent(radius(k + 1)) <= LARGEST_EXPONENT) cycle
       call report(info, FUGE_ERR_OVERFLOW, 'the pressure of force('//index_text(k)//') = '//text(force(k)) &

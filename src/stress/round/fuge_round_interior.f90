@@ -3,12 +3,13 @@ module fuge_round_interior
   use fuge_abel_transform, only: abel_transform
   use fuge_axial_checks, only: check_axial_points
   use fuge_axial_field, only: axial_displacement, axial_stress, surface_field, INTEGRALS, POTENTIAL, SPREAD
-  use fuge_constants, only: PI
+  use fuge_constants, only: LARGEST_EXPONENT, PI
   use fuge_elastic_moduli, only: check_poisson, fuge_plane_modulus, FUGE_PLANE_STRAIN
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_field, only: new_round_rules, round_field, round_rules
-  use fuge_status, only: fuge_info
+  use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW
   implicit none
   private
 
@@ -80,6 +81,7 @@ contains
     call fuge_plane_modulus(young, poisson, FUGE_PLANE_STRAIN, modulus, info)
     if (info%failed()) return
     call check_axial_points(pr, pz, contact%radius, shape(displacement), 'displacement', 2, info)
+    call check_softness(contact, young, info)
     if (info%failed()) return
     if (.not. contact%radius > 0.0_dp) then
       displacement = 0.0_dp
@@ -93,6 +95,17 @@ contains
       displacement(:, k) = (contact%e_star/modulus)*(contact%radius*displacement(:, k)/PI)
     end do
   end subroutine fuge_round_displacement
+
+  !> Refuse a body so soft beside the contact that its displacements overflow: FUGE_ERR_OVERFLOW.
+  pure subroutine check_softness(contact, young, info)
+    type(fuge_round_contact), intent(in) :: contact
+    real(dp), intent(in) :: young
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. .not. young <= huge(young)) return
+    if (exponent(contact%e_star) + max(0, exponent(contact%radius)) - exponent(young) > LARGEST_EXPONENT) &
+      call report(info, FUGE_ERR_OVERFLOW, 'young = '//text(young)//' is out of range: choose other units')
+  end subroutine check_softness
 
   !> The integrals of `fuge_axial_field` in units of E*/pi and the radius of the contact.
   pure function field_at(contact, transform, rules, pr, pz) result(field)

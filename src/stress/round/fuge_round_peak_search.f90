@@ -82,6 +82,7 @@ contains
     logical :: singular
     integer :: stat
 
+    nowhere = 0.0_dp
     call fuge_ring_stress(radius, force, poisson, nowhere, nowhere, nothing, info)
     call check_measure(measure, info)
     if (info%failed()) return

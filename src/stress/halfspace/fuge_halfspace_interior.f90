@@ -1,15 +1,14 @@
 !> Stresses and displacements inside an elastic half-space, under uniform pressures on rectangles.
-module fuge_halfspace_stresses
+module fuge_halfspace_interior
   use fuge_area_field, only: add_area_field, area_field, new_area_field
   use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_4
   use fuge_elastic_moduli, only: check_poisson, fuge_plane_modulus, FUGE_PLANE_STRAIN
   use fuge_halfplane_influence, only: FUGE_MEAN
-  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_rectangle_checks, only: check_places
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
-  use fuge_stress_checks, only: check_coordinate, check_depth, check_result
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_stress_checks, only: check_coordinate, check_depth, check_displacement_range, check_forces, check_result
   implicit none
   private
 
@@ -113,12 +112,7 @@ contains
 
     call check_places(x, y, width_x, width_y, FUGE_MEAN, symmetric, info)
     if (info%failed()) return
-    if (size(force) /= size(x)) then
-      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' value(s) for the '//text(size(x)) &
-                  //' rectangle(s) of x')
-      return
-    end if
-    call check_finite(force, 'force', info)
+    call check_forces(force, size(x), 'rectangles', info)
     if (info%failed()) return
     reach = exponent(max(maxval(abs(x)), maxval(abs(y)), maxval(width_x), maxval(width_y)))
     do k = 1, size(x)
@@ -140,20 +134,11 @@ contains
     type(fuge_info), intent(inout) :: info
     type(fuge_info) :: of_body
     real(dp) :: modulus
-    integer :: least
 
     if (info%failed()) return
     call fuge_plane_modulus(young, poisson, FUGE_PLANE_STRAIN, modulus, of_body)
-    if (of_body%failed()) then
-      info = of_body
-      return
-    end if
-    if (.not. young <= huge(young)) return
-    least = exponent(min(minval(width_x), minval(width_y)))
-    if (exponent(maxval(abs(force))) - least - exponent(young) > LARGEST_EXPONENT &
-        .or. exponent(maxval(abs(force))) - least > LARGEST_EXPONENT) &
-      call report(info, FUGE_ERR_OVERFLOW, 'the displacements by forces up to '//text(maxval(abs(force))) &
-                  //' with young = '//text(young)//' are out of range: choose other units')
+    if (of_body%failed()) info = of_body
+    call check_displacement_range(force, min(minval(width_x), minval(width_y)), young, info)
   end subroutine check_body
 
   pure subroutine check_points(px, py, pz, info)
@@ -181,4 +166,4 @@ contains
     call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(n)//' rectangle(s) and '//text(points)//' point(s)')
   end subroutine report_memory
 
-end module fuge_halfspace_stresses
+end module fuge_halfspace_interior

@@ -1,5 +1,5 @@
-!> A grid of equal cells on a half-plane, the depths below it, and what they may be.
-module fuge_halfplane_grid
+!> Checks of a grid of equal cells on a half-plane, and of the depths below it.
+module fuge_halfplane_grid_checks
   use fuge_constants, only: LARGEST_EXPONENT_OF_2
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: check_element
@@ -46,4 +46,4 @@ contains
     call check_grid_result(given, name, [components, size(force), size(depth)], info)
   end subroutine check_halfplane_grid
 
-end module fuge_halfplane_grid
+end module fuge_halfplane_grid_checks
