@@ -66,13 +66,15 @@ int fuge_pairs_set_opposite(fuge_pairs *pairs, int dimensions, int nodes, const 
  *   play    between the lower and the upper stop, length: 0 for points that stay in contact
  *           but slide, INFINITY for one-sided contact
  *   tied    1: glue the surfaces where they are, along each axis; else 0
+ *   smooth  1: gaps as if the bodies were smooth, where linear faces bulge between their nodes
+ *           as the averaged normals suggest; else 0
  * FUGE_WARN_PAIRS: a node is a contact point of two pairs.  Errors, nothing is added:
  * FUGE_ERR_SIZE, FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF,
  * FUGE_ERR_GAP, FUGE_ERR_OPTION, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a
  * face that is folded over, has no area or looks the wrong way, and for surfaces that do not
  * face each other. */
 int fuge_pairs_find(fuge_pairs *pairs, int method, int normals, const double *normal, double reach, double play,
-                    int tied);
+                    int tied, int smooth);
 
 /* Contact points n, degrees of freedom of each (`width`), and nodes without an opposite.
  * Each pointer here and below may be NULL. */

@@ -1,8 +1,8 @@
 !> C bindings, section "pairs of surfaces".
 module fuge_c_pairs
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
-  use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_zero, message_for_c, report_to_c, require_count, &
-    require_pointer, set_handle, take_handle
+  use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_zero, message_for_c, report_to_c, &
+    require_count, require_pointer, set_handle, take_handle
   use fuge_contact_pairs_search, only: fuge_find_pairs
   use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options, FUGE_NORMALS_GIVEN
   use fuge_number_text, only: text
@@ -124,10 +124,10 @@ contains
     surface = copy
   end subroutine copy_surface
 
-  function c_pairs_find(pairs, method, normals, normal, reach, play, tied) bind(c, name='fuge_pairs_find') &
-    result(status)
+  function c_pairs_find(pairs, method, normals, normal, reach, play, tied, smooth) &
+    bind(c, name='fuge_pairs_find') result(status)
     type(c_ptr), intent(in), value :: pairs, normal
-    integer(c_int), intent(in), value :: method, normals, tied
+    integer(c_int), intent(in), value :: method, normals, tied, smooth
     real(c_double), intent(in), value :: reach, play
     integer(c_int) :: status
     type(pairs_handle), pointer :: handle
@@ -147,6 +147,7 @@ contains
       options%reach = reach
       options%play = play
       options%tied = tied /= 0
+      options%smooth = smooth /= 0
       if (normals == FUGE_NORMALS_GIVEN) then
         call c_f_pointer(normal, values, shape(handle%contact%node))
         options%normal = values
@@ -264,7 +265,8 @@ contains
 
     call find_pairs(address, handle, info)
     if (info%failed()) return
-    if (handle%pairs%pairs == 0) call report(info, FUGE_ERR_CALL_ORDER, 'there are no pairs: call fuge_pairs_find first')
+    if (handle%pairs%pairs == 0) call report(info, FUGE_ERR_CALL_ORDER, &
+        'there are no pairs: call fuge_pairs_find first')
   end subroutine find_found
 
   !> Keep the message; the status to return.

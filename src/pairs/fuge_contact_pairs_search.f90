@@ -58,8 +58,8 @@ contains
     if (stat == 0) call start_draft(draft, size(contact%node, 2), stat)
     if (stat == 0) call set_normals(contact, options, normal, info)
     if (info%failed()) return
-    if (stat == 0) call find_draft(contact, opposite, options, normal, draft, stat)
-    if (stat == 0) call refuse_none(contact, draft, info)
+    if (stat == 0) call find_draft(contact, opposite, options, normal, draft, stat, info)
+    if (stat == 0 .and. .not. info%failed()) call refuse_none(contact, draft, info)
     if (info%failed()) return
     if (stat == 0) then
       found%pairs = pairs%pairs + 1
@@ -127,18 +127,21 @@ contains
   end subroutine set_normals
 
   !> Find what lies across from each node, by the method chosen.
-  pure subroutine find_draft(contact, opposite, options, normal, draft, stat)
+  pure subroutine find_draft(contact, opposite, options, normal, draft, stat, info)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     real(dp), intent(in) :: normal(:, :)
     type(pair_draft), intent(inout) :: draft
     integer, intent(out) :: stat
+    type(fuge_info), intent(inout) :: info
     type(opposite_faces) :: faces
     real(dp), allocatable :: whole(:)
 
     allocate (whole(size(contact%node, 2)), stat=stat)
     if (stat == 0) call prepare_opposite(contact, opposite, options%reach, faces, stat)
     if (stat /= 0) return
+    call set_bends(contact, opposite, options%smooth, faces, stat, info)
+    if (stat /= 0 .or. info%failed()) return
     call find_nodal_areas(contact, whole)
     if (options%method == FUGE_MORTAR) then
       call pair_faces(contact, opposite, faces, draft, stat)
@@ -149,6 +152,21 @@ contains
       call pair_nodes(contact, opposite, faces, normal, options%normals == FUGE_NORMALS_OPPOSITE, draft, stat)
     end if
   end subroutine find_draft
+
+  !> The normals by which faces bulge, if `smooth`.
+  pure subroutine set_bends(contact, opposite, smooth, faces, stat, info)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    logical, intent(in) :: smooth
+    type(opposite_faces), intent(inout) :: faces
+    integer, intent(out) :: stat
+    type(fuge_info), intent(inout) :: info
+
+    allocate (faces%own_bend(3, merge(size(contact%node, 2), 0, smooth)), &
+              faces%bend(3, merge(size(opposite%node, 2), 0, smooth)), stat=stat)
+    if (stat /= 0 .or. .not. smooth) return
+    call average_normals(contact, CONTACT_NAME, faces%own_bend, info)
+    if (.not. info%failed()) call average_normals(opposite, OPPOSITE_NAME, faces%bend, info)
+  end subroutine set_bends
 
   !> Refuse surfaces none of whose points are opposite to each other.
   pure subroutine refuse_none(contact, draft, info)

@@ -39,6 +39,9 @@ module fuge_contact_pairs_type
     real(dp) :: play = huge(1.0_dp)
     !> Glue the surfaces where they are: along each axis, with a gap and a play of zero.
     logical :: tied = .false.
+    !> Gaps as if the bodies were smooth: linear faces bulge between their nodes as the averaged normals suggest. For
+    !> round bodies whose interference or clearance is not large beside the height of a chord, L**2/(8 R).
+    logical :: smooth = .false.
   end type fuge_pair_options
 
   !> Contact points, in the form in which `fuge_body` and `fuge_problem` take them; n contact points.

@@ -1,6 +1,6 @@
 !> Integrals over the common part of two faces, by which a mortar method weighs.
 module fuge_face_moments
-  use fuge_face_geometry, only: across, face_nodes, face_normal, face_position, is_affine, unit
+  use fuge_face_geometry, only: across, bulge_at, face_nodes, face_normal, face_position, is_affine, unit
   use fuge_face_segments, only: convex_polygon
   use fuge_face_shapes, only: corner_count, middle_share, shape_values, side_ends, EDGE_2, EDGE_3, MOST_NODES, &
     QUADRANGLE_4, QUADRANGLE_8, TRIANGLE_3, TRIANGLE_6
@@ -186,7 +186,8 @@ contains
 
     values = weight*mixed_values(face%kind, shape_values(face%kind, place))
     across_values = shape_values(opposite%kind, facing)
-    way = matmul(opposite%x(:, :opposite%count), across_values(:opposite%count)) - face_position(face, place)
+    way = matmul(opposite%x(:, :opposite%count), across_values(:opposite%count)) - face_position(face, place) &
+          + bulge_at(opposite, facing) - bulge_at(face, place)
     normal = unit(face_normal(opposite, facing))
     moments%area = moments%area + values
     do k = 1, MOST_NODES

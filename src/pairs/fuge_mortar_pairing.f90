@@ -55,7 +55,8 @@ contains
     do f = 1, size(contact%face, 2)
       if (stat /= 0) return
       call find_parts(contact, opposite, faces, f, near, parts, count, draft%alike, stat)
-      if (stat == 0 .and. count > 0) call weigh_face(contact, opposite, f, parts(:count), draft, stat)
+      if (stat == 0 .and. count > 0) call weigh_face(contact, opposite, faces, f, parts(:count), draft, &
+                                                        stat)
     end do
   end subroutine pair_faces
 
@@ -175,8 +176,9 @@ contains
   end subroutine keep_nearest
 
   !> Integrate over the parts of a face and add to the weights of its nodes.
-  pure subroutine weigh_face(contact, opposite, f, parts, draft, stat)
+  pure subroutine weigh_face(contact, opposite, faces, f, parts, draft, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
+    type(opposite_faces), intent(in) :: faces
     integer, intent(in) :: f
     type(face_part), intent(in) :: parts(:)
     type(pair_draft), intent(inout) :: draft
@@ -190,13 +192,14 @@ contains
 
     allocate (moments(size(parts)), stat=stat)
     if (stat /= 0) return
-    face = get_face(contact, f)
+    face = get_face(contact, f, faces%own_bend)
     direction = unit(face_normal(face, middle_place(face%kind)))
     frame = frame_across(direction)
     mass = 0.0_dp
     area = 0.0_dp
     do k = 1, size(parts)
-      call add_moments(face, get_face(opposite, parts(k)%face), direction, frame, parts(k)%shape, moments(k))
+      call add_moments(face, get_face(opposite, parts(k)%face, faces%bend), direction, frame, parts(k)%shape, &
+          moments(k))
       mass = mass + moments(k)%mass
       area = area + moments(k)%area
     end do

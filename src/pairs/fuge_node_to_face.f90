@@ -3,7 +3,7 @@
 !> Simple, but forces between nodes cannot balance a uniform pressure if the meshes do not match: this method fails the
 !> patch test (R. Taylor, P. Papadopoulos: On a patch test for contact problems in two dimensions, 1991).
 module fuge_node_to_face
-  use fuge_face_geometry, only: face_nodes, face_normal, find_across, unit
+  use fuge_face_geometry, only: bulge_at, face_nodes, face_normal, find_across, unit
   use fuge_face_shapes, only: lies_inside, shape_values, MOST_NODES
   use fuge_kinds, only: dp
   use fuge_opposite_faces, only: opposite_faces, FACING
@@ -87,12 +87,13 @@ contains
       best_place = place
     end do
     if (best_face == 0) return
-    call add_pair(opposite, i, best_face, best_place, x, normal, along_face, draft, stat)
+    call add_pair(opposite, faces, i, best_face, best_place, x, normal, along_face, draft, stat)
   end subroutine pair_node
 
   !> Enter a node and the place across from it.
-  pure subroutine add_pair(opposite, i, f, place, x, normal, along_face, draft, stat)
+  pure subroutine add_pair(opposite, faces, i, f, place, x, normal, along_face, draft, stat)
     type(fuge_surface_mesh), intent(in) :: opposite
+    type(opposite_faces), intent(in) :: faces
     integer, intent(in) :: i, f
     real(dp), intent(in) :: place(2), x(3), normal(3)
     logical, intent(in) :: along_face
@@ -103,7 +104,7 @@ contains
     integer :: k
     logical :: found
 
-    face = get_face(opposite, f)
+    face = get_face(opposite, f, faces%bend)
     direction = normal
     here = place
     if (along_face) then
@@ -122,7 +123,7 @@ contains
     draft%face(i) = f
     draft%place(:, i) = here
     draft%normal(:, i) = -direction
-    draft%way(:, i) = matmul(face%x(:, :face%count), values(:face%count)) - x
+    draft%way(:, i) = matmul(face%x(:, :face%count), values(:face%count)) - x + bulge_at(face, here)
     call add_weight(draft%own, i, i, 1.0_dp, stat)
     do k = 1, face%count
       call add_weight(draft%other, i, opposite%face(k, f), values(k), stat)

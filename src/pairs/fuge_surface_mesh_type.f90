@@ -1,6 +1,6 @@
 !> The surface of a body as a finite element program has it: nodes, faces and degrees of freedom.
 module fuge_surface_mesh_type
-  use fuge_face_geometry, only: face_nodes
+  use fuge_face_geometry, only: bend, face_nodes
   use fuge_face_shapes, only: face_kind
   use fuge_kinds, only: dp
   implicit none
@@ -38,10 +38,11 @@ contains
     end do
   end function face_size
 
-  !> The positions of the nodes of face `f`.
-  pure function get_face(surface, f) result(face)
+  !> The positions of the nodes of face `f`, and its bulge if there are unit normals at the nodes, (3, nodes).
+  pure function get_face(surface, f, normal) result(face)
     type(fuge_surface_mesh), intent(in) :: surface
     integer, intent(in) :: f
+    real(dp), intent(in), optional :: normal(:, :)
     type(face_nodes) :: face
     integer :: k
 
@@ -50,6 +51,8 @@ contains
     do k = 1, face%count
       face%x(:size(surface%node, 1), k) = surface%node(:, surface%face(k, f))
     end do
+    if (.not. present(normal)) return
+    if (size(normal, 2) > 0) call bend(face, normal(:, surface%face(:face%count, f)))
   end function get_face
 
 end module fuge_surface_mesh_type

@@ -26,7 +26,7 @@ static void test_mortar(void) {
   int n = -1, width = -1, unpaired = -1, dof[40], pair[4], node[4], face[4];
   double normal[40], gap[4], upper[4], area[4], place[4], direction[8];
 
-  CHECK_STATUS(fuge_pairs_find(pairs, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_pairs_find(pairs, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 0), FUGE_DONE);
   CHECK_STATUS(fuge_pairs_get_sizes(pairs, &n, &width, &unpaired), FUGE_DONE);
   CHECK_INT(n, 2);
   CHECK(width >= 4 && width <= 8);
@@ -50,7 +50,7 @@ static void test_mortar(void) {
     CHECK_NEAR(direction[2 * i + 1], -1.0, 1e-15);
     CHECK(fabs(place[i]) <= 1.0);
   }
-  CHECK_STATUS(fuge_pairs_find(pairs, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, 0.0, 0), FUGE_WARN_PAIRS);
+  CHECK_STATUS(fuge_pairs_find(pairs, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, 0.0, 0, 1), FUGE_WARN_PAIRS);
   CHECK_STATUS(fuge_pairs_get_sizes(pairs, &n, NULL, NULL), FUGE_DONE);
   CHECK_INT(n, 4);
   CHECK_STATUS(fuge_pairs_get_gaps(pairs, NULL, upper, NULL), FUGE_DONE);
@@ -66,7 +66,7 @@ static void test_nodes(void) {
   double gap = 0.0;
 
   CHECK_STATUS(fuge_pairs_set_contact(pairs, 2, 2, above, 2, 1, UPPER_FACE, UPPER_DOF), FUGE_DONE);
-  CHECK_STATUS(fuge_pairs_find(pairs, FUGE_NODE_TO_FACE, FUGE_NORMALS_GIVEN, normals, 1.0, INFINITY, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_pairs_find(pairs, FUGE_NODE_TO_FACE, FUGE_NORMALS_GIVEN, normals, 1.0, INFINITY, 0, 0), FUGE_DONE);
   CHECK_STATUS(fuge_pairs_get_sizes(pairs, &n, NULL, &unpaired), FUGE_DONE);
   CHECK_INT(n, 1);
   CHECK_INT(unpaired, 1);
@@ -90,7 +90,7 @@ static void test_bad_calls(void) {
   fuge_pairs_free(NULL);
   fuge_pairs_free(&pairs);
   CHECK_STATUS(fuge_pairs_create(&pairs, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_pairs_find(pairs, 0, 0, NULL, 0.0, INFINITY, 0), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_pairs_find(pairs, 0, 0, NULL, 0.0, INFINITY, 0, 0), FUGE_ERR_CALL_ORDER);
   CHECK_STATUS(fuge_pairs_get_sizes(pairs, &n, NULL, NULL), FUGE_ERR_CALL_ORDER);
   CHECK_INT(n, -7);
   CHECK_STATUS(fuge_pairs_set_contact(pairs, 4, 2, UPPER, 2, 1, UPPER_FACE, NULL), FUGE_ERR_SIZE);
@@ -99,13 +99,13 @@ static void test_bad_calls(void) {
   CHECK_STATUS(fuge_pairs_set_contact(NULL, 2, 2, UPPER, 2, 1, UPPER_FACE, NULL), FUGE_ERR_POINTER);
   fuge_pairs_free(&pairs);
   pairs = two_surfaces();
-  CHECK_STATUS(fuge_pairs_find(pairs, 0, FUGE_NORMALS_GIVEN, NULL, 0.0, INFINITY, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_pairs_find(pairs, 0, FUGE_NORMALS_GIVEN, NULL, 0.0, INFINITY, 0, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_pairs_set_contact(pairs, 2, 2, UPPER, 2, 1, far, UPPER_DOF), FUGE_DONE);
-  CHECK_STATUS(fuge_pairs_find(pairs, 0, 0, NULL, 0.0, INFINITY, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_pairs_find(pairs, 0, 0, NULL, 0.0, INFINITY, 0, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_pairs_message(pairs, message, sizeof message), FUGE_DONE);
   CHECK_CONTAINS(message, "contact surface: face 0 names node 7, which is not one of the 2 nodes");
   CHECK_STATUS(fuge_pairs_set_contact(pairs, 2, 2, UPPER, 2, 1, turned, UPPER_DOF), FUGE_DONE);
-  CHECK_STATUS(fuge_pairs_find(pairs, 0, 0, NULL, 0.0, INFINITY, 0), FUGE_ERR_MESH);
+  CHECK_STATUS(fuge_pairs_find(pairs, 0, 0, NULL, 0.0, INFINITY, 0, 0), FUGE_ERR_MESH);
   CHECK_STATUS(fuge_pairs_message(pairs, message, sizeof message), FUGE_DONE);
   CHECK_CONTAINS(message, "face 0 of the contact surface and face 0 across from it");
   fuge_pairs_free(&pairs);
