@@ -2,7 +2,7 @@
 module fuge_contact_pairs_search
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use fuge_contact_pairs_type, only: append_pairs, check_pair_options, fuge_contact_pairs, fuge_pair_options, &
-    FUGE_MORTAR, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
+    FUGE_MORTAR, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
   use fuge_face_geometry, only: unit
   use fuge_kinds, only: dp
   use fuge_mortar_pairing, only: pair_faces
@@ -254,6 +254,8 @@ contains
     found%gap_upper(n) = 0.0_dp
     if (options%tied) return
     found%gap(n) = dot_product(direction, draft%way(:, i))/draft%weight(i)
+    if (options%smooth .and. options%normals == FUGE_NORMALS_AVERAGED .and. options%method == FUGE_MORTAR) &
+      found%gap(n) = draft%gap(i)/draft%weight(i)
     found%gap_upper(n) = options%play
     if (options%play >= huge(1.0_dp)) found%gap_upper(n) = ieee_value(1.0_dp, ieee_positive_inf)
   end subroutine fill_point

@@ -19,6 +19,8 @@ module fuge_face_geometry
     real(dp) :: x(3, MOST_NODES) = 0.0_dp
     !> How far the body's surface bulges beyond the middle of each side of a linear face, (3, sides).
     real(dp) :: bulge(3, 4) = 0.0_dp
+    !> Unit normals at the nodes, where known, (3, count); else 0.
+    real(dp) :: normal(3, MOST_NODES) = 0.0_dp
   end type face_nodes
 
   !> Steps of Newton's iteration; on a face that is not folded five are enough.
@@ -48,6 +50,7 @@ contains
     real(dp), intent(in) :: normal(:, :)
     integer :: k, next
 
+    face%normal(:, :face%count) = normal
     if (face%count /= corner_count(face%kind)) return
     do k = 1, merge(1, face%count, face%kind <= EDGE_3)
       next = modulo(k, face%count) + 1

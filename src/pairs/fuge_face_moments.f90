@@ -22,6 +22,9 @@ module fuge_face_moments
     real(dp) :: cross(MOST_NODES, MOST_NODES) = 0.0_dp
     !> Of N'_A times the way from the contact surface to the opposite one, (3, A).
     real(dp) :: way(3, MOST_NODES) = 0.0_dp
+    !> Of N'_A times the part of this way along the normals of the contact surface, interpolated between its nodes, (A);
+    !> 0 where these are not known.
+    real(dp) :: gap(MOST_NODES) = 0.0_dp
     !> Of N'_A times the unit normal of the opposite face, (3, A).
     real(dp) :: normal(3, MOST_NODES) = 0.0_dp
     !> Of N'_A times the place in the opposite face, (2, A).
@@ -181,15 +184,18 @@ contains
     type(face_nodes), intent(in) :: face, opposite
     real(dp), intent(in) :: place(2), facing(2), weight
     type(face_moments), intent(inout) :: moments
-    real(dp) :: values(MOST_NODES), across_values(MOST_NODES), way(3), normal(3)
+    real(dp) :: values(MOST_NODES), across_values(MOST_NODES), way(3), normal(3), along(3)
     integer :: k
 
-    values = weight*mixed_values(face%kind, shape_values(face%kind, place))
+    values = shape_values(face%kind, place)
+    along = unit(matmul(face%normal(:, :face%count), values(:face%count)))
+    values = weight*mixed_values(face%kind, values)
     across_values = shape_values(opposite%kind, facing)
     way = matmul(opposite%x(:, :opposite%count), across_values(:opposite%count)) - face_position(face, place) &
           + bulge_at(opposite, facing) - bulge_at(face, place)
     normal = unit(face_normal(opposite, facing))
     moments%area = moments%area + values
+    moments%gap = moments%gap + values*dot_product(along, way)
     do k = 1, MOST_NODES
       moments%mass(:, k) = moments%mass(:, k) + values*(values(k)/weight)
       moments%cross(:, k) = moments%cross(:, k) + values*across_values(k)

@@ -239,17 +239,19 @@ contains
     type(pair_draft), intent(inout) :: draft
     integer, intent(inout) :: stat
     real(dp) :: weight(size(nodes), MOST_NODES), way(3, size(nodes)), normal(3, size(nodes)), place(2, size(nodes)), &
-      share(size(nodes))
+      share(size(nodes)), gap(size(nodes))
     integer :: a, c
 
     weight = matmul(coefficient, moments%cross(:size(nodes), :))
     way = matmul(moments%way(:, :size(nodes)), transpose(coefficient))
+    gap = matmul(coefficient, moments%gap(:size(nodes)))
     normal = matmul(moments%normal(:, :size(nodes)), transpose(positive))
     place = matmul(moments%place(:, :size(nodes)), transpose(positive))
     share = matmul(positive, moments%area(:size(nodes)))
     do a = 1, size(nodes)
       associate (i => nodes(a))
         draft%way(:, i) = draft%way(:, i) + way(:, a)
+        draft%gap(i) = draft%gap(i) + gap(a)
         draft%normal(:, i) = draft%normal(:, i) + normal(:, a)
         do c = 1, size(opposite%face, 1)
           if (opposite%face(c, f) == 0) exit
