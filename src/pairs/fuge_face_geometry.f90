@@ -156,11 +156,13 @@ contains
     logical, intent(out) :: found
     real(dp) :: flat(2, MOST_NODES), values(MOST_NODES), slopes(MOST_NODES, 2), miss(2), slope(2, 2), step(2), &
         size, last
+    logical :: one_step
     integer :: k
 
     flat(:, :face%count) = matmul(transpose(frame), face%x(:, :face%count))
     place = middle_place(face%kind)
     last = huge(last)
+    one_step = is_linear(face%kind, flat)
     do k = 1, MOST_STEPS
       values = shape_values(face%kind, place)
       slopes = shape_slopes(face%kind, place)
@@ -173,12 +175,23 @@ contains
       found = size <= 1.0e-8_dp .and. size >= 0.25_dp*last
       if (found) return
       place = place + step
-      found = size <= 4.0_dp*epsilon(1.0_dp)
+      found = maxval(abs(place)) <= 1.0e3_dp .and. (one_step .or. size <= 4.0_dp*epsilon(1.0_dp))
       if (found .or. maxval(abs(place)) > 1.0e3_dp) return
       last = size
     end do
     found = size <= 1.0e-8_dp
   end subroutine across
+
+  !> Is a face seen as `flat` linear in the place, to the last digits, so that one step is enough?
+  pure function is_linear(kind, flat) result(linear)
+    integer, intent(in) :: kind
+    real(dp), intent(in) :: flat(2, MOST_NODES)
+    logical :: linear
+
+    linear = kind == EDGE_2 .or. kind == TRIANGLE_3
+    if (kind == QUADRANGLE_4) linear = maxval(abs((flat(:, 1) - flat(:, 2)) + (flat(:, 3) - flat(:, 4)))) &
+      <= 4.0_dp*epsilon(1.0_dp)*maxval(abs(flat(:, 3) - flat(:, 1)))
+  end function is_linear
 
   !> A step of Newton's iteration; `regular` is false where the face is seen edge-on.
   pure subroutine solve_step(edge, slope, miss, step, regular)

@@ -196,9 +196,11 @@ contains
     normal = unit(face_normal(opposite, facing))
     moments%area = moments%area + values
     moments%gap = moments%gap + values*dot_product(along, way)
-    do k = 1, MOST_NODES
-      moments%mass(:, k) = moments%mass(:, k) + values*(values(k)/weight)
+    do k = 1, opposite%count
       moments%cross(:, k) = moments%cross(:, k) + values*across_values(k)
+    end do
+    do k = 1, face%count
+      moments%mass(:, k) = moments%mass(:, k) + values*(values(k)/weight)
       moments%way(:, k) = moments%way(:, k) + values(k)*way
       moments%normal(:, k) = moments%normal(:, k) + values(k)*normal
       moments%place(:, k) = moments%place(:, k) + values(k)*facing
