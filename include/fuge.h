@@ -83,6 +83,7 @@ enum {
                                       contact does not resist */
   FUGE_WARN_ILL_CONDITIONED = 3,   /* done, but the forces may be far off: the equations hold, but
                                       info.force_error is above 1e-3 */
+  FUGE_WARN_PAIRS = 4,             /* done, but a node is a contact point of two pairs */
   FUGE_ERR_SIZE = -1,              /* a size or an index is invalid, or arrays differ in length:
                                       n < 1, lda < n, a range beyond the last entry */
   FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */
@@ -110,7 +111,8 @@ enum {
   FUGE_ERR_FILE = -19,             /* a file cannot be read or written */
   FUGE_ERR_GAP = -20,              /* an upper stop lies below the lower one: gap_upper < 0 */
   FUGE_ERR_MODES = -21,            /* rigid modes depend on each other, or one moves no point */
-  FUGE_ERR_DOF = -22               /* a degree of freedom is out of range or named twice */
+  FUGE_ERR_DOF = -22,              /* a degree of freedom is out of range or named twice */
+  FUGE_ERR_MESH = -23              /* faces have no area, look the wrong way or not at each other */
 };
 
 /* Meaning of a status, as in the comments above; a constant string, never NULL. */
@@ -597,6 +599,7 @@ int fuge_solver_message(const fuge_solver *s, char *message, size_t len);
 
 #include "fuge_area.h"
 #include "fuge_fe.h"
+#include "fuge_pairs.h"
 #include "fuge_smooth.h"
 #include "fuge_stress.h"
 

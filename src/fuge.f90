@@ -3,6 +3,9 @@ module fuge
   use fuge_body_type, only: fuge_body
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_condensation, only: fuge_condense, fuge_condensed
+  use fuge_contact_pairs_search, only: fuge_find_pairs
+  use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options, FUGE_MORTAR, FUGE_NODE_TO_FACE, &
+    FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
   use fuge_contact_path, only: fuge_follow_path, fuge_load_path
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval, FUGE_EDGE_REFINED, FUGE_EDGE_FEW_CELLS, &
@@ -51,12 +54,13 @@ module fuge
   use fuge_smooth_punch, only: fuge_solve_smooth_punch
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense
   use fuge_status, only: fuge_info, fuge_status_text, FUGE_MESSAGE_LENGTH, &
-    FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_SIZE, &
+    FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_PAIRS, &
+    FUGE_ERR_SIZE, &
     FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, &
     FUGE_ERR_NOT_SYMMETRIC, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, &
     FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED, FUGE_ERR_FILE, &
-    FUGE_ERR_GAP, FUGE_ERR_MODES, FUGE_ERR_DOF
+    FUGE_ERR_GAP, FUGE_ERR_MODES, FUGE_ERR_DOF, FUGE_ERR_MESH
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_files, only: fuge_read_stiffness
@@ -69,6 +73,7 @@ module fuge
     FUGE_PEAK_SINGULAR, FUGE_PEAK_SURFACE
   use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
   use fuge_surface_levelling, only: fuge_level_surface, FUGE_LEVEL_PLANE
+  use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_surface_type, only: fuge_surface, FUGE_FILE_ANY, FUGE_FILE_GRID, FUGE_FILE_POINTS, FUGE_FILE_SDF
   use fuge_version_number, only: FUGE_VERSION
   implicit none

@@ -26,6 +26,8 @@ module fuge_status
   integer, parameter, public :: FUGE_WARN_NOT_UNIQUE = 2
   !> Solved, but the problem is so badly conditioned that the forces may be far off although the equations hold.
   integer, parameter, public :: FUGE_WARN_ILL_CONDITIONED = 3
+  !> Found, but a node is a contact point of two pairs of surfaces.
+  integer, parameter, public :: FUGE_WARN_PAIRS = 4
   !> A size or an index is invalid, or arrays differ in length.
   integer, parameter, public :: FUGE_ERR_SIZE = -1
   !> An array is not contiguous; in C a pointer is NULL.
@@ -70,13 +72,16 @@ module fuge_status
   integer, parameter, public :: FUGE_ERR_MODES = -21
   !> A degree of freedom is out of range or named twice.
   integer, parameter, public :: FUGE_ERR_DOF = -22
+  !> A face of a mesh is folded over, has no area or looks the wrong way, or surfaces do not face each other.
+  integer, parameter, public :: FUGE_ERR_MESH = -23
 
   !> The range of the codes.
-  integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_DOF
-  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_ILL_CONDITIONED
+  integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_MESH
+  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_PAIRS
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
+    'faces have no area, look the wrong way or not at each other', &
     'a degree of freedom is out of range or named twice', &
     'rigid modes depend on each other, or one moves no point', &
     'an upper stop lies below the lower one', &
@@ -102,7 +107,8 @@ module fuge_status
     'done', &
     'done, but the residual is above the tolerance', &
     'done, but the solution is not unique', &
-    'done, but the forces may be far off']
+    'done, but the forces may be far off', &
+    'done, but a node is a contact point of two pairs']
 
   character(len=*), parameter :: UNKNOWN_STATUS = 'unknown status'
 

@@ -1,0 +1,381 @@
+!> Contact between two surfaces of finite elements whose nodes do not face each other.
+module fuge_contact_pairs_search
+  use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
+  use fuge_contact_pairs_type, only: append_pairs, check_pair_options, fuge_contact_pairs, fuge_pair_options, &
+    FUGE_MORTAR, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
+  use fuge_face_geometry, only: unit
+  use fuge_kinds, only: dp
+  use fuge_mortar_pairing, only: pair_faces
+  use fuge_nodal_areas, only: find_nodal_areas
+  use fuge_nodal_normals, only: average_normals
+  use fuge_node_to_face, only: pair_nodes
+  use fuge_number_text, only: index_text, text
+  use fuge_opposite_faces, only: opposite_faces, prepare_opposite
+  use fuge_pair_draft_type, only: pair_draft, start_draft
+  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE, FUGE_WARN_PAIRS
+  use fuge_surface_checks, only: check_surface
+  use fuge_surface_mesh_type, only: fuge_surface_mesh
+  use fuge_weight_rows, only: copy_row, row_length
+  implicit none
+  private
+
+  public :: fuge_find_pairs
+
+  character(len=*), parameter :: CONTACT_NAME = 'contact surface', OPPOSITE_NAME = 'opposite surface'
+  !> A node of which a smaller part of the area has an opposite has none.
+  real(dp), parameter :: SMALLEST_PART = 1.0e-6_dp
+  !> Weights below this are rounding.
+  real(dp), parameter :: NO_WEIGHT = 1.0e-15_dp
+
+contains
+
+  !> Find the contact points of a pair of surfaces, and add them to `pairs`.
+  !>
+  !> The nodes of `contact` become contact points, so let it be the finer surface, or that of the softer body; pressures
+  !> are those on it. The degrees of freedom of both surfaces are numbered in one stiffness matrix, that of both bodies.
+  !> Sliding is small: pairs are those of the positions given. A later call adds another pair of surfaces.
+  !>
+  !> Then `dof` and `normal` of fuge_body are those of `pairs`; `fuge_condense`, `pose(pairs%gap, problem, ..)`,
+  !> problem%gap_upper = pairs%gap_upper, solve; pressure = force/area.
+  !> O(n log n) for n faces. Nodes that have no opposite are listed in `unpaired_node`.
+  !> Warning: FUGE_WARN_PAIRS, a node is a contact point of two pairs. Errors, `pairs` unchanged, name the face or the
+  !> node: FUGE_ERR_SIZE, FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP,
+  !> FUGE_ERR_OPTION, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is folded over, has no area or looks the wrong way,
+  !> and for surfaces that do not face each other.
+  subroutine fuge_find_pairs(contact, opposite, options, pairs, info)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    type(fuge_pair_options), intent(in) :: options
+    type(fuge_contact_pairs), intent(inout) :: pairs
+    type(fuge_info), intent(out) :: info
+    type(fuge_contact_pairs) :: found
+    type(pair_draft) :: draft
+    real(dp), allocatable :: normal(:, :)
+    integer :: stat
+
+    call check_pair(contact, opposite, options, pairs, info)
+    if (info%failed()) return
+    allocate (normal(3, size(contact%node, 2)), stat=stat)
+    if (stat == 0) call start_draft(draft, size(contact%node, 2), stat)
+    if (stat == 0) call set_normals(contact, options, normal, info)
+    if (info%failed()) return
+    if (stat == 0) call find_draft(contact, opposite, options, normal, draft, stat, info)
+    if (stat == 0 .and. .not. info%failed()) call refuse_none(contact, draft, info)
+    if (info%failed()) return
+    if (stat == 0) then
+      found%pairs = pairs%pairs + 1
+      call collect(contact, opposite, options, normal, draft, found, stat)
+    end if
+    if (stat == 0) call append_pairs(pairs, found, stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to find contact pairs')
+    else
+      call warn_repeated(pairs, info)
+    end if
+  end subroutine fuge_find_pairs
+
+  !> Refuse surfaces and options that do not fit.
+  subroutine check_pair(contact, opposite, options, pairs, info)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    type(fuge_pair_options), intent(in) :: options
+    type(fuge_contact_pairs), intent(in) :: pairs
+    type(fuge_info), intent(inout) :: info
+
+    call check_surface(contact, CONTACT_NAME, info)
+    if (.not. info%failed()) call check_surface(opposite, OPPOSITE_NAME, info)
+    if (.not. info%failed()) call check_pair_options(options, contact, info)
+    if (info%failed()) return
+    if (size(contact%node, 1) /= size(opposite%node, 1)) then
+      call report(info, FUGE_ERR_SIZE, 'the contact surface has '//text(size(contact%node, 1))//' dimensions, the ' &
+                  //'opposite one '//text(size(opposite%node, 1))//': they need the same')
+    else if (pairs%pairs > 0) then
+      if (size(pairs%direction, 1) /= size(contact%node, 1)) call report(info, FUGE_ERR_SIZE, 'these surfaces have ' &
+        //text(size(contact%node, 1))//' dimensions, the pairs before '//text(size(pairs%direction, 1)))
+    end if
+    if (info%failed()) return
+    if (.not. (moves(contact) .or. moves(opposite))) call report(info, FUGE_ERR_DOF, 'neither surface has degrees of ' &
+      //'freedom: set dof of at least one of them')
+  end subroutine check_pair
+
+  !> Has a surface any degree of freedom?
+  pure function moves(surface)
+    type(fuge_surface_mesh), intent(in) :: surface
+    logical :: moves
+
+    moves = .false.
+    if (allocated(surface%dof)) moves = any(surface%dof > 0)
+  end function moves
+
+  !> The unit normals along which opposites are sought.
+  pure subroutine set_normals(contact, options, normal, info)
+    type(fuge_surface_mesh), intent(in) :: contact
+    type(fuge_pair_options), intent(in) :: options
+    real(dp), intent(out) :: normal(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: given(3)
+    integer :: i
+
+    if (options%normals /= FUGE_NORMALS_GIVEN) then
+      call average_normals(contact, CONTACT_NAME, normal, info)
+      return
+    end if
+    do i = 1, size(normal, 2)
+      given = 0.0_dp
+      given(:size(options%normal, 1)) = options%normal(:, i)
+      normal(:, i) = 0.0_dp
+      if (maxval(abs(given)) > 0.0_dp) normal(:, i) = unit(given/maxval(abs(given)))
+    end do
+  end subroutine set_normals
+
+  !> Find what lies across from each node, by the method chosen.
+  pure subroutine find_draft(contact, opposite, options, normal, draft, stat, info)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    type(fuge_pair_options), intent(in) :: options
+    real(dp), intent(in) :: normal(:, :)
+    type(pair_draft), intent(inout) :: draft
+    integer, intent(out) :: stat
+    type(fuge_info), intent(inout) :: info
+    type(opposite_faces) :: faces
+    real(dp), allocatable :: whole(:)
+
+    allocate (whole(size(contact%node, 2)), stat=stat)
+    if (stat == 0) call prepare_opposite(contact, opposite, options%reach, faces, stat)
+    if (stat /= 0) return
+    call set_bends(contact, opposite, options%smooth, faces, stat, info)
+    if (stat /= 0 .or. info%failed()) return
+    call find_nodal_areas(contact, whole)
+    if (options%method == FUGE_MORTAR) then
+      call pair_faces(contact, opposite, faces, draft, stat)
+      where (draft%weight < SMALLEST_PART*whole) draft%weight = 0.0_dp
+      draft%area = draft%weight
+    else
+      draft%area = whole
+      call pair_nodes(contact, opposite, faces, normal, options%normals == FUGE_NORMALS_OPPOSITE, draft, stat)
+    end if
+  end subroutine find_draft
+
+  !> The normals by which faces bulge, if `smooth`.
+  pure subroutine set_bends(contact, opposite, smooth, faces, stat, info)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    logical, intent(in) :: smooth
+    type(opposite_faces), intent(inout) :: faces
+    integer, intent(out) :: stat
+    type(fuge_info), intent(inout) :: info
+
+    allocate (faces%own_bend(3, merge(size(contact%node, 2), 0, smooth)), &
+              faces%bend(3, merge(size(opposite%node, 2), 0, smooth)), stat=stat)
+    if (stat /= 0 .or. .not. smooth) return
+    call average_normals(contact, CONTACT_NAME, faces%own_bend, info)
+    if (.not. info%failed()) call average_normals(opposite, OPPOSITE_NAME, faces%bend, info)
+  end subroutine set_bends
+
+  !> Refuse surfaces none of whose points are opposite to each other.
+  pure subroutine refuse_none(contact, draft, info)
+    type(fuge_surface_mesh), intent(in) :: contact
+    type(pair_draft), intent(in) :: draft
+    type(fuge_info), intent(inout) :: info
+
+    if (any(draft%weight > 0.0_dp)) return
+    if (draft%alike(1) > 0) then
+      call report(info, FUGE_ERR_MESH, 'face '//index_text(draft%alike(1))//' of the contact surface and face ' &
+                  //index_text(draft%alike(2))//' across from it have normals to the same side: reverse the order ' &
+                  //'of the nodes of one of the surfaces, so that both look outwards')
+    else
+      call report(info, FUGE_ERR_MESH, 'the surfaces do not face each other: no face of the opposite surface lies ' &
+                  //'across from face '//index_text(1)//' or any other of the '//text(size(contact%face, 2))//' of ' &
+                  //'the contact surface; check positions, units and reach')
+    end if
+  end subroutine refuse_none
+
+  !> Make contact points of the nodes that have an opposite.
+  pure subroutine collect(contact, opposite, options, normal, draft, found, stat)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    type(fuge_pair_options), intent(in) :: options
+    real(dp), intent(in) :: normal(:, :)
+    type(pair_draft), intent(in) :: draft
+    type(fuge_contact_pairs), intent(inout) :: found
+    integer, intent(out) :: stat
+    integer, allocatable :: place(:)
+    real(dp) :: direction(3)
+    integer :: axis, dimensions, i, n, per_node, width
+
+    dimensions = size(contact%node, 1)
+    per_node = merge(dimensions, 1, options%tied)
+    width = 0
+    do i = 1, size(draft%weight)
+      if (draft%weight(i) > 0.0_dp) width = max(width, dimensions*(row_length(draft%own, &
+          i) + row_length(draft%other, i)))
+    end do
+    call make_room(found, width, per_node*count(draft%weight > 0.0_dp), dimensions, stat)
+    if (stat == 0) allocate (place(largest_dof(contact, opposite)), stat=stat)
+    if (stat /= 0) return
+    place = 0
+    n = 0
+    do i = 1, size(draft%weight)
+      if (.not. draft%weight(i) > 0.0_dp) cycle
+      do axis = 1, per_node
+        n = n + 1
+        direction = normal(:, i)
+        if (options%normals == FUGE_NORMALS_OPPOSITE) direction = -unit(draft%normal(:, i))
+        if (options%tied) direction = merge(1.0_dp, 0.0_dp, [1, 2, 3] == axis)
+        call fill_point(options, draft, i, direction, n, found)
+        call fill_row(contact, opposite, draft, i, direction(:dimensions), place, found%dof(:, n), found%normal(:, n))
+      end do
+    end do
+    call list_unpaired(contact, draft, found)
+    call found%set_owned([(owned_dof(contact, found%node(i)), i=1, n)])
+    call trim_width(found)
+  end subroutine collect
+
+  pure subroutine make_room(found, width, n, dimensions, stat)
+    type(fuge_contact_pairs), intent(inout) :: found
+    integer, intent(in) :: width, n, dimensions
+    integer, intent(out) :: stat
+
+    allocate (found%dof(width, n), found%normal(width, n), found%gap(n), found%gap_upper(n), found%area(n), &
+              found%pair(n), found%node(n), found%direction(dimensions, n), found%face(n), &
+              found%place(dimensions - 1, n), stat=stat)
+  end subroutine make_room
+
+  !> Everything about contact point `n`, of node `i`, except its row.
+  pure subroutine fill_point(options, draft, i, direction, n, found)
+    type(fuge_pair_options), intent(in) :: options
+    type(pair_draft), intent(in) :: draft
+    integer, intent(in) :: i, n
+    real(dp), intent(in) :: direction(3)
+    type(fuge_contact_pairs), intent(inout) :: found
+
+    found%pair(n) = found%pairs
+    found%node(n) = i
+    found%direction(:, n) = direction(:size(found%direction, 1))
+    found%area(n) = draft%area(i)
+    found%face(n) = draft%face(i)
+    found%place(:, n) = draft%place(:size(found%place, 1), i)/draft%share(i)
+    found%gap(n) = 0.0_dp
+    found%gap_upper(n) = 0.0_dp
+    if (options%tied) return
+    found%gap(n) = dot_product(direction, draft%way(:, i))/draft%weight(i)
+    if (options%smooth .and. options%normals == FUGE_NORMALS_AVERAGED .and. options%method == FUGE_MORTAR) &
+      found%gap(n) = draft%gap(i)/draft%weight(i)
+    found%gap_upper(n) = options%play
+    if (options%play >= huge(1.0_dp)) found%gap_upper(n) = ieee_value(1.0_dp, ieee_positive_inf)
+  end subroutine fill_point
+
+  !> How the gap of node `i` along `direction` depends on the degrees of freedom. `place`, zeros, is left as it was.
+  pure subroutine fill_row(contact, opposite, draft, i, direction, place, dof, normal)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    type(pair_draft), intent(in) :: draft
+    integer, intent(in) :: i
+    real(dp), intent(in) :: direction(:)
+    integer, intent(inout) :: place(:)
+    integer, intent(out) :: dof(:)
+    real(dp), intent(out) :: normal(:)
+    integer :: nodes(size(dof)), used
+    real(dp) :: weight(size(dof))
+
+    dof = 0
+    normal = 0.0_dp
+    used = 0
+    call copy_row(draft%own, i, nodes, weight)
+    call add_terms(contact, nodes(:row_length(draft%own, i)), -weight/draft%weight(i), direction, place, used, dof, &
+        normal)
+    call copy_row(draft%other, i, nodes, weight)
+    call add_terms(opposite, nodes(:row_length(draft%other, i)), weight/draft%weight(i), direction, place, used, dof, &
+                   normal)
+    place(dof(:used)) = 0
+  end subroutine fill_row
+
+  !> Add the terms of the nodes of one surface; a degree of freedom that both bodies share comes once.
+  pure subroutine add_terms(surface, nodes, weight, direction, place, used, dof, normal)
+    type(fuge_surface_mesh), intent(in) :: surface
+    integer, intent(in) :: nodes(:)
+    real(dp), intent(in) :: weight(:), direction(:)
+    integer, intent(inout) :: place(:), used, dof(:)
+    real(dp), intent(inout) :: normal(:)
+    integer :: axis, k
+
+    if (.not. allocated(surface%dof)) return
+    do k = 1, size(nodes)
+      if (abs(weight(k)) <= NO_WEIGHT) cycle
+      do axis = 1, size(direction)
+        associate (degree => surface%dof(axis, nodes(k)))
+          if (degree == 0 .or. .not. abs(direction(axis)) > 0.0_dp) cycle
+          if (place(degree) == 0) then
+            used = used + 1
+            place(degree) = used
+            dof(used) = degree
+          end if
+          normal(place(degree)) = normal(place(degree)) + weight(k)*direction(axis)
+        end associate
+      end do
+    end do
+  end subroutine add_terms
+
+  !> List the nodes of faces that have no opposite.
+  pure subroutine list_unpaired(contact, draft, found)
+    type(fuge_surface_mesh), intent(in) :: contact
+    type(pair_draft), intent(in) :: draft
+    type(fuge_contact_pairs), intent(inout) :: found
+    logical :: used(size(draft%weight))
+    integer :: f, i, k
+
+    used = .false.
+    do f = 1, size(contact%face, 2)
+      do k = 1, size(contact%face, 1)
+        if (contact%face(k, f) > 0) used(contact%face(k, f)) = .true.
+      end do
+    end do
+    used = used .and. .not. draft%weight > 0.0_dp
+    found%unpaired_node = pack([(i, i=1, size(used))], used)
+    found%unpaired_pair = [(found%pairs, i=1, size(found%unpaired_node))]
+  end subroutine list_unpaired
+
+  !> Leave out rows of `dof` and `normal` that no contact point uses.
+  pure subroutine trim_width(found)
+    type(fuge_contact_pairs), intent(inout) :: found
+    integer :: width
+
+    width = size(found%dof, 1)
+    do while (width > 1)
+      if (any(found%dof(width, :) > 0)) exit
+      width = width - 1
+    end do
+    if (width == size(found%dof, 1)) return
+    found%dof = found%dof(:width, :)
+    found%normal = found%normal(:width, :)
+  end subroutine trim_width
+
+  pure function largest_dof(contact, opposite) result(largest)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    integer :: largest
+
+    largest = 0
+    if (allocated(contact%dof)) largest = maxval(contact%dof)
+    if (allocated(opposite%dof)) largest = max(largest, maxval(opposite%dof))
+  end function largest_dof
+
+  !> A degree of freedom of a node; 0 if it has none.
+  pure function owned_dof(surface, i) result(dof)
+    type(fuge_surface_mesh), intent(in) :: surface
+    integer, intent(in) :: i
+    integer :: dof
+
+    dof = 0
+    if (allocated(surface%dof)) dof = maxval(surface%dof(:, i))
+  end function owned_dof
+
+  !> Warn of a node that is a contact point of two pairs.
+  pure subroutine warn_repeated(pairs, info)
+    type(fuge_contact_pairs), intent(in) :: pairs
+    type(fuge_info), intent(inout) :: info
+    integer :: both(2)
+
+    if (pairs%pairs < 2) return
+    both = pairs%first_repeated(maxval(pairs%dof))
+    if (both(1) == 0) return
+    call report(info, FUGE_WARN_PAIRS, 'node '//index_text(pairs%node(both(2)))//' of the contact surface of pair ' &
+                //index_text(pairs%pair(both(2)))//' is a contact point of pair '//index_text(pairs%pair(both(1))) &
+                //' too, as node '//index_text(pairs%node(both(1)))//': leave its faces out of one of them, unless ' &
+                //'both bodies press on it')
+  end subroutine warn_repeated
+
+end module fuge_contact_pairs_search

@@ -1,0 +1,224 @@
+!> What pairs of contact surfaces are found by, and what is found.
+module fuge_contact_pairs_type
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text, text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_GAP, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_surface_mesh_type, only: fuge_surface_mesh
+  implicit none
+  private
+
+  public :: append_pairs, check_pair_options
+
+  !> Method: weighted gaps of the dual mortar method.
+  integer, parameter, public :: FUGE_MORTAR = 0
+  !> Method: each node against the face across from it. It fails the patch test.
+  integer, parameter, public :: FUGE_NODE_TO_FACE = 1
+  !> Normals averaged at the nodes of the contact surface.
+  integer, parameter, public :: FUGE_NORMALS_AVERAGED = 0
+  !> Normals of the opposite faces.
+  integer, parameter, public :: FUGE_NORMALS_OPPOSITE = 1
+  !> Normals given at the nodes of the contact surface.
+  integer, parameter, public :: FUGE_NORMALS_GIVEN = 2
+
+  !> How a pair of surfaces is treated. Set components by name, since later versions may add some.
+  type, public :: fuge_pair_options
+    !> FUGE_MORTAR, or FUGE_NODE_TO_FACE, which fails the patch test: on meshes that do not match it does not reproduce
+    !> a uniform pressure.
+    integer :: method = FUGE_MORTAR
+    !> FUGE_NORMALS_AVERAGED, FUGE_NORMALS_OPPOSITE or FUGE_NORMALS_GIVEN.
+    integer :: normals = FUGE_NORMALS_AVERAGED
+    !> For FUGE_NORMALS_GIVEN: outwards from the contact surface at each of its nodes, of any length,
+    !> (dimensions, nodes).
+    real(dp), allocatable :: normal(:, :)
+    !> How far apart, or one inside the other, opposite points may be, length. Not above 0: as far as the surfaces
+    !> extend.
+    real(dp) :: reach = 0.0_dp
+    !> Play between the lower and the upper stop, length: 0 for points that stay in contact but slide, huge or infinite
+    !> for one-sided contact.
+    real(dp) :: play = huge(1.0_dp)
+    !> Glue the surfaces where they are: along each axis, with a gap and a play of zero.
+    logical :: tied = .false.
+    !> Gaps as if the bodies were smooth: linear faces bulge between their nodes as the averaged normals suggest. For
+    !> round bodies whose interference or clearance is not large beside the height of a chord, L**2/(8 R).
+    logical :: smooth = .false.
+  end type fuge_pair_options
+
+  !> Contact points, in the form in which `fuge_body` and `fuge_problem` take them; n contact points.
+  type, public :: fuge_contact_pairs
+    !> Degrees of freedom of both bodies, (width, n), 0 where unused: `dof` of fuge_body.
+    integer, allocatable :: dof(:, :)
+    !> Their factors: `normal` of fuge_body.
+    real(dp), allocatable :: normal(:, :)
+    !> Initial gaps, (n), length; negative where one body is inside the other; 0 where tied.
+    real(dp), allocatable :: gap(:)
+    !> `gap_upper` of fuge_problem: the play, (n); infinity for one-sided contact.
+    real(dp), allocatable :: gap_upper(:)
+    !> Area of each contact point, (n), in the plane length: pressure = force/area.
+    real(dp), allocatable :: area(:)
+    !> The pair, numbered as they were added, and the node of its contact surface, (n).
+    integer, allocatable :: pair(:), node(:)
+    !> Unit vectors of the gaps, from the contact surface towards the opposite one, (dimensions, n).
+    real(dp), allocatable :: direction(:, :)
+    !> The opposite face, (n); with FUGE_MORTAR that with the largest share of the gap.
+    integer, allocatable :: face(:)
+    !> Place in it, (dimensions - 1, n): xi in [-1, 1] on an edge, (xi, eta) in [-1, 1]**2 on a quadrangle; on a
+    !> triangle (xi, eta) from corner 1, where corners 2 and 3 are (1, 0) and (0, 1). With FUGE_MORTAR the middle of
+    !> what lies across in that face.
+    real(dp), allocatable :: place(:, :)
+    !> Pair and node of the nodes that have no opposite, and so are no contact points.
+    integer, allocatable :: unpaired_pair(:), unpaired_node(:)
+    !> Pairs of surfaces so far.
+    integer :: pairs = 0
+    !> A degree of freedom of the node of each contact point, 0 for a rigid one, (n).
+    integer, allocatable, private :: owned(:)
+  contains
+    procedure :: points
+    procedure :: set_owned
+    procedure :: first_repeated
+  end type fuge_contact_pairs
+
+contains
+
+  !> Number of contact points.
+  pure function points(self) result(n)
+    class(fuge_contact_pairs), intent(in) :: self
+    integer :: n
+
+    n = 0
+    if (allocated(self%gap)) n = size(self%gap)
+  end function points
+
+  !> Keep a degree of freedom of the node of each contact point, by which nodes in two pairs are found.
+  pure subroutine set_owned(self, owned)
+    class(fuge_contact_pairs), intent(inout) :: self
+    integer, intent(in) :: owned(:)
+
+    self%owned = owned
+  end subroutine set_owned
+
+  !> The first contact point whose node belongs to a contact point of another pair too, and that one; or zeros.
+  pure function first_repeated(self, degrees) result(both)
+    class(fuge_contact_pairs), intent(in) :: self
+    integer, intent(in) :: degrees
+    integer :: both(2)
+    integer, allocatable :: before(:)
+    integer :: i
+
+    both = 0
+    allocate (before(degrees))
+    before = 0
+    do i = 1, self%points()
+      if (self%owned(i) == 0) cycle
+      both = [before(self%owned(i)), i]
+      if (both(1) == 0) then
+        before(self%owned(i)) = i
+      else if (self%pair(both(1)) /= self%pair(i)) then
+        return
+      end if
+    end do
+    both = 0
+  end function first_repeated
+
+  !> Refuse options that make no sense for this contact surface.
+  pure subroutine check_pair_options(options, contact, info)
+    type(fuge_pair_options), intent(in) :: options
+    type(fuge_surface_mesh), intent(in) :: contact
+    type(fuge_info), intent(inout) :: info
+
+    if (options%method /= FUGE_MORTAR .and. options%method /= FUGE_NODE_TO_FACE) then
+      call report(info, FUGE_ERR_OPTION, 'method = '//text(options%method)//' is not FUGE_MORTAR or FUGE_NODE_TO_FACE')
+    else if (options%normals < FUGE_NORMALS_AVERAGED .or. options%normals > FUGE_NORMALS_GIVEN) then
+      call report(info, FUGE_ERR_OPTION, 'normals = '//text(options%normals)//' is not FUGE_NORMALS_AVERAGED, ' &
+                  //'FUGE_NORMALS_OPPOSITE or FUGE_NORMALS_GIVEN')
+    else if (ieee_is_nan(options%reach) .or. ieee_is_nan(options%play)) then
+      call report(info, FUGE_ERR_NOT_FINITE, 'reach = '//text(options%reach)//', play = '//text(options%play) &
+                  //': they need to be numbers')
+    else if (options%reach > huge(1.0_dp)) then
+      call report(info, FUGE_ERR_NOT_FINITE, 'reach is infinite: 0 stands for as far as the surfaces extend')
+    else if (options%play < 0.0_dp) then
+      call report(info, FUGE_ERR_GAP, 'play = '//text(options%play)//' is negative: the upper stop would lie below ' &
+                  //'the lower one')
+    else if (options%normals == FUGE_NORMALS_GIVEN) then
+      call check_normals(options, contact, info)
+    end if
+  end subroutine check_pair_options
+
+  !> Refuse given normals of another size than the nodes, not finite or without direction.
+  pure subroutine check_normals(options, contact, info)
+    type(fuge_pair_options), intent(in) :: options
+    type(fuge_surface_mesh), intent(in) :: contact
+    type(fuge_info), intent(inout) :: info
+    integer :: f, i, k
+    real(dp) :: largest
+
+    if (.not. allocated(options%normal)) then
+      call report(info, FUGE_ERR_SIZE, 'FUGE_NORMALS_GIVEN needs normal, one for each node of the contact surface')
+    else if (any(shape(options%normal) /= shape(contact%node))) then
+      call report(info, FUGE_ERR_SIZE, 'normal is '//text(size(options%normal, 1))//' by ' &
+                  //text(size(options%normal, 2))//', node of the contact surface '//text(size(contact%node, 1)) &
+                  //' by '//text(size(contact%node, 2))//': they need the same shape')
+    end if
+    if (info%failed()) return
+    do f = 1, size(contact%face, 2)
+      do k = 1, size(contact%face, 1)
+        i = contact%face(k, f)
+        if (i == 0) exit
+        if (any(ieee_is_nan(options%normal(:, i)))) then
+          call report(info, FUGE_ERR_NOT_FINITE, 'the normal of node '//index_text(i)//' is not a number')
+          return
+        end if
+        largest = maxval(abs(options%normal(:, i)))
+        if (largest > 0.0_dp .and. largest <= huge(largest)) cycle
+        call report(info, FUGE_ERR_NOT_FINITE, 'the normal of node '//index_text(i)//' is zero or infinite: it ' &
+                    //'needs a direction')
+        return
+      end do
+    end do
+  end subroutine check_normals
+
+  !> Append the contact points of one pair. `stat` is not zero, and `pairs` as before, without memory.
+  pure subroutine append_pairs(pairs, more, stat)
+    type(fuge_contact_pairs), intent(inout) :: pairs
+    type(fuge_contact_pairs), intent(inout) :: more
+    integer, intent(out) :: stat
+    type(fuge_contact_pairs) :: all
+    integer :: dimensions, n, width
+
+    stat = 0
+    if (pairs%pairs == 0) then
+      pairs = more
+      return
+    end if
+    n = pairs%points() + more%points()
+    width = max(size(pairs%dof, 1), size(more%dof, 1))
+    dimensions = size(more%direction, 1)
+    allocate (all%dof(width, n), all%normal(width, n), all%direction(dimensions, n), all%place(dimensions - 1, n), &
+              stat=stat)
+    if (stat /= 0) return
+    all%dof = 0
+    all%normal = 0.0_dp
+    associate (old => pairs%points())
+      all%dof(:size(pairs%dof, 1), :old) = pairs%dof
+      all%dof(:size(more%dof, 1), old + 1:) = more%dof
+      all%normal(:size(pairs%dof, 1), :old) = pairs%normal
+      all%normal(:size(more%dof, 1), old + 1:) = more%normal
+      all%direction(:, :old) = pairs%direction
+      all%direction(:, old + 1:) = more%direction
+      all%place(:, :old) = pairs%place
+      all%place(:, old + 1:) = more%place
+    end associate
+    all%gap = [pairs%gap, more%gap]
+    all%gap_upper = [pairs%gap_upper, more%gap_upper]
+    all%area = [pairs%area, more%area]
+    all%pair = [pairs%pair, more%pair]
+    all%node = [pairs%node, more%node]
+    all%face = [pairs%face, more%face]
+    all%owned = [pairs%owned, more%owned]
+    all%unpaired_pair = [pairs%unpaired_pair, more%unpaired_pair]
+    all%unpaired_node = [pairs%unpaired_node, more%unpaired_node]
+    all%pairs = more%pairs
+    pairs = all
+  end subroutine append_pairs
+
+end module fuge_contact_pairs_type

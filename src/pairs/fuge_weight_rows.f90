@@ -1,0 +1,106 @@
+!> Rows of weights that grow as they are added to: a sparse matrix under construction.
+module fuge_weight_rows
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  public :: add_weight, copy_row, row_length, start_rows
+
+  type, public :: weight_rows
+    !> First entry of each row and the entry after each one, 0 at the end.
+    integer, allocatable, private :: first(:), next(:)
+    integer, allocatable, private :: column(:)
+    real(dp), allocatable, private :: weight(:)
+    integer, private :: used = 0
+  end type weight_rows
+
+contains
+
+  !> `count` empty rows. `stat` is not zero without memory.
+  pure subroutine start_rows(rows, count, stat)
+    type(weight_rows), intent(out) :: rows
+    integer, intent(in) :: count
+    integer, intent(out) :: stat
+
+    allocate (rows%first(count), rows%next(8*count + 8), rows%column(8*count + 8), rows%weight(8*count + 8), stat=stat)
+    if (stat == 0) rows%first = 0
+  end subroutine start_rows
+
+  !> Add to one weight. `stat` is left alone on success.
+  pure subroutine add_weight(rows, row, column, weight, stat)
+    type(weight_rows), intent(inout) :: rows
+    integer, intent(in) :: row, column
+    real(dp), intent(in) :: weight
+    integer, intent(inout) :: stat
+    integer :: p
+
+    p = rows%first(row)
+    do while (p > 0)
+      if (rows%column(p) == column) then
+        rows%weight(p) = rows%weight(p) + weight
+        return
+      end if
+      p = rows%next(p)
+    end do
+    if (rows%used >= size(rows%next)) call lengthen(rows, stat)
+    if (stat /= 0) return
+    rows%used = rows%used + 1
+    rows%column(rows%used) = column
+    rows%weight(rows%used) = weight
+    rows%next(rows%used) = rows%first(row)
+    rows%first(row) = rows%used
+  end subroutine add_weight
+
+  !> Entries of a row.
+  pure function row_length(rows, row) result(length)
+    type(weight_rows), intent(in) :: rows
+    integer, intent(in) :: row
+    integer :: length, p
+
+    length = 0
+    p = rows%first(row)
+    do while (p > 0)
+      length = length + 1
+      p = rows%next(p)
+    end do
+  end function row_length
+
+  !> The entries of a row; `column` and `weight` have room for them.
+  pure subroutine copy_row(rows, row, column, weight)
+    type(weight_rows), intent(in) :: rows
+    integer, intent(in) :: row
+    integer, intent(out) :: column(:)
+    real(dp), intent(out) :: weight(:)
+    integer :: k, p
+
+    column = 0
+    weight = 0.0_dp
+    k = 0
+    p = rows%first(row)
+    do while (p > 0)
+      k = k + 1
+      column(k) = rows%column(p)
+      weight(k) = rows%weight(p)
+      p = rows%next(p)
+    end do
+  end subroutine copy_row
+
+  pure subroutine lengthen(rows, stat)
+    type(weight_rows), intent(inout) :: rows
+    integer, intent(inout) :: stat
+    integer, allocatable :: column(:), next(:)
+    real(dp), allocatable :: weight(:)
+    integer :: length
+
+    length = rows%used + rows%used/2 + 16
+    allocate (column(length), next(length), weight(length), stat=stat)
+    if (stat /= 0) return
+    column(:rows%used) = rows%column(:rows%used)
+    next(:rows%used) = rows%next(:rows%used)
+    weight(:rows%used) = rows%weight(:rows%used)
+    call move_alloc(column, rows%column)
+    call move_alloc(next, rows%next)
+    call move_alloc(weight, rows%weight)
+  end subroutine lengthen
+
+end module fuge_weight_rows
