@@ -32,8 +32,8 @@ module fuge_loaded_cells
     logical :: hats = .false.
     !> Centres, widths of strips or half bases of hats, and pressures, of hats at the peak.
     real(dp), allocatable :: centre(:), width(:), pressure(:)
-    type(hat_rules) :: rules
-    type(cell_clusters) :: clusters
+    type(hat_rules) :: rules = hat_rules()
+    type(cell_clusters) :: clusters = cell_clusters()
   contains
     procedure :: set
     procedure :: gather
