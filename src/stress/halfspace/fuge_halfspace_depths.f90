@@ -41,6 +41,8 @@ module fuge_halfspace_depths
     !> Factors of the waves of a periodic surface, or influence at places, and the sums that they consist of.
     type(wave_sums) :: sums
     real(dp), allocatable :: factor(:, :)
+    !> Of a surface that is periodic along one direction: the mean along the rows, (components, cells across, depths).
+    real(dp), allocatable :: mean(:, :, :)
   end type grid_work
 
 contains
@@ -74,6 +76,7 @@ contains
     call describe(nx, ny, spacing_x, spacing_y, boundary, poisson, work)
     call check_arguments(work, force, depth, shape(stress), 'stress', 6, info)
     if (.not. info%failed()) call start(work, force, info)
+    call find_means(work, 6, depth, info)
     do k = 1, size(depth)
       if (info%failed()) exit
       if (boundary == FUGE_PERIODIC) then
@@ -81,9 +84,8 @@ contains
       else if (boundary == FUGE_FREE) then
         call free_stress(work, depth(k), stress(:, :, k))
       else
-        call row_stress(work, depth(k), stress(:, :, k), info)
+        call row_stress(work, work%mean(:, :, k), depth(k), stress(:, :, k))
       end if
-      if (info%failed()) exit
       stress(:, :, k) = stress(:, :, k)/(spacing_x*spacing_y)
       if (.not. depth(k) > 0.0_dp) call correct_surface(force, spacing_x*spacing_y, stress(:, :, k))
     end do
@@ -117,6 +119,7 @@ contains
     call check_arguments(work, force, depth, shape(displacement), 'displacement', 3, info)
     call check_grid_strain(force, product(work%grid%spacing), young, info)
     if (.not. info%failed()) call start(work, force, info)
+    call find_means(work, 3, depth, info)
     if (.not. info%failed() .and. ieee_is_finite(young)) compliance = 1.0_dp/young
     do k = 1, size(depth)
       if (info%failed()) exit
@@ -125,9 +128,8 @@ contains
       else if (boundary == FUGE_FREE) then
         call free_displacement(work, depth(k), displacement(:, :, k))
       else
-        call row_displacement(work, sum(force), depth(k), displacement(:, :, k), info)
+        call row_displacement(work, work%mean(:, :, k), sum(force), depth(k), displacement(:, :, k))
       end if
-      if (info%failed()) exit
       displacement(:, :, k) = displacement(:, :, k)/spacing_x/spacing_y*compliance
     end do
     call work%waves%free()
@@ -333,20 +335,38 @@ contains
     displacement = displacement*work%sums%unit
   end subroutine periodic_displacement
 
-  !> As `periodic_stress`, of a surface that is periodic along one direction. FUGE_ERR_MEMORY.
-  subroutine row_stress(work, depth, stress, info)
+  !> The means along the rows at all depths, before a result is written, because they may fail: FUGE_ERR_MEMORY. 6
+  !> `components` are stresses, 3 displacements.
+  subroutine find_means(work, components, depth, info)
     type(grid_work), intent(inout) :: work
-    real(dp), intent(in) :: depth
-    real(dp), intent(inout) :: stress(:, :)
+    integer, intent(in) :: components
+    real(dp), intent(in) :: depth(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: mean(:, :)
-    integer :: c, stat
+    integer :: k, stat
 
-    allocate (mean(6, cells_across(work)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the mean along the rows')
-    if (.not. info%failed()) call mean_stresses(direction_of_rows(work), cells_in_row(work), work%poisson, &
-                                                depth/width_of_row(work), mean, info)
-    if (info%failed()) return
+    if (info%failed() .or. work%grid%boundary == FUGE_FREE .or. work%grid%boundary == FUGE_PERIODIC) return
+    allocate (work%mean(components, cells_across(work), size(depth)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the mean along the rows at '//text(size(depth)) &
+                               //' depths: ask for fewer at once')
+    do k = 1, size(depth)
+      if (info%failed()) return
+      if (components == 6) then
+        call mean_stresses(direction_of_rows(work), cells_in_row(work), work%poisson, depth(k)/width_of_row(work), &
+                           work%mean(:, :, k), info)
+      else
+        call mean_displacements(direction_of_rows(work), cells_in_row(work), work%poisson, &
+                                depth(k)/width_of_row(work), work%mean(:, :, k), info)
+      end if
+    end do
+  end subroutine find_means
+
+  !> As `periodic_stress`, of a surface that is periodic along one direction, with the `mean` along the rows.
+  subroutine row_stress(work, mean, depth, stress)
+    type(grid_work), intent(inout) :: work
+    real(dp), intent(in) :: mean(:, :), depth
+    real(dp), intent(inout) :: stress(:, :)
+    integer :: c
+
     do c = 1, 6
       call fill_factor(work, depth, stress_terms(c, work%poisson, depth/work%sums%unit))
       call copy_table(work, mean(c, :), 1.0_dp, stress(c, :))
@@ -354,33 +374,25 @@ contains
     call convolve_tables(work%waves, STRESS_KINDS, stress)
   end subroutine row_stress
 
-  !> As `periodic_displacement`, of a surface that is periodic along one direction; `load` is the sum of the forces.
-  !> FUGE_ERR_MEMORY.
-  subroutine row_displacement(work, load, depth, displacement, info)
+  !> As `periodic_displacement`, of a surface that is periodic along one direction, with the `mean` along the rows;
+  !> `load` is the sum of the forces.
+  subroutine row_displacement(work, mean, load, depth, displacement)
     type(grid_work), intent(inout) :: work
-    real(dp), intent(in) :: load, depth
+    real(dp), intent(in) :: mean(:, :), load, depth
     real(dp), intent(inout) :: displacement(:, :)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: mean(:, :)
-    real(dp) :: constant
-    integer :: c, n, stat
+    real(dp) :: constant, width
+    integer :: c, n
 
-    allocate (mean(3, cells_across(work)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the mean along the rows')
-    if (.not. info%failed()) call mean_displacements(direction_of_rows(work), cells_in_row(work), work%poisson, &
-                                                     depth/width_of_row(work), mean, info)
-    if (info%failed()) return
-    mean = mean*width_of_row(work)
+    width = width_of_row(work)
     ! Without the constant the wave of equal forces, and its rounding error, is not larger than the others.
     n = size(mean, 2)
     constant = (2.0_dp*sum(mean(3, :)) - mean(3, 1))/real(2*n - 1, dp)
-    mean(3, :) = mean(3, :) - constant
     do c = 1, 3
       call fill_factor(work, depth, displacement_terms(c, work%poisson, depth/work%sums%unit))
-      call copy_table(work, mean(c, :), work%sums%unit, displacement(c, :))
+      call copy_table(work, (mean(c, :) - merge(constant, 0.0_dp, c == 3))*width, work%sums%unit, displacement(c, :))
     end do
     call convolve_tables(work%waves, DISPLACEMENT_KINDS, displacement)
-    displacement(3, :) = displacement(3, :) + constant*load
+    displacement(3, :) = displacement(3, :) + constant*width*load
   end subroutine row_displacement
 
   pure function cells_in_row(work) result(cells)
