@@ -50,6 +50,7 @@ contains
     type(fuge_contact_pairs) :: found
     type(pair_draft) :: draft
     real(dp), allocatable :: normal(:, :)
+    integer, allocatable :: before(:)
     integer :: stat
 
     call check_pair(contact, opposite, options, pairs, info)
@@ -65,11 +66,12 @@ contains
       found%pairs = pairs%pairs + 1
       call collect(contact, opposite, options, normal, draft, found, stat)
     end if
+    if (stat == 0) allocate (before(max(largest_dof(contact, opposite), largest_before(pairs))), stat=stat)
     if (stat == 0) call append_pairs(pairs, found, stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to find contact pairs')
     else
-      call warn_repeated(pairs, info)
+      call warn_repeated(pairs, before, info)
     end if
   end subroutine fuge_find_pairs
 
@@ -221,7 +223,8 @@ contains
         call fill_row(contact, opposite, draft, i, direction(:dimensions), place, found%dof(:, n), found%normal(:, n))
       end do
     end do
-    call list_unpaired(contact, draft, found)
+    call list_unpaired(contact, draft, found, stat)
+    if (stat /= 0) return
     call found%set_owned([(owned_dof(contact, found%node(i)), i=1, n)])
     call trim_width(found)
   end subroutine collect
@@ -310,14 +313,17 @@ contains
     end do
   end subroutine add_terms
 
-  !> List the nodes of faces that have no opposite.
-  pure subroutine list_unpaired(contact, draft, found)
+  !> List the nodes of faces that have no opposite. `stat` as in an allocate statement.
+  pure subroutine list_unpaired(contact, draft, found, stat)
     type(fuge_surface_mesh), intent(in) :: contact
     type(pair_draft), intent(in) :: draft
     type(fuge_contact_pairs), intent(inout) :: found
-    logical :: used(size(draft%weight))
-    integer :: f, i, k
+    integer, intent(out) :: stat
+    logical, allocatable :: used(:)
+    integer :: f, i, k, number
 
+    allocate (used(size(draft%weight)), stat=stat)
+    if (stat /= 0) return
     used = .false.
     do f = 1, size(contact%face, 2)
       do k = 1, size(contact%face, 1)
@@ -325,8 +331,15 @@ contains
       end do
     end do
     used = used .and. .not. draft%weight > 0.0_dp
-    found%unpaired_node = pack([(i, i=1, size(used))], used)
-    found%unpaired_pair = [(found%pairs, i=1, size(found%unpaired_node))]
+    allocate (found%unpaired_node(count(used)), found%unpaired_pair(count(used)), stat=stat)
+    if (stat /= 0) return
+    number = 0
+    do i = 1, size(used)
+      if (.not. used(i)) cycle
+      number = number + 1
+      found%unpaired_node(number) = i
+    end do
+    found%unpaired_pair = found%pairs
   end subroutine list_unpaired
 
   !> Leave out rows of `dof` and `normal` that no contact point uses.
@@ -363,14 +376,24 @@ contains
     if (allocated(surface%dof)) dof = maxval(surface%dof(:, i))
   end function owned_dof
 
-  !> Warn of a node that is a contact point of two pairs.
-  pure subroutine warn_repeated(pairs, info)
+  !> The largest degree of freedom of the pairs found earlier; 0 if there are none.
+  pure function largest_before(pairs) result(largest)
     type(fuge_contact_pairs), intent(in) :: pairs
+    integer :: largest
+
+    largest = 0
+    if (pairs%pairs > 0) largest = max(0, maxval(pairs%dof))
+  end function largest_before
+
+  !> Warn of a node that is a contact point of two pairs. `before` is work space, one element for each degree of freedom.
+  pure subroutine warn_repeated(pairs, before, info)
+    type(fuge_contact_pairs), intent(in) :: pairs
+    integer, intent(inout) :: before(:)
     type(fuge_info), intent(inout) :: info
     integer :: both(2)
 
     if (pairs%pairs < 2) return
-    both = pairs%first_repeated(maxval(pairs%dof))
+    call pairs%first_repeated(before, both)
     if (both(1) == 0) return
     call report(info, FUGE_WARN_PAIRS, 'node '//index_text(pairs%node(both(2)))//' of the contact surface of pair ' &
                 //index_text(pairs%pair(both(2)))//' is a contact point of pair '//index_text(pairs%pair(both(1))) &

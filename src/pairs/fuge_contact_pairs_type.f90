@@ -98,15 +98,12 @@ contains
   end subroutine set_owned
 
   !> The first contact point whose node belongs to a contact point of another pair too, and that one; or zeros.
-  pure function first_repeated(self, degrees) result(both)
+  !> `before` is work space, one element for each degree of freedom.
+  pure subroutine first_repeated(self, before, both)
     class(fuge_contact_pairs), intent(in) :: self
-    integer, intent(in) :: degrees
-    integer :: both(2)
-    integer, allocatable :: before(:)
+    integer, intent(out) :: before(:), both(2)
     integer :: i
 
-    both = 0
-    allocate (before(degrees))
     before = 0
     do i = 1, self%points()
       if (self%owned(i) == 0) cycle
@@ -118,7 +115,7 @@ contains
       end if
     end do
     both = 0
-  end function first_repeated
+  end subroutine first_repeated
 
   !> Refuse options that make no sense for this contact surface.
   pure subroutine check_pair_options(options, contact, info)
