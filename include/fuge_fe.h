@@ -245,9 +245,18 @@ int fuge_mesh_get_elements(const fuge_mesh *mesh, int *element, int *first, int 
  * FUGE_ERR_SIZE if there is no such element. */
 int fuge_mesh_get_type(const fuge_mesh *mesh, int k, char *type, size_t type_len);
 
+/* Numbers of sets of nodes, of elements, and of surfaces.  Each may be NULL. */
+int fuge_mesh_get_set_counts(const fuge_mesh *mesh, int *node_sets, int *element_sets, int *surfaces);
+
+/* Name of set or surface k in upper case; at most 80 characters and NUL.  FUGE_ERR_SIZE if
+ * there is none. */
+int fuge_mesh_get_node_set_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
+int fuge_mesh_get_element_set_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
+int fuge_mesh_get_surface_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
+
 /* Places of the members of a set; `name` in upper or lower case.  Only the first `capacity` are
  * written to member, which may be NULL; *count is their number.  FUGE_ERR_OPTION if the
- * mesh has no such set. */
+ * mesh has no such set; the message has the names of those it has. */
 int fuge_mesh_get_node_set(const fuge_mesh *mesh, const char *name, int capacity, int *member, int *count,
                            char *message, size_t len);
 int fuge_mesh_get_element_set(const fuge_mesh *mesh, const char *name, int capacity, int *member, int *count,
