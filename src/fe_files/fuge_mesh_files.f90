@@ -4,7 +4,7 @@ module fuge_mesh_files
   use fuge_input_deck, only: input_deck, upper_case, LINE_DATA, LINE_END, LINE_KEYWORD, VALUE_LENGTH
   use fuge_mesh_draft, only: draft_sets, finish_mesh, mesh_draft
   use fuge_mesh_lines, only: mesh_block, read_element_line, read_node_line, read_set_line, read_surface_line
-  use fuge_mesh_type, only: fuge_mesh, NAME_LENGTH, TYPE_LENGTH
+  use fuge_mesh_type, only: fuge_mesh, move_mesh, NAME_LENGTH, TYPE_LENGTH
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION
   use fuge_text_fields, only: quoted
@@ -48,21 +48,6 @@ contains
     call finish_mesh(draft, found, info)
     if (.not. info%failed()) call move_mesh(found, mesh)
   end subroutine fuge_read_mesh
-
-  !> Move a mesh; nothing is copied.
-  pure subroutine move_mesh(from, to)
-    type(fuge_mesh), intent(inout) :: from, to
-
-    call move_alloc(from%node, to%node)
-    call move_alloc(from%position, to%position)
-    call move_alloc(from%element, to%element)
-    call move_alloc(from%element_type, to%element_type)
-    call move_alloc(from%first, to%first)
-    call move_alloc(from%connection, to%connection)
-    call move_alloc(from%node_set, to%node_set)
-    call move_alloc(from%element_set, to%element_set)
-    call move_alloc(from%surface, to%surface)
-  end subroutine move_mesh
 
   !> Read all lines.
   subroutine read_deck(deck, draft, info)
