@@ -8,7 +8,7 @@ module fuge_element_faces
   implicit none
   private
 
-  public :: face_nodes, nodes_of_type
+  public :: dimensions_of_type, face_nodes, nodes_of_type
 
   !> Most nodes of a face.
   integer, parameter, public :: MOST_FACE_NODES = 8
@@ -50,6 +50,16 @@ contains
     if (nodes == 27 .or. index(element_type, 'V') > 0) nodes = 0
     if (nodes == 0) family = 0
   end subroutine split_type
+
+  !> 2 for elements of a plane, 3 for solids, 0 for others.
+  pure function dimensions_of_type(element_type) result(dimensions)
+    character(len=*), intent(in) :: element_type
+    integer :: dimensions
+    integer :: nodes
+
+    call split_type(element_type, dimensions, nodes)
+    if (dimensions < 2) dimensions = 0
+  end function dimensions_of_type
 
   !> The whole number at the beginning of a text, of one or two digits.
   pure subroutine leading_number(text, number)
