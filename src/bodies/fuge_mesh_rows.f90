@@ -1,10 +1,10 @@
 !> Meshes and stiffness matrices from files, put together: surfaces with the degrees of freedom of their nodes, and the
 !> degrees of freedom of sets of nodes.
 module fuge_mesh_rows
-  use fuge_element_faces, only: dimensions_of_type
+  use fuge_element_faces, only: split_type, FAMILY_PLANE, FAMILY_SOLID
   use fuge_input_deck, only: upper_case
   use fuge_kinds, only: dp
-  use fuge_mesh_files, only: fuge_mesh_faces
+  use fuge_mesh_sets, only: fuge_mesh_faces, fuge_mesh_node_set
   use fuge_mesh_type, only: fuge_mesh
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
@@ -85,27 +85,17 @@ contains
     integer, intent(in) :: along, node(:), direction(:)
     integer, allocatable, intent(inout) :: dof(:)
     type(fuge_info), intent(out) :: info
-    integer, allocatable :: rows(:, :)
-    integer :: k, set, strange
+    integer, allocatable :: member(:), rows(:, :)
+    integer :: strange
 
-    set = 0
-    if (allocated(mesh%node_set)) then
-      do k = 1, size(mesh%node_set)
-        if (mesh%node_set(k)%name == upper_case(name)) set = k
-      end do
-    end if
-    if (set == 0) then
-      call report(info, FUGE_ERR_OPTION, 'the mesh has no set of nodes '//quoted(name))
-    else if (along < 1 .or. along > DIRECTIONS) then
-      call report(info, FUGE_ERR_OPTION, 'along = '//text(along)//': directions are 1 to '//text(DIRECTIONS))
-    end if
-    if (.not. info%failed()) call find_rows(mesh, node, direction, rows, strange, info)
-    if (.not. info%failed()) call check_nodes(mesh, 'set '//quoted(name), mesh%node_set(set)%member, node, rows, &
-                                              strange, info)
+    call fuge_mesh_node_set(mesh, name, member, info)
     if (info%failed()) return
-    associate (of_set => rows(along, mesh%node_set(set)%member))
-      dof = pack(of_set, of_set > 0)
-    end associate
+    if (along < 1 .or. along > DIRECTIONS) &
+      call report(info, FUGE_ERR_OPTION, 'along = '//text(along)//': directions are 1 to '//text(DIRECTIONS))
+    if (.not. info%failed()) call find_rows(mesh, node, direction, rows, strange, info)
+    if (.not. info%failed()) call check_nodes(mesh, 'set '//quoted(name), member, node, rows, strange, info)
+    if (info%failed()) return
+    dof = pack(rows(along, member), rows(along, member) > 0)
   end subroutine fuge_mesh_degrees
 
   !> Refuse faces of elements that do not have as many dimensions.
@@ -114,13 +104,14 @@ contains
     character(len=*), intent(in) :: name
     integer, intent(in) :: dimensions
     type(fuge_info), intent(inout) :: info
-    integer :: element, k, s
+    integer :: element, family, k, nodes, s
 
     do s = 1, size(mesh%surface)
       if (mesh%surface(s)%name /= upper_case(name)) cycle
       do k = 1, size(mesh%surface(s)%element)
         element = mesh%surface(s)%element(k)
-        if (dimensions_of_type(mesh%element_type(element)) == dimensions) cycle
+        call split_type(mesh%element_type(element), family, nodes)
+        if (family == merge(FAMILY_PLANE, FAMILY_SOLID, dimensions == 2)) cycle
         call report(info, FUGE_ERR_ELEMENT, 'surface '//quoted(name)//': element '//text(mesh%element(element)) &
                     //' of type '//trim(mesh%element_type(element))//' is none of '//text(dimensions) &
                     //' dimensions: set dimensions to those of the mesh')
