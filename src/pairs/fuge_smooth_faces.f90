@@ -47,8 +47,8 @@ contains
     type(face_nodes), intent(in) :: face
     real(dp), intent(in) :: place(2)
     real(dp), intent(out) :: position(3), tangent(3, 2)
-    real(dp) :: mean(3), mean_slope(3), size, size_slope, slopes(MOST_NODES, 2), sum_height, values(MOST_NODES), way(3), &
-      slope, height
+    real(dp) :: mean(3), mean_slope(3), size, size_slope, slopes(MOST_NODES, 2), sum_height, values(MOST_NODES), &
+      way(3), slope, height
     integer :: axis, i
 
     values = shape_values(face%kind, place)
