@@ -136,7 +136,8 @@ contains
   !> Join meshes, such as those of several bodies, to one, for `fuge_write_mesh`: nodes and elements of all of them, one
   !> mesh after the other.
   !>
-  !> `node` and `element` keep the numbers of the files, so that numbers may be repeated. Sets and surfaces are left out.
+  !> `node` and `element` keep the numbers of the files, so that numbers may be repeated. Sets and surfaces are left
+  !> out.
   !> Errors, `joined` unchanged: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_MEMORY.
   subroutine fuge_join_meshes(meshes, joined, info)
     type(fuge_mesh), intent(in) :: meshes(:)
@@ -170,8 +171,8 @@ contains
     used = 0
     if (allocated(joined%position)) used = int(sizes_of(joined))
     all = used + sizes_of(mesh)
-    if (maxval(all) >= huge(1)) call report(info, FUGE_ERR_SIZE, 'up to mesh '//index_text(k)//' there are more nodes ' &
-                                            //'or elements than an integer counts')
+    if (maxval(all) >= huge(1)) call report(info, FUGE_ERR_SIZE, 'up to mesh '//index_text(k)//' there are more ' &
+                                            //'nodes or elements than an integer counts')
     if (.not. info%failed()) call allocate_mesh(int(all(1)), int(all(2)), int(all(3)), longer, info)
     if (info%failed()) return
     longer%first(1) = 1

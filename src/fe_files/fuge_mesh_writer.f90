@@ -118,8 +118,8 @@ contains
       call report(info, FUGE_ERR_SIZE, 'field "'//trim(field%name)//'" has no values')
     else if (size(field%value, 1) < 1 .or. size(field%value, 1) > 3 .or. size(field%value, 2) /= columns) then
       call report(info, FUGE_ERR_SIZE, 'field "'//trim(field%name)//'" is '//text(size(field%value, 1))//' by ' &
-                  //text(size(field%value, 2))//': it needs 1, 2 or 3 components and '//text(columns)//' columns, one ' &
-                  //'for each '//trim(merge('element', 'node   ', field%of_elements)))
+                  //text(size(field%value, 2))//': it needs 1, 2 or 3 components and '//text(columns)//' columns, ' &
+                  //'one for each '//trim(merge('element', 'node   ', field%of_elements)))
     end if
     if (info%failed()) return
     do k = 1, columns
