@@ -122,10 +122,14 @@ contains
   pure subroutine check_nodes(mesh, info)
     type(fuge_mesh), intent(in) :: mesh
     type(fuge_info), intent(inout) :: info
+    logical :: known
     integer :: e, needed
 
+    needed = 0
     do e = 1, size(mesh%element)
-      needed = nodes_of_type(mesh%element_type(e))
+      known = .false.
+      if (e > 1) known = mesh%element_type(e) == mesh%element_type(e - 1)
+      if (.not. known) needed = nodes_of_type(mesh%element_type(e))
       if (needed == 0 .or. needed == mesh%first(e + 1) - mesh%first(e)) cycle
       call report(info, FUGE_ERR_ELEMENT, 'element '//index_text(e)//' of type '//trim(mesh%element_type(e))//' has ' &
                   //text(mesh%first(e + 1) - mesh%first(e))//' nodes instead of '//text(needed))
