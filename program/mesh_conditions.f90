@@ -54,7 +54,7 @@ contains
       case ('support', 'load')
         call take_word(given%settings(k), bodies, supports, info)
       case ('supports', 'loads')
-        call take_file(given%path(k), given%settings(k)%name == 'loads', bodies, supports, info)
+        call take_file(given, k, bodies, supports, info)
       end select
       if (info%failed()) return
     end do
@@ -98,6 +98,8 @@ contains
       one%nodes = word(:colon - 1)
       call read_axes(word(colon + 1:equals - 1), one, info)
       if (equals <= len(word) .and. .not. info%failed()) call read_value(word(equals + 1:), one, info)
+      if (one%is_load .and. .not. one%has_value .and. .not. info%failed()) &
+        call refuse(one%place//': a force is needed, like '//example(one%is_load), info)
     end associate
     if (.not. info%failed()) call apply(one, bodies, supports, info)
   end subroutine take_word
@@ -142,19 +144,22 @@ contains
   end subroutine read_value
 
   !> Lines of a table, NODES, AXES and VALUE, or those under *BOUNDARY or *CLOAD of an input file.
-  subroutine take_file(path, is_load, bodies, supports, info)
-    character(len=*), intent(in) :: path
-    logical, intent(in) :: is_load
+  !> Option k is FILE, or BODY=FILE, whose nodes are all of that body.
+  subroutine take_file(given, k, bodies, supports, info)
+    type(arguments), intent(in) :: given
+    integer, intent(in) :: k
     type(model_body), intent(inout) :: bodies(:)
     type(support_list), intent(inout) :: supports(:)
     type(fuge_info), intent(inout) :: info
     type(line_reader) :: file
-    character(len=:), allocatable :: keyword
+    character(len=:), allocatable :: body, keyword, path
     integer :: taken
-    logical :: exists
+    logical :: exists, is_load
 
     keyword = ''
     taken = 0
+    is_load = given%settings(k)%name == 'loads'
+    call split_path(given%settings(k), bodies, body, path)
     call file%open(path, info)
     do while (.not. info%failed())
       call file%next(exists, info)
@@ -166,7 +171,7 @@ contains
       else if (keyword /= '' .and. keyword /= trim(merge('CLOAD   ', 'BOUNDARY', is_load))) then
         cycle
       end if
-      call take_line(file%line, file%place(), is_load, keyword /= '', taken == 0, bodies, supports, info)
+      call take_line(file%line, file%place(), body, is_load, keyword /= '', taken == 0, bodies, supports, info)
       taken = taken + 1
     end do
     call file%close()
@@ -174,10 +179,30 @@ contains
       '17,z,-100: a load', '17,z: a support  ', is_load)), info)
   end subroutine take_file
 
-  !> One line of a table: nodes, axes and a value. `of_deck`: from an input file, where supports have a first and a last
+  !> The body, with a point, and the path of BODY=FILE; no body of FILE.
+  subroutine split_path(option, bodies, body, path)
+    type(setting), intent(in) :: option
+    type(model_body), intent(in) :: bodies(:)
+    character(len=:), allocatable, intent(out) :: body, path
+    integer :: equals, k
+
+    body = ''
+    path = option%value
+    equals = index(path, '=')
+    do k = 1, size(bodies)
+      if (equals == 0) exit
+      if (upper_case(bodies(k)%name) /= upper_case(path(:equals - 1))) cycle
+      body = bodies(k)%name//'.'
+      path = path(equals + 1:)
+      exit
+    end do
+    if (index(path, '/') /= 1) path = option%folder//path
+  end subroutine split_path
+
+  !> One line of a table: nodes, axes and a value. Nodes are of `body`, if it is not empty. `of_deck`: from an input file, where supports have a first and a last
   !> direction. The first line of a table may be a heading.
-  subroutine take_line(line, place, is_load, of_deck, is_first, bodies, supports, info)
-    character(len=*), intent(in) :: line, place
+  subroutine take_line(line, place, body, is_load, of_deck, is_first, bodies, supports, info)
+    character(len=*), intent(in) :: line, place, body
     logical, intent(in) :: is_load, of_deck, is_first
     type(model_body), intent(inout) :: bodies(:)
     type(support_list), intent(inout) :: supports(:)
@@ -199,7 +224,7 @@ contains
       return
     end if
     if (is_first .and. .not. of_deck .and. index(upper_case(fields(1)), 'NODE') == 1) return
-    one%nodes = trim(fields(1))
+    one%nodes = body//trim(fields(1))
     call read_axes(trim(fields(2)), one, info)
     if (of_deck .and. .not. is_load) then
       if (n > 2 .and. .not. info%failed()) then

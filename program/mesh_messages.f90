@@ -33,11 +33,24 @@ contains
       end if
       if (body > 0) call name_node(bodies(body), dof, k, length, info%message)
     end if
-    if (at == 0 .or. size(first) > 0) return
-    call find_number(info%message, BODY_WORDS, at, length, elastic)
-    if (at > 0 .and. body > 0) info%message = info%message(:at + len(BODY_WORDS) - 1)//bodies(body)%name &
-      //info%message(at + length:)
+    if (size(first) == 0) call name_bodies(bodies, info%message)
   end subroutine explain
+
+  !> Replace the numbers of bodies by their names.
+  pure subroutine name_bodies(bodies, message)
+    type(model_body), intent(in) :: bodies(:)
+    character(len=*), intent(inout) :: message
+    integer :: at, begin, body, elastic, length
+
+    begin = 1
+    do
+      call find_number(message(begin:), BODY_WORDS, at, length, elastic)
+      if (at == 0) exit
+      begin = begin + at + len(BODY_WORDS) - 1
+      body = elastic_place(bodies, elastic)
+      if (body > 0) message = message(:begin - 1)//bodies(body)%name//message(begin + length - len(BODY_WORDS):)
+    end do
+  end subroutine name_bodies
 
   !> Where `words` with a number behind them are in a message; 0 if nowhere. `length`: of both.
   pure subroutine find_number(message, words, at, length, number)

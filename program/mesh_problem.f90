@@ -154,6 +154,7 @@ contains
       deallocate (named)
       k = given%position('exclude', k)
     end do
+    if (all(problem%excluded)) call refuse('--exclude leaves no contact point', info)
   end subroutine take_excluded
 
 end module mesh_problem

@@ -51,8 +51,8 @@ module option_table
     'Supports and loads; NODES: a set, or the number of a node, such as hub.BOTTOM or hub.17', &
     '  --support NODES:XYZ     held along these axes; NODES:z=U: displaced by U', &
     '  --load NODES:z=F        the force F on each node, as *CLOAD; all loads are added', &
-    '  --supports FILE         lines NODES,DIRECTION[,U], or an input file with *BOUNDARY', &
-    '  --loads FILE            lines NODES,DIRECTION,F, or an input file with *CLOAD', &
+    '  --supports [BODY=]FILE  lines NODES,XYZ[,U], or an input file with *BOUNDARY; of BODY', &
+    '  --loads [BODY=]FILE     lines NODES,z,F, or an input file with *CLOAD; of BODY', &
     '  --exclude NODES         no contact at these nodes', &
     '', &
     'Matrices; n points, nd degrees of freedom from 1', &
