@@ -1,4 +1,4 @@
-# Headers, libraries, module files, CMake package, pkg-config files and documents.
+# Headers, libraries, the program, module files, CMake package, pkg-config files and documents.
 #
 # A static and a shared library may share a prefix: each has its own file of targets.
 include(CMakePackageConfigHelpers)
@@ -104,3 +104,15 @@ file(GLOB documents CONFIGURE_DEPENDS doc/*.md doc/*.svg doc/*.png)
 install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc" ${for_readers})
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" ${for_readers})
 install(FILES doc/man/fuge.3 DESTINATION "${CMAKE_INSTALL_MANDIR}/man3" ${for_readers})
+
+if(TARGET fuge_program)
+  # The program finds shared libraries beside it, so that the installed tree can be moved.
+  file(RELATIVE_PATH bin_to_lib "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+  set(origin "$ORIGIN")
+  if(APPLE)
+    set(origin "@loader_path")
+  endif()
+  set_target_properties(fuge_program PROPERTIES INSTALL_RPATH "${origin}/${bin_to_lib}")
+  install(TARGETS fuge_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" ${for_programs})
+  install(FILES doc/man/fuge.1 DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" ${for_readers})
+endif()

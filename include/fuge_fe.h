@@ -196,6 +196,38 @@ typedef struct fuge_mesh fuge_mesh;
  * line and the reason; FUGE_ERR_MEMORY. */
 int fuge_read_mesh(const char *path, fuge_mesh **mesh, char *message, size_t len);
 
+/* Make a mesh of arrays, without sets and surfaces; nodes and elements get the numbers 1, 2 ..
+ *   position  dimensions x nodes
+ *   element   nodes of each element, from 0, in the order of Abaqus and CalculiX, most x
+ *             elements; unused places, at the end, are -1
+ *   type      such as "C3D8" or "CPE4", one for each element (types = elements) or one for
+ *             all (types = 1)
+ * *mesh is set on success only.  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_ELEMENT for an
+ * element that has not as many nodes as its type, FUGE_ERR_MEMORY. */
+int fuge_mesh_create(int dimensions, int nodes, const double *position, int most, int elements,
+                     const int *element, int types, const char *const *type, fuge_mesh **mesh,
+                     char *message, size_t len);
+
+/* Join `count` meshes, such as those of several bodies, to one, for fuge_write_mesh: nodes
+ * and elements of all of them, one mesh after the other, without sets and surfaces.
+ * *joined is set on success only.  FUGE_ERR_SIZE, FUGE_ERR_MEMORY. */
+int fuge_mesh_join(int count, const fuge_mesh *const *mesh, fuge_mesh **joined,
+                   char *message, size_t len);
+
+/* Write a mesh and fields at its nodes or elements to a VTK file (.vtu), which ParaView
+ * reads; an existing file is replaced.
+ *   count       number of fields, 0 or more; then the rest may be NULL
+ *   name        of each field, different, 1 to 80 characters
+ *   components  of each field: 1, or 2 or 3 of a vector; a third one is added to two
+ *   elements    1: field k belongs to the elements, 0: to the nodes; NULL: all to the nodes
+ *   field       values of each field, components x nodes or elements, finite
+ * FUGE_ERR_SIZE, FUGE_ERR_ELEMENT for a type of elements that is not known,
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION for a name, FUGE_ERR_MEMORY; FUGE_ERR_FILE, if the
+ * disk is full the file is empty then. */
+int fuge_write_mesh(const char *path, const fuge_mesh *mesh, int count, const char *const *name,
+                    const int *components, const int *elements, const double *const *field,
+                    char *message, size_t len);
+
 /* Free and set *mesh to NULL; NULL and *mesh == NULL are fine. */
 void fuge_mesh_free(fuge_mesh **mesh);
 
@@ -213,9 +245,18 @@ int fuge_mesh_get_elements(const fuge_mesh *mesh, int *element, int *first, int 
  * FUGE_ERR_SIZE if there is no such element. */
 int fuge_mesh_get_type(const fuge_mesh *mesh, int k, char *type, size_t type_len);
 
+/* Numbers of sets of nodes, of elements, and of surfaces.  Each may be NULL. */
+int fuge_mesh_get_set_counts(const fuge_mesh *mesh, int *node_sets, int *element_sets, int *surfaces);
+
+/* Name of set or surface k in upper case; at most 80 characters and NUL.  FUGE_ERR_SIZE if
+ * there is none. */
+int fuge_mesh_get_node_set_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
+int fuge_mesh_get_element_set_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
+int fuge_mesh_get_surface_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
+
 /* Places of the members of a set; `name` in upper or lower case.  Only the first `capacity` are
  * written to member, which may be NULL; *count is their number.  FUGE_ERR_OPTION if the
- * mesh has no such set. */
+ * mesh has no such set; the message has the names of those it has. */
 int fuge_mesh_get_node_set(const fuge_mesh *mesh, const char *name, int capacity, int *member, int *count,
                            char *message, size_t len);
 int fuge_mesh_get_element_set(const fuge_mesh *mesh, const char *name, int capacity, int *member, int *count,

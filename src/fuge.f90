@@ -30,8 +30,11 @@ module fuge
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
   use fuge_matrix_operator, only: fuge_dense_operator
-  use fuge_mesh_files, only: fuge_mesh_faces, fuge_read_mesh
-  use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set, fuge_mesh_surface
+  use fuge_mesh_files, only: fuge_read_mesh
+  use fuge_mesh_making, only: fuge_join_meshes, fuge_make_mesh
+  use fuge_mesh_sets, only: fuge_mesh_element_set, fuge_mesh_faces, fuge_mesh_node_set
+  use fuge_mesh_type, only: fuge_mesh, fuge_mesh_field, fuge_mesh_set, fuge_mesh_surface
+  use fuge_mesh_writer, only: fuge_write_mesh
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nodal_modes, only: fuge_rigid_modes
   use fuge_operator_type, only: fuge_operator

@@ -3,11 +3,11 @@ module fuge_c_mesh_files
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
   use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_c_string, report_to_c, require_count, &
     require_path, require_pointer, set_handle, take_handle
-  use fuge_mesh_files, only: fuge_mesh_faces, fuge_read_mesh
-  use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set
+  use fuge_mesh_files, only: fuge_read_mesh
+  use fuge_mesh_sets, only: fuge_mesh_element_set, fuge_mesh_faces, fuge_mesh_node_set
+  use fuge_mesh_type, only: fuge_mesh
   use fuge_number_text, only: index_text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_SIZE
-  use fuge_text_fields, only: lower_case, quoted
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -129,10 +129,12 @@ contains
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(fuge_mesh), pointer :: mesh
+    integer, allocatable :: found(:)
     type(fuge_info) :: info
 
     call check_arguments(handle, name, capacity, count, 'member', mesh, info)
-    if (.not. info%failed()) call copy_set(mesh%node_set, 'nodes', name, int(capacity), member, count, info)
+    if (.not. info%failed()) call fuge_mesh_node_set(mesh, from_c_string(name), found, info)
+    if (.not. info%failed()) call copy_members(found, int(capacity), member, count)
     status = report_to_c(info, message, length)
   end function c_mesh_get_node_set
 
@@ -143,10 +145,12 @@ contains
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(fuge_mesh), pointer :: mesh
+    integer, allocatable :: found(:)
     type(fuge_info) :: info
 
     call check_arguments(handle, name, capacity, count, 'member', mesh, info)
-    if (.not. info%failed()) call copy_set(mesh%element_set, 'elements', name, int(capacity), member, count, info)
+    if (.not. info%failed()) call fuge_mesh_element_set(mesh, from_c_string(name), found, info)
+    if (.not. info%failed()) call copy_members(found, int(capacity), member, count)
     status = report_to_c(info, message, length)
   end function c_mesh_get_element_set
 
@@ -163,23 +167,84 @@ contains
     call require_count(capacity, 0, 'capacity', 'elements that fit into '//array, info)
   end subroutine check_arguments
 
-  !> Copy the members of the set with a name; FUGE_ERR_OPTION if there is none.
-  subroutine copy_set(sets, what, name, capacity, member, count, info)
-    type(fuge_mesh_set), intent(in) :: sets(:)
-    character(len=*), intent(in) :: what
-    type(c_ptr), intent(in) :: name, member, count
-    integer, intent(in) :: capacity
-    type(fuge_info), intent(inout) :: info
-    integer :: k
+  !> Copy the first `capacity` members of a set, counted from 0, and their number.
+  subroutine copy_members(found, capacity, member, count)
+    integer, intent(in) :: found(:), capacity
+    type(c_ptr), intent(in) :: member, count
 
-    do k = 1, size(sets)
-      if (lower_case(sets(k)%name) /= lower_case(from_c_string(name))) cycle
-      call copy_integers(sets(k)%member(:min(capacity, size(sets(k)%member))) - 1, member)
-      call copy_integers([size(sets(k)%member)], count)
-      return
-    end do
-    call report(info, FUGE_ERR_OPTION, 'the mesh has no set of '//what//' '//quoted(from_c_string(name)))
-  end subroutine copy_set
+    call copy_integers(found(:min(capacity, size(found))) - 1, member)
+    call copy_integers([size(found)], count)
+  end subroutine copy_members
+
+  function c_mesh_get_set_counts(handle, node_sets, element_sets, surfaces) &
+    bind(c, name='fuge_mesh_get_set_counts') result(status)
+    type(c_ptr), intent(in), value :: handle, node_sets, element_sets, surfaces
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+
+    call find_mesh(handle, mesh, info)
+    status = info%status
+    if (info%failed()) return
+    call copy_integers([size(mesh%node_set)], node_sets)
+    call copy_integers([size(mesh%element_set)], element_sets)
+    call copy_integers([size(mesh%surface)], surfaces)
+  end function c_mesh_get_set_counts
+
+  function c_mesh_get_node_set_name(handle, k, name, length) bind(c, name='fuge_mesh_get_node_set_name') result(status)
+    type(c_ptr), intent(in), value :: handle, name
+    integer(c_int), intent(in), value :: k
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+
+    call find_mesh(handle, mesh, info)
+    if (.not. info%failed()) call copy_name(mesh%node_set%name, k, name, length, info)
+    status = info%status
+  end function c_mesh_get_node_set_name
+
+  function c_mesh_get_element_set_name(handle, k, name, length) &
+    bind(c, name='fuge_mesh_get_element_set_name') result(status)
+    type(c_ptr), intent(in), value :: handle, name
+    integer(c_int), intent(in), value :: k
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+
+    call find_mesh(handle, mesh, info)
+    if (.not. info%failed()) call copy_name(mesh%element_set%name, k, name, length, info)
+    status = info%status
+  end function c_mesh_get_element_set_name
+
+  function c_mesh_get_surface_name(handle, k, name, length) bind(c, name='fuge_mesh_get_surface_name') result(status)
+    type(c_ptr), intent(in), value :: handle, name
+    integer(c_int), intent(in), value :: k
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+
+    call find_mesh(handle, mesh, info)
+    if (.not. info%failed()) call copy_name(mesh%surface%name, k, name, length, info)
+    status = info%status
+  end function c_mesh_get_surface_name
+
+  !> Copy name k, counted from 0; FUGE_ERR_SIZE if there is none.
+  subroutine copy_name(names, k, name, length, info)
+    character(len=*), intent(in) :: names(:)
+    integer(c_int), intent(in) :: k
+    type(c_ptr), intent(in) :: name
+    integer(c_size_t), intent(in) :: length
+    type(fuge_info), intent(inout) :: info
+
+    if (k < 0 .or. k >= size(names)) then
+      call report(info, FUGE_ERR_SIZE, 'there is no name '//index_text(int(k) + 1))
+    else
+      call copy_string(names(k + 1), name, length)
+    end if
+  end subroutine copy_name
 
   function c_mesh_get_faces(handle, name, capacity, faces, count, message, length) &
     bind(c, name='fuge_mesh_get_faces') result(status)

@@ -8,10 +8,12 @@ module fuge_element_faces
   implicit none
   private
 
-  public :: face_nodes, nodes_of_type
+  public :: face_nodes, nodes_of_type, split_type
 
   !> Most nodes of a face.
   integer, parameter, public :: MOST_FACE_NODES = 8
+  !> Families of types: unknown, others whose number of nodes is known, elements of a plane, solids.
+  integer, parameter, public :: FAMILY_UNKNOWN = 0, FAMILY_OTHER = 1, FAMILY_PLANE = 2, FAMILY_SOLID = 3
 
   !> Corners of the faces S1, S2 .. as the programs list them, their normal into the element; 0 where a face has three.
   integer, parameter :: TETRAHEDRON(4, 4) = reshape([1, 2, 3, 0, 1, 4, 2, 0, 2, 4, 3, 0, 3, 4, 1, 0], [4, 4])
@@ -26,29 +28,29 @@ module fuge_element_faces
 
 contains
 
-  !> The family of a type in upper case, and the number behind it, both empty if the type is unknown. Families: 3 a
-  !> solid, 2 an element of a plane, 1 another one whose number of nodes is known, 0 unknown.
+  !> The family of a type in upper case, and the number of its nodes, 0 if the type is unknown.
   pure subroutine split_type(element_type, family, nodes)
     character(len=*), intent(in) :: element_type
     integer, intent(out) :: family, nodes
-    character(len=3), parameter :: NAMES(7) = ['C3D', 'CPS', 'CPE', 'CAX', 'M3D', 'T3D', 'T2D']
-    integer, parameter :: FAMILIES(7) = [3, 2, 2, 2, 1, 1, 1]
+    character(len=3), parameter :: NAMES(8) = ['C3D', 'CPS', 'CPE', 'CAX', 'M3D', 'T3D', 'T2D', 'R3D']
+    integer, parameter :: FAMILIES(8) = [FAMILY_SOLID, FAMILY_PLANE, FAMILY_PLANE, FAMILY_PLANE, FAMILY_OTHER, &
+                                         FAMILY_OTHER, FAMILY_OTHER, FAMILY_OTHER]
     integer :: k, begin
 
-    family = 0
+    family = FAMILY_UNKNOWN
     begin = 4
     do k = 1, size(NAMES)
       if (index(element_type, NAMES(k)) == 1) family = FAMILIES(k)
     end do
-    if (family == 0 .and. element_type(1:1) == 'S' .and. verify(element_type(2:2), '3468') == 0) then
-      family = 1
+    if (family == FAMILY_UNKNOWN .and. element_type(1:1) == 'S' .and. scan(element_type, '3468') == 2) then
+      family = FAMILY_OTHER
       begin = 2
     end if
     nodes = 0
-    if (family > 0) call leading_number(element_type(begin:), nodes)
+    if (family /= FAMILY_UNKNOWN) call leading_number(element_type(begin:), nodes)
     ! The number of nodes of some types varies.
     if (nodes == 27 .or. index(element_type, 'V') > 0) nodes = 0
-    if (nodes == 0) family = 0
+    if (nodes == 0) family = FAMILY_UNKNOWN
   end subroutine split_type
 
   !> The whole number at the beginning of a text, of one or two digits.
@@ -88,9 +90,9 @@ contains
     count = 0
     nodes = 0
     call split_type(element_type, family, number)
-    if (family == 2) then
+    if (family == FAMILY_PLANE) then
       call edge_nodes(number, face, count, nodes)
-    else if (family == 3) then
+    else if (family == FAMILY_SOLID) then
       select case (number)
       case (4, 10)
         call solid_face(TETRAHEDRON, TETRAHEDRON_EDGES, 4, number == 10, face, count, nodes)

@@ -1,17 +1,17 @@
 !> Meshes from input files of Abaqus and CalculiX: what both programs have in common.
 module fuge_mesh_files
-  use fuge_element_faces, only: face_nodes, nodes_of_type, MOST_FACE_NODES
+  use fuge_element_faces, only: nodes_of_type
   use fuge_input_deck, only: input_deck, upper_case, LINE_DATA, LINE_END, LINE_KEYWORD, VALUE_LENGTH
   use fuge_mesh_draft, only: draft_sets, finish_mesh, mesh_draft
   use fuge_mesh_lines, only: mesh_block, read_element_line, read_node_line, read_set_line, read_surface_line
-  use fuge_mesh_type, only: fuge_mesh, NAME_LENGTH, TYPE_LENGTH
+  use fuge_mesh_type, only: fuge_mesh, move_mesh, NAME_LENGTH, TYPE_LENGTH
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION
+  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
   use fuge_text_fields, only: quoted
   implicit none
   private
 
-  public :: fuge_mesh_faces, fuge_read_mesh
+  public :: fuge_read_mesh
 
   !> What the data lines under a keyword are.
   integer, parameter :: DATA_SKIPPED = 0, DATA_NODES = 1, DATA_ELEMENTS = 2, DATA_NODE_SET = 3, DATA_ELEMENT_SET = 4, &
@@ -48,21 +48,6 @@ contains
     call finish_mesh(draft, found, info)
     if (.not. info%failed()) call move_mesh(found, mesh)
   end subroutine fuge_read_mesh
-
-  !> Move a mesh; nothing is copied.
-  pure subroutine move_mesh(from, to)
-    type(fuge_mesh), intent(inout) :: from, to
-
-    call move_alloc(from%node, to%node)
-    call move_alloc(from%position, to%position)
-    call move_alloc(from%element, to%element)
-    call move_alloc(from%element_type, to%element_type)
-    call move_alloc(from%first, to%first)
-    call move_alloc(from%connection, to%connection)
-    call move_alloc(from%node_set, to%node_set)
-    call move_alloc(from%element_set, to%element_set)
-    call move_alloc(from%surface, to%surface)
-  end subroutine move_mesh
 
   !> Read all lines.
   subroutine read_deck(deck, draft, info)
@@ -228,52 +213,5 @@ contains
       block%nodes = nodes_of_type(trim(element_type))
     end if
   end subroutine choose_type
-
-  !> The nodes of the faces of a surface.
-  !>
-  !> `name`: in upper or lower case. `faces` (8, faces), allocated afresh: places of the nodes in mesh%node, corners
-  !> first, then those on the edges, 0 beyond. Corners of a solid's face follow each other counter-clockwise if it is
-  !> seen from outside; an edge of an element of a plane goes counter-clockwise round the element.
-  !> Errors, `faces` unchanged: FUGE_ERR_OPTION if the mesh has no such surface, FUGE_ERR_ELEMENT for a type of elements
-  !> that has no such face or whose faces are not known; FUGE_ERR_MEMORY.
-  subroutine fuge_mesh_faces(mesh, name, faces, info)
-    type(fuge_mesh), intent(in) :: mesh
-    character(len=*), intent(in) :: name
-    integer, allocatable, intent(inout) :: faces(:, :)
-    type(fuge_info), intent(out) :: info
-    integer, allocatable :: found(:, :)
-    integer :: count, element, i, k, nodes(MOST_FACE_NODES), status, surface
-
-    surface = 0
-    if (allocated(mesh%surface)) then
-      do k = 1, size(mesh%surface)
-        if (mesh%surface(k)%name == upper_case(name)) surface = k
-      end do
-    end if
-    if (surface == 0) then
-      call report(info, FUGE_ERR_OPTION, 'the mesh has no surface '//quoted(name))
-      return
-    end if
-    allocate (found(MOST_FACE_NODES, size(mesh%surface(surface)%element)), stat=status)
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the faces of '//quoted(name))
-      return
-    end if
-    found = 0
-    do k = 1, size(found, 2)
-      element = mesh%surface(surface)%element(k)
-      call face_nodes(mesh%element_type(element), mesh%surface(surface)%face(k), count, nodes)
-      if (count == 0) then
-        call report(info, FUGE_ERR_ELEMENT, 'surface '//quoted(name)//': element '//text(mesh%element(element)) &
-                    //' of type '//trim(mesh%element_type(element))//' has no face S' &
-                    //text(mesh%surface(surface)%face(k))//', or its faces are not known')
-        return
-      end if
-      do i = 1, count
-        found(i, k) = mesh%connection(mesh%first(element) + nodes(i) - 1)
-      end do
-    end do
-    call move_alloc(found, faces)
-  end subroutine fuge_mesh_faces
 
 end module fuge_mesh_files

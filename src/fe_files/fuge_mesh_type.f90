@@ -4,6 +4,8 @@ module fuge_mesh_type
   implicit none
   private
 
+  public :: move_mesh
+
   !> Longest name of a set or a surface.
   integer, parameter, public :: NAME_LENGTH = 80
   !> Longest name of a type of elements.
@@ -27,6 +29,16 @@ module fuge_mesh_type
     integer, allocatable :: face(:)
   end type fuge_mesh_surface
 
+  !> Values at the nodes of a mesh, or of its elements, for `fuge_write_mesh`.
+  type, public :: fuge_mesh_field
+    !> Different for each field of a file.
+    character(len=NAME_LENGTH) :: name = ''
+    !> One column for each node: one value, or a vector of two or three components, (1, 2 or 3, nodes).
+    real(dp), allocatable :: value(:, :)
+    !> The columns belong to the elements instead, (1, 2 or 3, elements).
+    logical :: of_elements = .false.
+  end type fuge_mesh_field
+
   !> A mesh. Nodes and elements have the order of the file.
   type, public :: fuge_mesh
     !> Number of each node in the file.
@@ -48,5 +60,22 @@ module fuge_mesh_type
     !> Surfaces of faces.
     type(fuge_mesh_surface), allocatable :: surface(:)
   end type fuge_mesh
+
+contains
+
+  !> Move a mesh; nothing is copied.
+  pure subroutine move_mesh(from, to)
+    type(fuge_mesh), intent(inout) :: from, to
+
+    call move_alloc(from%node, to%node)
+    call move_alloc(from%position, to%position)
+    call move_alloc(from%element, to%element)
+    call move_alloc(from%element_type, to%element_type)
+    call move_alloc(from%first, to%first)
+    call move_alloc(from%connection, to%connection)
+    call move_alloc(from%node_set, to%node_set)
+    call move_alloc(from%element_set, to%element_set)
+    call move_alloc(from%surface, to%surface)
+  end subroutine move_mesh
 
 end module fuge_mesh_type

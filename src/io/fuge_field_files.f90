@@ -8,7 +8,8 @@ module fuge_field_files
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_GRID, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   use fuge_text_writer, only: text_output
-  use fuge_vtk_fields, only: begin_vtk, check_fields, end_vtk, number_pair, put_array, put_field_list, put_fields
+  use fuge_vtk_fields, only: begin_values, begin_vtk, check_fields, end_vtk, number_pair, put_array, put_field_list, &
+    put_fields
   implicit none
   private
 
@@ -131,14 +132,6 @@ contains
     call file%put('</RectilinearGrid>')
     call begin_values(file)
   end subroutine write_volume_head
-
-  !> Write what stands between the XML and the numbers.
-  subroutine begin_values(file)
-    type(text_output), intent(inout) :: file
-
-    call file%put('<AppendedData encoding="raw">')
-    call file%put_bytes('_')
-  end subroutine begin_values
 
   !> Refuse depths that do not ascend (FUGE_ERR_GRID), none (FUGE_ERR_SIZE), NaN and infinity (FUGE_ERR_NOT_FINITE).
   pure subroutine check_depths(depth, info)

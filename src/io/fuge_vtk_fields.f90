@@ -12,7 +12,8 @@ module fuge_vtk_fields
   implicit none
   private
 
-  public :: begin_vtk, check_fields, end_vtk, number_pair, put_array, put_field_list, put_fields
+  public :: begin_values, begin_vtk, check_fields, check_name, check_values, end_vtk, number_pair, put_array, &
+    put_field_list, put_fields, put_length, put_vector, whole
 
   !> Length of a name; longer ones are refused.
   integer, parameter :: NAME_LENGTH = 200
@@ -47,18 +48,52 @@ contains
     call file%put('</'//section//'>')
   end subroutine put_field_list
 
-  !> Write where the `points` values of an array are; `offset` moves beyond them.
-  subroutine put_array(file, name, points, offset)
+  !> Write where an array is, which has `components` values (1 unless given) at each of so many `points`; `offset` moves
+  !> beyond them. `type`: of the numbers, Float64 unless given, Int64 or UInt8.
+  subroutine put_array(file, name, points, offset, components, type)
     type(text_output), intent(inout) :: file
     character(len=*), intent(in) :: name
     integer(int64), intent(in) :: points
     integer(int64), intent(inout) :: offset
+    integer, intent(in), optional :: components
+    character(len=*), intent(in), optional :: type
+    character(len=7) :: number
+    integer :: each
 
-    call file%put_bytes('<DataArray type="Float64" Name="')
+    each = 1
+    if (present(components)) each = components
+    number = 'Float64'
+    if (present(type)) number = type
+    call file%put_bytes('<DataArray type="'//trim(number)//'" Name="')
     call put_name(file, name)
+    if (each > 1) call file%put_bytes('" NumberOfComponents="'//text(each))
     call file%put('" format="appended" offset="'//trim(whole(offset))//'"/>')
-    offset = offset + 8_int64*(points + 1_int64)
+    offset = offset + 8_int64 + merge(1_int64, 8_int64, number == 'UInt8')*each*points
   end subroutine put_array
+
+  !> Write what stands between the XML and the numbers.
+  subroutine begin_values(file)
+    type(text_output), intent(inout) :: file
+
+    call file%put('<AppendedData encoding="raw">')
+    call file%put_bytes('_')
+  end subroutine begin_values
+
+  !> Write the number of bytes of the array that follows.
+  subroutine put_length(file, bytes)
+    type(text_output), intent(inout) :: file
+    integer(int64), intent(in) :: bytes
+
+    call file%put_bytes(transfer(bytes, repeat(' ', 8)))
+  end subroutine put_length
+
+  !> Write the three components of a vector.
+  subroutine put_vector(file, vector)
+    type(text_output), intent(inout) :: file
+    real(dp), intent(in) :: vector(3)
+
+    call file%put_bytes(transfer(vector, repeat(' ', 24)))
+  end subroutine put_vector
 
   !> Write the values of fields, (points, k), each after the number of its bytes.
   subroutine put_fields(file, fields)
@@ -67,7 +102,7 @@ contains
     integer :: k
 
     do k = 1, size(fields, 2)
-      call file%put_bytes(transfer(8_int64*size(fields, 1, kind=int64), repeat(' ', 8)))
+      call put_length(file, 8_int64*size(fields, 1, kind=int64))
       call file%put_reals(fields(:, k))
     end do
   end subroutine put_fields

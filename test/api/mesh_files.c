@@ -43,14 +43,27 @@ static void test_mesh(void) {
   CHECK_STATUS(fuge_mesh_get_element_set(mesh, "TET", 4, member, &count, NULL, 0), FUGE_DONE);
   CHECK(count == 1 && member[0] == 0);
   CHECK_STATUS(fuge_mesh_get_element_set(mesh, "BASE", 4, member, &count, message, sizeof message), FUGE_ERR_OPTION);
-  CHECK_STRING(message, "the mesh has no set of elements \"BASE\"");
+  CHECK_STRING(message, "the mesh has no set of elements \"BASE\", it has TET");
   CHECK_STATUS(fuge_mesh_get_faces(mesh, "foot", 0, NULL, &count, NULL, 0), FUGE_DONE);
   CHECK_INT(count, 2);
   CHECK_STATUS(fuge_mesh_get_faces(mesh, "foot", 2, faces, &count, NULL, 0), FUGE_DONE);
   CHECK(faces[0] == 0 && faces[1] == 2 && faces[2] == 1 && faces[3] == -1 && faces[7] == -1);
   CHECK(faces[8] == 1 && faces[9] == 2 && faces[10] == 3 && faces[15] == -1);
   CHECK_STATUS(fuge_mesh_get_faces(mesh, "TOP", 2, faces, &count, message, sizeof message), FUGE_ERR_OPTION);
-  CHECK_STRING(message, "the mesh has no surface \"TOP\"");
+  CHECK_STRING(message, "the mesh has no surface \"TOP\", it has FOOT");
+  CHECK_STATUS(fuge_mesh_get_set_counts(mesh, &nodes, &elements, &count), FUGE_DONE);
+  CHECK(nodes == 1 && elements == 1 && count == 1);
+  CHECK_STATUS(fuge_mesh_get_set_counts(mesh, NULL, NULL, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_mesh_get_node_set_name(mesh, 0, message, sizeof message), FUGE_DONE);
+  CHECK_STRING(message, "BASE");
+  CHECK_STATUS(fuge_mesh_get_element_set_name(mesh, 0, message, sizeof message), FUGE_DONE);
+  CHECK_STRING(message, "TET");
+  CHECK_STATUS(fuge_mesh_get_surface_name(mesh, 0, message, sizeof message), FUGE_DONE);
+  CHECK_STRING(message, "FOOT");
+  CHECK_STATUS(fuge_mesh_get_surface_name(mesh, 1, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_mesh_get_node_set_name(mesh, -1, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_mesh_get_element_set_name(NULL, 0, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_mesh_get_set_counts(NULL, NULL, NULL, &count), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_mesh_get_faces(mesh, NULL, 2, faces, &count, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_mesh_get_faces(mesh, "TOP", 2, faces, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_mesh_get_faces(mesh, "TOP", -1, faces, &count, NULL, 0), FUGE_ERR_SIZE);
@@ -80,8 +93,139 @@ static void test_refusals(void) {
   remove(NAME);
 }
 
+/* The content of the file NAME; at most size bytes. */
+static size_t read_back(char *content, size_t size) {
+  FILE *file = fopen(NAME, "rb");
+  size_t bytes = 0;
+  CHECK(file != NULL);
+  if (file == NULL) return 0;
+  bytes = fread(content, 1, size, file);
+  fclose(file);
+  return bytes;
+}
+
+/* The double at `place` among the numbers of a VTK file. */
+static double number_at(const char *content, size_t bytes, size_t place) {
+  static const char begin[] = "<AppendedData encoding=\"raw\">\n_";
+  double number = SENTINEL;
+  for (size_t k = 0; k + sizeof begin + place + 7 < bytes; k++) {
+    if (memcmp(content + k, begin, sizeof begin - 1) != 0) continue;
+    memcpy(&number, content + k + sizeof begin - 1 + place, 8);
+  }
+  return number;
+}
+
+/* A square and a triangle beside it, twice, as two bodies in one file with fields. */
+static void test_write(void) {
+  const double position[10] = {0., 0., 1., 0., 1., 1., 0., 1., 2., 0.5};
+  const int element[8] = {0, 1, 2, 3, 1, 4, 2, -1};
+  const char *const types[2] = {"cps4", "CPS3"};
+  const char *const long_type = "C3D8_____________";
+  const char *const names[2] = {"u", "body"};
+  const char *const same[2] = {"u", "u"};
+  const int components[2] = {2, 1}, elements[2] = {0, 1};
+  double u[20], body[4] = {1., 1., 2., 2.};
+  const double *const fields[2] = {u, body};
+  const double *const missing[2] = {u, NULL};
+  fuge_mesh *mesh = NULL, *joined = NULL, *none = NULL;
+  const fuge_mesh *both[2];
+  static char content[4000];
+  char message[256] = "old", type[17];
+  int count = 0, node[10], first[5], connection[14], nodes, cells;
+  size_t bytes;
+  for (int k = 0; k < 20; k++) u[k] = k + 0.25;
+  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 2, types, &mesh, message, sizeof message), FUGE_DONE);
+  CHECK_STRING(message, "");
+  if (mesh == NULL) return;
+  CHECK_STATUS(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE);
+  CHECK_STRING(type, "CPS4");
+  CHECK_STATUS(fuge_mesh_get_node_set(mesh, "A", 0, NULL, &count, NULL, 0), FUGE_ERR_OPTION);
+  both[0] = mesh;
+  both[1] = mesh;
+  CHECK_STATUS(fuge_mesh_join(2, both, &joined, message, sizeof message), FUGE_DONE);
+  if (joined == NULL) return;
+  CHECK_STATUS(fuge_mesh_get_sizes(joined, &nodes, &cells, &count), FUGE_DONE);
+  CHECK(nodes == 10 && cells == 4 && count == 14);
+  CHECK_STATUS(fuge_mesh_get_nodes(joined, node, NULL), FUGE_DONE);
+  CHECK(node[4] == 5 && node[5] == 1);
+  CHECK_STATUS(fuge_mesh_get_elements(joined, NULL, first, connection), FUGE_DONE);
+  CHECK(first[2] == 7 && first[4] == 14 && connection[7] == 5 && connection[12] == 9);
+  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields, message, sizeof message), FUGE_DONE);
+  bytes = read_back(content, sizeof content);
+  CHECK(bytes > 0 && bytes < sizeof content);
+  CHECK_NEAR(number_at(content, bytes, 8), 0.25, 0.0);
+  CHECK_NEAR(number_at(content, bytes, 16), 1.25, 0.0);
+  CHECK_NEAR(number_at(content, bytes, 24), 0.0, 0.0);
+  CHECK_NEAR(number_at(content, bytes, 8 + 9 * 24 + 8), 19.25, 0.0);
+  CHECK_NEAR(number_at(content, bytes, 8 + 10 * 24 + 8 + 3 * 8), 2.0, 0.0);
+  CHECK_STATUS(fuge_write_mesh(NAME, mesh, 0, NULL, NULL, NULL, NULL, message, sizeof message), FUGE_DONE);
+  CHECK(read_back(content, sizeof content) < bytes);
+  CHECK_STATUS(fuge_write_mesh(NAME, mesh, 2, names, components, NULL, fields, message, sizeof message), FUGE_DONE);
+  remove(NAME);
+  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, same, components, elements, fields, message, sizeof message),
+               FUGE_ERR_OPTION);
+  CHECK_CONTAINS(message, "fields 0 and 1 have the same name");
+  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, elements, elements, fields, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_CONTAINS(message, "components[0] = 0");
+  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, missing, message, sizeof message),
+               FUGE_ERR_POINTER);
+  CHECK_STRING(message, "field[1] is NULL");
+  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, NULL, components, elements, fields, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_mesh(NAME, joined, -1, names, components, elements, fields, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_mesh(NULL, joined, 0, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_mesh(NAME, NULL, 0, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
+  u[3] = NAN;
+  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields, message, sizeof message),
+               FUGE_ERR_NOT_FINITE);
+  CHECK_CONTAINS(message, "field \"u\", column 1: component(1) = NaN");
+  CHECK(fopen(NAME, "rb") == NULL);
+  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, types, &none, message, sizeof message),
+               FUGE_ERR_ELEMENT);
+  CHECK_STRING(message, "element 1 of type CPS4 has 3 nodes instead of 4");
+  CHECK_STATUS(fuge_mesh_create(2, 4, position, 4, 2, element, 2, types, &none, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STRING(message, "element 1 names node 4: there are 4");
+  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, &long_type, &none, message, sizeof message),
+               FUGE_ERR_OPTION);
+  CHECK_CONTAINS(message, "type[0]");
+  CHECK_STATUS(fuge_mesh_create(2, 5, NULL, 4, 2, element, 2, types, &none, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, NULL, 2, types, &none, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 2, NULL, &none, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 2, types, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_mesh_create(4, 2, position, 4, 2, element, 2, types, &none, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_mesh_join(0, both, &none, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_mesh_join(2, NULL, &none, NULL, 0), FUGE_ERR_POINTER);
+  both[1] = NULL;
+  CHECK_STATUS(fuge_mesh_join(2, both, &none, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STRING(message, "mesh[1] is NULL");
+  CHECK(none == NULL);
+  fuge_mesh_free(&joined);
+  fuge_mesh_free(&mesh);
+}
+
+/* A full disk, where there is one: more than the library writes at a time, and less. */
+static void test_full_disk(void) {
+  enum { LARGE = 6000 };
+  static double position[2 * LARGE];
+  const int element[3] = {0, 1, 2};
+  const char *const type = "CPE3";
+  char message[256] = "";
+  FILE *full = fopen("/dev/full", "wb");
+  if (full == NULL) return;
+  fclose(full);
+  for (int n = 3; n <= LARGE; n += LARGE - 3) {
+    fuge_mesh *mesh = NULL;
+    CHECK_STATUS(fuge_mesh_create(2, n, position, 3, 1, element, 1, &type, &mesh, NULL, 0), FUGE_DONE);
+    message[0] = '\0';
+    CHECK_STATUS(fuge_write_mesh("/dev/full", mesh, 0, NULL, NULL, NULL, NULL, message, sizeof message), FUGE_ERR_FILE);
+    CHECK_CONTAINS(message, "\"/dev/full\" cannot be written: ");
+    fuge_mesh_free(&mesh);
+  }
+}
+
 int main(void) {
   test_mesh();
   test_refusals();
+  test_write();
+  test_full_disk();
   return check_summary();
 }

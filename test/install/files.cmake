@@ -1,6 +1,6 @@
-# Headers, module files and documents are installed, each by its component.
-# ctest sets PREFIX, BUILD_DIR, SOURCE_DIR, SCRATCH, CONFIG, LIBDIR, DOCDIR, MANDIR, INCLUDEDIR, MODULEDIR
-# and COMPILER_ID.
+# Headers, module files, documents and the program are installed, each by its component.
+# ctest sets PREFIX, BUILD_DIR, SOURCE_DIR, SCRATCH, CONFIG, LIBDIR, DOCDIR, MANDIR, INCLUDEDIR, MODULEDIR,
+# BINDIR, PROGRAM and COMPILER_ID.
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
@@ -33,6 +33,9 @@ foreach(pattern IN ITEMS doc/*.md doc/*.png doc/*.svg README.md LICENSE CHANGELO
   expect_copies("${SOURCE_DIR}" ${pattern} "${PREFIX}/${DOCDIR}")
 endforeach()
 expect_copies("${SOURCE_DIR}/doc/man" *.3 "${PREFIX}/${MANDIR}/man3")
+if(PROGRAM)
+  expect_copies("${SOURCE_DIR}/doc/man" *.1 "${PREFIX}/${MANDIR}/man1")
+endif()
 if(NOT MODULEDIR MATCHES "[0-9]+\\.[0-9]+")
   message(SEND_ERROR "the folder of the module files does not name the compiler's version: ${MODULEDIR}")
 endif()
@@ -50,7 +53,7 @@ foreach(component IN ITEMS runtime development documents)
   elseif(component STREQUAL "development")
     list(FILTER strange EXCLUDE REGEX "^(${INCLUDEDIR}|${LIBDIR})/")
   else()
-    list(FILTER strange EXCLUDE REGEX "^${LIBDIR}/libfuge[^/]*\\.so\\.[0-9.]*$")
+    list(FILTER strange EXCLUDE REGEX "^(${LIBDIR}/libfuge[^/]*\\.so\\.[0-9.]*|${BINDIR}/fuge)$")
   endif()
   if(strange)
     message(SEND_ERROR "component ${component} brings along: ${strange}")

@@ -1,10 +1,12 @@
-!> The body of the example `solve_mtx`: its files, condensed to the contact points.
-module solve_mtx_body
+!> A body from matrices in files, condensed to its contact points.
+module matrix_body
+  use chosen_stiffness, only: stored_stiffness
+  use command_line, only: arguments
   use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_info, fuge_problem, fuge_read_matrix, &
-    fuge_read_sparse, fuge_solution, FUGE_ERR_DOF
-  use solve_mtx_arguments, only: arguments
-  use solve_mtx_files, only: read_vector, refuse_size
-  use solve_mtx_stiffness, only: stored_stiffness
+    fuge_read_sparse, fuge_read_stiffness, fuge_solution, FUGE_ERR_DOF
+  use matrix_files, only: read_vector, refuse_size
+  use number_words, only: number_text
+  use progress_log, only: progress
   implicit none
   private
 
@@ -24,21 +26,30 @@ module solve_mtx_body
 contains
 
   !> Read all files of the body and condense it.
-  subroutine read_body(self, given, info)
+  subroutine read_body(self, given, log, info)
     class(elastic_body), intent(inout), target :: self
     type(arguments), intent(in) :: given
+    type(progress), intent(in) :: log
     type(fuge_info), intent(out) :: info
+    integer, allocatable :: column(:), row(:), node(:), direction(:)
+    real(dp), allocatable :: value(:)
 
-    call self%stored%read(given%file('stiffness'), info)
+    call fuge_read_stiffness(given%file('stiffness'), column, row, value, node, direction, info, &
+                             names_path=given%file('rows'))
     if (info%failed()) return
-    self%degrees = self%stored%stiffness%degrees()
+    call log%say('stiffness matrix of '//number_text(size(column) - 1)//' rows is read')
+    call self%stored%set(column, row, value, info)
+    if (info%failed()) return
+    self%degrees = size(column) - 1
     self%body%floats = given%has('floats')
     call read_contact(given%file('contact'), self%degrees, self%body, info)
     if (given%has('fixed') .and. .not. info%failed()) call read_fixed(given%file('fixed'), self%body, info)
     if (given%has('external') .and. .not. info%failed()) then
       call read_vector(given%file('external'), self%degrees, self%body%load, info)
     end if
-    if (.not. info%failed()) call fuge_condense(self%stored%stiffness, self%body, self%condensed, info)
+    if (info%failed()) return
+    call fuge_condense(self%stored%stiffness, self%body, self%condensed, info)
+    if (.not. info%failed()) call log%say('the body is condensed to '//number_text(self%points())//' points')
   end subroutine read_body
 
   pure function points(self) result(n)
@@ -142,4 +153,4 @@ contains
     call self%condensed%recover(solution, field, info)
   end subroutine recover
 
-end module solve_mtx_body
+end module matrix_body

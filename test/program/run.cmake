@@ -14,7 +14,7 @@ endif()
 execute_process(COMMAND "${PROGRAM}" ${arguments} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
 
 if(DEFINED MESSAGE)
-  if(NOT status EQUAL 1 OR NOT errors MATCHES "(^|\n)solve_mtx: [^\n]*${MESSAGE}[^\n]*\n$")
+  if(NOT status EQUAL 1 OR NOT errors MATCHES "(^|\n)fuge: [^\n]*${MESSAGE}[^\n]*\n$")
     message(FATAL_ERROR "exit status ${status}, expected 1; message \"${errors}\", expected \"${MESSAGE}\"")
   endif()
   if(EXISTS "${table}" OR NOT output STREQUAL "")
@@ -24,7 +24,7 @@ if(DEFINED MESSAGE)
 endif()
 
 # A build with run-time checks may have more to say there.
-if(NOT status EQUAL 0 OR errors MATCHES "solve_mtx: ")
+if(NOT status EQUAL 0 OR errors MATCHES "fuge: ")
   message(FATAL_ERROR "exit status ${status}, message \"${errors}\"")
 endif()
 function(compare found expected)

@@ -1,14 +1,14 @@
-!> Tables of the example `solve_mtx`: CSV with comments after #.
-module solve_mtx_tables
+!> Tables as text: CSV with comments after #.
+module text_table
   use, intrinsic :: iso_fortran_env, only: int64, output_unit
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text, FUGE_ERR_FILE
+  use fuge, only: fuge_info, FUGE_ERR_FILE
   implicit none
   private
 
-  public :: write_contact, write_field
+  public :: check_path
 
   !> A file, or standard output. After the first error nothing more is written, and `finish` reports it.
-  type :: table
+  type, public :: table
     integer :: unit = output_unit
     integer :: failure = 0
     integer(int64) :: bytes = 0_int64
@@ -21,71 +21,6 @@ module solve_mtx_tables
   end type table
 
 contains
-
-  !> Forces and gaps; on standard output if `path` is empty.
-  subroutine write_contact(path, problem, solution, info)
-    character(len=*), intent(in) :: path
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(in) :: solution
-    type(fuge_info), intent(inout) :: info
-    type(table) :: csv
-    character(len=320) :: line
-    integer :: k
-
-    call csv%create(path, info)
-    if (info%failed()) return
-    write (line, '(a,i0,2a)') '# status: ', info%status, ', ', fuge_status_text(info%status)
-    call csv%put(line)
-    if (info%status /= 0) call csv%put('# message: '//info%message)
-    write (line, '(a,es9.2e3)') '# residual: ', info%residual
-    call csv%put(line)
-    write (line, '(a,i0)') '# contacts: ', info%contacts
-    call csv%put(line)
-    do k = 1, size(solution%motion)
-      write (line, '(a,i0,2(a,es24.16e3))') '# motion ', k, ': ', solution%motion(k), ', resultant: ', &
-        resultant(problem, solution%force, k)
-      call csv%put(line)
-    end do
-    call csv%put('point,force,gap')
-    do k = 1, size(solution%force)
-      write (line, '(i0,2('','',es24.16e3))') k, solution%force(k), solution%gap(k)
-      call csv%put(line)
-    end do
-    call csv%finish(info)
-  end subroutine write_contact
-
-  !> (R^T f)_k
-  pure function resultant(problem, force, k)
-    type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: force(:)
-    integer, intent(in) :: k
-    real(dp) :: resultant
-
-    if (allocated(problem%modes)) then
-      resultant = dot_product(problem%modes(:, k), force)
-    else
-      resultant = sum(force)
-    end if
-  end function resultant
-
-  !> Displacements of the whole body.
-  subroutine write_field(path, field, info)
-    character(len=*), intent(in) :: path
-    real(dp), intent(in) :: field(:)
-    type(fuge_info), intent(inout) :: info
-    type(table) :: csv
-    character(len=40) :: line
-    integer :: k
-
-    call csv%create(path, info)
-    if (info%failed()) return
-    call csv%put('degree of freedom,displacement')
-    do k = 1, size(field)
-      write (line, '(i0,'','',es24.16e3)') k, field(k)
-      call csv%put(line)
-    end do
-    call csv%finish(info)
-  end subroutine write_field
 
   !> Replace the file at `path`; standard output if that is empty. Error: FUGE_ERR_FILE.
   subroutine create(self, path, info)
@@ -122,8 +57,35 @@ contains
     if (self%unit == output_unit) return
     if (self%failure == 0) close (self%unit, iostat=self%failure, iomsg=self%reason)
     if (self%failure == 0) call compare_size(self)
-    if (self%failure /= 0) call refuse(self, 'written', info)
+    if (self%failure == 0) return
+    ! After a failed write it is still open.
+    close (self%unit, iostat=self%failure)
+    call empty(self%path)
+    call refuse(self, 'written', info)
   end subroutine finish
+
+  !> Leave no part of a table that could be taken for the whole.
+  subroutine empty(path)
+    character(len=*), intent(in) :: path
+    integer :: status, unit
+
+    open (newunit=unit, file=path, status='replace', action='write', access='stream', form='unformatted', iostat=status)
+    if (status == 0) close (unit, iostat=status)
+  end subroutine empty
+
+  !> Refuse, before all is computed, a path at which no file can be made. Error: FUGE_ERR_FILE.
+  subroutine check_path(path, info)
+    character(len=*), intent(in) :: path
+    type(fuge_info), intent(inout) :: info
+    type(table) :: csv
+    logical :: exists
+
+    if (len_trim(path) == 0) return
+    inquire (file=path, exist=exists)
+    if (exists) return
+    call csv%create(path, info)
+    if (.not. info%failed()) close (csv%unit, status='delete', iostat=csv%failure)
+  end subroutine check_path
 
   !> On a full disk a run-time library may report nothing: then the file is too short.
   subroutine compare_size(self)
@@ -148,4 +110,4 @@ contains
     info%message = '"'//self%path//'" cannot be '//verb//': '//trim(self%reason)
   end subroutine refuse
 
-end module solve_mtx_tables
+end module text_table

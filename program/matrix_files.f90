@@ -1,5 +1,5 @@
-!> Files of the example `solve_mtx`: matrices and vectors of the right size.
-module solve_mtx_files
+!> Matrix Market files: matrices and vectors of the right size.
+module matrix_files
   use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_read_matrix, FUGE_ERR_SIZE
   implicit none
   private
@@ -69,4 +69,4 @@ contains
     info%message = '"'//path//'": a matrix of '//trim(there)//', '//wanted
   end subroutine refuse_size
 
-end module solve_mtx_files
+end module matrix_files

@@ -1,0 +1,86 @@
+!> Tables of contact forces and of displacements: CSV with comments after #.
+module contact_table
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text
+  use text_table, only: table
+  implicit none
+  private
+
+  public :: put_status, write_contact, write_field
+
+contains
+
+  !> Forces and gaps; on standard output if `path` is empty.
+  subroutine write_contact(path, problem, solution, info)
+    character(len=*), intent(in) :: path
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(table) :: csv
+    character(len=320) :: line
+    integer :: k
+
+    call csv%create(path, info)
+    if (info%failed()) return
+    call put_status(csv, info)
+    do k = 1, size(solution%motion)
+      write (line, '(a,i0,2(a,es24.16e3))') '# motion ', k, ': ', solution%motion(k), ', resultant: ', &
+        resultant(problem, solution%force, k)
+      call csv%put(line)
+    end do
+    call csv%put('point,force,gap')
+    do k = 1, size(solution%force)
+      write (line, '(i0,2('','',es24.16e3))') k, solution%force(k), solution%gap(k)
+      call csv%put(line)
+    end do
+    call csv%finish(info)
+  end subroutine write_contact
+
+  !> Status, message and residual.
+  subroutine put_status(csv, info)
+    type(table), intent(inout) :: csv
+    type(fuge_info), intent(in) :: info
+    character(len=320) :: line
+
+    write (line, '(a,i0,2a)') '# status: ', info%status, ', ', fuge_status_text(info%status)
+    call csv%put(line)
+    if (info%status /= 0) call csv%put('# message: '//info%message)
+    write (line, '(a,es9.2e3)') '# residual: ', info%residual
+    call csv%put(line)
+    write (line, '(a,i0)') '# contacts: ', info%contacts
+    call csv%put(line)
+  end subroutine put_status
+
+  !> (R^T f)_k
+  pure function resultant(problem, force, k)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:)
+    integer, intent(in) :: k
+    real(dp) :: resultant
+
+    if (allocated(problem%modes)) then
+      resultant = dot_product(problem%modes(:, k), force)
+    else
+      resultant = sum(force)
+    end if
+  end function resultant
+
+  !> Displacements of the whole body.
+  subroutine write_field(path, field, info)
+    character(len=*), intent(in) :: path
+    real(dp), intent(in) :: field(:)
+    type(fuge_info), intent(inout) :: info
+    type(table) :: csv
+    character(len=40) :: line
+    integer :: k
+
+    call csv%create(path, info)
+    if (info%failed()) return
+    call csv%put('degree of freedom,displacement')
+    do k = 1, size(field)
+      write (line, '(i0,'','',es24.16e3)') k, field(k)
+      call csv%put(line)
+    end do
+    call csv%finish(info)
+  end subroutine write_field
+
+end module contact_table

@@ -1,0 +1,76 @@
+!> Contact problems from files to tables, for codes that do not link the library. `fuge --help` and the man page
+!> fuge(1) describe it.
+program fuge_program
+  use, intrinsic :: iso_c_binding, only: c_int
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use chosen_stiffness, only: STORAGE
+  use command_line, only: arguments, refuse
+  use fuge, only: fuge_info, FUGE_VERSION
+  use matrix_problem, only: solve_body, solve_influence
+  use option_checks, only: check_options, WITH_ALPHA, WITH_MATRICES
+  use option_table, only: print_help
+  use progress_log, only: progress
+  use text_table, only: check_path
+  implicit none
+
+  interface
+    !> exit of C: `stop` would add lines of its own to the message.
+    subroutine c_exit(status) bind(c, name='exit')
+      import :: c_int
+      integer(c_int), intent(in), value :: status
+    end subroutine c_exit
+  end interface
+
+  call run()
+
+contains
+
+  subroutine run()
+    type(arguments) :: given
+    type(fuge_info) :: info
+
+    call given%read(info)
+    if (info%failed()) then
+      call give_up(info)
+    else if (given%has('help')) then
+      call print_help()
+    else if (given%has('version')) then
+      print '(2a)', 'fuge ', FUGE_VERSION
+      print '(a)', STORAGE
+    else
+      call solve(given, info)
+      if (info%failed()) call give_up(info)
+    end if
+  end subroutine run
+
+  subroutine solve(given, info)
+    type(arguments), intent(in) :: given
+    type(fuge_info), intent(inout) :: info
+    type(progress) :: log
+    integer :: kind
+
+    call check_options(given, kind, info)
+    if (.not. info%failed()) call check_path(given%file('output'), info)
+    if (.not. info%failed()) call check_path(given%file('field'), info)
+    if (info%failed()) return
+    call log%start(given%has('verbose'))
+    select case (kind)
+    case (WITH_ALPHA)
+      call solve_influence(given, log, info)
+    case (WITH_MATRICES)
+      call solve_body(given, log, info)
+    case default
+      call refuse('meshes are not supported yet', info)
+    end select
+    if (.not. info%failed()) call log%say('done')
+  end subroutine solve
+
+  subroutine give_up(info)
+    type(fuge_info), intent(in) :: info
+
+    write (error_unit, '(2a)') 'fuge: ', trim(info%message)
+    flush (error_unit)
+    call c_exit(1_c_int)
+  end subroutine give_up
+
+end program fuge_program

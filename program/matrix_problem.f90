@@ -1,0 +1,199 @@
+!> A contact problem from matrices in files: an influence matrix, or the stiffness matrix of a body and its contact
+!> points.
+module matrix_problem
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
+  use command_line, only: arguments, refuse
+  use contact_table, only: write_contact, write_field
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution
+  use matrix_body, only: elastic_body
+  use matrix_files, only: read_square, read_vector, read_modes
+  use number_words, only: number_text, read_integer, read_real
+  use problem_solution, only: solve, take_warning
+  use progress_log, only: progress
+  implicit none
+  private
+
+  public :: solve_body, solve_influence
+
+contains
+
+  !> --alpha.
+  subroutine solve_influence(given, log, info)
+    type(arguments), intent(in) :: given
+    type(progress), intent(in) :: log
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable, target :: alpha(:, :)
+    type(fuge_problem) :: problem
+    type(fuge_solution) :: solution
+
+    call read_square(given%file('alpha'), alpha, info)
+    if (info%failed()) return
+    call log%say('influence matrix of '//number_text(size(alpha, 1))//' points is read')
+    call read_vector(given%file('gap'), size(alpha, 1), problem%gap, info)
+    call take_points(given, problem, info)
+    if (.not. info%failed()) call solve(alpha, problem, solution, log, info)
+    if (.not. info%failed()) call write_contact(given%file('output'), problem, solution, info)
+  end subroutine solve_influence
+
+  !> --stiffness and --contact.
+  subroutine solve_body(given, log, info)
+    type(arguments), intent(in) :: given
+    type(progress), intent(in) :: log
+    type(fuge_info), intent(inout) :: info
+    type(elastic_body), target :: body
+    type(fuge_problem) :: problem
+    type(fuge_solution) :: solution
+    type(fuge_info) :: of_body, of_field
+    real(dp), allocatable :: field(:)
+
+    call body%read(given, log, of_body)
+    info = of_body
+    if (info%failed()) return
+    call read_vector(given%file('gap'), body%points(), problem%gap, info)
+    call take_points(given, problem, info)
+    if (.not. info%failed()) call body%pose(problem, info)
+    if (.not. info%failed()) call solve(body%condensed%alpha, problem, solution, log, info)
+    if (info%failed()) return
+    call take_warning(of_body, info)
+    if (given%has('field')) then
+      call body%recover(solution, field, of_field)
+      if (.not. of_field%failed()) call write_field(given%file('field'), field, of_field)
+      if (of_field%failed()) then
+        info = of_field
+        return
+      end if
+      call take_warning(of_field, info)
+    end if
+    call write_contact(given%file('output'), problem, solution, info)
+  end subroutine solve_body
+
+  !> What belongs to the points: plays, excluded ones and motions.
+  subroutine take_points(given, problem, info)
+    type(arguments), intent(in) :: given
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. info%failed()) call take_play(given, problem, info)
+    if (.not. info%failed()) call take_excluded(given, problem, info)
+    if (.not. info%failed()) call take_motion(given, problem, info)
+  end subroutine take_points
+
+  !> Second stops; -1 is none.
+  subroutine take_play(given, problem, info)
+    type(arguments), intent(in) :: given
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. given%has('play')) return
+    call read_vector(given%file('play'), size(problem%gap), problem%gap_upper, info)
+    if (info%failed()) return
+    where (abs(problem%gap_upper + 1.0_dp) <= 0.0_dp) problem%gap_upper = ieee_value(1.0_dp, ieee_positive_inf)
+  end subroutine take_play
+
+  !> Points that --exclude names.
+  subroutine take_excluded(given, problem, info)
+    type(arguments), intent(in) :: given
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    k = given%position('exclude')
+    if (k == 0) return
+    allocate (problem%excluded(size(problem%gap)), source=.false.)
+    do while (k > 0 .and. .not. info%failed())
+      call exclude(given%settings(k)%value, given%settings(k)%place, problem%excluded, info)
+      k = given%position('exclude', k)
+    end do
+  end subroutine take_excluded
+
+  !> Exclude points of a list such as 3,7-9.
+  subroutine exclude(list, place, excluded, info)
+    character(len=*), intent(in) :: list, place
+    logical, intent(inout) :: excluded(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: first, hyphen, last, begin, length
+    logical :: valid, valid_last
+
+    begin = 1
+    do while (begin <= len(list) + 1)
+      length = index(list(begin:)//',', ',') - 1
+      associate (item => list(begin:begin + length - 1))
+        hyphen = index(item, '-')
+        if (hyphen > 1) then
+          call read_integer(item(:hyphen - 1), first, valid)
+          call read_integer(item(hyphen + 1:), last, valid_last)
+          valid = valid .and. valid_last .and. first <= last
+        else
+          call read_integer(item, first, valid)
+          last = first
+        end if
+        if (.not. valid) then
+          call refuse(place//': "'//item//'" is no number of a point and no range such as 7-9', info)
+        else if (first < 1 .or. last > size(excluded)) then
+          call refuse(place//': "'//item//'" is not within 1 to '//number_text(size(excluded)), info)
+        end if
+      end associate
+      if (info%failed()) return
+      excluded(first:last) = .true.
+      begin = begin + length + 1
+    end do
+  end subroutine exclude
+
+  !> Rigid motions of the counter-body.
+  subroutine take_motion(given, problem, info)
+    type(arguments), intent(in) :: given
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: value
+
+    if (given%has('modes')) then
+      call read_modes(given%file('modes'), given%file('resultant'), size(problem%gap), problem, info)
+      if (.not. info%failed()) call prescribe(given, problem, info)
+    else if (given%has('load')) then
+      call given%number(given%position('load'), value, info)
+      problem%resultant = [value]
+    else if (given%has('approach')) then
+      call given%number(given%position('approach'), value, info)
+      problem%resultant = [0.0_dp]
+      problem%prescribed = [.true.]
+      problem%motion = [value]
+    else
+      allocate (problem%modes(size(problem%gap), 0), problem%resultant(0))
+    end if
+  end subroutine take_motion
+
+  !> Motions that --motion prescribes.
+  subroutine prescribe(given, problem, info)
+    type(arguments), intent(in) :: given
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_info), intent(inout) :: info
+    integer :: k, mode, split
+    logical :: valid, valid_value
+    real(dp) :: value
+
+    k = given%position('motion')
+    if (k == 0) return
+    allocate (problem%prescribed(size(problem%modes, 2)), source=.false.)
+    allocate (problem%motion(size(problem%modes, 2)), source=0.0_dp)
+    do while (k > 0 .and. .not. info%failed())
+      associate (word => given%settings(k)%value, place => given%settings(k)%place)
+        split = index(word//'=', '=')
+        call read_integer(word(:split - 1), mode, valid)
+        call read_real(word(min(split, len(word)) + 1:), value, valid_value)
+        if (.not. (valid .and. valid_value)) then
+          call refuse(place//': the number of a motion and its value are needed, like 2=0.1', info)
+        else if (mode < 1 .or. mode > size(problem%prescribed)) then
+          call refuse(place//': "'//given%file('modes')//'" has '//number_text(size(problem%prescribed))//' motions', &
+                      info)
+        else if (problem%prescribed(mode)) then
+          call refuse(place//': motion '//number_text(mode)//' is given twice', info)
+        else
+          problem%prescribed(mode) = .true.
+          problem%motion(mode) = value
+        end if
+      end associate
+      k = given%position('motion', k)
+    end do
+  end subroutine prescribe
+
+end module matrix_problem

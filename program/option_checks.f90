@@ -1,0 +1,107 @@
+!> Which options of the program `fuge` go together.
+module option_checks
+  use command_line, only: arguments, refuse
+  use fuge, only: fuge_info
+  implicit none
+  private
+
+  public :: check_options
+
+  !> What is asked for.
+  integer, parameter, public :: WITH_ALPHA = 1, WITH_MATRICES = 2, WITH_MESHES = 3
+  character(len=*), parameter :: NEEDED(3) = [character(len=24) :: '--alpha', '--stiffness', '--mesh and --pair']
+
+  !> What each of these options needs: one of the three.
+  character(len=12), parameter :: ONLY_ALPHA(3) = [character(len=12) :: 'modes', 'motion', 'resultant']
+  character(len=12), parameter :: ONLY_MATRICES(3) = [character(len=12) :: 'contact', 'external', 'fixed']
+  character(len=12), parameter :: ONLY_MESHES(13) = [character(len=12) :: 'body', 'clearance', 'loads', 'matrix', &
+    'mesh', 'node-to-face', 'normals', 'pair', 'reach', 'smooth', 'support', 'supports', 'tied']
+  character(len=12), parameter :: NOT_ALPHA(3) = [character(len=12) :: 'field', 'floats', 'rows']
+
+contains
+
+  !> Find out what is asked for, and refuse what does not go with it. Error: FUGE_ERR_OPTION.
+  subroutine check_options(given, kind, info)
+    type(arguments), intent(in) :: given
+    integer, intent(out) :: kind
+    type(fuge_info), intent(inout) :: info
+
+    kind = WITH_MATRICES
+    if (given%has('mesh') .or. given%has('pair')) kind = WITH_MESHES
+    if (given%has('alpha')) kind = WITH_ALPHA
+    if (given%has('alpha') .eqv. (given%has('stiffness') .or. given%has('mesh'))) then
+      call refuse('one of --alpha and --stiffness is needed', info)
+    else if (kind == WITH_MESHES) then
+      call check_meshes(given, info)
+    else
+      call check_matrices(given, kind, info)
+    end if
+    if (kind /= WITH_ALPHA) call check_absent(given, ONLY_ALPHA, NEEDED(WITH_ALPHA), info)
+    if (kind /= WITH_MATRICES) call check_absent(given, ONLY_MATRICES, '--contact and --stiffness', info)
+    if (kind /= WITH_MESHES) call check_absent(given, ONLY_MESHES, NEEDED(WITH_MESHES), info)
+    if (kind == WITH_ALPHA) call check_absent(given, NOT_ALPHA, NEEDED(WITH_MATRICES), info)
+  end subroutine check_options
+
+  subroutine check_matrices(given, kind, info)
+    type(arguments), intent(in) :: given
+    integer, intent(in) :: kind
+    type(fuge_info), intent(inout) :: info
+    integer :: motions
+
+    motions = count([given%has('load'), given%has('approach'), given%has('modes')])
+    if (.not. given%has('gap')) then
+      call refuse('--gap is needed', info)
+    else if (kind == WITH_ALPHA .and. given%has('modes') .neqv. given%has('resultant')) then
+      call refuse('--modes and --resultant go together', info)
+    else if (kind == WITH_ALPHA .and. motions /= 1) then
+      call refuse('one of --load, --approach and --modes is needed', info)
+    else if (given%has('motion') .and. .not. given%has('modes')) then
+      call refuse('--motion needs --modes', info)
+    else if (kind == WITH_MATRICES .and. motions > 1) then
+      call refuse('with --stiffness no more than one of --load and --approach is possible', info)
+    else if (kind == WITH_MATRICES .and. .not. given%has('contact')) then
+      call refuse('--contact, or --mesh and --pair, are needed with --stiffness', info)
+    end if
+    call check_single(given, 'load', info)
+    call check_single(given, 'play', info)
+    call check_single(given, 'stiffness', info)
+  end subroutine check_matrices
+
+  subroutine check_meshes(given, info)
+    type(arguments), intent(in) :: given
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. given%has('mesh')) then
+      call refuse('--pair needs --mesh, the mesh with the surfaces', info)
+    else if (.not. given%has('pair')) then
+      call refuse('--mesh needs --pair, the surfaces in contact', info)
+    else if (.not. given%has('stiffness')) then
+      call refuse('--stiffness is needed: at least one body has to be elastic', info)
+    end if
+    call check_absent(given, [character(len=12) :: 'gap', 'approach'], '--alpha or --contact', info)
+  end subroutine check_meshes
+
+  !> Refuse an option that is given again without meshes.
+  subroutine check_single(given, name, info)
+    type(arguments), intent(in) :: given
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. .not. given%has(name)) return
+    if (given%position(name, given%position(name)) > 0) call refuse('--'//name//' is given twice', info)
+  end subroutine check_single
+
+  !> Refuse options that need others.
+  subroutine check_absent(given, names, needed, info)
+    type(arguments), intent(in) :: given
+    character(len=*), intent(in) :: names(:), needed
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    do k = 1, size(names)
+      if (info%failed()) return
+      if (given%has(trim(names(k)))) call refuse('--'//trim(names(k))//' needs '//trim(needed), info)
+    end do
+  end subroutine check_absent
+
+end module option_checks

@@ -1,0 +1,121 @@
+!> The options of the program `fuge`, and its help.
+module option_table
+  implicit none
+  private
+
+  public :: may_repeat, option_number, print_help, takes_value
+
+  !> The names of the options, after two hyphens.
+  character(len=12), parameter, public :: OPTION_NAMES(33) = [character(len=12) :: &
+    'alpha', 'approach', 'body', 'clearance', 'contact', 'exclude', 'external', 'field', 'fixed', 'floats', 'gap', &
+    'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
+    'play', 'reach', 'resultant', 'rows', 'smooth', 'stiffness', 'support', 'supports', 'tied', 'verbose', 'version']
+  !> Those without a value.
+  character(len=12), parameter :: WITHOUT_VALUE(7) = [character(len=12) :: &
+    'floats', 'help', 'node-to-face', 'smooth', 'tied', 'verbose', 'version']
+  !> Those that may be given again: of another body or pair, or one more support.
+  character(len=12), parameter :: REPEATED(19) = [character(len=12) :: &
+    'body', 'clearance', 'exclude', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', 'normals', 'pair', &
+    'play', 'reach', 'rows', 'smooth', 'stiffness', 'support', 'supports', 'tied']
+
+  character(len=*), parameter :: HELP(64) = [character(len=96) :: &
+    'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
+    '', &
+    '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
+    '       [--support NODES:DIRECTION] [--load NODES:DIRECTION=F] [--output FILE] [--field FILE]', &
+    '  fuge --stiffness FILE --contact FILE --gap FILE [MOTION] [--output FILE] [--field FILE]', &
+    '  fuge --alpha FILE --gap FILE MOTION [--output FILE]', &
+    '  fuge JOB', &
+    '', &
+    'JOB: a file with one option a line, hyphens not needed, comments after #; paths begin at its', &
+    'folder', &
+    '', &
+    'Meshes in contact', &
+    '  --body NAME             begins a body; without it a second --mesh or --stiffness does, and', &
+    '                          its name is that of the mesh''s file', &
+    '  --mesh FILE             nodes, elements, sets, surfaces: input file of Abaqus or CalculiX', &
+    '  --stiffness FILE        CalculiX .sti, Abaqus .mtx, Nastran DMIG or OP4, Matrix Market; a', &
+    '                          body without one is rigid and stands still', &
+    '  --rows FILE             lines node.direction that name the rows of that matrix', &
+    '  --matrix NAME           which matrix of a file of Nastran', &
+    '  --pair CONTACT:OPPOSITE two surfaces, such as shaft.OUTER:hub.BORE, or OUTER:BORE where no', &
+    '                          other body has the name; the nodes of the first one become points', &
+    'Of the --pair before them, or, before the first one, of all pairs', &
+    '  --tied                  glued', &
+    '  --play D                a second stop, D above the first one; 0: sliding, not lifting off', &
+    '  --clearance C           added to the gaps; an interference is negative', &
+    '  --smooth                gaps as if the faces were round', &
+    '  --node-to-face          instead of mortar; fails the patch test', &
+    '  --normals WHICH         averaged (default), opposite, or a direction: 0,0,1', &
+    '  --reach L               how far apart opposite points may be', &
+    'Supports and loads; NODES: a set, or the number of a node, such as hub.BOTTOM or hub.17', &
+    '  --support NODES:XYZ     held along these axes; NODES:z=U: displaced by U', &
+    '  --load NODES:z=F        the force F on each node, as *CLOAD; all loads are added', &
+    '  --supports FILE         lines NODES,DIRECTION[,U], or an input file with *BOUNDARY', &
+    '  --loads FILE            lines NODES,DIRECTION,F, or an input file with *CLOAD', &
+    '  --exclude NODES         no contact at these nodes', &
+    '  --floats                the supports leave rigid motions, which the contact has to resist', &
+    '', &
+    'Matrices; n points, nd degrees of freedom from 1', &
+    '  --alpha FILE            n x n    influence matrix, displacement per force', &
+    '  --gap FILE              n        initial gaps', &
+    '  --play FILE             n        distance of the second stop; -1: none, 0: tied', &
+    '  --stiffness FILE        nd x nd  stiffness matrix, in any format above', &
+    '  --contact FILE          n x nd   row i: direction in which the force of point i acts on', &
+    '                          the body, into it, in the columns of its degrees of freedom', &
+    '  --fixed FILE            k x 1    degrees of freedom held; k x 2: displacements too', &
+    '  --external FILE         nd       external forces on the body', &
+    '  --floats                as above', &
+    '  --exclude POINTS        no contact at these points, such as 3,7-9', &
+    'MOTION of the rigid counter-body, one of (none with --stiffness: it stands still)', &
+    '  --load F                pressed on with this force', &
+    '  --approach V            moved by this length', &
+    '  --modes FILE            n x m    how far each point closes per unit of each rigid motion', &
+    '  --resultant FILE        m        of the contact forces in each motion (both with --alpha)', &
+    '  --motion K=Q            motion K is prescribed, instead of its resultant', &
+    '', &
+    'Results', &
+    '  --output FILE           table of forces, gaps, pressures; without it on standard output', &
+    '  --field FILE            displacements: .vtu for ParaView (meshes), or a table', &
+    '  --verbose               each step, with its time, on standard error', &
+    '  --version               version, and how stiffness matrices are stored', &
+    '  --help', &
+    '', &
+    'Units are yours, as long as they agree. Tables are CSV with comments after #. Exit status 0:', &
+    'done; a warning is on standard error and in the table. 1: an error, which is on standard error.']
+
+contains
+
+  !> Number of the option with this name; 0 if there is none.
+  pure function option_number(name) result(which)
+    character(len=*), intent(in) :: name
+    integer :: which
+
+    do which = size(OPTION_NAMES), 1, -1
+      if (name == OPTION_NAMES(which)) return
+    end do
+    which = 0
+  end function option_number
+
+  pure function takes_value(which)
+    integer, intent(in) :: which
+    logical :: takes_value
+
+    takes_value = all(WITHOUT_VALUE /= OPTION_NAMES(which))
+  end function takes_value
+
+  !> May the option be given more than once?
+  pure function may_repeat(which)
+    integer, intent(in) :: which
+    logical :: may_repeat
+
+    may_repeat = any(REPEATED == OPTION_NAMES(which))
+  end function may_repeat
+
+  subroutine print_help()
+    integer :: k
+
+    print '(a)', (trim(HELP(k)), k=1, size(HELP))
+  end subroutine print_help
+
+end module option_table
