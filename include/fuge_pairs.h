@@ -66,8 +66,10 @@ int fuge_pairs_set_opposite(fuge_pairs *pairs, int dimensions, int nodes, const 
  *   play    between the lower and the upper stop, length: 0 for points that stay in contact
  *           but slide, INFINITY for one-sided contact
  *   tied    1: glue the surfaces where they are, along each axis; else 0
- *   smooth  1: gaps as if the bodies were smooth, where linear faces bulge between their nodes
- *           as the averaged normals suggest; else 0
+ *   smooth  1, as a rule: normals, gaps and areas of the smooth bodies that the meshes stand
+ *           for, exact on circles, spheres and cylinders; faces that meet at more than 40
+ *           degrees keep their edge, flat faces stay flat.  0: those of the faces as they are,
+ *           whose chords on a round body are wrong by L^2/(8 R)
  * FUGE_WARN_PAIRS: a node is a contact point of two pairs.  Errors, nothing is added:
  * FUGE_ERR_SIZE, FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF,
  * FUGE_ERR_GAP, FUGE_ERR_OPTION, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a

@@ -18,7 +18,7 @@ module option_table
     'body', 'clearance', 'exclude', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', 'normals', 'pair', &
     'play', 'reach', 'rows', 'smooth', 'stiffness', 'support', 'supports', 'tied']
 
-  character(len=*), parameter :: HELP(64) = [character(len=96) :: &
+  character(len=*), parameter :: HELP(63) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
     '', &
     '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
@@ -51,10 +51,9 @@ module option_table
     'Supports and loads; NODES: a set, or the number of a node, such as hub.BOTTOM or hub.17', &
     '  --support NODES:XYZ     held along these axes; NODES:z=U: displaced by U', &
     '  --load NODES:z=F        the force F on each node, as *CLOAD; all loads are added', &
-    '  --supports FILE         lines NODES,DIRECTION[,U], or an input file with *BOUNDARY', &
-    '  --loads FILE            lines NODES,DIRECTION,F, or an input file with *CLOAD', &
+    '  --supports [BODY=]FILE  lines NODES,XYZ[,U], or an input file with *BOUNDARY; of BODY', &
+    '  --loads [BODY=]FILE     lines NODES,z,F, or an input file with *CLOAD; of BODY', &
     '  --exclude NODES         no contact at these nodes', &
-    '  --floats                the supports leave rigid motions, which the contact has to resist', &
     '', &
     'Matrices; n points, nd degrees of freedom from 1', &
     '  --alpha FILE            n x n    influence matrix, displacement per force', &
@@ -65,7 +64,7 @@ module option_table
     '                          the body, into it, in the columns of its degrees of freedom', &
     '  --fixed FILE            k x 1    degrees of freedom held; k x 2: displacements too', &
     '  --external FILE         nd       external forces on the body', &
-    '  --floats                as above', &
+    '  --floats                the supports leave rigid motions, which the contact has to resist', &
     '  --exclude POINTS        no contact at these points, such as 3,7-9', &
     'MOTION of the rigid counter-body, one of (none with --stiffness: it stands still)', &
     '  --load F                pressed on with this force', &

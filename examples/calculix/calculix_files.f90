@@ -5,7 +5,7 @@ module calculix_files
   implicit none
   private
 
-  public :: wall_clock, run_job, read_table, count_iterations
+  public :: wall_clock, run_job, try_job, read_table, read_total, read_contact, count_iterations
 
 contains
 
@@ -36,6 +36,26 @@ contains
     print '(a)', command//' -i '//job//' has failed: see '//job//'.log'
     error stop 'no result from CalculiX'
   end subroutine run_job
+
+  !> Run `command -i job` for at most `most` seconds, where the system has the command `timeout`. `solved`: it has ended
+  !> by itself, with all of its step.
+  subroutine try_job(command, job, most, solved, seconds)
+    character(len=*), intent(in) :: command, job
+    integer, intent(in) :: most
+    logical, intent(out) :: solved
+    real(dp), intent(out) :: seconds
+    character(len=24) :: limit
+    integer :: failed, status
+
+    write (limit, '(a,i0,a)') 'timeout ', most, ' '
+    call execute_command_line('timeout 1 true', exitstat=status, cmdstat=failed)
+    if (failed /= 0 .or. status /= 0) limit = ''
+    seconds = wall_clock()
+    call execute_command_line('rm -f '//job//'.dat '//job//'.frd; '//trim(limit)//' "'//command//'" -i '//job &
+                              //' >'//job//'.log 2>&1', exitstat=status, cmdstat=failed)
+    seconds = wall_clock() - seconds
+    solved = failed == 0 .and. status == 0
+  end subroutine try_job
 
   pure function filled(text)
     character(len=*), intent(in) :: text
@@ -106,6 +126,56 @@ contains
     end do
   end subroutine skip_headings
 
+  !> The sum of the forces on the set of nodes `name` in job.dat, the last one.
+  subroutine read_total(job, name, force)
+    character(len=*), intent(in) :: job, name
+    real(dp), intent(out) :: force(3)
+    character(len=256) :: line
+    integer :: file, status
+
+    force = 0.0_dp
+    open (newunit=file, file=job//'.dat', status='old', action='read')
+    do
+      read (file, '(a)', iostat=status) line
+      if (status /= 0) exit
+      if (index(line, ' total force (fx,fy,fz) for set '//name//' ') == 1) read (file, *) force
+    end do
+    close (file)
+  end subroutine read_total
+
+  !> The last contact table of job.frd: nodes of the contact surface, and for each its gap, two components of slip, the
+  !> pressure, and two shear stresses.
+  subroutine read_contact(job, node, value)
+    character(len=*), intent(in) :: job
+    integer, allocatable, intent(out) :: node(:)
+    real(dp), allocatable, intent(out) :: value(:, :)
+    character(len=256) :: line
+    real(dp), allocatable :: values(:)
+    real(dp) :: six(6)
+    integer :: file, number, status
+    logical :: inside
+
+    allocate (node(0), values(0))
+    inside = .false.
+    open (newunit=file, file=job//'.frd', status='old', action='read')
+    do
+      read (file, '(a)', iostat=status) line
+      if (status /= 0) exit
+      if (line(:13) == ' -4  CONTACT ') then
+        inside = .true.
+        node = [integer ::]
+        values = [real(dp) ::]
+      end if
+      if (line(:3) == ' -3') inside = .false.
+      if (.not. inside .or. line(:3) /= ' -1') cycle
+      read (line, '(3x,i10,6e12.5)') number, six
+      node = [node, number]
+      values = [values, six]
+    end do
+    close (file)
+    value = reshape(values, [6, size(node)])
+  end subroutine read_contact
+
   !> Increments and all iterations of a job, those of failed attempts included: job.sta.
   subroutine count_iterations(job, increments, iterations)
     character(len=*), intent(in) :: job
@@ -116,8 +186,9 @@ contains
 
     increments = 0
     iterations = 0
-    open (newunit=file, file=job//'.sta', status='old', action='read')
-    read (file, '(/,a)') line
+    open (newunit=file, file=job//'.sta', status='old', action='read', iostat=status)
+    if (status /= 0) return
+    read (file, '(/,a)', iostat=status) line
     do
       read (file, *, iostat=status) step, increment, attempt, times
       if (status /= 0) exit

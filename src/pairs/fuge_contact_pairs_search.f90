@@ -12,6 +12,7 @@ module fuge_contact_pairs_search
   use fuge_number_text, only: index_text, text
   use fuge_opposite_faces, only: opposite_faces, prepare_opposite
   use fuge_pair_draft_type, only: pair_draft, start_draft
+  use fuge_smooth_normals, only: find_smooth_normals, mean_of_faces
   use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE, FUGE_WARN_PAIRS
   use fuge_surface_checks, only: check_surface
   use fuge_surface_mesh_type, only: fuge_surface_mesh
@@ -49,6 +50,7 @@ contains
     type(fuge_info), intent(out) :: info
     type(fuge_contact_pairs) :: found
     type(pair_draft) :: draft
+    type(opposite_faces) :: faces
     real(dp), allocatable :: normal(:, :)
     integer, allocatable :: before(:)
     integer :: stat
@@ -57,10 +59,11 @@ contains
     if (info%failed()) return
     allocate (normal(3, size(contact%node, 2)), stat=stat)
     if (stat == 0) call start_draft(draft, size(contact%node, 2), stat)
-    if (stat == 0) call set_normals(contact, options, normal, info)
+    if (stat == 0) call set_bends(contact, opposite, options%smooth .and. .not. options%tied, faces, stat)
+    if (stat == 0) call set_normals(contact, options, faces, normal, stat, info)
     if (info%failed()) return
-    if (stat == 0) call find_draft(contact, opposite, options, normal, draft, stat, info)
-    if (stat == 0 .and. .not. info%failed()) call refuse_none(contact, draft, info)
+    if (stat == 0) call find_draft(contact, opposite, options, normal, faces, draft, stat)
+    if (stat == 0) call refuse_none(contact, draft, info)
     if (info%failed()) return
     if (stat == 0) then
       found%pairs = pairs%pairs + 1
@@ -108,16 +111,20 @@ contains
   end function moves
 
   !> The unit normals along which opposites are sought.
-  pure subroutine set_normals(contact, options, normal, info)
+  pure subroutine set_normals(contact, options, faces, normal, stat, info)
     type(fuge_surface_mesh), intent(in) :: contact
     type(fuge_pair_options), intent(in) :: options
+    type(opposite_faces), intent(in) :: faces
     real(dp), intent(out) :: normal(:, :)
+    integer, intent(out) :: stat
     type(fuge_info), intent(inout) :: info
     real(dp) :: given(3)
     integer :: i
 
+    stat = 0
     if (options%normals /= FUGE_NORMALS_GIVEN) then
-      call average_normals(contact, CONTACT_NAME, normal, info)
+      call average_normals(contact, CONTACT_NAME, normal, stat, info)
+      if (stat == 0 .and. size(faces%own_bend, 3) > 0) call mean_of_faces(contact, faces%own_bend, normal, stat)
       return
     end if
     do i = 1, size(normal, 2)
@@ -129,22 +136,19 @@ contains
   end subroutine set_normals
 
   !> Find what lies across from each node, by the method chosen.
-  pure subroutine find_draft(contact, opposite, options, normal, draft, stat, info)
+  pure subroutine find_draft(contact, opposite, options, normal, faces, draft, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     real(dp), intent(in) :: normal(:, :)
+    type(opposite_faces), intent(inout) :: faces
     type(pair_draft), intent(inout) :: draft
     integer, intent(out) :: stat
-    type(fuge_info), intent(inout) :: info
-    type(opposite_faces) :: faces
     real(dp), allocatable :: whole(:)
 
     allocate (whole(size(contact%node, 2)), stat=stat)
     if (stat == 0) call prepare_opposite(contact, opposite, options%reach, faces, stat)
     if (stat /= 0) return
-    call set_bends(contact, opposite, options%smooth, faces, stat, info)
-    if (stat /= 0 .or. info%failed()) return
-    call find_nodal_areas(contact, whole)
+    call find_nodal_areas(contact, faces%own_bend, whole)
     if (options%method == FUGE_MORTAR) then
       call pair_faces(contact, opposite, faces, draft, stat)
       where (draft%weight < SMALLEST_PART*whole) draft%weight = 0.0_dp
@@ -155,19 +159,17 @@ contains
     end if
   end subroutine find_draft
 
-  !> The normals by which faces bulge, if `smooth`.
-  pure subroutine set_bends(contact, opposite, smooth, faces, stat, info)
+  !> The normals of the smooth surfaces that the meshes stand for, if `smooth`.
+  pure subroutine set_bends(contact, opposite, smooth, faces, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     logical, intent(in) :: smooth
     type(opposite_faces), intent(inout) :: faces
     integer, intent(out) :: stat
-    type(fuge_info), intent(inout) :: info
 
-    allocate (faces%own_bend(3, merge(size(contact%node, 2), 0, smooth)), &
-              faces%bend(3, merge(size(opposite%node, 2), 0, smooth)), stat=stat)
-    if (stat /= 0 .or. .not. smooth) return
-    call average_normals(contact, CONTACT_NAME, faces%own_bend, info)
-    if (.not. info%failed()) call average_normals(opposite, OPPOSITE_NAME, faces%bend, info)
+    allocate (faces%own_bend(3, size(contact%face, 1), merge(size(contact%face, 2), 0, smooth)), &
+              faces%bend(3, size(opposite%face, 1), merge(size(opposite%face, 2), 0, smooth)), stat=stat)
+    if (stat == 0 .and. smooth) call find_smooth_normals(contact, faces%own_bend, stat)
+    if (stat == 0 .and. smooth) call find_smooth_normals(opposite, faces%bend, stat)
   end subroutine set_bends
 
   !> Refuse surfaces none of whose points are opposite to each other.
@@ -257,8 +259,6 @@ contains
     found%gap_upper(n) = 0.0_dp
     if (options%tied) return
     found%gap(n) = dot_product(direction, draft%way(:, i))/draft%weight(i)
-    if (options%smooth .and. options%normals == FUGE_NORMALS_AVERAGED .and. options%method == FUGE_MORTAR) &
-      found%gap(n) = draft%gap(i)/draft%weight(i)
     found%gap_upper(n) = options%play
     if (options%play >= huge(1.0_dp)) found%gap_upper(n) = ieee_value(1.0_dp, ieee_positive_inf)
   end subroutine fill_point
@@ -385,7 +385,8 @@ contains
     if (pairs%pairs > 0) largest = max(0, maxval(pairs%dof))
   end function largest_before
 
-  !> Warn of a node that is a contact point of two pairs. `before` is work space, one element for each degree of freedom.
+  !> Warn of a node that is a contact point of two pairs. `before` is work space, one element for each degree of
+  !> freedom.
   pure subroutine warn_repeated(pairs, before, info)
     type(fuge_contact_pairs), intent(in) :: pairs
     integer, intent(inout) :: before(:)

@@ -39,9 +39,10 @@ module fuge_contact_pairs_type
     real(dp) :: play = huge(1.0_dp)
     !> Glue the surfaces where they are: along each axis, with a gap and a play of zero.
     logical :: tied = .false.
-    !> Gaps as if the bodies were smooth: linear faces bulge between their nodes as the averaged normals suggest. For
-    !> round bodies whose interference or clearance is not large beside the height of a chord, L**2/(8 R).
-    logical :: smooth = .false.
+    !> Normals, gaps and areas are those of the smooth bodies that the meshes stand for, which on circles, spheres and
+    !> cylinders are exact; faces that meet at more than 40 degrees keep their edge, flat faces stay flat. False: those of
+    !> the faces as they are, whose chords on a round body are wrong by L**2/(8 R), often more than the gap itself.
+    logical :: smooth = .true.
   end type fuge_pair_options
 
   !> Contact points, in the form in which `fuge_body` and `fuge_problem` take them; n contact points.

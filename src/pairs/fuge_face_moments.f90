@@ -1,11 +1,12 @@
 !> Integrals over the common part of two faces, by which a mortar method weighs.
 module fuge_face_moments
-  use fuge_face_geometry, only: across, bulge_at, face_nodes, face_normal, face_position, is_affine, unit
+  use fuge_face_geometry, only: across, face_nodes, face_normal, face_position, is_affine, unit
   use fuge_face_segments, only: convex_polygon
   use fuge_face_shapes, only: corner_count, middle_share, shape_values, side_ends, EDGE_2, EDGE_3, MOST_NODES, &
     QUADRANGLE_4, QUADRANGLE_8, TRIANGLE_3, TRIANGLE_6
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
+  use fuge_smooth_faces, only: smooth_gap, smooth_point
   implicit none
   private
 
@@ -22,9 +23,9 @@ module fuge_face_moments
     real(dp) :: cross(MOST_NODES, MOST_NODES) = 0.0_dp
     !> Of N'_A times the way from the contact surface to the opposite one, (3, A).
     real(dp) :: way(3, MOST_NODES) = 0.0_dp
-    !> Of N'_A times the part of this way along the normals of the contact surface, interpolated between its nodes, (A);
-    !> 0 where these are not known.
+    !> Of N'_A times the gap between the smooth surfaces that the faces stand for, (A); used where one of them is bent.
     real(dp) :: gap(MOST_NODES) = 0.0_dp
+    logical :: bent = .false.
     !> Of N'_A times the unit normal of the opposite face, (3, A).
     real(dp) :: normal(3, MOST_NODES) = 0.0_dp
     !> Of N'_A times the place in the opposite face, (2, A).
@@ -33,6 +34,8 @@ module fuge_face_moments
 
   !> Points along a line for integrals that are no polynomials, as on quadrangles that are no parallelograms.
   integer, parameter :: MOST_POINTS = 10
+  !> Points along a line at least for gaps between smooth surfaces, in the plane and in space.
+  integer, parameter :: SMOOTH_POINTS(2) = [5, 3]
 
 contains
 
@@ -162,6 +165,7 @@ contains
     degree = shape_degree(face%kind) + max(shape_degree(face%kind), shape_degree(opposite%kind))
     ! A triangle's corner adds one degree; n points are exact up to 2 n - 1.
     points = degree/2 + 1
+    if (face%bent .or. opposite%bent) points = max(points, SMOOTH_POINTS(merge(1, 2, face%kind <= EDGE_3)))
     if (.not. (is_affine(face) .and. is_affine(opposite))) points = MOST_POINTS
   end function point_count
 
@@ -179,23 +183,21 @@ contains
     end select
   end function shape_degree
 
-  !> Add one point of the quadrature.
-  pure subroutine add_point(face, opposite, place, facing, weight, moments)
+  !> Add one point of the quadrature; `flat_weight` has the area of the face as it is, without a bend.
+  pure subroutine add_point(face, opposite, place, facing, flat_weight, moments)
     type(face_nodes), intent(in) :: face, opposite
-    real(dp), intent(in) :: place(2), facing(2), weight
+    real(dp), intent(in) :: place(2), facing(2), flat_weight
     type(face_moments), intent(inout) :: moments
-    real(dp) :: values(MOST_NODES), across_values(MOST_NODES), way(3), normal(3), along(3)
+    real(dp) :: values(MOST_NODES), across_values(MOST_NODES), way(3), normal(3), gap, weight
     integer :: k
 
-    values = shape_values(face%kind, place)
-    along = unit(matmul(face%normal(:, :face%count), values(:face%count)))
-    values = weight*mixed_values(face%kind, values)
+    call span_point(face, opposite, place, facing, way, gap, normal, weight)
+    weight = weight*flat_weight
+    values = weight*mixed_values(face%kind, shape_values(face%kind, place))
     across_values = shape_values(opposite%kind, facing)
-    way = matmul(opposite%x(:, :opposite%count), across_values(:opposite%count)) - face_position(face, place) &
-          + bulge_at(opposite, facing) - bulge_at(face, place)
-    normal = unit(face_normal(opposite, facing))
+    moments%bent = face%bent .or. opposite%bent
     moments%area = moments%area + values
-    moments%gap = moments%gap + values*dot_product(along, way)
+    moments%gap = moments%gap + values*gap
     do k = 1, opposite%count
       moments%cross(:, k) = moments%cross(:, k) + values*across_values(k)
     end do
@@ -206,5 +208,28 @@ contains
       moments%place(:, k) = moments%place(:, k) + values(k)*facing
     end do
   end subroutine add_point
+
+  !> The way from one face to the other, the gap, if one of them is bent, the unit normal of the opposite one, and the
+  !> area of the smooth surface per area of the face.
+  pure subroutine span_point(face, opposite, place, facing, way, gap, normal, stretch)
+    type(face_nodes), intent(in) :: face, opposite
+    real(dp), intent(in) :: place(2), facing(2)
+    real(dp), intent(out) :: way(3), gap, normal(3), stretch
+    real(dp) :: here(3), own(3), there(3)
+
+    gap = 0.0_dp
+    stretch = 1.0_dp
+    if (.not. (face%bent .or. opposite%bent)) then
+      way = face_position(opposite, facing) - face_position(face, place)
+      normal = unit(face_normal(opposite, facing))
+      return
+    end if
+    call smooth_point(face, place, here, own)
+    call smooth_point(opposite, facing, there, normal)
+    way = there - here
+    normal = unit(normal)
+    gap = smooth_gap(way, unit(own), normal)
+    stretch = norm2(own)/norm2(face_normal(face, place))
+  end subroutine span_point
 
 end module fuge_face_moments

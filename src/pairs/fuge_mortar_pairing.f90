@@ -224,15 +224,17 @@ contains
         end do
       end do
       do k = 1, size(parts)
-        call add_part(contact%face(:n, f), opposite, parts(k)%face, coefficient(:n, :n), positive(:n, :n), moments(k), &
-                      draft, stat)
+        call add_part(contact%face(:n, f), face%normal(:, :n), opposite, parts(k)%face, coefficient(:n, :n), &
+                      positive(:n, :n), moments(k), draft, stat)
       end do
     end associate
   end subroutine weigh_face
 
-  !> Add the weights of one opposite face to those of the nodes of a face.
-  pure subroutine add_part(nodes, opposite, f, coefficient, positive, moments, draft, stat)
+  !> Add the weights of one opposite face to those of the nodes of a face. `along` are the normals of the smooth surface
+  !> at these nodes, along which gaps between smooth surfaces are.
+  pure subroutine add_part(nodes, along, opposite, f, coefficient, positive, moments, draft, stat)
     integer, intent(in) :: nodes(:), f
+    real(dp), intent(in) :: along(:, :)
     type(fuge_surface_mesh), intent(in) :: opposite
     real(dp), intent(in) :: coefficient(:, :), positive(:, :)
     type(face_moments), intent(in) :: moments
@@ -245,13 +247,13 @@ contains
     weight = matmul(coefficient, moments%cross(:size(nodes), :))
     way = matmul(moments%way(:, :size(nodes)), transpose(coefficient))
     gap = matmul(coefficient, moments%gap(:size(nodes)))
+    if (moments%bent) way = spread(gap, 1, 3)*along
     normal = matmul(moments%normal(:, :size(nodes)), transpose(positive))
     place = matmul(moments%place(:, :size(nodes)), transpose(positive))
     share = matmul(positive, moments%area(:size(nodes)))
     do a = 1, size(nodes)
       associate (i => nodes(a))
         draft%way(:, i) = draft%way(:, i) + way(:, a)
-        draft%gap(i) = draft%gap(i) + gap(a)
         draft%normal(:, i) = draft%normal(:, i) + normal(:, a)
         do c = 1, size(opposite%face, 1)
           if (opposite%face(c, f) == 0) exit
