@@ -12,8 +12,8 @@ module mesh_pairs
   public :: find_pairs, mesh_node
 
   !> The options that belong to a pair.
-  character(len=12), parameter :: OF_PAIRS(7) = [character(len=12) :: 'clearance', 'node-to-face', 'normals', 'play', &
-    'reach', 'smooth', 'tied']
+  character(len=12), parameter :: OF_PAIRS(7) = [character(len=12) :: 'clearance', 'faceted', 'node-to-face', &
+    'normals', 'play', 'reach', 'tied']
 
   !> A pair of surfaces: of which bodies, and what is between them.
   type, public :: model_pair
@@ -100,8 +100,8 @@ contains
     select case (given%settings(k)%name)
     case ('tied')
       pair%options%tied = .true.
-    case ('smooth')
-      pair%options%smooth = .true.
+    case ('faceted')
+      pair%options%smooth = .false.
     case ('node-to-face')
       pair%options%method = FUGE_NODE_TO_FACE
     case ('play')
@@ -197,7 +197,8 @@ contains
     dimensions = 2
     associate (mesh => body%mesh)
       if (size(mesh%surface(which)%element) == 0) then
-        call refuse('--pair '//pair//': surface '//body%name//'.'//trim(mesh%surface(which)%name)//' has no faces', info)
+        call refuse('--pair '//pair//': surface '//body%name//'.'//trim(mesh%surface(which)%name)//' has no faces', &
+                    info)
         return
       end if
       if (index(mesh%element_type(mesh%surface(which)%element(1)), 'C3D') == 1) dimensions = 3

@@ -102,8 +102,8 @@ contains
       node = mesh_node(body, found%node(i))
       direction = 0.0_dp
       direction(:size(found%direction, 1)) = found%direction(:, i)
-      write (values, '(10(es24.16e3,'',''))') body%mesh%position(:, node), direction, found%area(i), solution%force(i), &
-        solution%force(i)/found%area(i), solution%gap(i)
+      write (values, '(10(es24.16e3,'',''))') body%mesh%position(:, node), direction, found%area(i), &
+        solution%force(i), solution%force(i)/found%area(i), solution%gap(i)
       call csv%put(number_text(found%pair(i))//','//body%name//','//number_text(body%mesh%node(node))//',' &
                    //trim(values)//trim(state(i, problem, solution)))
     end associate

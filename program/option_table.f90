@@ -7,16 +7,16 @@ module option_table
 
   !> The names of the options, after two hyphens.
   character(len=12), parameter, public :: OPTION_NAMES(33) = [character(len=12) :: &
-    'alpha', 'approach', 'body', 'clearance', 'contact', 'exclude', 'external', 'field', 'fixed', 'floats', 'gap', &
-    'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
-    'play', 'reach', 'resultant', 'rows', 'smooth', 'stiffness', 'support', 'supports', 'tied', 'verbose', 'version']
+    'alpha', 'approach', 'body', 'clearance', 'contact', 'exclude', 'external', 'faceted', 'field', 'fixed', 'floats', &
+    'gap', 'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
+    'play', 'reach', 'resultant', 'rows', 'stiffness', 'support', 'supports', 'tied', 'verbose', 'version']
   !> Those without a value.
   character(len=12), parameter :: WITHOUT_VALUE(7) = [character(len=12) :: &
-    'floats', 'help', 'node-to-face', 'smooth', 'tied', 'verbose', 'version']
+    'faceted', 'floats', 'help', 'node-to-face', 'tied', 'verbose', 'version']
   !> Those that may be given again: of another body or pair, or one more support.
   character(len=12), parameter :: REPEATED(19) = [character(len=12) :: &
-    'body', 'clearance', 'exclude', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', 'normals', 'pair', &
-    'play', 'reach', 'rows', 'smooth', 'stiffness', 'support', 'supports', 'tied']
+    'body', 'clearance', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
+    'normals', 'pair', 'play', 'reach', 'rows', 'stiffness', 'support', 'supports', 'tied']
 
   character(len=*), parameter :: HELP(63) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
@@ -44,7 +44,7 @@ module option_table
     '  --tied                  glued', &
     '  --play D                a second stop, D above the first one; 0: sliding, not lifting off', &
     '  --clearance C           added to the gaps; an interference is negative', &
-    '  --smooth                gaps as if the faces were round', &
+    '  --faceted               gaps of the faces as they are, not of the smooth bodies they stand for', &
     '  --node-to-face          instead of mortar; fails the patch test', &
     '  --normals WHICH         averaged (default), opposite, or a direction: 0,0,1', &
     '  --reach L               how far apart opposite points may be', &

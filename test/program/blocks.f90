@@ -131,8 +131,8 @@ contains
       options%play = 0.2_dp
     case ('tied')
       options%tied = .true.
-    case ('smooth')
-      options%smooth = .true.
+    case ('faceted')
+      options%smooth = .false.
     end select
   end subroutine choose_options
 
