@@ -1,10 +1,11 @@
 !> Pairs of surfaces as the options name them.
 module mesh_pairs
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_mesh_faces, fuge_pair_options, fuge_surface_mesh, fuge_surface_pair, &
-    FUGE_NODE_TO_FACE, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
+  use fuge, only: dp => fuge_dp, fuge_contact_pairs, fuge_info, fuge_mesh_faces, fuge_pair_options, fuge_surface_mesh, &
+    fuge_surface_pair, FUGE_NODE_TO_FACE, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
   use mesh_body, only: model_body
   use mesh_names, only: find_surface
+  use mesh_rings, only: find_circumferences
   use number_words, only: read_real
   implicit none
   private
@@ -27,6 +28,10 @@ module mesh_pairs
     !> Added to the gaps.
     real(dp) :: clearance = 0.0_dp
     type(fuge_surface_pair) :: surfaces
+    !> Circumference of the ring of each node of the contact surface; not allocated if no body is one of revolution.
+    real(dp), allocatable :: circumference(:)
+  contains
+    procedure :: area
   end type model_pair
 
 contains
@@ -178,10 +183,25 @@ contains
       call refuse('--pair '//pair%name//': one surface is of solids, the other one of elements of a plane', info)
       return
     end if
+    associate (mesh => bodies(pair%body(1))%mesh)
+      if (index(mesh%element_type(mesh%surface(pair%surface(1))%element(1)), 'CAX') == 1) &
+        call find_circumferences(pair%surfaces%contact, pair%circumference)
+    end associate
     pair%surfaces%options = pair%options
     if (pair%options%normals == FUGE_NORMALS_GIVEN) &
       pair%surfaces%options%normal = spread(pair%normal(:dimensions(1)), 2, size(pair%surfaces%contact%node, 2))
   end subroutine make_surfaces
+
+  !> The area of a contact point of this pair: that of the plane, or of the ring.
+  pure function area(self, pairs, i)
+    class(model_pair), intent(in) :: self
+    type(fuge_contact_pairs), intent(in) :: pairs
+    integer, intent(in) :: i
+    real(dp) :: area
+
+    area = pairs%area(i)
+    if (allocated(self%circumference)) area = area*self%circumference(pairs%node(i))
+  end function area
 
   !> One surface: faces, positions and rows of its nodes. `pair` is what messages call the pair.
   subroutine make_surface(body, which, pair, surface, dimensions, info)
