@@ -13,8 +13,8 @@ module mesh_rings
 
 contains
 
-  !> The mean circumference of the part of a surface that belongs to each of its nodes, 2 pi times the mean of the radius
-  !> x weighted by the shape function of the node; 0 for a node that no face has. Faces are edges of two or three nodes.
+  !> The mean circumference of the part of a surface that belongs to each of its nodes, 2 pi times the mean of the
+  !> radius x, weighted by the shape function of the node; 0 for a node that no face has. Edges have two or three nodes.
   pure subroutine find_circumferences(surface, circumference)
     type(fuge_surface_mesh), intent(in) :: surface
     real(dp), allocatable, intent(out) :: circumference(:)

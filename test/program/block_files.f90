@@ -34,6 +34,10 @@ contains
     else
       write (file, '(i0,a)') (model%above(e), merge(', S3', ', S2', model%dimensions == 2), e=1, size(model%above))
     end if
+    if (model%is_upper) then
+      write (file, '(a)') '*SURFACE, NAME=ABOVE'
+      write (file, '(i0,a)') (model%above(e), merge(', S3', ', S2', model%dimensions == 2), e=1, size(model%above))
+    end if
     close (file)
     call write_entries(path//'.sti')
     call write_names(path//'.dof', model)
