@@ -25,9 +25,10 @@ program calculix_two_bodies
   character(len=18), parameter :: METHOD(10) = [character(len=18) :: 'SURFACE TO SURFACE', 'SURFACE TO SURFACE', &
     'SURFACE TO SURFACE', 'SURFACE TO SURFACE', 'NODE TO SURFACE', 'NODE TO SURFACE', 'NODE TO SURFACE', &
     'NODE TO SURFACE', 'MORTAR', 'PGLINMORTAR']
-  type(unit_system), parameter :: UNITS(3) = [unit_system('mm, N', 1.0_dp, 1.0_dp), &
+  !> The last ones are those of the files that stay behind.
+  type(unit_system), parameter :: UNITS(3) = [unit_system('m, N', 1.0e-3_dp, 1.0_dp), &
                                               unit_system('inch,lbf', 1.0_dp/25.4_dp, 1.0_dp/4.4482216152605_dp), &
-                                              unit_system('m, N', 1.0e-3_dp, 1.0_dp)]
+                                              unit_system('mm, N', 1.0_dp, 1.0_dp)]
   !> A job of CalculiX may take so many seconds.
   integer, parameter :: MOST = 5
   !> The reference has elements so many times smaller.
