@@ -1,0 +1,91 @@
+"""The package holds what the C headers declare."""
+
+import re
+import unittest
+from pathlib import Path
+
+import headers
+
+import fuge
+from fuge import _library, _structs, halfplane, operators, solver
+from fuge._calls import MESSAGE_LENGTH
+
+# Functions of the headers that the package does not call, with what does the same or the reason why nothing does.
+NOT_CALLED = {
+    "fuge_solve_dense": "fuge.solve does the same through a solver, whose report it returns",
+    "fuge_get_derivative": "Solver.derivative calls fuge_get_derivatives, which is the same for any number of motions",
+}
+
+# Not in the package yet.
+NOT_YET = tuple(
+    "fuge_" + part
+    for part in (
+        "body", "mesh", "pairs", "smooth", "round", "read", "write", "level", "sample", "solve_smooth", "solve_round",
+        "rigid", "halfplane_s", "halfplane_d", "halfplane_p", "halfplane_t", "halfspace_s", "halfspace_d", "halfspace_p",
+        "ring_stress", "ring_interior", "ring_peak", "principal", "von", "tresca", "mean",
+    )
+)
+
+
+class Headers(unittest.TestCase):
+    def test_declarations_are_those_of_the_headers(self):
+        found = {name: " ".join(codes) for name, codes in _library._CODES.items()}
+        self.assertEqual(found, headers.declarations(), "python/tests/headers.py prints what belongs into _declarations")
+
+    def test_all_functions_of_the_headers_are_seen(self):
+        text = headers.text()
+        names = set(re.findall(r"\b(fuge_\w+)\(", text)) - set(headers.CALLBACKS)
+        self.assertEqual(set(headers.declarations()), names)
+
+    def test_each_function_is_called_or_has_a_reason_why_not(self):
+        source = "".join(
+            path.read_text(encoding="utf-8")
+            for path in Path(fuge.__file__).parent.glob("*.py")
+            if path.name != "_declarations.py"
+        )
+        called = set(re.findall(r'"(fuge_\w+)"', source)) & set(headers.declarations())
+        missing = {name for name in set(headers.declarations()) - called if not name.startswith(NOT_YET)}
+        self.assertEqual(missing, set(NOT_CALLED))
+
+    def test_structs_are_those_of_the_headers(self):
+        types = {"int": _structs.ctypes.c_int, "double": _structs.ctypes.c_double}
+        self.assertEqual(set(_structs.STRUCTS), set(headers.STRUCTS))
+        for name, struct in _structs.STRUCTS.items():
+            wanted = [
+                (member, types[base] if length == 1 else types[base] * length)
+                for member, base, length in headers.struct(name)
+            ]
+            self.assertEqual(struct._fields_, wanted, name)
+
+    def test_constants_are_those_of_the_headers(self):
+        constants = headers.constants()
+        status = {name: value for name, value in constants.items() if re.match("DONE$|WARN_|ERR_", name)}
+        self.assertEqual({member.name: int(member) for member in fuge.Status}, status)
+        self.assertEqual(MESSAGE_LENGTH, constants["MESSAGE_LENGTH"])
+        for words, prefix in [
+            (halfplane.ELEMENTS, ""),
+            (halfplane.PLANE_STATES, "PLANE_"),
+            (operators.BOUNDARIES, ""),
+            (operators.AREA_BOUNDARIES, ""),
+            (solver.METHODS, ""),
+            *OTHER_WORDS,
+        ]:
+            for word, value in words.items():
+                self.assertEqual(value, constants[(prefix + word).upper()], word)
+        for rule, name in [("paper", "PAPER_RULE"), ("most_negative", "MOST_NEGATIVE"),
+                           ("greatest_decrease", "GREATEST_DECREASE")]:
+            self.assertEqual(solver.PIVOT_RULES[rule], constants[name])
+        for member in fuge.EdgeKind:
+            self.assertEqual(member, constants["EDGE_" + member.name])
+        for member in fuge.PointState:
+            self.assertEqual(member, constants[member.name])
+
+    def test_version_is_that_of_the_headers(self):
+        header = (headers.ROOT / "include" / "fuge.h").read_text(encoding="utf-8")
+        self.assertIn(f'FUGE_VERSION "{fuge.__version__}"', header)
+
+
+OTHER_WORDS = []
+
+if __name__ == "__main__":
+    unittest.main()
