@@ -11,6 +11,10 @@ module mesh_pairs
 
   public :: find_pairs, mesh_node
 
+  !> The options that belong to a pair.
+  character(len=12), parameter :: OF_PAIRS(7) = [character(len=12) :: 'clearance', 'node-to-face', 'normals', 'play', &
+    'reach', 'smooth', 'tied']
+
   !> A pair of surfaces: of which bodies, and what is between them.
   type, public :: model_pair
     !> Contact and opposite surface as the option names them.
@@ -89,6 +93,10 @@ contains
     type(model_pair), intent(inout) :: pair
     type(fuge_info), intent(inout) :: info
 
+    if (is_repeated(given, k)) then
+      call refuse(given%settings(k)%place//': the pair has one already', info)
+      return
+    end if
     select case (given%settings(k)%name)
     case ('tied')
       pair%options%tied = .true.
@@ -109,6 +117,21 @@ contains
       call take_normals(given%settings(k)%value, given%settings(k)%place, pair, info)
     end select
   end subroutine take_option
+
+  !> Has an option of a pair been given before, after the --pair to which it belongs?
+  pure function is_repeated(given, k)
+    type(arguments), intent(in) :: given
+    integer, intent(in) :: k
+    logical :: is_repeated
+    integer :: j
+
+    is_repeated = .false.
+    if (all(given%settings(k)%name /= OF_PAIRS)) return
+    do j = k - 1, 1, -1
+      if (given%settings(j)%name == 'pair' .or. is_repeated) exit
+      is_repeated = given%settings(j)%name == given%settings(k)%name
+    end do
+  end function is_repeated
 
   !> averaged, opposite, or a direction of two or three numbers.
   subroutine take_normals(word, place, pair, info)

@@ -51,8 +51,8 @@ contains
     call execute_command_line('timeout 1 true', exitstat=status, cmdstat=failed)
     if (failed /= 0 .or. status /= 0) limit = ''
     seconds = wall_clock()
-    call execute_command_line('rm -f '//job//'.dat '//job//'.frd; '//trim(limit)//' "'//command//'" -i '//job//' >'//job &
-                              //'.log 2>&1', exitstat=status, cmdstat=failed)
+    call execute_command_line('rm -f '//job//'.dat '//job//'.frd; '//trim(limit)//' "'//command//'" -i '//job &
+                              //' >'//job//'.log 2>&1', exitstat=status, cmdstat=failed)
     seconds = wall_clock() - seconds
     solved = failed == 0 .and. status == 0
   end subroutine try_job

@@ -13,6 +13,8 @@ module calculix_own
     character(len=18) :: type = 'SURFACE TO SURFACE'
     !> Pressure for each length of penetration, in the units of the model; 0: CalculiX's default; below 0: none, hard.
     real(dp) :: penalty = 0.0_dp
+    !> The gap that CalculiX takes in place of that of the meshes (*CLEARANCE), length; 0: none.
+    real(dp) :: clearance = 0.0_dp
   end type contact_law
 
   type, public :: own_answer
@@ -39,6 +41,8 @@ contains
     if (law%penalty >= 0.0_dp) write (file, '(a)') '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR'
     if (law%penalty > 0.0_dp) write (file, '(es20.13)') law%penalty
     write (file, '(a)') '*CONTACT PAIR, INTERACTION=LAW, TYPE='//trim(law%type), contact//', '//opposite
+    if (abs(law%clearance) > 0.0_dp) &
+      write (file, '(a,es20.13)') '*CLEARANCE, MASTER='//opposite//', SLAVE='//contact//', VALUE=', law%clearance
     close (file)
   end subroutine write_law
 

@@ -21,11 +21,11 @@ module calculix_pressed
   !> Aluminium on steel; N/mm2.
   real(dp), parameter :: YOUNG(2) = [7.0e4_dp, 2.1e5_dp], POISSON(2) = [0.33_dp, 0.3_dp]
   character(len=9), parameter :: MATERIAL(2) = ['ALUMINIUM', 'STEEL    ']
-  real(dp), parameter :: E_STAR = 1.0_dp/((1.0_dp - POISSON(1)**2)/YOUNG(1) + (1.0_dp - POISSON(2)**2)/YOUNG(2))
+  real(dp), parameter :: E_STAR = 1.0_dp/sum((1.0_dp - POISSON**2)/YOUNG)
   !> Radius of the upper face, thickness of the slabs, their width (of the half) and height; mm.
   real(dp), parameter :: RADIUS = 100.0_dp, THICKNESS = 0.1_dp, SIDE = 10.0_dp
-  !> How far the upper end is pressed down after the bodies have touched, and the part of it by which they overlap in the
-  !> mesh, because CalculiX's mortar contact does not start from bodies that only touch; mm.
+  !> How far the upper end is pressed down after the bodies have touched, and the part of it by which they overlap in
+  !> the mesh, because CalculiX's mortar contact does not start from bodies that only touch; mm.
   real(dp), parameter :: DEPTH_PRESSED = 4.0e-3_dp, OVERLAP = 1.0e-5_dp, MOTION = DEPTH_PRESSED - OVERLAP
   !> Elements where the bodies may touch, up to REACH from the middle; growth of those farther out.
   real(dp), parameter :: SPACING(2) = [0.05_dp, 0.07_dp], REACH = 0.9_dp, GROWTH = 1.25_dp
@@ -87,9 +87,11 @@ contains
     end do
   end function places
 
-  subroutine press_by_fuge(command, units, result)
+  !> `smooth`: with the gaps of the cylinder that the linear elements stand for, or with those of their faces.
+  subroutine press_by_fuge(command, units, smooth, result)
     character(len=*), intent(in) :: command
     type(unit_system), intent(in) :: units
+    logical, intent(in) :: smooth
     type(contact_result), intent(out) :: result
     type(contact_request) :: request
 
@@ -98,6 +100,7 @@ contains
     request%opposite = 'SLOWER'
     request%moved = 'UPPEREND'
     request%displacement = -MOTION*units%length
+    request%options%smooth = smooth
     call solve_by_fuge(command, request, result)
   end subroutine press_by_fuge
 

@@ -30,8 +30,8 @@ module calculix_slab
   !> from the contact surface first, so that face S2 touches.
   integer, parameter :: CORNER(3, 8) = reshape([0, 1, 0, 1, 1, 0, 1, 1, 1, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1, &
                                                 0, 0, 1], [3, 8])
-  integer, parameter :: EDGE(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1, 5, 6, 6, 7, 7, 8, 8, 5, 1, 5, 2, 6, 3, 7, 4, 8], &
-                                              [2, 12])
+  integer, parameter :: EDGE(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1, 5, 6, 6, 7, 7, 8, 8, 5, 1, 5, 2, 6, 3, 7, &
+                                               4, 8], [2, 12])
   !> The corners of an element above its contact surface, which would be inside out in the order of one below.
   integer, parameter :: TURNED(8) = [1, 4, 3, 2, 5, 8, 7, 6]
 

@@ -9,6 +9,7 @@ module fuge_certificate
   use fuge_operator_products, only: multiply_with_magnitude
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_ranks, only: shared_ranks
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
@@ -91,26 +92,27 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:), elastic(:)
     logical, allocatable :: included(:)
+    type(shared_ranks) :: ranks
     integer :: n, stat
 
-    if (.not. sizes_agree(operator, problem, solution)) then
+    ranks = operator%ranks()
+    if (.not. ranks%everywhere(sizes_agree(operator, problem, solution))) then
       call report(info, FUGE_ERR_SIZE, 'certificate: an array is missing or not as long as the operator has points')
       return
     end if
     ! Violations stay huge: a product with NaN would show nothing.
-    if (.not. all(ieee_is_finite(solution%force))) return
+    if (.not. ranks%everywhere(all(ieee_is_finite(solution%force)))) return
     n = operator%points()
     allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), elastic(n), included(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
-      return
-    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
+    call ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     call multiply_with_magnitude(operator, solution%force, error, elastic, info)
     if (info%failed()) return
 
     included = .true.
     if (allocated(problem%excluded)) included = .not. problem%excluded
-    call find_rigid_displacement(problem, solution, operator%datum(), rigid_displacement, rigid_magnitude)
+    call find_rigid_displacement(problem, solution, operator%datum(), ranks, rigid_displacement, rigid_magnitude)
     error = (problem%gap - rigid_displacement) + error - solution%gap
     magnitude = abs(problem%gap - rigid_displacement) + elastic
     if (allocated(problem%modes)) then
@@ -119,24 +121,25 @@ contains
                         + largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included))
     end if
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
-                                           .not. allocated(problem%modes))
-    call contact_violations(problem, solution, magnitude, included, violation)
-    violation%equilibrium = equilibrium_violation(problem, solution)
-    violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included)
+                                           .not. allocated(problem%modes), ranks)
+    call contact_violations(problem, solution, magnitude, included, ranks, violation)
+    violation%equilibrium = equilibrium_violation(problem, solution, ranks)
+    violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, ranks)
   end subroutine find_violation
 
   !> R q less the displacement by the `datum`, (n), and the magnitude of its terms.
-  pure subroutine find_rigid_displacement(problem, solution, datum, rigid_displacement, rigid_magnitude)
+  subroutine find_rigid_displacement(problem, solution, datum, ranks, rigid_displacement, rigid_magnitude)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: datum
+    type(shared_ranks), intent(in) :: ranks
     real(dp), intent(out) :: rigid_displacement(:), rigid_magnitude(:)
     real(dp) :: shift
     integer :: j
 
-    shift = datum*sum(solution%force)
+    shift = datum*ranks%total(sum(solution%force))
     ! Forces of both signs may cancel in the sum, but not their rounding.
-    rigid_magnitude = abs(datum)*sum(abs(solution%force))
+    rigid_magnitude = abs(datum)*ranks%total(sum(abs(solution%force)))
     if (allocated(problem%modes)) then
       rigid_displacement = -shift
       do j = 1, size(solution%motion)
@@ -151,48 +154,61 @@ contains
 
   !> The error of equation (9); for one translation, the error that all points share (that of v_0)
   !> and the rest are judged separately.
-  pure function gap_violation(error, magnitude, force, gap, rigid_magnitude, included, translation) result(violation)
+  function gap_violation(error, magnitude, force, gap, rigid_magnitude, included, translation, ranks) result(violation)
     real(dp), intent(in) :: error(:), magnitude(:), force(:), gap(:), rigid_magnitude(:)
     logical, intent(in) :: included(:), translation
+    type(shared_ranks), intent(in) :: ranks
     real(dp) :: violation
-    real(dp) :: shared, rounding, excess
+    real(dp) :: at_reference(4), key, largest, shared, rounding, excess
     integer :: k, reference
 
     violation = 0.0_dp
-    if (.not. any(included)) return
-    reference = minloc(gap, dim=1, mask=included)
-    ! A force of rounding size is no contact.
-    if (any(abs(force) > 0.0_dp)) reference = &
-      minloc(magnitude, dim=1, mask=included .and. abs(force) > sqrt(epsilon(shared))*maxval(abs(force)))
+    if (.not. ranks%anywhere(any(included))) return
+    largest = ranks%largest(maxval(abs(force)))
+    if (largest > 0.0_dp) then
+      ! A force of rounding size is no contact.
+      reference = minloc(magnitude, dim=1, mask=included .and. abs(force) > sqrt(epsilon(shared))*largest)
+    else
+      reference = minloc(gap, dim=1, mask=included)
+    end if
+    key = huge(key)
+    at_reference = 0.0_dp
+    if (reference > 0) then
+      key = merge(magnitude(reference), gap(reference), largest > 0.0_dp)
+      at_reference = [error(reference), magnitude(reference), gap(reference), rigid_magnitude(reference)]
+    end if
+    call ranks%take_from_least(key, at_reference)
     shared = 0.0_dp
-    if (translation) shared = error(reference)
+    if (translation) shared = at_reference(1)
     do k = 1, size(error)
       ! max may ignore a NaN, which must not pass for small.
       if (.not. abs(error(k)) <= huge(violation)) violation = huge(violation)
       ! Half a unit in the last place each, of the gaps and of the motions, and as much for their sum.
-      rounding = abs(gap(k)) + abs(gap(reference)) + rigid_magnitude(k)
+      rounding = abs(gap(k)) + abs(at_reference(3)) + rigid_magnitude(k)
       excess = max(abs(error(k) - shared) - 2.0_dp*epsilon(shared)*rounding, 0.0_dp)
-      violation = max(violation, relative(excess, magnitude(k) + magnitude(reference)))
+      violation = max(violation, relative(excess, magnitude(k) + at_reference(2)))
     end do
+    violation = ranks%largest(violation)
     if (translation) violation = max(violation, &
-      relative(abs(shared), max(rigid_magnitude(reference), abs(gap(reference)), magnitude(reference))))
+      relative(abs(shared), max(at_reference(4), abs(at_reference(3)), at_reference(2))))
   end function gap_violation
 
   !> Signs and complementarity, equation (10) at both stops.
-  pure subroutine contact_violations(problem, solution, magnitude, included, violation)
+  subroutine contact_violations(problem, solution, magnitude, included, ranks, violation)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: magnitude(:)
     logical, intent(in) :: included(:)
+    type(shared_ranks), intent(in) :: ranks
     type(fuge_violation), intent(inout) :: violation
     real(dp), allocatable :: body_forces(:)
     logical, allocatable :: loaded(:)
-    real(dp) :: largest, body_force, rounding, upper, stop_distance
+    real(dp) :: largest, body_force, rounding, upper, stop_distance, parts(2)
     integer :: k
 
     violation%sign = 0.0_dp
     violation%complementarity = 0.0_dp
-    largest = maxval(abs(solution%force))
+    largest = ranks%largest(maxval(abs(solution%force)))
     upper = huge(upper)
     body_force = largest
     ! Not by assignment, for which gfortran compares bounds that are not there yet.
@@ -225,14 +241,20 @@ contains
                                             relative(abs(stop_distance), magnitude(k))))
       end associate
     end do
+    parts = [violation%sign, violation%complementarity]
+    call ranks%raise(parts)
+    violation%sign = parts(1)
+    violation%complementarity = parts(2)
   end subroutine contact_violations
 
   !> Equation (11) in the free modes; in the others q must be as prescribed. A resultant of zero may consist of rounding
   !> alone: of the forces of its body, or of all forces if no load acts on the body.
-  pure function equilibrium_violation(problem, solution) result(violation)
+  function equilibrium_violation(problem, solution, ranks) result(violation)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
+    type(shared_ranks), intent(in) :: ranks
     real(dp) :: violation
+    real(dp) :: sums(2)
     integer :: j
 
     violation = 0.0_dp
@@ -243,8 +265,10 @@ contains
     if (allocated(problem%modes)) then
       violation = max(violation, imbalance_in_modes(problem, solution%force))
     else if (.not. is_prescribed(problem, 1)) then
-      violation = max(violation, relative(abs(sum(solution%force) - problem%resultant(1)), &
-                                          max(sum(abs(solution%force)), abs(problem%resultant(1)))))
+      sums = [sum(solution%force), sum(abs(solution%force))]
+      call ranks%add(sums)
+      violation = max(violation, relative(abs(sums(1) - problem%resultant(1)), &
+                                          max(sums(2), abs(problem%resultant(1)))))
     end if
   end function equilibrium_violation
 
@@ -277,30 +301,32 @@ contains
   !> may be as large at a soft point beside a stiff one, but not where the forces are.
   !>
   !> `error` (n) of equation (9), `elastic` (n) the terms of A f, `rigid_magnitude` (n) those of the motions.
-  pure function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included) result(violation)
+  function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, ranks) result(violation)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: error(:), elastic(:), rigid_magnitude(:)
     logical, intent(in) :: included(:)
+    type(shared_ranks), intent(in) :: ranks
     real(dp) :: violation
-    real(dp) :: open(size(error)), share(size(error)), length
+    real(dp) :: open(size(error)), share(size(error)), largest, length
     integer :: k
 
     violation = 0.0_dp
     ! Forces that push with one load between them do not dwarf it.
     if (problem%is_plain()) return
     share = merge(abs(solution%force), 0.0_dp, included)
-    if (.not. maxval(share) > 0.0_dp) return
-    share = share/maxval(share)
-    share = share/sum(share)
-    length = data_length(problem, solution%force, elastic, included)
-    if (DWARFED*sum(share*elastic) <= length) return
+    largest = ranks%largest(maxval(share))
+    if (.not. largest > 0.0_dp) return
+    share = share/largest
+    share = share/ranks%total(sum(share))
+    length = data_length(problem, solution%force, elastic, included, ranks)
+    if (DWARFED*ranks%total(sum(share*elastic)) <= length) return
     ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
     open = max(abs(error) - 2.0_dp*epsilon(open)*(abs(problem%gap) + rigid_magnitude), epsilon(open)*elastic)
     do k = 1, size(open)
       open(k) = max(open(k), stop_distance_at(problem, solution, k))
     end do
-    violation = relative(sum(share*open), length)
+    violation = relative(ranks%total(sum(share*open)), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
 
@@ -316,16 +342,18 @@ contains
     if (solution%force(k) < 0.0_dp) distance = abs(solution%gap(k) - min(problem%gap_upper(k), huge(distance)))
   end function stop_distance_at
 
-  !> Is every array allocated, and as long as the operator has points?
-  pure function sizes_agree(operator, problem, solution)
+  !> Is every array allocated, and as long as the operator has points? Where ranks share the points, one may have none.
+  function sizes_agree(operator, problem, solution)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     logical :: sizes_agree
+    type(shared_ranks) :: ranks
     integer :: m
 
     m = problem%mode_count()
-    sizes_agree = operator%points() > 0 .and. size_of(problem%gap) == operator%points() &
+    ranks = operator%ranks()
+    sizes_agree = (operator%points() > 0 .or. .not. ranks%is_alone()) .and. size_of(problem%gap) == operator%points() &
       .and. size_of(solution%force) == operator%points() &
       .and. size_of(solution%gap) == operator%points() .and. size_of(solution%motion) == m
     if (allocated(problem%modes)) sizes_agree = sizes_agree .and. size(problem%modes, 1) == operator%points()

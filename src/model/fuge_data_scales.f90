@@ -2,6 +2,7 @@
 module fuge_data_scales
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem
+  use fuge_ranks, only: shared_ranks
   implicit none
   private
 
@@ -13,13 +14,14 @@ contains
   !> motions, the plays, and what the loads displace.
   !>
   !> `force` (n), not all zero, makes the terms `elastic` (n) of A f; loads that are smaller displace less. `included`
-  !> (n) marks the points that take part.
-  pure function data_length(problem, force, elastic, included) result(length)
+  !> (n) marks the points that take part. `ranks` may share the points of a problem without modes and plays.
+  function data_length(problem, force, elastic, included, ranks) result(length)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:), elastic(:)
     logical, intent(in) :: included(:)
+    type(shared_ranks), intent(in) :: ranks
     real(dp) :: length
-    real(dp) :: gap(size(elastic)), load, arm
+    real(dp) :: gap(size(elastic)), extremes(4), load, arm
     integer :: j
 
     gap = problem%gap
@@ -35,13 +37,16 @@ contains
         gap = gap - problem%motion(j)
       end if
     end do
-    length = maxval(abs(gap), mask=included)
+    extremes = [maxval(abs(gap), mask=included), maxval(gap, mask=included), -minval(gap, mask=included), &
+                maxval(elastic, mask=included)]
+    call ranks%raise(extremes)
+    length = extremes(1)
     if (.not. allocated(problem%modes)) then
-      if (.not. is_prescribed(problem, 1)) length = maxval(gap, mask=included) - minval(gap, mask=included)
+      if (.not. is_prescribed(problem, 1)) length = extremes(2) + extremes(3)
     end if
     if (allocated(problem%gap_upper)) length = max(length, &
       maxval(problem%gap_upper, mask=included .and. problem%gap_upper < huge(length)))
-    length = length + min(load/sum(abs(force)), 1.0_dp)*maxval(elastic, mask=included)
+    length = length + min(load/ranks%total(sum(abs(force))), 1.0_dp)*extremes(4)
   end function data_length
 
   !> At each point, the largest of `values` (>= 0) among the points that some mode moves together

@@ -5,6 +5,7 @@
 module fuge_operator_type
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
+  use fuge_ranks, only: shared_ranks
   use fuge_status, only: FUGE_DONE, FUGE_ERR_SIZE
   implicit none
   private
@@ -39,6 +40,10 @@ module fuge_operator_type
     procedure :: kept_coarser => none_kept
     !> The same body, but forces and displacements of a part of its cells only; none by default.
     procedure :: window => no_window
+    !> The processes that share the points; this one alone has all of them by default.
+    procedure :: ranks => no_other_ranks
+    !> Which rows of the grid each of them has.
+    procedure :: first_rows => all_rows_here
   end type fuge_operator
 
   abstract interface
@@ -134,6 +139,29 @@ contains
 
     if (self%points() < 0 .and. any(last < first)) allocate (part, source=self)
   end subroutine no_window
+
+  !> The ranks that share the points, so that `points` and all arrays are those of this rank, `grid` is the whole one,
+  !> and all ranks call a procedure together. Alone, as in this default, one process has them all.
+  function no_other_ranks(self) result(ranks)
+    class(fuge_operator), intent(in) :: self
+    type(shared_ranks) :: ranks
+
+    if (self%points() < 0) nullify (ranks%group)
+  end function no_other_ranks
+
+  !> On the grid that is `levels` times coarser, 0 for that of this operator, rank r has the rows `first`(r) to
+  !> `first`(r + 1) - 1; `first` (0:ranks). All on one rank, as in this default, unless ranks share the points.
+  !> Unallocated without memory.
+  subroutine all_rows_here(self, levels, first)
+    class(fuge_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    integer, allocatable, intent(out) :: first(:)
+    integer :: cells(2), stat
+
+    cells = self%grid()
+    allocate (first(0:1), stat=stat)
+    if (stat == 0) first = [1, (cells(2) - 1)/2**levels + 2]
+  end subroutine all_rows_here
 
   !> A_ii + A_jj - 2 A_ij, length per force, the least of all pairs of points marked in `contact` (n) that the rigid
   !> `modes` (n, m) move alike: by so much equal and opposite forces on them move them apart. Huge, as in this default,

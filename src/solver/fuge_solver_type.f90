@@ -18,12 +18,13 @@ module fuge_solver_type
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
+  use fuge_ranks, only: shared_ranks
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_sensitivity, only: find_derivative
   use fuge_set_derivative, only: find_derivative_by_products
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_SIZE, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, &
-    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
   use fuge_tableau_engine, only: solve_by_tableau
   use fuge_warm_start, only: load_history
   use fuge_working_set, only: working_set
@@ -93,6 +94,7 @@ contains
     type(fuge_options) :: chosen
     type(fuge_solution) :: candidate
     type(monitor_relay) :: relay
+    type(shared_ranks) :: ranks
 
     if (present(options)) chosen = options
     if (present(monitor)) relay%listener => monitor
@@ -100,15 +102,18 @@ contains
     self%has_solution = .false.
     call check_options(chosen, info)
     if (info%failed()) return
-    if (operator%points() < 1) then
+    ranks = operator%ranks()
+    if (ranks%total_count(operator%points()) < 1) then
       call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before the solve')
       return
     end if
     call check_problem(problem, operator%points(), info)
+    call ranks%agree(info)
+    if (.not. (ranks%is_alone() .or. info%failed())) call check_shared_problem(problem, ranks, info)
     if (info%failed()) return
 
     if (is_unloaded(problem)) then
-      call solve_without_load(problem, candidate, info)
+      call solve_without_load(problem, ranks, candidate, info)
       if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
     else
       call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
@@ -131,6 +136,30 @@ contains
       call move_solution(candidate, solution)
     end if
   end subroutine solve
+
+  !> Refuse what ranks that share the points do not solve (FUGE_ERR_UNSUPPORTED): modes, play and excluded points; and
+  !> loads or motions that differ between them (FUGE_ERR_OPTION).
+  subroutine check_shared_problem(problem, ranks, info)
+    type(fuge_problem), intent(in) :: problem
+    type(shared_ranks), intent(in) :: ranks
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: control(2)
+
+    if (ranks%anywhere(is_general(problem))) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'ranks share problems with one load or one prescribed approach only: ' &
+                  //'leave out modes, gap_upper and excluded')
+      return
+    end if
+    control = 0.0_dp
+    if (problem%is_plain()) then
+      control(1) = problem%resultant(1)
+    else
+      control = [problem%motion(1), 1.0_dp]
+    end if
+    if (ranks%anywhere(any(abs(control - [ranks%largest(control(1)), ranks%largest(control(2))]) > 0.0_dp))) then
+      call report(info, FUGE_ERR_OPTION, 'the load, or the prescribed approach, differs between the ranks')
+    end if
+  end subroutine check_shared_problem
 
   !> One solve by the engine that the options choose, and its certificate.
   subroutine solve_and_certify(self, operator, problem, options, monitor, solution, info)
@@ -189,7 +218,13 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(out) :: info
+    type(shared_ranks) :: ranks
 
+    ranks = operator%ranks()
+    if (.not. ranks%is_alone()) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'there are no derivatives where ranks share the points: use a single one')
+      return
+    end if
     call check_changes(self, operator%points(), gap_change, load_change, info)
     if (info%failed()) return
     if (self%solved_by_products) then
@@ -278,19 +313,20 @@ contains
   end function is_unloaded
 
   !> The limit of a vanishing load: the bodies just touch at the smallest gap.
-  pure subroutine solve_without_load(problem, solution, info)
+  subroutine solve_without_load(problem, ranks, solution, info)
     type(fuge_problem), intent(in) :: problem
+    type(shared_ranks), intent(in) :: ranks
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
     allocate (solution%force(problem%points()), solution%gap(problem%points()), solution%motion(1), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(problem%points())//' points')
-      return
-    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(problem%points()) &
+                               //' points')
+    call ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     solution%force = 0.0_dp
-    solution%motion = minval(problem%gap)
+    solution%motion = ranks%least(minval(problem%gap))
     solution%gap = problem%gap - solution%motion(1)
   end subroutine solve_without_load
 
@@ -458,13 +494,16 @@ contains
     real(dp), intent(in) :: tolerance
     type(fuge_info), intent(inout) :: info
     type(fuge_violation) :: violation
+    type(shared_ranks) :: ranks
 
     call find_violation(operator, problem, solution, violation, info)
     if (info%failed()) return
-    info%contacts = count(abs(solution%force) > 0.0_dp)
+    ranks = operator%ranks()
+    info%contacts = ranks%total_count(count(abs(solution%force) > 0.0_dp))
     info%residual = violation%worst()
     if (violation%unresolved > tolerance) then
-      call report(info, FUGE_WARN_RESIDUAL, 'the forces reach '//text(maxval(abs(solution%force)))//' and dwarf the ' &
+      call report(info, FUGE_WARN_RESIDUAL, 'the forces reach ' &
+                  //text(ranks%largest(maxval(abs(solution%force))))//' and dwarf the ' &
                   //'data: lengths are off by '//text(violation%unresolved)//' of the gaps; look for missing ' &
                   //'rigid motions, or for gaps that no forces can close or open')
     else if (info%residual > tolerance) then

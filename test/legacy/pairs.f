@@ -167,10 +167,12 @@ C     upper face of the lower one, from right to left.
         IFACEO(2,K) = K
   100 CONTINUE
 C     With node to face the pressure is not uniform: the test can fail.
-      DO 140 MET = 0, 1
+      DO 140 K = 1, 3
+        MET = 0
+        IF (K .EQ. 3) MET = 1
         CALL FUGECP(2, 6, XC, 2, 5, IFACE, ID, 4, XO, 2, 3, IFACEO, IDO,
-     $    MET, 0, 0, 1, 0.D0, 0.D0, MAXN, NW, N, NWMIN, IDOF, DN, GAP,
-     $    NSTOP, PLAY, AREA, NODE, NOPP, MSG, INFO)
+     $    MET, 0, MOD(K, 2), 1, 0.D0, 0.D0, MAXN, NW, N, NWMIN, IDOF,
+     $    DN, GAP, NSTOP, PLAY, AREA, NODE, NOPP, MSG, INFO)
         CALL STATUS('FUGECP', INFO, 0)
         CALL STATUS('FUGECP, blank MSG', INDEX('x'//MSG, 'x '), 1)
         CALL STATUS('contact points', N, 6)
@@ -258,6 +260,19 @@ C     Two points with a play; a row that no point needs is 0.
    10 CONTINUE
       CALL STATUS('play, IDOF(4,2)', IDOF(4,2), 0)
       CALL STATUS('play, IDOF(1,3)', IDOF(1,3), 77)
+C     A second pair, the same surfaces, behind the first one.
+      CALL FUGECP(2, 2, X, 2, 1, IFACE, ID, 2, XO, 2, 1, IFACEO, IDO,
+     $  0, 0, 0, 1, 0.D0, 0.D0, MAXN-N, NW, I, NWMIN, IDOF(1,N+1),
+     $  DN(1,N+1), GAP(N+1), NSTOP(N+1), PLAY(N+1), AREA(N+1),
+     $  NODE(N+1), NOPP(N+1), MSG, INFO)
+      CALL STATUS('second pair', INFO, 0)
+      CALL STATUS('second pair, points', I, 2)
+      DO 15 I = 1, 2
+        CALL STATUS('second pair, NSTOP', NSTOP(2+I), 1)
+        CALL NUMBER('second pair, GAP', GAP(2+I), 0.5D0, TOL)
+        CALL STATUS('second pair, NODE', NODE(2+I), I)
+        CALL NUMBER('first pair, PLAY', PLAY(I), 0.25D0, 0.D0)
+   15 CONTINUE
 C     Tied: two directions at each point.
       CALL FUGECP(2, 2, X, 2, 1, IFACE, ID, 2, XO, 2, 1, IFACEO, IDO,
      $  0, 0, 0, 3, 0.D0, 0.D0, MAXN, NW, N, NWMIN, IDOF, DN, GAP,

@@ -121,10 +121,10 @@ contains
     made%k = 0.5_dp*(made%k + transpose(made%k))
   end subroutine set_stiffness
 
-  !> For the library; the first of the sides held along the last axis, then along x, then along y.
-  subroutine body(self, held, elastic)
+  !> For the library: `held` along the last axis up to `upright`, then, as many as at the left, along x, then along y.
+  subroutine body(self, held, upright, elastic)
     class(block), intent(in) :: self
-    integer, intent(in) :: held(:)
+    integer, intent(in) :: held(:), upright
     type(fuge_elastic_body), intent(inout) :: elastic
     integer :: axis, i, n, part
 
@@ -133,12 +133,10 @@ contains
     elastic%row = [((i, i=1, n), part=1, n)]
     elastic%value = reshape(self%k, [n*n])
     allocate (elastic%fixed(size(held)))
-    part = 0
-    if (.not. self%is_upper) part = size(self%bottom)
     do i = 1, size(held)
       axis = 1
-      if (i <= part) axis = self%dimensions
-      if (i > part + size(self%left)) axis = 2
+      if (i <= upright) axis = self%dimensions
+      if (i > upright + size(self%left)) axis = 2
       elastic%fixed(i) = self%dimensions*(held(i) - 1) + axis
     end do
   end subroutine body

@@ -4,8 +4,8 @@
 !>     blocks check TABLE 2|3 CASE
 !>
 !> The upper block stands on the lower one. CASE patch: a uniform pressure on top, which the contact passes on exactly.
-!> The others are the same as by fuge_solve_bodies: a force on one corner only, and a clearance (corner), also with
-!> node to face, with normals of the opposite faces or given ones, with a play, or tied.
+!> The others are the same as by fuge_solve_bodies: a force on one corner, the left side held, and a clearance
+!> (corner); the same with node to face, with normals of the opposite faces or given ones, with a play, or tied.
 program blocks
   use block_files, only: write_block, write_formats, write_loads
   use block_models, only: block, make_block, CLEARANCE, TOP_PRESSURE
@@ -90,18 +90,19 @@ contains
 
     call make_block('lower', dimensions, lower)
     call make_block('upper', dimensions, upper)
-    call lower%body([lower%bottom, lower%left, lower%front], bodies(1))
-    call upper%body([upper%left, upper%front], bodies(2))
+    call lower%body([lower%bottom, lower%left, lower%front], size(lower%bottom), bodies(1))
     if (scene == 'patch') then
+      call upper%body([upper%left, upper%front], 0, bodies(2))
       bodies(2)%load = upper%pressure_load()
     else
+      call upper%body([upper%left, upper%left, upper%front], size(upper%left), bodies(2))
       bodies(2)%load = upper%corner_load()
     end if
     pair(1)%contact_body = 2
     pair(1)%opposite_body = 1
     call upper%surface(upper%below, pair(1)%contact)
     call lower%surface(lower%above, pair(1)%opposite)
-    if (scene /= 'patch' .and. scene /= 'tied') &
+    if (scene /= 'patch' .and. scene /= 'tied' .and. scene /= 'given') &
       pair(1)%contact%node(dimensions, :) = pair(1)%contact%node(dimensions, :) + CLEARANCE
     call choose_options(scene, size(upper%position, 2), pair(1)%options)
     call fuge_solve_bodies(stiffness, bodies, pair, contact, info)
@@ -127,7 +128,7 @@ contains
       options%normal(1, :) = 0.25_dp
       options%normal(dimensions, :) = -1.0_dp
     case ('play')
-      options%play = 0.375_dp
+      options%play = 0.2_dp
     case ('tied')
       options%tied = .true.
     case ('smooth')

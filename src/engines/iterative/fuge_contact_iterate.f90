@@ -9,6 +9,7 @@ module fuge_contact_iterate
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
+  use fuge_ranks, only: shared_ranks
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -99,10 +100,10 @@ contains
     if (stat == 0 .and. allocated(scene%play)) allocate (iterate%at_upper(n), stat=stat)
     if (stat == 0 .and. scene%prescribed) allocate (iterate%start(n), stat=stat)
     if (stat == 0 .and. allocated(scene%modes)) allocate (iterate%rigid_motion(size(scene%load)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
-      return
-    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
+    call scene%rows%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    iterate%segments%ranks = scene%rows%ranks
     iterate%prescribed = scene%prescribed
     if (present(start)) then
       iterate%force = start
@@ -111,7 +112,7 @@ contains
     else if (scene%prescribed) then
       iterate%force = 0.0_dp
     else
-      iterate%force = 1.0_dp/real(n, dp)
+      iterate%force = 1.0_dp/real(scene%points(), dp)
     end if
   end subroutine start_iterate
 
@@ -185,15 +186,16 @@ contains
   end subroutine clip_forces
 
   !> Forces of sum 1; equal ones where there are none.
-  pure subroutine restore_load(iterate)
+  subroutine restore_load(iterate)
     type(contact_iterate), intent(inout) :: iterate
     real(dp) :: total
 
-    total = sum(iterate%force)
+    total = iterate%segments%ranks%total(sum(iterate%force))
     if (total > 0.0_dp) then
       iterate%force = iterate%force/total
     else
-      where (iterate%contact) iterate%force = 1.0_dp/real(count(iterate%contact), dp)
+      total = real(iterate%segments%ranks%total_count(count(iterate%contact)), dp)
+      where (iterate%contact) iterate%force = 1.0_dp/total
     end if
   end subroutine restore_load
 
@@ -275,7 +277,7 @@ contains
 
   !> Move the rigid part of the residual into the motion, unless that is prescribed: left in the
   !> residual, its rounding error would grow and swamp the rest.
-  pure subroutine project_residual(scene, iterate)
+  subroutine project_residual(scene, iterate)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
     real(dp), allocatable :: parts(:)
@@ -297,7 +299,7 @@ contains
   end subroutine project_residual
 
   !> The deepest penetration of an open point, through either stop; 0 if none penetrates.
-  pure function find_penetration(scene, iterate) result(depth)
+  function find_penetration(scene, iterate) result(depth)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: depth
@@ -323,7 +325,7 @@ contains
 
     offset = 0.0_dp
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
-    if (counts_datum(scene, iterate)) offset = operator%datum()*sum(iterate%force)
+    if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%ranks%total(sum(iterate%force))
     if (allocated(scene%modes)) then
       allocate (rigid(size(scene%gap)))
       rigid = 0.0_dp
@@ -368,7 +370,7 @@ contains
   end function is_accurate
 
   !> The least of |gap + offset| + magnitude over the segments, 0 if there are none; `gap`, `magnitude` (n).
-  pure function least_sum(segments, offset, gap, magnitude) result(least)
+  function least_sum(segments, offset, gap, magnitude) result(least)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in) :: offset
     real(dp), intent(in), contiguous :: gap(:), magnitude(:)
@@ -381,6 +383,7 @@ contains
         least = min(least, abs(gap(k) + offset) + magnitude(k))
       end do
     end do
+    least = segments%ranks%least(least)
   end function least_sum
 
   !> The least of `values` (n) over the segments, 0 if there are none.
@@ -434,9 +437,12 @@ contains
     real(dp), intent(in), contiguous :: force(:)
     real(dp), intent(inout), contiguous :: displacement(:)
     type(fuge_info), intent(inout) :: info
+    type(shared_ranks) :: ranks
 
     call multiply(operator, force, displacement, info)
-    if (with_datum .and. .not. info%failed()) displacement = displacement + operator%datum()*sum(force)
+    if (.not. with_datum .or. info%failed()) return
+    ranks = operator%ranks()
+    displacement = displacement + operator%datum()*ranks%total(sum(force))
   end subroutine compute_displacement
 
   !> Gap of a point in the deformed state; negative where the point penetrates. Scaled as in

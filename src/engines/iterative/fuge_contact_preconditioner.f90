@@ -15,6 +15,7 @@ module fuge_contact_preconditioner
   use fuge_operator_type, only: fuge_operator
   use fuge_preconditioner_levels, only: apply_levels, count_contacts, create_level, exists, level_force, &
     preconditioner_level
+  use fuge_ranks, only: shared_ranks
   use fuge_rigid_images, only: rigid_images
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
@@ -78,7 +79,9 @@ contains
     real(dp), intent(in) :: compliance
     type(fuge_info), intent(inout) :: info
     type(contact_segments) :: segments
+    type(shared_ranks) :: ranks
 
+    ranks = operator%ranks()
     if (.not. operator%has_preconditioner()) then
       ! Only avoids overflow: conjugate gradients do not depend on a factor. The first one is kept, so that what they
       ! find on one set can be compared with another.
@@ -88,8 +91,9 @@ contains
       return
     end if
     if (self%depth > 0 .and. .not. self%is_close .and. (self%has_uniform .or. .not. zero_sum)) then
-      if (all(contact .eqv. self%contact)) return
+      if (ranks%everywhere(all(contact .eqv. self%contact))) return
     end if
+    segments%ranks = ranks
     call segments%find(contact, info)
     if (self%depth == 1 .and. self%has_uniform .and. zero_sum .and. .not. info%failed()) then
       call keep_uniform(self, segments, contact)
@@ -116,20 +120,21 @@ contains
 
   !> Keep the forces `uniform` of a set for one that is close to it, if there is room for a residual and if
   !> their sum stays positive.
-  pure subroutine keep_uniform(self, segments, contact)
+  subroutine keep_uniform(self, segments, contact)
     class(contact_preconditioner), intent(inout) :: self
     type(contact_segments), intent(in) :: segments
     logical, intent(in) :: contact(:)
     real(dp) :: total
-    integer :: stat
+    integer :: changed, stat
 
-    self%is_close = real(count(contact .neqv. self%contact), dp) <= CLOSE*real(segments%points, dp)
+    changed = segments%ranks%total_count(count(contact .neqv. self%contact))
+    self%is_close = real(changed, dp) <= CLOSE*real(segments%points, dp)
     if (.not. self%is_close) return
     stat = 0
     if (.not. allocated(self%centred)) allocate (self%centred(size(contact)), stat=stat)
     if (stat == 0) self%centred = 0.0_dp
     total = sum_over(segments, self%uniform)
-    self%is_close = stat == 0 .and. total > 0.0_dp
+    self%is_close = segments%ranks%everywhere(stat == 0) .and. total > 0.0_dp
     if (self%is_close) self%sum_of_uniform = total
   end subroutine keep_uniform
 
@@ -235,7 +240,8 @@ contains
     call projection%components(segments, force, parts)
     call projection%subtract_on(segments, parts, force)
     energy = dot_over(segments, residual, force)
-    if (energy < 0.0_dp .and. abs(energy) <= ROUNDING*largest*max_abs_over(segments, residual)) energy = 0.0_dp
+    if (.not. energy < 0.0_dp) return
+    if (abs(energy) <= ROUNDING*largest*max_abs_over(segments, residual)) energy = 0.0_dp
   end subroutine apply_with_modes
 
   !> The preconditioner of the set, without a projection. `residual` (n) is zero off the set, `force` (n) undefined
@@ -265,7 +271,7 @@ contains
 
   !> The residual less that mean for which `uniform` does no work: with the same projection before and after it the
   !> preconditioner is symmetric, whatever set `uniform` was computed for (doc/theory.md).
-  pure subroutine center(self, segments, residual)
+  subroutine center(self, segments, residual)
     class(contact_preconditioner), intent(inout) :: self
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: residual(:)
@@ -287,6 +293,7 @@ contains
     class(fuge_operator), intent(in) :: operator
     logical, intent(in) :: contact(:), many_segments
     type(fuge_info), intent(inout) :: info
+    type(shared_ranks) :: ranks
     integer :: l, n, stat
 
     n = operator%points()
@@ -307,6 +314,8 @@ contains
       if (self%depth > 1 .and. stat == 0) call count_contacts(self%levels(:self%depth), contact)
     end if
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
+    ranks = operator%ranks()
+    call ranks%agree(info)
   end subroutine prepare_levels
 
   !> The operator's preconditioner applied to 1 on the contact set and 0 elsewhere.
@@ -315,16 +324,18 @@ contains
     logical, intent(in) :: contact(:)
     real(dp), intent(inout), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
+    type(shared_ranks) :: ranks
     real(dp), allocatable :: unit(:)
     integer :: stat
 
     allocate (unit(size(contact)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(size(contact))//' points')
-    else
-      unit = merge(1.0_dp, 0.0_dp, contact)
-      call precondition(operator, unit, force, info)
-    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(size(contact)) &
+                               //' points')
+    ranks = operator%ranks()
+    call ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    unit = merge(1.0_dp, 0.0_dp, contact)
+    call precondition(operator, unit, force, info)
   end subroutine precondition_unit
 
 end module fuge_contact_preconditioner

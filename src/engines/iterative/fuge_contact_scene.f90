@@ -7,6 +7,8 @@ module fuge_contact_scene
   use fuge_grid_transfer, only: coarser_cells, restrict
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_shared_rows, only: shared_rows
+  use fuge_shared_transfer, only: restrict_rows
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -30,7 +32,10 @@ module fuge_contact_scene
     real(dp), allocatable :: balance(:)
     !> The modes contain a translation, which absorbs the operator's datum.
     logical :: absorbs_datum = .false.
+    !> Which rows of the grid each rank has, where several share the points. Their scenes are simple.
+    type(shared_rows) :: rows = shared_rows()
   contains
+    procedure :: points
     procedure :: is_simple
     procedure :: is_unloaded
     procedure :: is_tied
@@ -41,6 +46,14 @@ module fuge_contact_scene
   real(dp), parameter, public :: OUT_OF_REACH = 0.01_dp*huge(1.0_dp)
 
 contains
+
+  !> Number of points, of all ranks.
+  pure function points(self) result(n)
+    class(contact_scene), intent(in) :: self
+    integer :: n
+
+    n = self%rows%points(size(self%gap))
+  end function points
 
   !> One translation, free or prescribed, and one-sided contact at all points?
   pure function is_simple(self)
@@ -83,20 +96,23 @@ contains
   end function tied_points
 
   !> The scene on the grid whose cells are 2**level times as wide as those of `finest`, with means over the points of
-  !> a cell that take part. `possible` is false if no forces there carry the resultants. Error: FUGE_ERR_MEMORY.
-  subroutine coarser_scene(scene, finest, level, coarse, possible, info)
+  !> a cell that take part. `possible` is false if no forces there carry the resultants. `rows`: those of the coarse
+  !> grid, where ranks share them. Error: FUGE_ERR_MEMORY.
+  subroutine coarser_scene(scene, finest, level, coarse, possible, info, rows)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: finest(2), level
     type(contact_scene), intent(out) :: coarse
     logical, intent(out) :: possible
     type(fuge_info), intent(inout) :: info
+    type(shared_rows), intent(in), optional :: rows
     real(dp), allocatable :: share(:)
 
     possible = .true.
     coarse%prescribed = scene%prescribed
     coarse%absorbs_datum = scene%absorbs_datum
     if (scene%is_simple()) then
-      call restrict(scene%gap, finest, level, coarse%gap, info)
+      if (present(rows)) coarse%rows = rows
+      call restrict_rows(scene%rows, coarse%rows, finest, level, scene%gap, coarse%gap, info)
       return
     end if
     call restrict_share(scene, finest, level, share, info)

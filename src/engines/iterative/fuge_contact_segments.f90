@@ -1,8 +1,10 @@
 !> Contact segments: maximal runs of consecutive points in contact, and sums over them.
 !>
-!> Loops over the segments visit no open point and have no branch inside.
+!> Loops over the segments visit no open point and have no branch inside. Where ranks share the points, each has the
+!> segments of its own, and sums and maxima are those over the segments of all ranks.
 module fuge_contact_segments
   use fuge_kinds, only: dp
+  use fuge_ranks, only: shared_ranks
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -16,8 +18,10 @@ module fuge_contact_segments
   type, public :: contact_segments
     !> First and last point of each segment, ascending.
     integer, allocatable :: first(:), last(:)
-    !> Number of points in all segments.
+    !> Number of points in all segments, of all ranks.
     integer :: points = 0
+    !> The ranks that share the points.
+    type(shared_ranks) :: ranks = shared_ranks()
   contains
     procedure :: find
   end type contact_segments
@@ -25,7 +29,7 @@ module fuge_contact_segments
 contains
 
   !> Find the segments of the contact set `contact` (n). Error: FUGE_ERR_MEMORY.
-  pure subroutine find(self, contact, info)
+  subroutine find(self, contact, info)
     class(contact_segments), intent(inout) :: self
     logical, intent(in) :: contact(:)
     type(fuge_info), intent(inout) :: info
@@ -34,13 +38,14 @@ contains
 
     n = size(contact)
     number = count(contact(2:n) .and. .not. contact(1:n - 1))
-    if (contact(1)) number = number + 1
+    if (n > 0) then
+      if (contact(1)) number = number + 1
+    end if
     if (allocated(self%first)) deallocate (self%first, self%last)
     allocate (self%first(number), self%last(number), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the segments of the contact set')
-      return
-    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the segments of the contact set')
+    call self%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     number = 0
     inside = .false.
     do k = 1, n
@@ -54,11 +59,11 @@ contains
       end if
     end do
     if (inside) self%last(number) = n
-    self%points = sum(self%last - self%first + 1)
+    self%points = self%ranks%total_count(sum(self%last - self%first + 1))
   end subroutine find
 
   !> Sum of `x` (n) over the segments.
-  pure function sum_over(segments, x) result(total)
+  function sum_over(segments, x) result(total)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:)
     real(dp) :: total
@@ -75,11 +80,11 @@ contains
         total = total + x(k)
       end do
     end do
-    total = total + sum(partial)
+    total = segments%ranks%total(total + sum(partial))
   end function sum_over
 
   !> Inner product of `x` and `y`, both (n), over the segments.
-  pure function dot_over(segments, x, y) result(inner)
+  function dot_over(segments, x, y) result(inner)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:), y(:)
     real(dp) :: inner
@@ -96,15 +101,15 @@ contains
         inner = inner + x(k)*y(k)
       end do
     end do
-    inner = inner + sum(partial)
+    inner = segments%ranks%total(inner + sum(partial))
   end function dot_over
 
   !> `inner` = the inner product of `x` and `y` over the segments, `total` = the sum of `y`; both (n).
-  pure subroutine dot_and_sum_over(segments, x, y, inner, total)
+  subroutine dot_and_sum_over(segments, x, y, inner, total)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:), y(:)
     real(dp), intent(out) :: inner, total
-    real(dp) :: products(LANES), values(LANES)
+    real(dp) :: products(LANES), values(LANES), sums(2)
     integer :: i, k
 
     inner = 0.0_dp
@@ -123,11 +128,16 @@ contains
     end do
     inner = inner + sum(products)
     total = total + sum(values)
+    if (segments%ranks%is_alone()) return
+    sums = [inner, total]
+    call segments%ranks%add(sums)
+    inner = sums(1)
+    total = sums(2)
   end subroutine dot_and_sum_over
 
   !> Subtract `factor` times `x` from `y` over the segments; `inner` = the inner product of the new `y` and `z`; all
   !> (n).
-  pure subroutine subtract_and_dot_over(segments, factor, x, y, z, inner)
+  subroutine subtract_and_dot_over(segments, factor, x, y, z, inner)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in) :: factor
     real(dp), intent(in), contiguous :: x(:), z(:)
@@ -149,11 +159,11 @@ contains
         inner = inner + y(k)*z(k)
       end do
     end do
-    inner = inner + sum(partial)
+    inner = segments%ranks%total(inner + sum(partial))
   end subroutine subtract_and_dot_over
 
   !> Subtract `mean` from `x` (n) over the segments; `largest` is the largest |x| then, 0 if there is none.
-  pure subroutine center_over(segments, mean, x, largest)
+  subroutine center_over(segments, mean, x, largest)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in) :: mean
     real(dp), intent(inout), contiguous :: x(:)
@@ -175,11 +185,11 @@ contains
         largest = max(largest, abs(x(k)))
       end do
     end do
-    largest = max(largest, maxval(partial))
+    largest = segments%ranks%largest(max(largest, maxval(partial)))
   end subroutine center_over
 
   !> Largest |x| over the segments, 0 if there is none; `x` (n).
-  pure function max_abs_over(segments, x) result(largest)
+  function max_abs_over(segments, x) result(largest)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:)
     real(dp) :: largest
@@ -191,6 +201,7 @@ contains
         largest = max(largest, abs(x(k)))
       end do
     end do
+    largest = segments%ranks%largest(largest)
   end function max_abs_over
 
 end module fuge_contact_segments

@@ -86,7 +86,8 @@ contains
       undetermined = has_undetermined_forces(operator, scene, iterate, info)
       if (undetermined .and. .not. info%failed()) then
         call solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
-        if (info%failed() .or. all(iterate%contact)) exit
+        if (info%failed()) exit
+        if (scene%rows%ranks%everywhere(all(iterate%contact))) exit
         stalls_left = stalls_left - 1
         cycle
       end if
@@ -96,7 +97,9 @@ contains
       if (info%failed()) exit
       fresh = fresh .and. info%products == products
       wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
-      if (settings%coarse_grid .and. wrong <= WRONG_ON_COARSE*count(iterate%contact)) exit
+      if (settings%coarse_grid) then
+        if (wrong <= WRONG_ON_COARSE*scene%rows%ranks%total_count(count(iterate%contact))) exit
+      end if
       if (wrong == 0) then
         ! Without a step the displacements are still those of a product with feasible forces.
         if (iterate%converged .and. fresh) exit
@@ -136,7 +139,7 @@ contains
 
     undetermined = .false.
     if (.not. (iterate%prescribed .and. scene%is_simple())) return
-    if (all(iterate%contact)) undetermined = equal_forces_displace_nothing(operator, info)
+    if (scene%rows%ranks%everywhere(all(iterate%contact))) undetermined = equal_forces_displace_nothing(operator, info)
   end function has_undetermined_forces
 
   !> Leave a complete contact whose forces are undetermined: its equations fix the differences of
@@ -153,8 +156,11 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
+    real(dp) :: sums(2)
 
-    if (.not. settings%coarse_grid .and. sum(scene%gap) < -ROUNDINGS*epsilon(1.0_dp)*sum(abs(scene%gap))) then
+    sums = [sum(scene%gap), sum(abs(scene%gap))]
+    call scene%rows%ranks%add(sums)
+    if (.not. settings%coarse_grid .and. sums(1) < -ROUNDINGS*epsilon(1.0_dp)*sums(2)) then
       call report_unbounded(1, info)
       return
     end if
@@ -162,10 +168,10 @@ contains
     call solve_on_contact_set(operator, settings, preconditioner, scene, .false., monitor, iterate, info)
     iterate%prescribed = .true.
     if (info%failed()) return
-    if (settings%coarse_grid .and. .not. sum(scene%gap) > 0.0_dp) then
-      iterate%force = iterate%force - minval(iterate%force)
+    if (settings%coarse_grid .and. .not. sums(1) > 0.0_dp) then
+      iterate%force = iterate%force - scene%rows%ranks%least(minval(iterate%force))
     else
-      iterate%force = iterate%force - sum(iterate%force)/real(size(iterate%force), dp)
+      iterate%force = iterate%force - scene%rows%ranks%total(sum(iterate%force))/real(scene%points(), dp)
       iterate%contact = iterate%force > 0.0_dp
       call make_feasible(operator, scene, iterate, info)
     end if
@@ -183,7 +189,7 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     real(dp) :: relative
-    integer :: status
+    integer :: contacts, status
 
     if (info%iterations >= settings%limit) then
       call report(info, FUGE_ERR_ITERATION_LIMIT, text(settings%limit)//' contact sets were not enough: raise ' &
@@ -210,8 +216,10 @@ contains
     if (iterate%residual_norm > 0.0_dp) then
       relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
     end if
-    call tell_monitor(monitor, info%iterations, relative, count(iterate%contact), status)
+    contacts = scene%rows%ranks%total_count(count(iterate%contact))
+    call tell_monitor(monitor, info%iterations, relative, contacts, status)
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
+    call scene%rows%ranks%agree(info)
   end subroutine solve_on_contact_set
 
   !> Report that forces without energy, the largest of them at `point`, grow for ever (FUGE_ERR_NOT_DEFINITE).
@@ -302,13 +310,14 @@ contains
     logical, allocatable :: locked(:), tied(:)
     integer, allocatable :: state(:)
     integer :: newest, n, stat
+    logical :: found
 
     n = size(scene%gap)
     allocate (feasible(n), noise(n), locked(n), tied(n), state(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the active-set method on '//text(n)//' points')
-      return
-    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the active-set method on '//text(n)//' points')
+    call scene%rows%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    found = .false.
     locked = .false.
     tied = scene%tied_points()
     newest = 0
@@ -322,19 +331,19 @@ contains
       if (info%failed()) exit
       noise = iterate%tension_noise
       state = states_of(iterate)
-      if (any(is_tensile(iterate%force, noise, state, tied))) then
-        call step_to_blocking(iterate%force, noise, tied, state, feasible, newest, locked)
+      if (scene%rows%ranks%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
+        call step_to_blocking(iterate%force, noise, tied, state, feasible, newest, locked, scene%rows%ranks)
         iterate%contact = state /= FUGE_OPEN
         iterate%force = feasible
       else
-        if (newest > 0) locked = locked .and. locked(newest)
+        if (found) call keep_lock(scene, newest, locked)
         newest = deepest_open_point(scene, iterate, penetration_noise(settings, iterate), locked)
-        if (newest == 0 .or. .not. iterate%converged) exit
-        iterate%contact(newest) = .true.
-        if (allocated(iterate%at_upper)) iterate%at_upper(newest) = penetrated_stop(scene, 0.0_dp, iterate, newest) < 0
+        found = scene%rows%ranks%anywhere(newest > 0)
+        if (.not. (found .and. iterate%converged)) exit
+        call join_contact(scene, newest, iterate)
         ! What penetrates a contact complete but for one point is rounding.
         if (has_undetermined_forces(operator, scene, iterate, info)) then
-          iterate%contact(newest) = .false.
+          if (newest > 0) iterate%contact(newest) = .false.
           exit
         end if
       end if
@@ -345,9 +354,33 @@ contains
     if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
   end subroutine exchange_single_points
 
+  !> Points stay locked only if the point that joined last, which another rank may have, is locked.
+  subroutine keep_lock(scene, newest, locked)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: newest
+    logical, intent(inout) :: locked(:)
+    logical :: keep
+
+    keep = .false.
+    if (newest > 0) keep = locked(newest)
+    keep = scene%rows%ranks%anywhere(keep)
+    locked = locked .and. keep
+  end subroutine keep_lock
+
+  !> Point `newest`, if it is not another rank's, joins the contact at the stop that it penetrates.
+  pure subroutine join_contact(scene, newest, iterate)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: newest
+    type(contact_iterate), intent(inout) :: iterate
+
+    if (newest < 1) return
+    iterate%contact(newest) = .true.
+    if (allocated(iterate%at_upper)) iterate%at_upper(newest) = penetrated_stop(scene, 0.0_dp, iterate, newest) < 0
+  end subroutine join_contact
+
   !> Forces with the resultants but perhaps of the wrong sign become feasible ones: a step towards them from
   !> scene%balance, until the first force changes its sign.
-  pure subroutine step_from_balance(scene, tied, iterate)
+  subroutine step_from_balance(scene, tied, iterate)
     type(contact_scene), intent(in) :: scene
     logical, intent(in) :: tied(:)
     type(contact_iterate), intent(inout) :: iterate
@@ -362,7 +395,7 @@ contains
     ! Where the balance is at the other stop, or open, it decides.
     where (abs(force) > 0.0_dp) state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, force > 0.0_dp)
     if (any(is_tensile(iterate%force, noise, state, tied))) then
-      call step_to_blocking(iterate%force, noise, tied, state, force, 0, locked)
+      call step_to_blocking(iterate%force, noise, tied, state, force, 0, locked, scene%rows%ranks)
       iterate%force = force
     end if
   end subroutine step_from_balance

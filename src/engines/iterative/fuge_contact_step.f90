@@ -21,14 +21,14 @@ contains
   !> `residual` (n), length, are changed on the set: the residuals by `shift` less their step;
   !> `displacement` (n) everywhere. `total` and `largest` are the sum and the largest magnitude of the new residuals,
   !> 0 without contact; `penetration` as deepest_penetration.
-  pure subroutine step_over(segments, step_length, shift, reduced_gap, motion, direction, image, force, displacement, &
+  subroutine step_over(segments, step_length, shift, reduced_gap, motion, direction, image, force, displacement, &
                             residual, total, largest, penetration)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in) :: step_length, shift, motion
     real(dp), intent(in), contiguous :: reduced_gap(:), direction(:), image(:)
     real(dp), intent(inout), contiguous :: force(:), displacement(:), residual(:)
     real(dp), intent(out) :: total, largest, penetration
-    real(dp) :: totals(LANES), magnitudes(LANES), least_gaps(LANES)
+    real(dp) :: totals(LANES), magnitudes(LANES), least_gaps(LANES), extremes(2)
     integer :: i, first, last
 
     totals = 0.0_dp
@@ -44,9 +44,11 @@ contains
     end do
     call move_open_points(last + 1, size(reduced_gap), step_length, reduced_gap, motion, image, displacement, &
                           least_gaps)
-    total = sum(totals)
-    largest = maxval(magnitudes)
-    penetration = max(0.0_dp, -minval(least_gaps))
+    total = segments%ranks%total(sum(totals))
+    extremes = [maxval(magnitudes), max(0.0_dp, -minval(least_gaps))]
+    call segments%ranks%raise(extremes)
+    largest = extremes(1)
+    penetration = extremes(2)
   end subroutine step_over
 
   !> The step of the displacements of the open points `first` .. `last`; `least_gaps` are lowered to their gaps.
@@ -106,7 +108,7 @@ contains
 
   !> The deepest penetration of an open point, 0 if none penetrates; `reduced_gap` and `displacement` (n), less
   !> `motion`, are the gaps.
-  pure function deepest_penetration(segments, reduced_gap, motion, displacement) result(depth)
+  function deepest_penetration(segments, reduced_gap, motion, displacement) result(depth)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: reduced_gap(:), displacement(:)
     real(dp), intent(in) :: motion
@@ -121,7 +123,7 @@ contains
       last = segments%last(i)
     end do
     call deepen(last + 1, size(reduced_gap), reduced_gap, motion, displacement, deepest)
-    depth = maxval(deepest)
+    depth = segments%ranks%largest(maxval(deepest))
   end function deepest_penetration
 
   !> Raise `deepest` to the penetrations of the points `first` .. `last`.

@@ -11,7 +11,7 @@ module fuge_grid_transfer
   implicit none
   private
 
-  public :: coarser_cells, prolong, restrict
+  public :: coarser_cells, interpolate_columns, interpolate_rows, open_cells, prolong, restrict
 
 contains
 
@@ -47,8 +47,8 @@ contains
       return
     end if
     call interpolate_rows(coarse(1), cells(1), coarse(2), force, wide)
-    call interpolate_columns(cells(1), coarse(2), cells(2), wide, fine)
-    if (all(cells > 1)) call open_cells(coarse, cells, force, fine)
+    call interpolate_columns(cells(1), coarse(2), cells(2), 1, coarse(2), [1, cells(2)], wide, fine)
+    if (all(cells > 1)) call open_cells(coarse(1), cells(1), 1, coarse(2), [1, cells(2)], force, fine)
     call move_alloc(fine, force)
   end subroutine prolong
 
@@ -72,32 +72,38 @@ contains
     end do
   end subroutine interpolate_rows
 
-  !> The same along y: `coarse` (columns, m), `fine` (columns, n).
-  pure subroutine interpolate_columns(columns, m, n, coarse, fine)
-    integer, intent(in) :: columns, m, n
-    real(dp), intent(in) :: coarse(columns, m)
-    real(dp), intent(out) :: fine(columns, n)
-    integer :: k
+  !> The same along y, from m rows to n: `fine` (columns, :) are the rows `rows`(1) .. `rows`(2), `coarse` (columns, :)
+  !> the rows `first` .. `last`, among them all that belong to those.
+  pure subroutine interpolate_columns(columns, m, n, first, last, rows, coarse, fine)
+    integer, intent(in) :: columns, m, n, first, last, rows(2)
+    real(dp), intent(in) :: coarse(columns, first:last)
+    real(dp), intent(out) :: fine(columns, rows(1):rows(2))
+    integer :: j, k
 
     if (m == n) then
-      fine = coarse
+      fine = coarse(:, rows(1):rows(2))
       return
     end if
-    do k = 1, m
-      fine(:, 2*k - 1) = 0.375_dp*coarse(:, k) + 0.125_dp*coarse(:, max(k - 1, 1))
-      if (2*k <= n) fine(:, 2*k) = 0.375_dp*coarse(:, k) + 0.125_dp*coarse(:, min(k + 1, m))
+    do j = rows(1), rows(2)
+      k = (j + 1)/2
+      if (mod(j, 2) == 1) then
+        fine(:, j) = 0.375_dp*coarse(:, k) + 0.125_dp*coarse(:, max(k - 1, 1))
+      else
+        fine(:, j) = 0.375_dp*coarse(:, k) + 0.125_dp*coarse(:, min(k + 1, m))
+      end if
     end do
   end subroutine interpolate_columns
 
-  !> No force on the cells of `fine` (nx, ny) whose cell of `coarse` carries none.
-  pure subroutine open_cells(coarser, cells, coarse, fine)
-    integer, intent(in) :: coarser(2), cells(2)
-    real(dp), intent(in) :: coarse(coarser(1), coarser(2))
-    real(dp), intent(inout) :: fine(cells(1), cells(2))
+  !> No force on the cells of `fine` (cells, :), the rows `rows`(1) .. `rows`(2), whose cell of `coarse` (coarser, :),
+  !> the rows `first` .. `last`, carries none.
+  pure subroutine open_cells(coarser, cells, first, last, rows, coarse, fine)
+    integer, intent(in) :: coarser, cells, first, last, rows(2)
+    real(dp), intent(in) :: coarse(coarser, first:last)
+    real(dp), intent(inout) :: fine(cells, rows(1):rows(2))
     integer :: i, j
 
-    do j = 1, cells(2)
-      do i = 1, cells(1)
+    do j = rows(1), rows(2)
+      do i = 1, cells
         associate (force => coarse((i + 1)/2, (j + 1)/2))
           if (.not. (force > 0.0_dp .or. (force < 0.0_dp .and. fine(i, j) < 0.0_dp))) fine(i, j) = 0.0_dp
         end associate

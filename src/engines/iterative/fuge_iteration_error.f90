@@ -20,7 +20,7 @@ contains
   !> with. What the preconditioner would make of the residual follows from what it made of those before;
   !> `pair_compliance` as least_pair_compliance of fuge_operator, because conjugate gradients do not see forces that
   !> hardly displace anything. Costs two passes over the contact, and no product.
-  pure function estimated_force_error(iterate, pair_compliance) result(error)
+  function estimated_force_error(iterate, pair_compliance) result(error)
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: pair_compliance
     real(dp) :: error

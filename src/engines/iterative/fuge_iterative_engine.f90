@@ -14,7 +14,6 @@ module fuge_iterative_engine
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_engine_messages, only: report_closed_gap, SINGULAR_ON_CONTACT
   use fuge_general_scene, only: assemble_general, set_general_scene
-  use fuge_grid_transfer, only: prolong
   use fuge_iterated_set, only: iterated_set
   use fuge_iteration_error, only: estimated_force_error
   use fuge_kinds, only: dp
@@ -24,8 +23,11 @@ module fuge_iterative_engine
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_ranks, only: shared_ranks
   use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
+  use fuge_shared_rows, only: rows_of
+  use fuge_shared_transfer, only: prolong_to
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
     FUGE_WARN_NOT_UNIQUE
   use fuge_warm_start, only: load_history
@@ -73,16 +75,18 @@ contains
     type(search_settings) :: coarse_settings, settings
     integer :: coarse_products, fine_products
     logical :: repeated
+    type(shared_ranks) :: ranks
 
     history%started_warm = .false.
-    coarse_settings%limit = iteration_limit(options, operator%points() + 1)
+    ranks = operator%ranks()
+    coarse_settings%limit = iteration_limit(options, ranks%total_count(operator%points()) + 1)
     settings = coarse_settings
     settings%tolerance = options%tolerance
     settings%coarse_grid = .false.
     if (is_general(problem)) then
       call set_general_scene(problem, canonical, scene, scaling, info)
     else
-      call set_simple_scene(problem, scene, scaling, info)
+      call set_simple_scene(operator, problem, scene, scaling, info)
     end if
     if (info%failed()) return
     call check_approach(operator, problem, scene, info)
@@ -116,7 +120,7 @@ contains
     last%tolerance = options%tolerance
     ! The history needs memory of its own.
     call discard(iterate)
-    call history%store(problem, solution)
+    call history%store(problem, scene%rows%ranks, solution)
   end subroutine solve_by_iteration
 
   !> Estimate the error of the forces, and whether two points are `repeated`: then they are not unique. Errors: those of
@@ -146,25 +150,32 @@ contains
 
   !> Keep the contact set for derivatives, and what conjugate gradients found on it. A start that needs no step tells
   !> nothing of the operator: the last solve on the same set does. Error: FUGE_ERR_MEMORY.
-  pure subroutine keep_set(iterate, last, info)
+  subroutine keep_set(iterate, last, info)
     type(contact_iterate), intent(inout) :: iterate
     type(iterated_set), intent(inout) :: last
     type(fuge_info), intent(inout) :: info
+    logical :: same
     integer :: stat
 
     stat = 0
+    same = .false.
     if (allocated(last%state)) then
       if (size(last%state) /= size(iterate%contact)) deallocate (last%state)
     end if
     if (.not. allocated(last%state)) then
       allocate (last%state(size(iterate%contact)), stat=stat)
-      if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(iterate%contact))//' points')
-        return
-      end if
-    else if (.not. iterate%least_compliance > 0.0_dp) then
-      if (all((last%state /= FUGE_OPEN) .eqv. iterate%contact)) iterate%least_compliance = last%least_compliance
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of ' &
+                                 //text(size(iterate%contact))//' points')
+    else
+      same = all((last%state /= FUGE_OPEN) .eqv. iterate%contact)
     end if
+    associate (ranks => iterate%segments%ranks)
+      call ranks%agree(info)
+      if (info%failed()) return
+      if (.not. iterate%least_compliance > 0.0_dp) then
+        if (ranks%everywhere(same)) iterate%least_compliance = last%least_compliance
+      end if
+    end associate
     last%state = states_of(iterate)
     last%least_compliance = iterate%least_compliance
   end subroutine keep_set
@@ -182,15 +193,15 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: start(:)
 
-    call history%predict(problem, start)
+    call history%predict(problem, scene%rows%ranks, start)
     if (.not. allocated(start)) return
     ! Forces of another order of magnitude are no start, and their squares would overflow.
-    if (2*(exponent(maxval(abs(start))) - exponent(scaling%load)) > LARGEST_EXPONENT) return
+    if (2*(exponent(scene%rows%ranks%largest(maxval(abs(start)))) - exponent(scaling%load)) > LARGEST_EXPONENT) return
     start = start/scaling%load
     call start_iterate(iterate, scene, start, info)
     if (info%failed()) return
     call choose_contact(scene, iterate)
-    if (any(iterate%contact)) then
+    if (scene%rows%ranks%anywhere(any(iterate%contact))) then
       call make_feasible(operator, scene, iterate, info)
       if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
       if (info%failed()) return
@@ -208,16 +219,20 @@ contains
 
   !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points. Errors:
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
-  pure subroutine set_simple_scene(problem, scene, scaling, info)
+  subroutine set_simple_scene(operator, problem, scene, scaling, info)
+    class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(contact_scene), intent(inout) :: scene
     type(scene_scaling), intent(out) :: scaling
     type(fuge_info), intent(inout) :: info
 
     scene%prescribed = .not. problem%is_plain()
-    call choose_scaling(problem, scaling)
-    call check_range(problem, info)
+    call rows_of(operator, 0, scene%rows, info)
+    if (info%failed()) return
+    call choose_scaling(problem, scene%rows%ranks, scaling)
+    call check_range(problem, scene%rows%ranks, info)
     if (.not. info%failed()) call reduce_gap(problem%gap, scaling, scene%gap, info)
+    call scene%rows%ranks%agree(info)
   end subroutine set_simple_scene
 
   !> Start `iterate` by coarser grids, and where the contact is small by a window of the finest one; where the operator
@@ -244,21 +259,22 @@ contains
     end if
     if (.not. (solved .or. info%failed())) then
       call nested_iteration(operator, coarse_settings, scene, level - 1, 1, monitor, start, work, info)
-      if (allocated(start) .and. .not. info%failed()) call prolong(operator%grid(), start, info)
+      if (allocated(start) .and. .not. info%failed()) call prolong_to(operator, start, info)
     end if
-    info%products = info%products + ceiling(work%products/real(size(scene%gap), dp))
-    info%preconditionings = info%preconditionings + ceiling(work%preconditionings/real(size(scene%gap), dp))
+    info%products = info%products + ceiling(work%products/real(scene%points(), dp))
+    info%preconditionings = info%preconditionings + ceiling(work%preconditionings/real(scene%points(), dp))
     if (.not. info%failed()) call start_iterate(iterate, scene, start, info)
   end subroutine start_on_coarser_grids
 
   !> What the iteration subtracts from gaps, the prescribed motion or else the least gap, and what
   !> it divides forces and lengths by: the load, or 1 for a prescribed motion.
-  pure subroutine choose_scaling(problem, scaling)
+  subroutine choose_scaling(problem, ranks, scaling)
     type(fuge_problem), intent(in) :: problem
+    type(shared_ranks), intent(in) :: ranks
     type(scene_scaling), intent(out) :: scaling
 
     if (problem%is_plain()) then
-      scaling%gap_datum = minval(problem%gap)
+      scaling%gap_datum = ranks%least(minval(problem%gap))
       scaling%load = problem%resultant(1)
     else
       scaling%gap_datum = problem%motion(1)
@@ -290,21 +306,23 @@ contains
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: force(:), gap(:), motion(:)
+    real(dp) :: largest
     integer :: n, stat
 
     n = size(scene%gap)
     allocate (force(n), gap(n), motion(1), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
-      return
-    end if
-    where (iterate%force <= ROUNDINGS*epsilon(1.0_dp)*maxval(iterate%force)) iterate%force = 0.0_dp
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
+    call scene%rows%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    largest = scene%rows%ranks%largest(maxval(iterate%force))
+    where (iterate%force <= ROUNDINGS*epsilon(1.0_dp)*largest) iterate%force = 0.0_dp
     force = scaling%load*iterate%force
     gap = scaling%load*max(deformed_gap(scene%gap, iterate%displacement, iterate%motion), 0.0_dp)
     where (iterate%contact) gap = 0.0_dp
     motion = scaling%gap_datum
     if (.not. iterate%prescribed) then
-      motion = (scaling%load*iterate%motion + operator%datum()*sum(force)) + scaling%gap_datum
+      motion = (scaling%load*iterate%motion + operator%datum()*scene%rows%ranks%total(sum(force))) &
+               + scaling%gap_datum
     end if
     call move_alloc(force, solution%force)
     call move_alloc(gap, solution%gap)
@@ -324,9 +342,10 @@ contains
     if (.not. scene%is_simple() .or. .not. scene%prescribed) return
     ! Without any motion there is none to change.
     if (problem%mode_count() < 1) return
-    mean = sum(scene%gap)/real(size(scene%gap), dp)
+    mean = scene%rows%ranks%total(sum(scene%gap))/real(scene%points(), dp)
     largest = max(maxval(abs(scene%gap)), maxval(abs(problem%gap)))
-    if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), maxval(abs(scene%gap)))
+    if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), &
+                                                      scene%rows%ranks%largest(maxval(abs(scene%gap))))
     if (mean > ROUNDINGS*epsilon(mean)*largest) return
     if (.not. equal_forces_displace_nothing(operator, info)) return
     if (info%failed()) return
@@ -341,15 +360,17 @@ contains
 
   !> Refuse gaps so large that their squares overflow, after division by the load if there is one.
   !> Error: FUGE_ERR_OVERFLOW.
-  pure subroutine check_range(problem, info)
+  subroutine check_range(problem, ranks, info)
     type(fuge_problem), intent(in) :: problem
+    type(shared_ranks), intent(in) :: ranks
     type(fuge_info), intent(inout) :: info
     integer :: excess
 
     if (.not. problem%is_plain()) then
-      excess = exponent(maxval(abs(problem%gap - problem%motion(1))))
+      excess = exponent(ranks%largest(maxval(abs(problem%gap - problem%motion(1)))))
     else
-      excess = exponent(maxval(problem%gap) - minval(problem%gap)) - exponent(problem%resultant(1))
+      excess = exponent(ranks%largest(maxval(problem%gap)) - ranks%least(minval(problem%gap))) &
+               - exponent(problem%resultant(1))
     end if
     if (2*excess <= LARGEST_EXPONENT) return
     if (problem%is_plain()) then

@@ -88,7 +88,7 @@ contains
   end subroutine append
 
   !> Components of `x` (n) on the set in the basis, (m), zero beyond the rank.
-  pure subroutine components(self, segments, x, parts)
+  subroutine components(self, segments, x, parts)
     class(mode_projection), intent(in) :: self
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:)
@@ -145,7 +145,7 @@ contains
 
   !> Change `force` (n) on the set by the least that gives the resultants `load` (m) in `modes` (n, m); `possible` if
   !> the set can carry them, with forces of either sign.
-  pure subroutine correct_resultants(self, modes, load, segments, force, possible)
+  subroutine correct_resultants(self, modes, load, segments, force, possible)
     class(mode_projection), intent(in) :: self
     real(dp), intent(in), contiguous :: modes(:, :)
     real(dp), intent(in) :: load(:)
@@ -166,7 +166,7 @@ contains
   end subroutine correct_resultants
 
   !> What `force` (n) lacks of the resultants, and the sizes of their terms, (m).
-  pure subroutine find_missing(modes, load, segments, force, missing, terms)
+  subroutine find_missing(modes, load, segments, force, missing, terms)
     real(dp), intent(in), contiguous :: modes(:, :), force(:)
     real(dp), intent(in) :: load(:)
     type(contact_segments), intent(in) :: segments

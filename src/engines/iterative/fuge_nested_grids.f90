@@ -6,11 +6,13 @@ module fuge_nested_grids
   use fuge_contact_iterate, only: clip_forces, contact_iterate, start_iterate
   use fuge_contact_scene, only: coarser_scene, contact_scene
   use fuge_contact_set_search, only: find_contact_set, search_settings
-  use fuge_grid_transfer, only: coarser_cells, prolong
+  use fuge_grid_transfer, only: coarser_cells
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
+  use fuge_shared_rows, only: rows_of, shared_rows
+  use fuge_shared_transfer, only: prolong_to
   use fuge_status, only: composed_message, fuge_info, report
   implicit none
   private
@@ -102,17 +104,19 @@ contains
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
     type(contact_scene) :: coarse
+    type(shared_rows) :: rows
     logical :: possible
 
-    call coarser_scene(scene, finest, level, coarse, possible, info)
+    call rows_of(operator, 0, rows, info)
+    if (.not. info%failed()) call coarser_scene(scene, finest, level, coarse, possible, info, rows)
     if (info%failed()) return
     if (.not. possible) then
       if (allocated(start)) deallocate (start)
       return
     end if
     ! Means may all be far above the least gap of the finest grid: beside them small displacements would be rounding.
-    if (.not. scene%prescribed) coarse%gap = coarse%gap - minval(coarse%gap)
-    if (allocated(start)) call prolong(coarser_cells(finest, level), start, info)
+    if (.not. scene%prescribed) coarse%gap = coarse%gap - rows%ranks%least(minval(coarse%gap))
+    if (allocated(start)) call prolong_to(operator, start, info)
     if (.not. info%failed()) call start_iterate(iterate, coarse, start, info)
     if (.not. info%failed()) call find_contact_set(operator, settings, coarse, monitor, iterate, info)
     if (info%failed()) return

@@ -42,13 +42,13 @@ contains
     if (.not. force > 0.0_dp) return
     if (.not. iterate%softness > 0.0_dp) then
       allocate (terms(size(iterate%work)), unit(size(iterate%work)), stat=stat)
-      if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements of '//text(size(iterate%work))//' points')
-        return
-      end if
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements of ' &
+                                 //text(size(iterate%work))//' points')
+      call scene%rows%ranks%agree(info)
+      if (info%failed()) return
       if (all(operator%grid() > 0)) then
         call operator%magnitude(iterate%direction, iterate%work, terms)
-        iterate%softness = maxval(terms)/force
+        iterate%softness = iterate%segments%ranks%largest(maxval(terms))/force
       else
         unit = 0.0_dp
         unit(iterate%segments%first(1)) = 1.0_dp
@@ -56,11 +56,11 @@ contains
         if (.not. info%failed()) iterate%softness = maxval(abs(terms))
       end if
     end if
-    iterate%softness = max(iterate%softness, maxval(abs(iterate%work))/force)
+    iterate%softness = max(iterate%softness, iterate%segments%ranks%largest(maxval(abs(iterate%work)))/force)
   end subroutine find_softness
 
   !> Is the energy `curvature` of the search direction no more than rounding?
-  pure function stores_no_energy(iterate, curvature) result(none)
+  function stores_no_energy(iterate, curvature) result(none)
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: curvature
     logical :: none
@@ -71,7 +71,7 @@ contains
   end function stores_no_energy
 
   !> The sum of the magnitudes of the forces of the search direction.
-  pure function total_force(iterate) result(total)
+  function total_force(iterate) result(total)
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: total
     integer :: i
@@ -80,6 +80,7 @@ contains
     do i = 1, size(iterate%segments%first)
       total = total + sum(abs(iterate%direction(iterate%segments%first(i):iterate%segments%last(i))))
     end do
+    total = iterate%segments%ranks%total(total)
   end function total_force
 
   !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search
@@ -110,15 +111,17 @@ contains
   !> sign, unless one has already; iterate%unbounded if none ever does. Not where the direction does no work beyond
   !> rounding: `energy` is its work for a step of 1, and the mean residual in it is at most `tolerance` times the
   !> lengths of the scene.
-  pure subroutine leave_null_direction(scene, tolerance, energy, iterate)
+  subroutine leave_null_direction(scene, tolerance, energy, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: tolerance, energy
     type(contact_iterate), intent(inout) :: iterate
     real(dp) :: force, least, loss, step_length
+    logical :: stays
     integer :: k
 
     if (energy <= (tolerance*length_of(scene, iterate) + iterate%rounding)*total_force(iterate)) return
     iterate%unbounded = .true.
+    stays = .false.
     ! On the way here they have grown.
     if (allocated(iterate%start)) iterate%force = iterate%start
     least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
@@ -128,22 +131,27 @@ contains
       if (.not. loss > least) cycle
       iterate%unbounded = .false.
       force = sign_at(iterate, k)*iterate%force(k)
-      if (force < -iterate%tension_noise) return
+      stays = stays .or. force < -iterate%tension_noise
       step_length = min(step_length, max(force, 0.0_dp)/loss)
     end do
-    if (iterate%unbounded) return
+    associate (ranks => scene%rows%ranks)
+      iterate%unbounded = ranks%everywhere(iterate%unbounded)
+      step_length = ranks%least(step_length)
+      stays = ranks%anywhere(stays)
+    end associate
+    if (iterate%unbounded .or. stays) return
     step_length = step_length + BEYOND*force_scale(scene, iterate)/max_abs_over(iterate%segments, iterate%direction)
     iterate%force = iterate%force - step_length*iterate%direction
   end subroutine leave_null_direction
 
   !> The largest of gaps, plays and displacements by the resultants. Not of the displacements by the forces, which may
   !> already have grown.
-  pure function length_of(scene, iterate) result(length)
+  function length_of(scene, iterate) result(length)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: length
 
-    length = maxval(abs(scene%gap), mask=iterate%contact)
+    length = scene%rows%ranks%largest(maxval(abs(scene%gap), mask=iterate%contact))
     if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=iterate%contact .and. iterate%at_upper))
     if (allocated(scene%balance)) length = max(length, iterate%softness*maxval(abs(scene%balance)))
     ! Under a load the forces do not grow together.
@@ -151,12 +159,12 @@ contains
   end function length_of
 
   !> The size of the forces, or of those that would close the gaps.
-  pure function force_scale(scene, iterate) result(force)
+  function force_scale(scene, iterate) result(force)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: force
 
-    force = maxval(abs(iterate%force))
+    force = scene%rows%ranks%largest(maxval(abs(iterate%force)))
     if (.not. force > 0.0_dp .and. iterate%softness > 0.0_dp) force = length_of(scene, iterate)/iterate%softness
   end function force_scale
 

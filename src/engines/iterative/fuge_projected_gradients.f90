@@ -189,7 +189,7 @@ contains
   end subroutine advance_along_direction
 
   !> Subtract from the displacements iterate%work, at all points, the `rigid_motion` (m) nearest to them on the set.
-  pure subroutine remove_rigid_motion(iterate, rigid_motion)
+  subroutine remove_rigid_motion(iterate, rigid_motion)
     type(contact_iterate), intent(inout) :: iterate
     real(dp), allocatable, intent(out) :: rigid_motion(:)
     real(dp), allocatable :: parts(:)
@@ -203,7 +203,7 @@ contains
   !> Subtract `step_length` times the search direction from the forces, and update what follows
   !> from them. `mean` is that of the displacements by the direction over the contact set; 0 if the
   !> motion is prescribed.
-  pure subroutine take_step(scene, step_length, mean, iterate)
+  subroutine take_step(scene, step_length, mean, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: step_length, mean
     type(contact_iterate), intent(inout) :: iterate
@@ -223,7 +223,7 @@ contains
 
   !> The preconditioned residual has no positive energy: either the residual is nothing but
   !> rounding, or the preconditioner is not positive definite (FUGE_ERR_NOT_DEFINITE).
-  pure subroutine check_preconditioner_energy(iterate, energy, info)
+  subroutine check_preconditioner_energy(iterate, energy, info)
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: energy
     type(fuge_info), intent(inout) :: info
@@ -237,7 +237,7 @@ contains
 
   !> The search direction has no positive curvature: either its displacements are nothing but
   !> rounding, or the operator is not positive definite (FUGE_ERR_NOT_DEFINITE).
-  pure subroutine check_curvature(iterate, curvature, info)
+  subroutine check_curvature(iterate, curvature, info)
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: curvature
     type(fuge_info), intent(inout) :: info
@@ -245,7 +245,8 @@ contains
 
     ! Where the operator is singular, the displacements by the direction are rounding errors of
     ! iterate%displacement.
-    length = max(maxval(abs(iterate%displacement)), max_abs_over(iterate%segments, iterate%work))
+    length = max(iterate%segments%ranks%largest(maxval(abs(iterate%displacement))), &
+                 max_abs_over(iterate%segments, iterate%work))
     force = max_abs_over(iterate%segments, iterate%direction)
     if (curvature >= -ROUNDING*length*force*max(1.0_dp, real(iterate%segments%points, dp)*force)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces on the contact store the ' &

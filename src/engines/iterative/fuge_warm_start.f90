@@ -8,6 +8,7 @@ module fuge_warm_start
   use fuge_data_scales, only: is_prescribed
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_ranks, only: shared_ranks
   implicit none
   private
 
@@ -84,17 +85,20 @@ contains
     step%fingerprint = 0.0_dp
   end subroutine clear
 
-  !> Keep a solution. Where memory is short all are forgotten.
-  pure subroutine store(self, problem, solution)
+  !> Keep a solution, of points that `ranks` may share. Where memory is short all are forgotten.
+  subroutine store(self, problem, ranks, solution)
     class(load_history), intent(inout) :: self
     type(fuge_problem), intent(in) :: problem
+    type(shared_ranks), intent(in) :: ranks
     type(fuge_solution), intent(in) :: solution
     type(load_step) :: step
+    logical :: forgotten
     integer :: j, stat
 
     allocate (step%values(problem%points()), step%resultant(problem%mode_count()), step%motion(problem%mode_count()), &
               stat=stat)
-    if (stat /= 0) then
+    forgotten = ranks%anywhere(stat /= 0)
+    if (forgotten .or. stat /= 0) then
       call self%forget()
       return
     end if
@@ -108,11 +112,11 @@ contains
       else if (allocated(problem%modes)) then
         step%resultant(j) = dot_product(problem%modes(:, j), solution%force)
       else
-        step%resultant(j) = sum(solution%force)
+        step%resultant(j) = ranks%total(sum(solution%force))
       end if
     end do
     step%motion = solution%motion
-    step%fingerprint = fingerprint(problem)
+    step%fingerprint = fingerprint(problem, ranks)
     if (differs(step, self%last)) call move_step(self%last, self%before)
     call move_step(step, self%last)
   end subroutine store
@@ -140,8 +144,9 @@ contains
   end function differs
 
   !> Sums that hardly any change of gaps, plays, modes or excluded points leaves as they are.
-  pure function fingerprint(problem) result(sums)
+  function fingerprint(problem, ranks) result(sums)
     type(fuge_problem), intent(in) :: problem
+    type(shared_ranks), intent(in) :: ranks
     real(dp) :: sums(4)
     integer :: j
 
@@ -154,6 +159,7 @@ contains
         sums(4) = sums(4) + real(j, dp)*mixed_sum(problem%modes(:, j))
       end do
     end if
+    call ranks%add(sums)
   end function fingerprint
 
   !> A sum with weights that depend on the place; scaled, so that it does not overflow.
@@ -178,25 +184,30 @@ contains
   !>
   !> Extrapolated if resultants and prescribed motions go on in the direction of the last step, or back, and nothing
   !> else has changed; otherwise the last forces, scaled with the resultants.
-  pure subroutine predict(self, problem, start)
+  subroutine predict(self, problem, ranks, start)
     class(load_history), intent(inout) :: self
     type(fuge_problem), intent(in) :: problem
+    type(shared_ranks), intent(in) :: ranks
     real(dp), allocatable, intent(inout) :: start(:)
     real(dp) :: steps
     logical :: extrapolate
     integer :: stat
 
     if (allocated(start)) deallocate (start)
-    if (.not. fits(self%last, problem)) return
-    call find_steps(self, problem, steps, extrapolate)
+    if (.not. ranks%everywhere(fits(self%last, problem))) return
+    call find_steps(self, problem, ranks, steps, extrapolate)
     if (self%step_length >= self%too_long) then
       self%too_long = LONGER*self%too_long
       return
     end if
     allocate (start(problem%points()), stat=stat)
-    if (stat /= 0) return
+    if (ranks%anywhere(stat /= 0)) then
+      if (allocated(start)) deallocate (start)
+      return
+    end if
     if (extrapolate) then
-      call extrapolate_forces(self%last%values, self%before%values, steps, allocated(problem%gap_upper), start)
+      call extrapolate_forces(self%last%values, self%before%values, steps, allocated(problem%gap_upper), &
+                              ranks%largest(maxval(self%last%values)), start)
     else
       start = load_factor(self%last, problem)*self%last%values
       if (.not. allocated(problem%gap_upper)) start = max(start, 0.0_dp)
@@ -215,9 +226,10 @@ contains
 
   !> How many times the last step it is to the new problem; negative: back. `extrapolate` if the last two solutions show
   !> the way there. Sets self%step_length.
-  pure subroutine find_steps(self, problem, steps, extrapolate)
+  subroutine find_steps(self, problem, ranks, steps, extrapolate)
     class(load_history), intent(inout) :: self
     type(fuge_problem), intent(in) :: problem
+    type(shared_ranks), intent(in) :: ranks
     real(dp), intent(out) :: steps
     logical, intent(out) :: extrapolate
     real(dp), dimension(problem%mode_count()) :: new, last, before, scale
@@ -226,14 +238,15 @@ contains
     steps = 0.0_dp
     extrapolate = .false.
     self%step_length = -1.0_dp
-    sums = fingerprint(problem)
+    sums = fingerprint(problem, ranks)
     if (problem%mode_count() < 1 .or. any(abs(self%last%fingerprint - sums) > 0.0_dp)) return
     last = controls(problem, self%last%resultant, self%last%motion)
     new = controls(problem, problem%resultant, problem%motion)
     scale = max(abs(last), abs(new))
     where (.not. scale > 0.0_dp) scale = 1.0_dp
     new = new/scale - last/scale
-    if (.not. fits(self%before, problem) .or. any(abs(self%before%fingerprint - sums) > 0.0_dp)) return
+    if (.not. ranks%everywhere(fits(self%before, problem))) return
+    if (any(abs(self%before%fingerprint - sums) > 0.0_dp)) return
     before = controls(problem, self%before%resultant, self%before%motion)
     ! The motions of the last two solves may be far apart where the new one only has resultants, and vice versa.
     if (any(abs(before) > scale*sqrt(huge(steps)))) return
@@ -289,9 +302,9 @@ contains
 
   !> Forces `steps` steps beyond the last ones; on points with play, `two_sided`, of either sign.
   !>
-  !> A point that joins gets a force that is only large enough to be seen. All (n).
-  pure subroutine extrapolate_forces(last, before, steps, two_sided, force)
-    real(dp), intent(in) :: last(:), before(:), steps
+  !> A point that joins gets a force that is only large enough to be seen beside the `largest` one. All (n).
+  pure subroutine extrapolate_forces(last, before, steps, two_sided, largest, force)
+    real(dp), intent(in) :: last(:), before(:), steps, largest
     logical, intent(in) :: two_sided
     real(dp), intent(out) :: force(:)
     real(dp) :: shrinkage, joining
@@ -301,7 +314,7 @@ contains
       force = last + steps*(last - before)
       return
     end if
-    joining = epsilon(joining)*maxval(last)
+    joining = epsilon(joining)*largest
     shrinkage = 0.0_dp
     if (steps > 0.0_dp) shrinkage = (steps/(1.0_dp + steps))**1.5_dp
     do k = 1, size(last)

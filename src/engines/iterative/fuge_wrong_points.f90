@@ -21,7 +21,7 @@ contains
   !> The contact set that the forces to start from suggest; tied points always belong to it. Where a load must be
   !> carried and there are no such forces, as when the contact of the last solve is excluded now, it is every point that
   !> takes part.
-  pure subroutine choose_contact(scene, iterate)
+  subroutine choose_contact(scene, iterate)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
     integer :: k
@@ -34,14 +34,15 @@ contains
       end do
     end if
     if (allocated(scene%excluded)) iterate%contact = iterate%contact .and. .not. scene%excluded
-    if (scene%prescribed .or. any(iterate%contact)) return
+    if (scene%prescribed) return
+    if (scene%rows%ranks%anywhere(any(iterate%contact))) return
     iterate%contact = .true.
     if (allocated(scene%excluded)) iterate%contact = .not. scene%excluded
   end subroutine choose_contact
 
   !> Number of points in the contact set with a tensile force and of open points that penetrate by
   !> more than `noise`.
-  pure function count_wrong_points(scene, noise, iterate) result(wrong)
+  function count_wrong_points(scene, noise, iterate) result(wrong)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: noise
     type(contact_iterate), intent(in) :: iterate
@@ -52,6 +53,7 @@ contains
       wrong = count(iterate%contact .and. iterate%force < -iterate%tension_noise) &
               + count(.not. iterate%contact &
                       .and. deformed_gap(scene%gap, iterate%displacement, iterate%motion) < -noise)
+      wrong = scene%rows%ranks%total_count(wrong)
       return
     end if
     wrong = 0
@@ -109,7 +111,7 @@ contains
 
   !> Tensile points leave the contact set, points that penetrate by more than `noise` join it; with
   !> `extrapolate` more leave and fewer join, as fuge_set_exchange explains. Error: FUGE_ERR_MEMORY.
-  pure subroutine exchange_wrong_points(scene, noise, extrapolate, iterate, info)
+  subroutine exchange_wrong_points(scene, noise, extrapolate, iterate, info)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: noise
     logical, intent(in) :: extrapolate
@@ -122,10 +124,10 @@ contains
     ! Allocated here only: during the products the operator may need the memory.
     allocate (tensile(size(scene%gap)), penetrating(size(scene%gap)), stat=stat)
     if (stat == 0 .and. extrapolate) allocate (measure(size(scene%gap)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(scene%gap))//' points')
-      return
-    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(scene%gap)) &
+                               //' points')
+    call scene%rows%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     if (allocated(scene%play)) then
       do k = 1, size(scene%gap)
         tensile(k) = iterate%contact(k)
@@ -192,14 +194,14 @@ contains
   end subroutine keep_tied
 
   !> The open point, of those not locked, that penetrates most, by more than `noise`; 0 if there
-  !> is none.
-  pure function deepest_open_point(scene, iterate, noise, locked) result(deepest)
+  !> is none, or where the deepest one is another rank's.
+  function deepest_open_point(scene, iterate, noise, locked) result(deepest)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: noise
     logical, intent(in) :: locked(:)
     integer :: deepest
-    real(dp) :: depth, gap, greatest
+    real(dp) :: depth, gap, greatest, owner(1)
     integer :: k
 
     deepest = 0
@@ -215,17 +217,22 @@ contains
       deepest = k
       greatest = depth
     end do
+    associate (ranks => scene%rows%ranks)
+      owner = real(ranks%number(), dp)
+      call ranks%take_from_least(merge(-greatest, huge(greatest), deepest > 0), owner)
+      if (abs(owner(1) - real(ranks%number(), dp)) > 0.0_dp) deepest = 0
+    end associate
   end function deepest_open_point
 
   !> The greatest tension in the contact set, of points that are not tied; 0 if there is none.
-  pure function greatest_tension(scene, iterate) result(tension)
+  function greatest_tension(scene, iterate) result(tension)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: tension
     integer :: k
 
     if (.not. allocated(scene%play)) then
-      tension = max(0.0_dp, -minval(iterate%force))
+      tension = scene%rows%ranks%largest(max(0.0_dp, -minval(iterate%force)))
       return
     end if
     tension = 0.0_dp
@@ -237,12 +244,12 @@ contains
 
   !> Are the forces accurate enough to tell which of them will be tensile: is their error below the fraction `decisive`
   !> of the greatest tension? The preconditioned residual, iterate%work, estimates their error.
-  pure function tension_is_decided(scene, iterate, decisive) result(decided)
+  function tension_is_decided(scene, iterate, decisive) result(decided)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: decisive
     logical :: decided
-    real(dp) :: force_error(LANES), tension(LANES), values(LANES)
+    real(dp) :: force_error(LANES), tension(LANES), values(LANES), extremes(2)
     integer :: i, k
 
     force_error = 0.0_dp
@@ -270,7 +277,9 @@ contains
         tension(1) = max(tension(1), iterate%work(k) - iterate%force(k))
       end do
     end do
-    decided = maxval(force_error) <= decisive*maxval(tension)
+    extremes = [maxval(force_error), maxval(tension)]
+    call scene%rows%ranks%raise(extremes)
+    decided = extremes(1) <= decisive*extremes(2)
   end function tension_is_decided
 
 end module fuge_wrong_points
