@@ -2,7 +2,9 @@
 !> do not match, and a press fit of cylinders in space by sheared and uneven faces.
 !>
 !> Prints n, nodes around the ellipse, | the largest error of the gap: linear edges as they are | smooth | quadratic
-!> edges as they are | smooth; then kind of faces | error of the mean gap | of the worst one, over the interference.
+!> edges as they are | smooth; the same for how far a rotation of both bodies by 1 about the middle of the ellipse opens
+!> a contact point, which is the moment of its forces over the force; then kind of faces | error of the mean gap | of
+!> the worst one, over the interference.
 program smooth_gaps
   use fuge, only: dp => fuge_dp, fuge_contact_pairs, fuge_find_pairs, fuge_info, fuge_pair_options, fuge_surface_mesh
   implicit none
@@ -11,22 +13,26 @@ program smooth_gaps
   !> Of the ellipse, of semi-axes 1.5 and 1; and radius and interference of the press fit.
   real(dp), parameter :: GAP = 1.0e-3_dp, RADIUS = 20.0_dp, INTERFERENCE = 0.0025_dp
 
-  call print_ellipse()
+  call print_ellipse(.false.)
+  call print_ellipse(.true.)
   call print_cylinders()
 
 contains
 
-  subroutine print_ellipse()
+  subroutine print_ellipse(turned)
+    logical, intent(in) :: turned
     real(dp) :: error(4)
     integer :: k, n
 
+    print '(a)', trim(merge('opened by a rotation', 'error of the gap    ', turned))
     print '(a)', 'n | linear, as they are | linear, smooth | quadratic, as they are | quadratic, smooth'
     n = 16
     do while (n <= 512)
       do k = 1, 4
         associate (order => (k + 1)/2)
           error(k) = gap_error(ellipse(n/order, order, .true., 0.0_dp, 0.0_dp), &
-                               ellipse(3*n/(2*order), order, .false., GAP, 0.03_dp), modulo(k, 2) == 0)
+                               ellipse(3*n/(2*order), order, .false., GAP, 0.03_dp), modulo(k, 2) == 0, &
+                               turned)
         end associate
       end do
       print '(i0,4('' | '',es8.2))', n, error
@@ -34,11 +40,12 @@ contains
     end do
   end subroutine print_ellipse
 
-  !> The largest error of the gap.
-  function gap_error(contact, opposite, smooth) result(error)
+  !> The largest error of the gap, or opening by a rotation.
+  function gap_error(contact, opposite, smooth, turned) result(error)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
-    logical, intent(in) :: smooth
-    real(dp) :: error
+    logical, intent(in) :: smooth, turned
+    real(dp) :: error, opening
+    integer :: before, i, k
     type(fuge_pair_options) :: options
     type(fuge_contact_pairs) :: pairs
     type(fuge_info) :: info
@@ -47,7 +54,31 @@ contains
     call fuge_find_pairs(contact, opposite, options, pairs, info)
     if (info%failed()) error stop 'the surfaces were not paired'
     error = maxval(abs(pairs%gap - GAP))
+    if (.not. turned) return
+    error = 0.0_dp
+    before = 10*size(opposite%node)
+    do i = 1, pairs%points()
+      opening = 0.0_dp
+      do k = 1, size(pairs%dof, 1)
+        if (pairs%dof(k, i) > before) then
+          opening = opening + pairs%normal(k, i)*turned_by(opposite%node, pairs%dof(k, i) - before)
+        else if (pairs%dof(k, i) > 0) then
+          opening = opening + pairs%normal(k, i)*turned_by(contact%node, pairs%dof(k, i))
+        end if
+      end do
+      error = max(error, abs(opening))
+    end do
   end function gap_error
+
+  !> The displacement of a degree of freedom in a rotation about the origin.
+  pure function turned_by(node, dof) result(way)
+    real(dp), intent(in) :: node(:, :)
+    integer, intent(in) :: dof
+    real(dp) :: way
+
+    way = node(1, (dof + 1)/2)
+    if (modulo(dof, 2) == 1) way = -node(2, (dof + 1)/2)
+  end function turned_by
 
   !> Edges of order 1 or 2 around an ellipse, or around the curve `outwards` of it, unevenly spaced.
   function ellipse(edges, order, outside, outwards, shift) result(surface)
