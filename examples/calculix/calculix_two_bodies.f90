@@ -146,7 +146,7 @@ contains
     type(own_answer) :: theirs(size(METHOD))
     integer :: k
 
-    print '(/,a)', 'The same contact by CalculiX; differences of pressures over the largest one'
+    print '(/,a)', 'The same contact by CalculiX; processor times; differences of pressures over the largest one'
     print '(2a)', '  method                 K/E    time incre- itera- nodes in penetration     force    error', &
       '  pressures', '                      [1/mm]     [s]  ments  tions  contact        [mm]       [N]         ', &
       '  fuge   fine'
