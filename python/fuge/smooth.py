@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Owner, call, new_handle, profile_callback
+from fuge._calls import Owner, call, interruptible, new_handle, profile_callback
 from fuge._structs import RoundReport, SmoothReport
 from fuge.halfplane import PlaneState
 from fuge.stress import at_points, elasticity
@@ -46,7 +46,8 @@ class SmoothContact(Owner):
 
     def __init__(self, profile: Any, limits: list[float], e_star: float, force: float, moment: Any) -> None:
         arguments = [profile, None, *limits, e_star, force, moment]
-        self._handle = new_handle("smooth contact", "fuge_solve_smooth_punch", "fuge_smooth_free", *arguments)
+        with interruptible():
+            self._handle = new_handle("smooth contact", "fuge_solve_smooth_punch", "fuge_smooth_free", *arguments)
         report = SmoothReport()
         call("fuge_smooth_get_report", self._handle.pointer, ctypes.byref(report))
         self.left: float = report.left
@@ -166,7 +167,8 @@ class RoundContact(Owner):
     """
 
     def __init__(self, solve: str, *arguments: Any) -> None:
-        self._handle = new_handle("round contact", solve, "fuge_round_free", *arguments)
+        with interruptible():
+            self._handle = new_handle("round contact", solve, "fuge_round_free", *arguments)
         report = RoundReport()
         call("fuge_round_get_report", self._handle.pointer, ctypes.byref(report))
         self.radius: float = report.radius

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Owner, end_call, new_handle, progress_callback
+from fuge._calls import Owner, end_call, interruptible, new_handle, progress_callback
 from fuge._library import function
 from fuge._structs import InfoStruct, Options
 from fuge.errors import Status, error
@@ -318,7 +318,7 @@ class Solver(Owner):
         LimitError, UnsupportedError, CallbackError, CancelledError
         """
         handle = self._handle
-        with handle.use() as pointer:
+        with interruptible(), handle.use() as pointer:
             code = function("fuge_solve")(pointer)
             message = self._read_message(pointer)
             # Before the warning, which the caller may turn into an exception.
@@ -365,7 +365,8 @@ class Solver(Owner):
         if load_change is not None:
             loads = _arrays.vector("load_change", np.atleast_1d(np.asarray(load_change)), m)
         force, gap, motion = np.empty(self._shape), np.empty(self._shape), np.empty(m)
-        self._call("fuge_get_derivatives", gaps, loads, force, gap, motion)
+        with interruptible():
+            self._call("fuge_get_derivatives", gaps, loads, force, gap, motion)
         return Derivative(force, gap, motion)
 
     def history(self) -> History:

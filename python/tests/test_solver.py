@@ -1,6 +1,7 @@
 """Problems and solvers: known answers, warm starts, derivatives, paths, and what refuses bad data."""
 
 import gc
+import signal
 import threading
 import unittest
 import warnings
@@ -279,6 +280,28 @@ class Solvers(unittest.TestCase):
         # The next call has nothing left of it.
         self.solver.set_progress(None)
         self.assertEqual(self.solver.solve().info.status, fuge.Status.DONE)
+
+    @unittest.skipUnless(hasattr(signal, "pthread_kill"), "no signals for threads")
+    def test_interrupt(self):
+        # Ctrl-C comes while the library works; the next iteration sees it. A job in the background ignores it at first.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        main = threading.get_ident()
+
+        def product(f):
+            if not sent:
+                sent.append(threading.Thread(target=signal.pthread_kill, args=(main, signal.SIGINT)))
+                sent[0].start()
+                sent[0].join()
+            return self.alpha @ f
+
+        for progress in (None, lambda *report: None):
+            sent = []
+            solver = fuge.Solver(fuge.CallbackOperator(80, product), progress=progress)
+            solver.set_gap(self.gap)
+            solver.set_load(400.0)
+            self.assertRaises(KeyboardInterrupt, solver.solve)
+            self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+            self.assertAlmostEqual(solver.solve().load, 400.0, delta=1e-7)
 
     def test_calls_from_inside_are_refused(self):
         for call in (self.solver.reset, self.solver.close, lambda: self.solver.set_load(1.0)):
