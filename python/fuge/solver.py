@@ -130,6 +130,29 @@ class History:
     z: NDArray[np.float64]
 
 
+def chosen_options(
+    method: Method | None,
+    pivot_rule: PivotRule | None = None,
+    max_iterations: int | None = None,
+    keep_history: bool | None = None,
+    tolerance: float | None = None,
+) -> Options:
+    """The library's defaults, but for what is not None."""
+    options = Options()
+    function("fuge_default_options")(ctypes.byref(options))
+    if method is not None:
+        options.method = _arrays.choice("method", method, METHODS)
+    if pivot_rule is not None:
+        options.pivot_rule = _arrays.choice("pivot_rule", pivot_rule, PIVOT_RULES)
+    if max_iterations is not None:
+        options.max_iterations = _arrays.integer("max_iterations", max_iterations)
+    if keep_history is not None:
+        options.keep_history = int(bool(keep_history))
+    if tolerance is not None:
+        options.tolerance = _arrays.number("tolerance", tolerance)
+    return options
+
+
 class Solver(Owner):
     """A contact problem and its solution, for one solve after the other.
 
@@ -176,18 +199,7 @@ class Solver(Owner):
     ) -> None:
         self.operator = operator if isinstance(operator, Operator) else DenseOperator(operator)
         self._shape: tuple[int, ...] = (self.n,)
-        options = Options()
-        function("fuge_default_options")(ctypes.byref(options))
-        if method is not None:
-            options.method = _arrays.choice("method", method, METHODS)
-        if pivot_rule is not None:
-            options.pivot_rule = _arrays.choice("pivot_rule", pivot_rule, PIVOT_RULES)
-        if max_iterations is not None:
-            options.max_iterations = _arrays.integer("max_iterations", max_iterations)
-        if keep_history is not None:
-            options.keep_history = int(bool(keep_history))
-        if tolerance is not None:
-            options.tolerance = _arrays.number("tolerance", tolerance)
+        options = chosen_options(method, pivot_rule, max_iterations, keep_history, tolerance)
         read = self.operator._handle
         self._handle = new_handle(
             "solver", "fuge_solver_new", "fuge_solver_free", read.pointer, ctypes.byref(options)
