@@ -43,6 +43,16 @@ def is_sparse(matrix: Any) -> bool:
     return isinstance(matrix, CompressedColumns) or hasattr(matrix, "tocsc")
 
 
+def compressed_dense(name: str, matrix: ArrayLike) -> CompressedColumns:
+    """Compressed columns of the entries of a matrix that are not zero."""
+    array = _arrays.doubles(name, matrix, (None, None))
+    columns, rows = np.nonzero(array.T)
+    first = np.searchsorted(columns, np.arange(array.shape[1] + 1)).astype(np.intc)
+    return CompressedColumns(
+        (array.shape[0], array.shape[1]), first, rows.astype(np.intc), np.ascontiguousarray(array[rows, columns])
+    )
+
+
 def compressed(name: str, matrix: Any) -> CompressedColumns:
     """Compressed columns of a sparse matrix, checked; the caller's arrays where their types fit."""
     if not is_sparse(matrix):

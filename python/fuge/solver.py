@@ -348,7 +348,7 @@ class Solver(Owner):
         """Report of the last solve, failed or not."""
         report = InfoStruct()
         self._call("fuge_get_info", ctypes.byref(report))
-        return _info(report)
+        return info_of(report)
 
     def derivative(
         self, gap_change: ArrayLike | None = None, load_change: ArrayLike | None = None
@@ -422,7 +422,7 @@ class Solver(Owner):
         self._get("fuge_get_motion", pointer, motion)
         self._get("fuge_get_resultant", pointer, resultant)
         self._get("fuge_get_info", pointer, ctypes.byref(report))
-        return Contact(force, gap, motion, resultant, _info(report), message)
+        return Contact(force, gap, motion, resultant, info_of(report), message)
 
     def _get(self, name: str, pointer: ctypes.c_void_p, result: Any) -> None:
         end_call(function(name)(pointer, result), lambda: self._read_message(pointer))
@@ -438,7 +438,8 @@ class Solver(Owner):
         return _arrays.doubles(name, value, *self._shapes()).reshape(-1)
 
 
-def _info(report: InfoStruct) -> Info:
+def info_of(report: InfoStruct) -> Info:
+    """The report in a struct of the library."""
     return Info(
         Status(report.status),
         report.iterations,
