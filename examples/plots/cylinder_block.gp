@@ -50,6 +50,7 @@ plot p(x) with lines lw 2 lc rgb "#999999" title "Hertz", \
        title "linear, nodes against faces", \
      "" index 1 using 1:2 with points pt 6 ps 1.1 lw 1.5 lc rgb blue title "linear, mortar on the finer surface", \
      "" index 0 using 1:2 with points pt 7 ps 1.1 lc rgb blue title "linear, mortar on the coarser surface", \
+     "" index 5 using 1:2 with points pt 7 ps 0.35 lc rgb "black" title "the same, finest mesh", \
      "" index 3 using 1:2 with points pt 7 ps 0.8 lc rgb red title "quadratic, mortar"
 
 set lmargin at screen 0.73

@@ -1,11 +1,11 @@
 !> Elastic bodies with their own meshes in contact, from stiffness matrices and surfaces to forces, pressures and
 !> displacements in one call.
 module fuge_bodies_solution
-  use fuge_bodies_join, only: fuge_join_bodies, fuge_joined_bodies
+  use fuge_body_joining, only: fuge_join_bodies, fuge_joined_bodies
   use fuge_condensation, only: fuge_condense, fuge_condensed
   use fuge_contact_pairs_type, only: fuge_contact_pairs
   use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair
-  use fuge_joined_names, only: name_bodies
+  use fuge_joined_names, only: name_bodies, name_motions, names_motion
   use fuge_kinds, only: dp
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
@@ -23,12 +23,12 @@ module fuge_bodies_solution
   type, public :: fuge_bodies_contact
     !> Where the contact points are: pair, node, opposite face, direction, area, initial gap.
     type(fuge_contact_pairs) :: pairs
-    !> Contact forces, (n), force; negative only at an upper stop and at tied points, where they act along the axes.
+    !> Contact forces, (n), force; negative only at an upper stop and at tied points, where they are the components along
+    !> the axes of the force of the contact surface on the opposite one.
     real(dp), allocatable :: force(:)
     !> Gaps under load, (n), length.
     real(dp), allocatable :: gap(:)
-    !> Pressures, (n): force over area; at tied points the stress vector of the opposite body on the contact one,
-    !> turned round.
+    !> Pressures, (n): force over area.
     real(dp), allocatable :: pressure(:)
     !> Motions in the rigid modes that are free, (m); their displacements are part of `displacement`.
     real(dp), allocatable :: motion(:)
@@ -48,8 +48,9 @@ contains
   !> `stiffness` chooses the storage and takes the matrix of all bodies: fuge_sparse_stiffness for all but small ones,
   !> fuge_dense_stiffness, or fuge_band_stiffness. `bodies` and `surface_pairs` as in `fuge_join_bodies`. `contact` is
   !> replaced on success or warning; info%residual is the certificate of the contact forces. `options` of the solver.
-  !> Bodies may float: rigid motions that supports leave are found, and are zero where contact does not fix them. For
-  !> further loads on the same bodies use `fuge_join_bodies`, which names the steps: the factor is kept there.
+  !> Bodies may float: rigid motions that supports leave are found; displacements have no part of those that contact
+  !> does not resist, such as sliding along a plane. For further loads on the same bodies use `fuge_join_bodies`, which
+  !> names the steps: there the factor is kept.
   !> Memory and time beyond the factor of K grow with the contact points, those that can touch, not with the surfaces:
   !> options%reach of a pair limits them.
   !> Warnings: those of `solve` of fuge_solver; else that of `fuge_condense`, of `recover` of fuge_condensed, or
@@ -82,7 +83,10 @@ contains
     end if
     call fuge_condense(stiffness, joined%body, condensed, info)
     condensation = info
-    if (.not. info%failed()) call solve(joined, condensed, chosen, solution, info)
+    if (.not. info%failed()) then
+      call solve(joined, condensed, chosen, solution, info)
+      if (names_motion(info)) call name_motions(owners(joined, condensed), info)
+    end if
     recovery = info
     if (.not. info%failed()) call condensed%recover(solution, displacement, recovery)
     call condensed%clear()
@@ -114,6 +118,38 @@ contains
     if (.not. info%failed()) call alpha%set(condensed%alpha, info)
     if (.not. info%failed()) call solver%solve(alpha, problem, solution, info, options)
   end subroutine solve
+
+  !> The body that each free rigid motion moves.
+  function owners(joined, condensed) result(owner)
+    type(fuge_joined_bodies), intent(in) :: joined
+    type(fuge_condensed), intent(in) :: condensed
+    integer :: owner(size(condensed%resultant))
+    type(fuge_solution) :: motion
+    type(fuge_info) :: info
+    real(dp), allocatable :: u(:), moved(:)
+    real(dp) :: largest, here
+    integer :: j, k, stat
+
+    owner = 0
+    allocate (u(size(joined%body%load)), moved(size(joined%body%load)), motion%force(joined%pairs%points()), &
+              motion%motion(size(owner)), stat=stat)
+    if (stat /= 0) return
+    motion%force = 0.0_dp
+    motion%motion = 0.0_dp
+    call condensed%recover(motion, u, info)
+    do j = 1, size(owner)
+      motion%motion = 0.0_dp
+      motion%motion(j) = 1.0_dp
+      if (.not. info%failed()) call condensed%recover(motion, moved, info)
+      if (info%failed()) return
+      largest = 0.0_dp
+      do k = 1, size(joined%first) - 1
+        here = maxval(abs(moved(joined%first(k) + 1:joined%first(k + 1)) - u(joined%first(k) + 1:joined%first(k + 1))))
+        if (here > largest) owner(j) = k
+        largest = max(largest, here)
+      end do
+    end do
+  end function owners
 
   !> Take over a warning if there is none yet.
   pure subroutine take_warning(other, info)

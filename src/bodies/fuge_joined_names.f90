@@ -1,14 +1,16 @@
-!> Messages about the stiffness of all bodies, in the numbers of the body that is meant.
+!> Messages about all bodies together, in the numbers of the body that is meant.
 module fuge_joined_names
   use fuge_number_text, only: index_text, INDEX_MARK
-  use fuge_status, only: composed_message, fuge_info, report
+  use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
 
-  public :: name_bodies
+  public :: name_bodies, name_motions, names_motion
 
   !> Stands before the index of a degree of freedom.
   character(len=*), parameter :: DEGREE = 'degree of freedom '//INDEX_MARK
+  !> The same for a rigid motion.
+  character(len=*), parameter :: MOTION = 'motion '//INDEX_MARK
 
 contains
 
@@ -34,6 +36,32 @@ contains
     end do
     call report(info, info%status, message//rest)
   end subroutine name_bodies
+
+  !> Does a message name a rigid motion?
+  pure function names_motion(info) result(named)
+    type(fuge_info), intent(in) :: info
+    logical :: named
+
+    named = index(composed_message(info), MOTION) > 0
+  end function names_motion
+
+  !> Say of which body the rigid motion in a message is, and how to mend it. `owner`: the body of each motion.
+  pure subroutine name_motions(owner, info)
+    integer, intent(in) :: owner(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: begin, next, number
+    character(len=:), allocatable :: message
+
+    message = composed_message(info)
+    begin = index(message, MOTION) + len(MOTION)
+    if (begin == len(MOTION)) return
+    next = begin - 1 + verify(message(begin:)//' ', '0123456789')
+    number = value_of(message(begin:next - 1))
+    if (number < 1 .or. number > size(owner)) return
+    message = message(:next - 1)//' (body '//index_text(owner(number))//')'//message(next:)
+    if (info%status == FUGE_ERR_NO_EQUILIBRIUM) message = message//'; hold the body, or balance its load'
+    call report(info, info%status, message)
+  end subroutine name_motions
 
   !> The number that digits make. Not by an internal read, which would take a lock of the run-time library.
   pure function value_of(digits) result(number)

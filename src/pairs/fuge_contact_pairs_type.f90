@@ -40,8 +40,8 @@ module fuge_contact_pairs_type
     !> Glue the surfaces where they are: along each axis, with a gap and a play of zero.
     logical :: tied = .false.
     !> Normals, gaps and areas are those of the smooth bodies that the meshes stand for, which on circles, spheres and
-    !> cylinders are exact; faces that meet at more than 40 degrees keep their edge, flat faces stay flat. False: those of
-    !> the faces as they are, whose chords on a round body are wrong by L**2/(8 R), often more than the gap itself.
+    !> cylinders are exact; faces that meet at more than 40 degrees keep their edge, flat faces stay flat. False: those
+    !> of the faces as they are, whose chords on a round body are wrong by L**2/(8 R), often more than the gap itself.
     logical :: smooth = .true.
   end type fuge_pair_options
 
@@ -77,6 +77,8 @@ module fuge_contact_pairs_type
     procedure :: points
     procedure :: set_owned
     procedure :: first_repeated
+    procedure :: largest_dof
+    procedure :: same_node
     procedure :: keep
   end type fuge_contact_pairs
 
@@ -118,6 +120,25 @@ contains
     end do
     both = 0
   end subroutine first_repeated
+
+  !> The largest degree of freedom of the contact points and of their nodes; 0 if there are none.
+  pure function largest_dof(self) result(largest)
+    class(fuge_contact_pairs), intent(in) :: self
+    integer :: largest
+
+    largest = 0
+    if (self%points() > 0) largest = max(0, maxval(self%dof), maxval(self%owned))
+  end function largest_dof
+
+  !> Are contact point `i` and point `j` of other pairs of the same node? Of rigid ones this is not known.
+  pure function same_node(self, i, other, j) result(same)
+    class(fuge_contact_pairs), intent(in) :: self
+    integer, intent(in) :: i, j
+    type(fuge_contact_pairs), intent(in) :: other
+    logical :: same
+
+    same = self%owned(i) == other%owned(j)
+  end function same_node
 
   !> Keep the contact points that are `kept` (points), in their order. `stat` is not zero, and nothing has changed,
   !> without memory.
