@@ -14,7 +14,7 @@ from fuge._declarations import DECLARATIONS
 from fuge._structs import STRUCTS
 
 # Functions that are not in the core library.
-_SPARSE = {"fuge_body_sparse"}
+_SPARSE = {"fuge_body_sparse", "fuge_bodies_solve_sparse"}
 
 Apply = ctypes.CFUNCTYPE(
     ctypes.c_int, ctypes.c_int, ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_double), ctypes.c_void_p

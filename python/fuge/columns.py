@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
+from fuge._library import has_sparse
 from fuge.errors import Status, error
 
 
@@ -36,6 +37,16 @@ class CompressedColumns:
         from scipy.sparse import csc_matrix
 
         return csc_matrix((self.value, self.row, self.column), shape=self.shape)
+
+
+def require_sparse() -> None:
+    """Refuse what the library for sparse matrices would have to do if it is not there."""
+    if not has_sparse():
+        raise error(
+            Status.ERR_UNSUPPORTED,
+            "this copy of fuge was built without CHOLMOD (Debian: libsuitesparse-dev), so it has no sparse matrices: "
+            "pass a dense matrix or a band",
+        )
 
 
 def is_sparse(matrix: Any) -> bool:
