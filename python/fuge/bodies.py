@@ -1,4 +1,4 @@
-"""Elastic bodies with meshes of their own in contact: from stiffness matrices and surfaces to forces and displacements."""
+"""Elastic bodies with meshes of their own in contact: from stiffness matrices and surfaces to forces."""
 
 from __future__ import annotations
 

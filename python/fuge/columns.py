@@ -67,7 +67,9 @@ def compressed_dense(name: str, matrix: ArrayLike) -> CompressedColumns:
 def compressed(name: str, matrix: Any) -> CompressedColumns:
     """Compressed columns of a sparse matrix, checked; the caller's arrays where their types fit."""
     if not is_sparse(matrix):
-        raise TypeError(f"{name} must be a sparse matrix (scipy.sparse or CompressedColumns), not {type(matrix).__name__}")
+        raise TypeError(
+            f"{name} must be a sparse matrix (scipy.sparse or CompressedColumns), not {type(matrix).__name__}"
+        )
     if isinstance(matrix, CompressedColumns):
         shape, column, row, value = matrix.shape, matrix.column, matrix.row, matrix.value
     else:

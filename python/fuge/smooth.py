@@ -90,9 +90,7 @@ class SmoothContact(Owner):
         arguments = [self._handle.pointer, *elasticity(young, poisson, plane_state)]
         return at_points("fuge_smooth_displacement", arguments, 2, ("px", px), ("pz", pz))
 
-    def peak(
-        self, poisson: float, measure: Measure = "von_mises", *, plane_state: PlaneState = "strain"
-    ) -> StressPeak:
+    def peak(self, poisson: float, measure: Measure = "von_mises", *, plane_state: PlaneState = "strain") -> StressPeak:
         """The largest von Mises or Tresca stress and its place."""
         arguments = [self._handle.pointer, *plane_body(plane_state, poisson), measured(measure)]
         return find_peak("fuge_smooth_peak", *arguments)
@@ -231,7 +229,8 @@ def solve_round_punch(
     Parameters
     ----------
     profile : callable
-        ``gap, slope = profile(r)``: the initial gap and its derivative at distances from the axis; smooth, but for a tip.
+        ``gap, slope = profile(r)``: the initial gap and its derivative at distances from the axis; smooth, but
+        for a tip.
     reach : float
         Where the profile ends; length.
     e_star : float

@@ -201,9 +201,7 @@ class Solver(Owner):
         self._shape: tuple[int, ...] = (self.n,)
         options = chosen_options(method, pivot_rule, max_iterations, keep_history, tolerance)
         read = self.operator._handle
-        self._handle = new_handle(
-            "solver", "fuge_solver_new", "fuge_solver_free", read.pointer, ctypes.byref(options)
-        )
+        self._handle = new_handle("solver", "fuge_solver_new", "fuge_solver_free", read.pointer, ctypes.byref(options))
         self._handle.need(read)
         self.set_progress(progress)
 
@@ -350,9 +348,7 @@ class Solver(Owner):
         self._call("fuge_get_info", ctypes.byref(report))
         return info_of(report)
 
-    def derivative(
-        self, gap_change: ArrayLike | None = None, load_change: ArrayLike | None = None
-    ) -> Derivative:
+    def derivative(self, gap_change: ArrayLike | None = None, load_change: ArrayLike | None = None) -> Derivative:
         """Derivative of the last solution in a direction.
 
         With ``load_change=1`` alone the contact stiffness is ``1/derivative.motion[0]``.

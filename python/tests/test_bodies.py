@@ -4,10 +4,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import headers
 import numpy as np
 
 import fuge
+import headers
 from fuge._library import has_sparse
 
 YOUNG, POISSON, PRESSURE = 2.0, 0.25, 0.01
@@ -129,7 +129,8 @@ class MeshWithMatrix(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "m.inp"
             path.write_text(
-                "*NODE\n10, 0., 0.\n20, 1., 0.\n30, 1., 1.\n40, 0., 1.\n*ELEMENT, TYPE=CPE4, ELSET=ALL\n1, 10, 20, 30, 40\n"
+                "*NODE\n10, 0., 0.\n20, 1., 0.\n30, 1., 1.\n40, 0., 1.\n"
+                "*ELEMENT, TYPE=CPE4, ELSET=ALL\n1, 10, 20, 30, 40\n"
                 "*NSET, NSET=BASE\n10, 20\n*SURFACE, NAME=TOP\nALL, S3\n"
             )
             mesh = fuge.read_mesh(path)

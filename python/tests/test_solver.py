@@ -90,11 +90,15 @@ class Errors(unittest.TestCase):
         self.assertEqual(str(caught.exception), caught.exception.message)
 
     def test_negative_load(self):
-        self.refused(fuge.EquilibriumError, fuge.Status.ERR_NO_EQUILIBRIUM, lambda: fuge.solve(ALPHA, GAP, -2.0), "-2.0")
+        self.refused(
+            fuge.EquilibriumError, fuge.Status.ERR_NO_EQUILIBRIUM, lambda: fuge.solve(ALPHA, GAP, -2.0), "-2.0"
+        )
 
     def test_unsymmetric(self):
         matrix = [[0.2, 0.1], [0.3, 0.2]]
-        self.refused(fuge.MatrixError, fuge.Status.ERR_NOT_SYMMETRIC, lambda: fuge.solve(matrix, GAP, 2.0), "alpha(1,0)")
+        self.refused(
+            fuge.MatrixError, fuge.Status.ERR_NOT_SYMMETRIC, lambda: fuge.solve(matrix, GAP, 2.0), "alpha(1,0)"
+        )
 
     def test_not_definite(self):
         matrix = [[-1.0, 0.0], [0.0, -1.0]]
