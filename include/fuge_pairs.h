@@ -40,8 +40,9 @@ int fuge_pairs_create(fuge_pairs **pairs, char *message, size_t len);
 /* Free and set *pairs to NULL; NULL and *pairs == NULL are fine. */
 void fuge_pairs_free(fuge_pairs **pairs);
 
-/* The surface whose nodes become contact points (the finer one, or that of the softer body)
- * and the opposite one, for the next fuge_pairs_find; both are copied.
+/* The surface whose nodes become contact points (with linear faces the coarser one, whose
+ * pressures are smooth; with quadratic faces the finer one) and the opposite one, for the next
+ * fuge_pairs_find; both are copied.
  *   dimensions  2 or 3
  *   node        positions, dimensions x nodes
  *   face        numbers of the nodes of each face, most x faces, from 0; unused places, at

@@ -75,22 +75,17 @@ contains
     type(model_body), intent(inout) :: bodies(:)
     integer, intent(out) :: count
     type(fuge_info), intent(inout) :: info
-    logical :: named
     integer :: k
 
     count = 0
-    named = .false.
     do k = 1, given%count
       associate (name => given%settings(k)%name)
         if (all(name /= [character(len=12) :: 'body', 'mesh', 'stiffness', 'rows', 'matrix'])) cycle
         if (count == 0 .or. name == 'body') then
           count = count + 1
-          named = name == 'body'
         else if ((name == 'mesh' .and. bodies(count)%mesh_option > 0) &
                  .or. (name == 'stiffness' .and. bodies(count)%stiffness_option > 0)) then
           count = count + 1
-          if (named) call refuse(given%settings(k)%place//': body "'//bodies(count - 1)%name//'" has one already; ' &
-                                 //'--body begins the next one', info)
         end if
         call take_option(given%settings(k)%place, name, k, bodies(count), info)
         if (name == 'body') bodies(count)%name = given%settings(k)%value

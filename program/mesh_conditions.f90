@@ -4,6 +4,7 @@ module mesh_conditions
   use fuge, only: dp => fuge_dp, fuge_info
   use mesh_body, only: model_body, DIRECTIONS
   use mesh_names, only: find_nodes, upper_case
+  use mesh_pressures, only: take_pressure
   use number_words, only: number_text, read_real
   use text_lines, only: line_reader
   implicit none
@@ -53,6 +54,8 @@ contains
       select case (given%settings(k)%name)
       case ('support', 'load')
         call take_word(given%settings(k), bodies, supports, info)
+      case ('pressure')
+        call take_pressure(given%settings(k), bodies, info)
       case ('supports', 'loads')
         call take_file(given, k, bodies, supports, info)
       end select
@@ -199,8 +202,8 @@ contains
     if (index(path, '/') /= 1) path = option%folder//path
   end subroutine split_path
 
-  !> One line of a table: nodes, axes and a value. Nodes are of `body`, if it is not empty. `of_deck`: from an input file, where supports have a first and a last
-  !> direction. The first line of a table may be a heading.
+  !> One line of a table: nodes, axes and a value. Nodes are of `body`, if it is not empty. `of_deck`: from an input
+  !> file, where supports have a first and a last direction. The first line of a table may be a heading.
   subroutine take_line(line, place, body, is_load, of_deck, is_first, bodies, supports, info)
     character(len=*), intent(in) :: line, place, body
     logical, intent(in) :: is_load, of_deck, is_first

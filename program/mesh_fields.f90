@@ -10,7 +10,10 @@ module mesh_fields
   implicit none
   private
 
-  public :: write_fields
+  public :: check_fields, write_fields
+
+  !> A file that takes all and keeps nothing; other systems have none.
+  character(len=*), parameter :: NOWHERE = '/dev/null'
 
 contains
 
@@ -26,10 +29,8 @@ contains
     type(fuge_info) :: writing
     type(fuge_mesh) :: mesh
     type(fuge_mesh_field) :: fields(4)
-    integer :: point
 
-    point = index(path, '.', back=.true.)
-    if (point == 0 .or. upper_case(path(max(point, 1):)) /= '.VTU') then
+    if (.not. is_mesh_file(path)) then
       call write_displacements(path, bodies, joined, displacement, info)
       return
     end if
@@ -38,6 +39,33 @@ contains
     if (.not. writing%failed()) call fuge_write_mesh(path, mesh, fields, writing)
     if (writing%failed()) info = writing
   end subroutine write_fields
+
+  !> Refuse, before all is computed, meshes that `write_fields` could not write.
+  subroutine check_fields(path, bodies, info)
+    character(len=*), intent(in) :: path
+    type(model_body), intent(in) :: bodies(:)
+    type(fuge_info), intent(inout) :: info
+    type(fuge_mesh) :: mesh
+    type(fuge_mesh_field) :: fields(0)
+    logical :: exists
+
+    inquire (file=NOWHERE, exist=exists)
+    if (.not. (is_mesh_file(path) .and. exists)) return
+    call join(bodies, mesh, info)
+    if (.not. info%failed()) call fuge_write_mesh(NOWHERE, mesh, fields, info)
+    if (info%failed()) info%message = '--field '//path//': '//info%message
+  end subroutine check_fields
+
+  !> Is it the name of a file for ParaView?
+  pure function is_mesh_file(path)
+    character(len=*), intent(in) :: path
+    logical :: is_mesh_file
+    integer :: point
+
+    point = index(path, '.', back=.true.)
+    is_mesh_file = point > 0
+    if (is_mesh_file) is_mesh_file = upper_case(path(point:)) == '.VTU'
+  end function is_mesh_file
 
   !> The meshes of all bodies as one.
   subroutine join(bodies, mesh, info)
@@ -90,7 +118,8 @@ contains
       fields(3)%value(:dimensions, node) = fields(3)%value(:dimensions, node) &
         - solution%force(i)*joined%pairs%direction(:, i)
       if (pairs(joined%pairs%pair(i))%options%tied) cycle
-      fields(2)%value(1, node) = fields(2)%value(1, node) + solution%force(i)/joined%pairs%area(i)
+      fields(2)%value(1, node) = fields(2)%value(1, node) + solution%force(i) &
+        /pairs(joined%pairs%pair(i))%area(joined%pairs, i)
     end do
   end subroutine fill_fields
 

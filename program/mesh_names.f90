@@ -106,8 +106,8 @@ contains
       if (other > 0) exit
     end do
     if (other > 0) then
-      call refuse(place//': bodies '//bodies(other)%name//' and '//bodies(body)%name//' both have "'//name//'": write ' &
-                  //bodies(body)%name//'.'//name//' or '//bodies(other)%name//'.'//name, info)
+      call refuse(place//': bodies '//bodies(other)%name//' and '//bodies(body)%name//' both have "'//name &
+                  //'": write '//bodies(body)%name//'.'//name//' or '//bodies(other)%name//'.'//name, info)
     else if (body == 0) then
       call refuse_name(place//': there is no '//what//' "'//name//'"', bodies, what, info)
     end if

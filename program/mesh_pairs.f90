@@ -1,10 +1,11 @@
 !> Pairs of surfaces as the options name them.
 module mesh_pairs
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_mesh_faces, fuge_pair_options, fuge_surface_mesh, fuge_surface_pair, &
-    FUGE_NODE_TO_FACE, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
+  use fuge, only: dp => fuge_dp, fuge_contact_pairs, fuge_info, fuge_mesh_faces, fuge_pair_options, fuge_surface_mesh, &
+    fuge_surface_pair, FUGE_NODE_TO_FACE, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
   use mesh_body, only: model_body
   use mesh_names, only: find_surface
+  use mesh_rings, only: find_circumferences
   use number_words, only: read_real
   implicit none
   private
@@ -12,8 +13,8 @@ module mesh_pairs
   public :: find_pairs, mesh_node
 
   !> The options that belong to a pair.
-  character(len=12), parameter :: OF_PAIRS(7) = [character(len=12) :: 'clearance', 'node-to-face', 'normals', 'play', &
-    'reach', 'smooth', 'tied']
+  character(len=12), parameter :: OF_PAIRS(7) = [character(len=12) :: 'clearance', 'faceted', 'node-to-face', &
+    'normals', 'play', 'reach', 'tied']
 
   !> A pair of surfaces: of which bodies, and what is between them.
   type, public :: model_pair
@@ -27,6 +28,10 @@ module mesh_pairs
     !> Added to the gaps.
     real(dp) :: clearance = 0.0_dp
     type(fuge_surface_pair) :: surfaces
+    !> Circumference of the ring of each node of the contact surface; not allocated if no body is one of revolution.
+    real(dp), allocatable :: circumference(:)
+  contains
+    procedure :: area
   end type model_pair
 
 contains
@@ -100,8 +105,8 @@ contains
     select case (given%settings(k)%name)
     case ('tied')
       pair%options%tied = .true.
-    case ('smooth')
-      pair%options%smooth = .true.
+    case ('faceted')
+      pair%options%smooth = .false.
     case ('node-to-face')
       pair%options%method = FUGE_NODE_TO_FACE
     case ('play')
@@ -178,10 +183,25 @@ contains
       call refuse('--pair '//pair%name//': one surface is of solids, the other one of elements of a plane', info)
       return
     end if
+    associate (mesh => bodies(pair%body(1))%mesh)
+      if (index(mesh%element_type(mesh%surface(pair%surface(1))%element(1)), 'CAX') == 1) &
+        call find_circumferences(pair%surfaces%contact, pair%circumference)
+    end associate
     pair%surfaces%options = pair%options
     if (pair%options%normals == FUGE_NORMALS_GIVEN) &
       pair%surfaces%options%normal = spread(pair%normal(:dimensions(1)), 2, size(pair%surfaces%contact%node, 2))
   end subroutine make_surfaces
+
+  !> The area of a contact point of this pair: that of the plane, or of the ring.
+  pure function area(self, pairs, i)
+    class(model_pair), intent(in) :: self
+    type(fuge_contact_pairs), intent(in) :: pairs
+    integer, intent(in) :: i
+    real(dp) :: area
+
+    area = pairs%area(i)
+    if (allocated(self%circumference)) area = area*self%circumference(pairs%node(i))
+  end function area
 
   !> One surface: faces, positions and rows of its nodes. `pair` is what messages call the pair.
   subroutine make_surface(body, which, pair, surface, dimensions, info)
@@ -197,7 +217,8 @@ contains
     dimensions = 2
     associate (mesh => body%mesh)
       if (size(mesh%surface(which)%element) == 0) then
-        call refuse('--pair '//pair//': surface '//body%name//'.'//trim(mesh%surface(which)%name)//' has no faces', info)
+        call refuse('--pair '//pair//': surface '//body%name//'.'//trim(mesh%surface(which)%name)//' has no faces', &
+                    info)
         return
       end if
       if (index(mesh%element_type(mesh%surface(which)%element(1)), 'C3D') == 1) dimensions = 3

@@ -6,7 +6,7 @@ module mesh_problem
     fuge_joined_bodies, fuge_problem, fuge_solution, fuge_surface_pair
   use mesh_body, only: model_body, read_bodies
   use mesh_conditions, only: take_conditions
-  use mesh_fields, only: write_fields
+  use mesh_fields, only: check_fields, write_fields
   use mesh_messages, only: explain
   use mesh_names, only: find_nodes
   use mesh_pairs, only: find_pairs, mesh_node, model_pair
@@ -36,6 +36,7 @@ contains
     real(dp), allocatable :: displacement(:)
 
     call read_bodies(given, bodies, log, info)
+    if (.not. info%failed()) call check_fields(given%file('field'), bodies, info)
     if (.not. info%failed()) call find_pairs(given, bodies, pairs, info)
     if (.not. info%failed()) call take_conditions(given, bodies, info)
     if (.not. info%failed()) call join(bodies, pairs, joined, log, info)

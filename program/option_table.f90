@@ -6,19 +6,19 @@ module option_table
   public :: may_repeat, option_number, print_help, takes_value
 
   !> The names of the options, after two hyphens.
-  character(len=12), parameter, public :: OPTION_NAMES(33) = [character(len=12) :: &
-    'alpha', 'approach', 'body', 'clearance', 'contact', 'exclude', 'external', 'field', 'fixed', 'floats', 'gap', &
-    'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
-    'play', 'reach', 'resultant', 'rows', 'smooth', 'stiffness', 'support', 'supports', 'tied', 'verbose', 'version']
+  character(len=12), parameter, public :: OPTION_NAMES(34) = [character(len=12) :: &
+    'alpha', 'approach', 'body', 'clearance', 'contact', 'exclude', 'external', 'faceted', 'field', 'fixed', 'floats', &
+    'gap', 'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
+    'play', 'pressure', 'reach', 'resultant', 'rows', 'stiffness', 'support', 'supports', 'tied', 'verbose', 'version']
   !> Those without a value.
   character(len=12), parameter :: WITHOUT_VALUE(7) = [character(len=12) :: &
-    'floats', 'help', 'node-to-face', 'smooth', 'tied', 'verbose', 'version']
+    'faceted', 'floats', 'help', 'node-to-face', 'tied', 'verbose', 'version']
   !> Those that may be given again: of another body or pair, or one more support.
-  character(len=12), parameter :: REPEATED(19) = [character(len=12) :: &
-    'body', 'clearance', 'exclude', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', 'normals', 'pair', &
-    'play', 'reach', 'rows', 'smooth', 'stiffness', 'support', 'supports', 'tied']
+  character(len=12), parameter :: REPEATED(20) = [character(len=12) :: &
+    'body', 'clearance', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
+    'normals', 'pair', 'play', 'pressure', 'reach', 'rows', 'stiffness', 'support', 'supports', 'tied']
 
-  character(len=*), parameter :: HELP(63) = [character(len=96) :: &
+  character(len=*), parameter :: HELP(64) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
     '', &
     '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
@@ -44,13 +44,14 @@ module option_table
     '  --tied                  glued', &
     '  --play D                a second stop, D above the first one; 0: sliding, not lifting off', &
     '  --clearance C           added to the gaps; an interference is negative', &
-    '  --smooth                gaps as if the faces were round', &
+    '  --faceted               gaps of the faces as they are, not of the smooth bodies they stand for', &
     '  --node-to-face          instead of mortar; fails the patch test', &
     '  --normals WHICH         averaged (default), opposite, or a direction: 0,0,1', &
     '  --reach L               how far apart opposite points may be', &
     'Supports and loads; NODES: a set, or the number of a node, such as hub.BOTTOM or hub.17', &
     '  --support NODES:XYZ     held along these axes; NODES:z=U: displaced by U', &
     '  --load NODES:z=F        the force F on each node, as *CLOAD; all loads are added', &
+    '  --pressure SURFACE=P    uniform; positive into the body', &
     '  --supports [BODY=]FILE  lines NODES,XYZ[,U], or an input file with *BOUNDARY; of BODY', &
     '  --loads [BODY=]FILE     lines NODES,z,F, or an input file with *CLOAD; of BODY', &
     '  --exclude NODES         no contact at these nodes', &

@@ -19,6 +19,8 @@ module calculix_bodies
     !> A set of nodes and its displacement along z; none if blank.
     character(len=16) :: moved = ''
     real(dp) :: displacement = 0.0_dp
+    !> What is read is converted: a length and a force of the files in the units of `displacement` and the result.
+    real(dp) :: length = 1.0_dp, force = 1.0_dp
     type(fuge_pair_options) :: options
   end type contact_request
 
@@ -62,17 +64,25 @@ contains
       call fuge_mesh_degrees(mesh, request%moved, 3, node, direction, body(1)%fixed, info)
       if (.not. info%failed()) allocate (body(1)%displacement(size(body(1)%fixed)), source=request%displacement)
     end if
+    if (info%failed()) call give_up(info)
+    body(1)%value = body(1)%value*(request%force/request%length)
+    pair(1)%contact%node = pair(1)%contact%node*request%length
+    pair(1)%opposite%node = pair(1)%opposite%node*request%length
     pair(1)%opposite_body = 1
     pair(1)%options = request%options
-    if (.not. info%failed()) call fuge_solve_bodies(stiffness, body, pair, result%contact, info)
+    call fuge_solve_bodies(stiffness, body, pair, result%contact, info)
     result%solving = wall_clock() - start
-    if (info%status /= 0) then
-      print '(a)', trim(info%message)
-      error stop 'fuge did not solve the contact'
-    end if
+    if (info%status /= 0) call give_up(info)
     result%degrees = size(node)
     result%certificate = info%residual
     result%node = mesh%node(result%contact%pairs%node)
   end subroutine solve_by_fuge
+
+  subroutine give_up(info)
+    type(fuge_info), intent(in) :: info
+
+    print '(a)', trim(info%message)
+    error stop 'fuge did not solve the contact'
+  end subroutine give_up
 
 end module calculix_bodies

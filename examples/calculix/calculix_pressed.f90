@@ -88,11 +88,13 @@ contains
   end function places
 
   !> `smooth`: with the gaps of the cylinder that the linear elements stand for, or with those of their faces.
-  subroutine press_by_fuge(command, units, smooth, result)
+  !> `converted`: the files are in mm and N, and are converted when they have been read.
+  subroutine press_by_fuge(command, units, smooth, result, converted)
     character(len=*), intent(in) :: command
     type(unit_system), intent(in) :: units
     logical, intent(in) :: smooth
     type(contact_result), intent(out) :: result
+    logical, intent(in), optional :: converted
     type(contact_request) :: request
 
     request%model = 'pressed'
@@ -101,6 +103,10 @@ contains
     request%moved = 'UPPEREND'
     request%displacement = -MOTION*units%length
     request%options%smooth = smooth
+    if (present(converted)) then
+      if (converted) request%length = units%length
+      if (converted) request%force = units%force
+    end if
     call solve_by_fuge(command, request, result)
   end subroutine press_by_fuge
 

@@ -58,7 +58,7 @@ from fuge.halfplane import (
     plane_modulus,
 )
 from fuge.halfspace import HertzContact, halfspace_matrix, hertz_ellipse, ring_displacement, ring_matrix
-from fuge.mesh import Mesh, read_mesh
+from fuge.mesh import Mesh, join_meshes, read_mesh
 from fuge.operators import CallbackOperator, DenseOperator, HalfplaneOperator, HalfspaceOperator, Operator
 from fuge.pairs import ContactPairs, Surface
 from fuge.path import Path, PointState, load_path
@@ -144,6 +144,7 @@ __all__ = [
     "halfspace_stress",
     "halfspace_stress_grid",
     "hertz_ellipse",
+    "join_meshes",
     "level_profile",
     "level_surface",
     "load_path",

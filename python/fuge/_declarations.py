@@ -13,8 +13,8 @@ fuge_sample_profile: int int doubles doubles int doubles doubles buffer size_t
 fuge_level_profile: int int doubles doubles int buffer size_t
 fuge_halfplane_matrix: int int doubles doubles double int doubles int buffer size_t
 fuge_halfplane_symmetric_matrix: int int doubles doubles double int doubles int buffer size_t
-fuge_contact_edges: int int doubles doubles doubles int int int doubles doubles doubles doubles ints ints ints
-  buffer size_t
+fuge_contact_edges: int int doubles doubles doubles int int int doubles doubles doubles doubles ints ints ints buffer
+  size_t
 fuge_operator_dense: int int doubles int fuge_operator* buffer size_t
 fuge_operator_callback: int int fuge_apply user fuge_operator* buffer size_t
 fuge_operator_set_preconditioner: int fuge_operator fuge_apply buffer size_t
@@ -84,11 +84,18 @@ fuge_write_matrix: int text int int doubles int int buffer size_t
 fuge_write_sparse: int text int int ints ints doubles int buffer size_t
 fuge_read_stiffness: int text int text text int int ints ints doubles ints ints ints ints buffer size_t
 fuge_read_mesh: int text fuge_mesh* buffer size_t
+fuge_mesh_create: int int int doubles int int ints int texts fuge_mesh* buffer size_t
+fuge_mesh_join: int int fuge_mesh* fuge_mesh* buffer size_t
+fuge_write_mesh: int text fuge_mesh int texts ints ints arrays buffer size_t
 fuge_mesh_free: void fuge_mesh*
 fuge_mesh_get_sizes: int fuge_mesh ints ints ints
 fuge_mesh_get_nodes: int fuge_mesh ints doubles
 fuge_mesh_get_elements: int fuge_mesh ints ints ints
 fuge_mesh_get_type: int fuge_mesh int buffer size_t
+fuge_mesh_get_set_counts: int fuge_mesh ints ints ints
+fuge_mesh_get_node_set_name: int fuge_mesh int buffer size_t
+fuge_mesh_get_element_set_name: int fuge_mesh int buffer size_t
+fuge_mesh_get_surface_name: int fuge_mesh int buffer size_t
 fuge_mesh_get_node_set: int fuge_mesh text int ints ints buffer size_t
 fuge_mesh_get_element_set: int fuge_mesh text int ints ints buffer size_t
 fuge_mesh_get_faces: int fuge_mesh text int ints ints buffer size_t
@@ -118,8 +125,8 @@ fuge_round_get_pressure: int fuge_round int doubles doubles buffer size_t
 fuge_round_get_gap: int fuge_round int doubles doubles doubles buffer size_t
 fuge_halfplane_stress: int int doubles doubles doubles int int doubles doubles doubles buffer size_t
 fuge_halfplane_symmetric_stress: int int doubles doubles doubles int int doubles doubles doubles buffer size_t
-fuge_halfplane_displacement: int int doubles doubles doubles int double double int int doubles doubles doubles
-  buffer size_t
+fuge_halfplane_displacement: int int doubles doubles doubles int double double int int doubles doubles doubles buffer
+  size_t
 fuge_halfplane_symmetric_displacement: int int doubles doubles doubles int double double int int doubles doubles
   doubles buffer size_t
 fuge_smooth_stress: int fuge_smooth int doubles doubles doubles buffer size_t
@@ -128,8 +135,8 @@ fuge_halfspace_stress: int int doubles doubles doubles doubles doubles double in
   buffer size_t
 fuge_halfspace_symmetric_stress: int int doubles doubles doubles doubles doubles double int int int doubles doubles
   doubles doubles buffer size_t
-fuge_halfspace_displacement: int int doubles doubles doubles doubles doubles double double int doubles doubles
-  doubles doubles buffer size_t
+fuge_halfspace_displacement: int int doubles doubles doubles doubles doubles double double int doubles doubles doubles
+  doubles buffer size_t
 fuge_halfspace_symmetric_displacement: int int doubles doubles doubles doubles doubles double double int int int
   doubles doubles doubles doubles buffer size_t
 fuge_halfplane_stress_grid: int int double doubles int int int doubles doubles buffer size_t

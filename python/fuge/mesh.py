@@ -1,20 +1,27 @@
-"""Meshes of finite elements from input files of Abaqus and CalculiX."""
+"""Meshes of finite elements: from input files of Abaqus and CalculiX, and to files for ParaView."""
 
 from __future__ import annotations
 
 import ctypes
 
+from typing import Mapping, Sequence
+
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Owner, call, end_call, new_handle
+from fuge._calls import Handle, Owner, call, end_call, new_handle
 from fuge._library import function
 from fuge.files import PathLike, encoded
 
+# The longest name of a set.
+_NAME_LENGTH = 80
+
 
 class Mesh(Owner):
-    """Nodes, elements, sets and surfaces; made by :func:`read_mesh`. Places in its arrays count from 0.
+    """Nodes, elements, sets and surfaces; places in its arrays count from 0.
+
+    Made by :func:`read_mesh`, :meth:`from_arrays` or :func:`join_meshes`.
 
     Attributes
     ----------
@@ -26,24 +33,76 @@ class Mesh(Owner):
         Number of each element in the file.
     first, connection : ndarray of int
         Element k has the nodes connection[first[k]:first[k + 1]], as places.
+    node_sets, element_sets, surfaces : list of str
+        Their names, in upper case.
     """
 
-    def __init__(self, path: PathLike) -> None:
-        self._handle = new_handle("mesh", "fuge_read_mesh", "fuge_mesh_free", encoded(path))
-        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
-        self._get("fuge_mesh_get_sizes", *sizes)
-        nodes, elements, connections = (int(size[0]) for size in sizes)
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+        nodes, elements, connections = self._sizes("fuge_mesh_get_sizes")
         self.node, self.element = np.empty(nodes, dtype=np.intc), np.empty(elements, dtype=np.intc)
         self.position = np.empty((nodes, 3))
         self.first, self.connection = np.empty(elements + 1, dtype=np.intc), np.empty(connections, dtype=np.intc)
         self._get("fuge_mesh_get_nodes", self.node, self.position)
         self._get("fuge_mesh_get_elements", self.element, self.first, self.connection)
+        counts = self._sizes("fuge_mesh_get_set_counts")
+        self.node_sets = [self._text("fuge_mesh_get_node_set_name", k) for k in range(counts[0])]
+        self.element_sets = [self._text("fuge_mesh_get_element_set_name", k) for k in range(counts[1])]
+        self.surfaces = [self._text("fuge_mesh_get_surface_name", k) for k in range(counts[2])]
 
-    def type(self, k: int) -> str:
+    @classmethod
+    def from_arrays(cls, position: ArrayLike, element: ArrayLike, type: str | Sequence[str]) -> Mesh:
+        """A mesh without sets and surfaces, such as for :meth:`write`.
+
+        Parameters
+        ----------
+        position : array_like, shape (nodes, 2) or (nodes, 3)
+            Length.
+        element : array_like of int, shape (elements, most)
+            Nodes of each element, from 0, in the order of Abaqus and CalculiX; -1 in unused places, at the end.
+        type : str, or one for each element
+            Such as 'C3D8' or 'CPE4'.
+        """
+        places = _arrays.doubles("position", position, (None, 2), (None, 3))
+        elements = _arrays.integers("element", element, (None, None))
+        types = [type] if isinstance(type, str) else list(type)
+        names = (ctypes.c_char_p * len(types))(*(name.encode() for name in types))
+        nodes, dimensions = places.shape
+        arguments = [dimensions, nodes, places, elements.shape[1], elements.shape[0], elements, len(types), names]
+        return cls(new_handle("mesh", "fuge_mesh_create", "fuge_mesh_free", *arguments))
+
+    def write(
+        self,
+        path: PathLike,
+        node_fields: Mapping[str, ArrayLike] | None = None,
+        element_fields: Mapping[str, ArrayLike] | None = None,
+    ) -> None:
+        """Write the mesh and fields to a VTK file (.vtu), which ParaView reads; an existing file is replaced.
+
+        Parameters
+        ----------
+        path : str or path
+        node_fields, element_fields : dict of array_like, optional
+            By their names; shape (nodes,) or (elements,), followed by 2 or 3 for a vector.
+        """
+        fields: list[NDArray[np.float64]] = []
+        names: list[str] = []
+        at_elements: list[int] = []
+        for given, count in ((node_fields, self.node.size), (element_fields, self.element.size)):
+            for name, value in (given or {}).items():
+                fields.append(_arrays.doubles(f"the field {name!r}", value, (count,), (count, 2), (count, 3)))
+                names.append(name)
+                at_elements.append(int(given is not node_fields))
+        components = np.array([field.shape[1] if field.ndim == 2 else 1 for field in fields], dtype=np.intc)
+        texts = (ctypes.c_char_p * len(names))(*(name.encode() for name in names))
+        pointers = (ctypes.c_void_p * len(names))(*(field.ctypes.data for field in fields))
+        places = np.array(at_elements, dtype=np.intc)
+        call("fuge_write_mesh", encoded(path), self._handle.pointer, len(names), texts, components, places, pointers)
+        del fields
+
+    def element_type(self, k: int) -> str:
         """Type of element k in upper case, such as C3D8."""
-        text = ctypes.create_string_buffer(17)
-        self._get("fuge_mesh_get_type", _arrays.integer("k", k), text, len(text))
-        return text.value.decode(errors="replace")
+        return self._text("fuge_mesh_get_type", _arrays.integer("k", k))
 
     def node_set(self, name: str) -> NDArray[np.intc]:
         """Places of the nodes of a set; InputError if the mesh has none of this name, in upper or lower case."""
@@ -65,6 +124,16 @@ class Mesh(Owner):
         call(getter, pointer, name.encode(), len(members), members, count)
         return members
 
+    def _text(self, getter: str, k: int) -> str:
+        text = ctypes.create_string_buffer(_NAME_LENGTH + 1)
+        self._get(getter, k, text, len(text))
+        return text.value.decode(errors="replace")
+
+    def _sizes(self, getter: str) -> list[int]:
+        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
+        self._get(getter, *sizes)
+        return [int(size[0]) for size in sizes]
+
     def _get(self, name: str, *results: object) -> None:
         end_call(function(name)(self._handle.pointer, *results), lambda: "")
 
@@ -77,4 +146,10 @@ def read_mesh(path: PathLike) -> Mesh:
     FileError
         The message has the file, the line and the reason.
     """
-    return Mesh(path)
+    return Mesh(new_handle("mesh", "fuge_read_mesh", "fuge_mesh_free", encoded(path)))
+
+
+def join_meshes(meshes: Sequence[Mesh]) -> Mesh:
+    """One mesh of several ones, such as those of several bodies: nodes and elements, one mesh after the other."""
+    pointers = (ctypes.c_void_p * len(meshes))(*(mesh._handle.pointer.value for mesh in meshes))
+    return Mesh(new_handle("mesh", "fuge_mesh_join", "fuge_mesh_free", len(meshes), pointers))

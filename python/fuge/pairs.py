@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, new_handle
+from fuge.errors import Warning
 
 PairMethod = Literal["mortar", "node_to_face"]
 Normals = Literal["averaged", "opposite", "given"]
@@ -66,8 +67,7 @@ class ContactPairs(Owner):
 
     def __init__(self) -> None:
         self._handle = new_handle("contact pairs", "fuge_pairs_create", "fuge_pairs_free")
-        self._dimensions = 0
-        self._collect()
+        self._keep(0, 0, 0, 0)
 
     def find(
         self,
@@ -80,7 +80,7 @@ class ContactPairs(Owner):
         reach: float = 0.0,
         play: float = np.inf,
         tied: bool = False,
-        smooth: bool = False,
+        smooth: bool = True,
     ) -> None:
         """Find the contact points of two surfaces and add them to those found before.
 
@@ -102,8 +102,8 @@ class ContactPairs(Owner):
         tied : bool
             Glue the surfaces where they are, along each axis.
         smooth : bool
-            Gaps as if the bodies were smooth, where linear faces bulge between their nodes as the averaged normals
-            suggest.
+            Normals, gaps and areas of the smooth bodies that the meshes stand for, exact on circles, spheres and
+            cylinders; faces that meet at more than 40 degrees keep their edge. Otherwise those of the faces as they are.
 
         Raises
         ------
@@ -124,10 +124,11 @@ class ContactPairs(Owner):
         self._set("fuge_pairs_set_opposite", "opposite", opposite)
         try:
             self._call("fuge_pairs_find", way, chosen, given, *distances, int(bool(tied)), int(bool(smooth)))
-        finally:
-            # A warning may have become an exception.
-            self._dimensions = nodes.shape[1]
-            self._collect()
+        except Warning:
+            # The caller has made an exception of it, but the pairs are there.
+            self._collect(nodes.shape[1])
+            raise
+        self._collect(nodes.shape[1])
 
     def _set(self, name: str, argument: str, surface: Surface) -> None:
         nodes = _arrays.doubles(f"{argument}.node", surface.node, (None, 2), (None, 3))
@@ -136,19 +137,23 @@ class ContactPairs(Owner):
         count, dimensions = nodes.shape
         self._call(name, dimensions, count, nodes, faces.shape[1], faces.shape[0], faces, dof)
 
-    def _collect(self) -> None:
+    def _collect(self, dimensions: int) -> None:
         sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
         self._call("fuge_pairs_get_sizes", *sizes)
         n, width, unpaired = (int(size[0]) for size in sizes)
-        dimensions = self._dimensions
+        lonely = self._keep(n, width, unpaired, dimensions)
+        self._call("fuge_pairs_get_contact", self.dof, self.normal)
+        self._call("fuge_pairs_get_gaps", self.gap, self.gap_upper, self.area)
+        self._call("fuge_pairs_get_points", self.pair, self.node, self.face, self.place, self.direction)
+        self._call("fuge_pairs_get_unpaired", *lonely)
+        self.unpaired = np.column_stack(lonely)
+
+    def _keep(self, n: int, width: int, unpaired: int, dimensions: int) -> list[NDArray[np.intc]]:
+        """New arrays; the result is for pair and node of the nodes without an opposite."""
         self.dof: NDArray[np.intc] = np.empty((n, width), dtype=np.intc)
         self.normal = np.empty((n, width))
         self.gap, self.gap_upper, self.area = np.empty(n), np.empty(n), np.empty(n)
         self.pair, self.node, self.face = (np.empty(n, dtype=np.intc) for _ in range(3))
         self.place, self.direction = np.empty((n, max(dimensions - 1, 0))), np.empty((n, dimensions))
-        lonely = [np.empty(unpaired, dtype=np.intc) for _ in range(2)]
-        self._call("fuge_pairs_get_contact", self.dof, self.normal)
-        self._call("fuge_pairs_get_gaps", self.gap, self.gap_upper, self.area)
-        self._call("fuge_pairs_get_points", self.pair, self.node, self.face, self.place, self.direction)
-        self._call("fuge_pairs_get_unpaired", *lonely)
-        self.unpaired: NDArray[np.intc] = np.column_stack(lonely)
+        self.unpaired = np.empty((unpaired, 2), dtype=np.intc)
+        return [np.empty(unpaired, dtype=np.intc) for _ in range(2)]

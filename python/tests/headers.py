@@ -1,8 +1,9 @@
-"""What the C headers declare, to hold the package against; `python headers.py` prints the list of declarations."""
+"""What the C headers declare, to hold the package against; `python headers.py` prints fuge/_declarations.py anew."""
 
 from __future__ import annotations
 
 import re
+import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -80,6 +81,18 @@ def struct(name: str) -> list[tuple[str, str, int]]:
     return members
 
 
-if __name__ == "__main__":
+def declarations_module() -> str:
+    """The text of fuge/_declarations.py."""
+    lines = [
+        '"""The C functions: `name: result parameters`, in the codes of fuge._library; a test compares them with the '
+        'headers."""',
+        "",
+        'DECLARATIONS = """',
+    ]
     for function, codes in declarations().items():
-        print(f"{function}: {codes}")
+        lines += textwrap.wrap(f"{function}: {codes}", 118, subsequent_indent="  ", break_on_hyphens=False)
+    return "\n".join([*lines, '"""', ""])
+
+
+if __name__ == "__main__":
+    print(declarations_module(), end="")

@@ -116,9 +116,9 @@ contains
     error = (problem%gap - rigid_displacement) + error - solution%gap
     magnitude = abs(problem%gap - rigid_displacement) + elastic
     if (allocated(problem%modes)) then
-      ! Motions are solved for together: each is rounded like the largest magnitude of its body.
-      rigid_magnitude = rigid_magnitude &
-                        + largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included))
+      ! Motions are solved for together: each one that moves a point is rounded like the largest magnitude of its body.
+      rigid_magnitude = rigid_magnitude + max(count(abs(problem%modes) > 0.0_dp, 2), 1) &
+                        *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included))
     end if
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
                                            .not. allocated(problem%modes), ranks)

@@ -32,8 +32,8 @@ contains
 
   !> Find the contact points of a pair of surfaces, and add them to `pairs`.
   !>
-  !> The nodes of `contact` become contact points, so let it be the finer surface, or that of the softer body; pressures
-  !> are those on it. The degrees of freedom of both surfaces are numbered in one stiffness matrix, that of both bodies.
+  !> The nodes of `contact` become contact points, and pressures are those on it: with linear faces let it be the coarser
+  !> surface, whose pressures are smooth, with quadratic faces the finer one. The degrees of freedom of both surfaces are numbered in one stiffness matrix, that of both bodies.
   !> Sliding is small: pairs are those of the positions given. A later call adds another pair of surfaces.
   !>
   !> Then `dof` and `normal` of fuge_body are those of `pairs`; `fuge_condense`, `pose(pairs%gap, problem, ..)`,
@@ -148,6 +148,7 @@ contains
     allocate (whole(size(contact%node, 2)), stat=stat)
     if (stat == 0) call prepare_opposite(contact, opposite, options%reach, faces, stat)
     if (stat /= 0) return
+    faces%turning = options%normals == FUGE_NORMALS_AVERAGED
     call find_nodal_areas(contact, faces%own_bend, whole)
     if (options%method == FUGE_MORTAR) then
       call pair_faces(contact, opposite, faces, draft, stat)
@@ -258,7 +259,7 @@ contains
     found%gap(n) = 0.0_dp
     found%gap_upper(n) = 0.0_dp
     if (options%tied) return
-    found%gap(n) = dot_product(direction, draft%way(:, i))/draft%weight(i)
+    found%gap(n) = (dot_product(direction, draft%way(:, i)) + draft%gap(i))/draft%weight(i)
     found%gap_upper(n) = options%play
     if (options%play >= huge(1.0_dp)) found%gap_upper(n) = ieee_value(1.0_dp, ieee_positive_inf)
   end subroutine fill_point
@@ -273,41 +274,41 @@ contains
     integer, intent(out) :: dof(:)
     real(dp), intent(out) :: normal(:)
     integer :: nodes(size(dof)), used
-    real(dp) :: weight(size(dof))
+    real(dp) :: axes(3, size(dof)), weight(size(dof))
 
     dof = 0
     normal = 0.0_dp
     used = 0
-    call copy_row(draft%own, i, nodes, weight)
-    call add_terms(contact, nodes(:row_length(draft%own, i)), -weight/draft%weight(i), direction, place, used, dof, &
-        normal)
-    call copy_row(draft%other, i, nodes, weight)
-    call add_terms(opposite, nodes(:row_length(draft%other, i)), weight/draft%weight(i), direction, place, used, dof, &
-                   normal)
+    call copy_row(draft%own, i, nodes, weight, axes)
+    call add_terms(contact, nodes(:row_length(draft%own, i)), -weight/draft%weight(i), -axes/draft%weight(i), &
+                   direction, place, used, dof, normal)
+    call copy_row(draft%other, i, nodes, weight, axes)
+    call add_terms(opposite, nodes(:row_length(draft%other, i)), weight/draft%weight(i), axes/draft%weight(i), &
+                   direction, place, used, dof, normal)
     place(dof(:used)) = 0
   end subroutine fill_row
 
-  !> Add the terms of the nodes of one surface; a degree of freedom that both bodies share comes once.
-  pure subroutine add_terms(surface, nodes, weight, direction, place, used, dof, normal)
+  !> Add the terms of the nodes of one surface, with weights along `direction` and along each axis; a degree of freedom
+  !> that both bodies share comes once.
+  pure subroutine add_terms(surface, nodes, weight, axes, direction, place, used, dof, normal)
     type(fuge_surface_mesh), intent(in) :: surface
     integer, intent(in) :: nodes(:)
-    real(dp), intent(in) :: weight(:), direction(:)
+    real(dp), intent(in) :: weight(:), axes(:, :), direction(:)
     integer, intent(inout) :: place(:), used, dof(:)
     real(dp), intent(inout) :: normal(:)
     integer :: axis, k
 
     if (.not. allocated(surface%dof)) return
     do k = 1, size(nodes)
-      if (abs(weight(k)) <= NO_WEIGHT) cycle
       do axis = 1, size(direction)
-        associate (degree => surface%dof(axis, nodes(k)))
-          if (degree == 0 .or. .not. abs(direction(axis)) > 0.0_dp) cycle
+        associate (degree => surface%dof(axis, nodes(k)), factor => weight(k)*direction(axis) + axes(axis, k))
+          if (degree == 0 .or. abs(factor) <= NO_WEIGHT) cycle
           if (place(degree) == 0) then
             used = used + 1
             place(degree) = used
             dof(used) = degree
           end if
-          normal(place(degree)) = normal(place(degree)) + weight(k)*direction(axis)
+          normal(place(degree)) = normal(place(degree)) + factor
         end associate
       end do
     end do

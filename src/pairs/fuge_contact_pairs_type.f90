@@ -40,8 +40,8 @@ module fuge_contact_pairs_type
     !> Glue the surfaces where they are: along each axis, with a gap and a play of zero.
     logical :: tied = .false.
     !> Normals, gaps and areas are those of the smooth bodies that the meshes stand for, which on circles, spheres and
-    !> cylinders are exact; faces that meet at more than 40 degrees keep their edge, flat faces stay flat. False: those of
-    !> the faces as they are, whose chords on a round body are wrong by L**2/(8 R), often more than the gap itself.
+    !> cylinders are exact; faces that meet at more than 40 degrees keep their edge, flat faces stay flat. False: those
+    !> of the faces as they are, whose chords on a round body are wrong by L**2/(8 R), often more than the gap itself.
     logical :: smooth = .true.
   end type fuge_pair_options
 

@@ -9,7 +9,7 @@ module fuge_face_geometry
   private
 
   public :: across, bend, cross, face_normal, face_position, find_across, frame_across, is_affine, &
-      is_straight, unit
+      is_straight, solve_step, unit
 
   !> The nodes of a face.
   type, public :: face_nodes

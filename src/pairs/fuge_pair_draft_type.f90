@@ -14,6 +14,8 @@ module fuge_pair_draft_type
     real(dp), allocatable :: area(:)
     !> From the contact surface to the opposite one, and normals of the latter, (3, nodes).
     real(dp), allocatable :: way(:, :), normal(:, :)
+    !> Gaps along directions that turn from place to place; those along one direction are in `way`.
+    real(dp), allocatable :: gap(:)
     !> The opposite face with the largest share of the weight, that share, and the sum of places in it, (2, nodes).
     integer, allocatable :: face(:)
     real(dp), allocatable :: share(:), place(:, :)
@@ -31,7 +33,7 @@ contains
     integer, intent(in) :: nodes
     integer, intent(out) :: stat
 
-    allocate (draft%weight(nodes), draft%area(nodes), draft%way(3, nodes), draft%normal(3, nodes), &
+    allocate (draft%weight(nodes), draft%area(nodes), draft%way(3, nodes), draft%normal(3, nodes), draft%gap(nodes), &
               draft%face(nodes), draft%share(nodes), draft%place(2, nodes), stat=stat)
     if (stat == 0) call start_rows(draft%own, nodes, stat)
     if (stat == 0) call start_rows(draft%other, nodes, stat)
@@ -39,6 +41,7 @@ contains
     draft%weight = 0.0_dp
     draft%area = 0.0_dp
     draft%way = 0.0_dp
+    draft%gap = 0.0_dp
     draft%normal = 0.0_dp
     draft%face = 0
     draft%share = 0.0_dp

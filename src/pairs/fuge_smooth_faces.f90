@@ -11,13 +11,18 @@
 !> of a sphere have a cubic term in addition, so that along each side the surface has the slopes that the normals demand
 !> (Hermite's interpolation); n/|n| stands across it in the nodes only, and so the normal is that of its tangents.
 module fuge_smooth_faces
-  use fuge_face_geometry, only: cross, face_nodes
+  use fuge_face_geometry, only: cross, face_nodes, frame_across, solve_step
   use fuge_face_shapes, only: corner_count, shape_slopes, shape_values, EDGE_3, MOST_NODES
   use fuge_kinds, only: dp
   implicit none
   private
 
-  public :: smooth_gap, smooth_point
+  public :: find_opposite, smooth_gap, smooth_point, smooth_weights
+
+  !> Steps of Newton's iteration for a point across, from the one across on the face itself.
+  integer, parameter :: STEPS = 4
+  !> A place moves by at most this on the way: faces are as close to their smooth surfaces.
+  real(dp), parameter :: FAR = 0.25_dp
 
 contains
 
@@ -27,8 +32,23 @@ contains
     type(face_nodes), intent(in) :: face
     real(dp), intent(in) :: place(2)
     real(dp), intent(out) :: position(3), normal(3)
-    real(dp) :: mean(3), mean_slope(3), size, size_slope, slopes(MOST_NODES, 2), sum_height, tangent(3, 2), &
-      values(MOST_NODES), way(3), slope, height
+    real(dp) :: tangent(3, 2)
+
+    call span_point(face, place, position, tangent)
+    if (face%kind <= EDGE_3) then
+      normal = [tangent(2, 1), -tangent(1, 1), 0.0_dp]
+    else
+      normal = cross(tangent(:, 1), tangent(:, 2))
+    end if
+  end subroutine smooth_point
+
+  !> The position of a place on the smooth surface, and its derivatives with respect to the place.
+  pure subroutine span_point(face, place, position, tangent)
+    type(face_nodes), intent(in) :: face
+    real(dp), intent(in) :: place(2)
+    real(dp), intent(out) :: position(3), tangent(3, 2)
+    real(dp) :: mean(3), mean_slope(3), size, size_slope, slopes(MOST_NODES, 2), sum_height, values(MOST_NODES), &
+      way(3), slope, height
     integer :: axis, i
 
     values = shape_values(face%kind, place)
@@ -55,12 +75,56 @@ contains
       tangent(:, axis) = way + (slope*mean + height*(mean_slope - mean*(size_slope/size)))/size
     end do
     position = position + height*(mean/size)
-    if (face%kind <= EDGE_3) then
-      normal = [tangent(2, 1), -tangent(1, 1), 0.0_dp]
-    else
-      normal = cross(tangent(:, 1), tangent(:, 2))
-    end if
-  end subroutine smooth_point
+  end subroutine span_point
+
+  !> Move `place`, where the line through `point` along a unit `direction` hits the face itself, to where it hits the
+  !> smooth surface; left alone where Newton's iteration leads further off than faces are from their smooth surfaces.
+  !>
+  !> With contact points that are exactly across from each other, forces have no moment about the centre of a shaft.
+  pure subroutine find_opposite(face, point, direction, place)
+    type(face_nodes), intent(in) :: face
+    real(dp), intent(in) :: point(3), direction(3)
+    real(dp), intent(inout) :: place(2)
+    real(dp) :: frame(3, 2), miss(2), next(2), position(3), slope(2, 2), step(2), tangent(3, 2)
+    integer :: k
+    logical :: regular
+
+    frame = frame_across(direction)
+    next = place
+    do k = 1, STEPS
+      call span_point(face, next, position, tangent)
+      miss = matmul(point - position, frame)
+      slope = matmul(transpose(frame), tangent)
+      call solve_step(face%kind <= EDGE_3, slope, miss, step, regular)
+      if (.not. regular) return
+      next = next + step
+      if (maxval(abs(next - place)) > FAR) return
+      if (maxval(abs(step)) <= 4.0_dp*epsilon(1.0_dp)) exit
+    end do
+    place = next
+  end subroutine find_opposite
+
+  !> How a place on the smooth surface moves along `direction` as the nodes move: a vector of weights for each, (3,
+  !> nodes).
+  !>
+  !> The position above with displacements for positions, and normals that stay: a translation moves it along; an even
+  !> expansion of a circle, a sphere or a cylinder moves all places outwards evenly, as interpolated displacements do
+  !> not; a rotation about its centre moves none across.
+  pure function smooth_weights(face, place, direction) result(weights)
+    type(face_nodes), intent(in) :: face
+    real(dp), intent(in) :: place(2), direction(3)
+    real(dp) :: weights(3, MOST_NODES), mean(3), size, values(MOST_NODES)
+    integer :: i
+
+    values = shape_values(face%kind, place)
+    mean = matmul(face%normal(:, :face%count), values(:face%count))
+    size = norm2(mean)
+    weights = 0.0_dp
+    do i = 1, face%count
+      weights(:, i) = values(i)*(direction + (face%normal(:, i) - mean)*(dot_product(mean, direction)/size &
+                                                                          /(1.0_dp + size)))
+    end do
+  end function smooth_weights
 
   !> The cubic part of the height of a linear face: where the normals at both ends of a side lean to the same side.
   pure function turn(face, values)

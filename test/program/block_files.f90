@@ -10,8 +10,8 @@ module block_files
 contains
 
   !> The mesh, and the stiffness as CalculiX writes it: path.inp, path.sti and path.dof.
-  subroutine write_block(path, model)
-    character(len=*), intent(in) :: path
+  subroutine write_block(path, model, type_name)
+    character(len=*), intent(in) :: path, type_name
     type(block), intent(in) :: model
     integer :: e, file
 
@@ -20,7 +20,7 @@ contains
     do e = 1, size(model%number)
       write (file, '(i0,3(:,'','',f0.4))') model%number(e), model%position(:, e)
     end do
-    write (file, '(2a)') '*ELEMENT, ELSET=ALL, TYPE=', merge('CPS4', 'C3D8', model%dimensions == 2)
+    write (file, '(2a)') '*ELEMENT, ELSET=ALL, TYPE=', type_name
     do e = 1, size(model%element, 2)
       write (file, '(i0,8(:,'','',i0))') e, model%number(model%element(:, e))
     end do
@@ -32,6 +32,10 @@ contains
     if (model%is_upper) then
       write (file, '(i0,a)') (model%below(e), ', S1', e=1, size(model%below))
     else
+      write (file, '(i0,a)') (model%above(e), merge(', S3', ', S2', model%dimensions == 2), e=1, size(model%above))
+    end if
+    if (model%is_upper) then
+      write (file, '(a)') '*SURFACE, NAME=ABOVE'
       write (file, '(i0,a)') (model%above(e), merge(', S3', ', S2', model%dimensions == 2), e=1, size(model%above))
     end if
     close (file)

@@ -13,7 +13,7 @@ module block_models
   real(dp), parameter, public :: CORNER_FORCE = 3.0_dp, CLEARANCE = 0.25_dp
   !> Elements of the blocks along each axis; their sides are as long as each other in a block.
   integer, parameter :: LOWER_ELEMENTS(3) = [3, 3, 1], UPPER_ELEMENTS(3) = [4, 4, 2]
-  real(dp), parameter :: WIDTH = 6.0_dp
+  real(dp), parameter, public :: WIDTH = 6.0_dp
 
   type, public :: block
     integer :: dimensions = 0

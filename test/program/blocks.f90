@@ -8,13 +8,13 @@
 !> (corner); the same with node to face, with normals of the opposite faces or given ones, with a play, or tied.
 program blocks
   use block_files, only: write_block, write_formats, write_loads
-  use block_models, only: block, make_block, CLEARANCE, TOP_PRESSURE
+  use block_models, only: block, make_block, CLEARANCE, TOP_PRESSURE, WIDTH
   use fuge, only: dp => fuge_dp, fuge_bodies_contact, fuge_dense_stiffness, fuge_elastic_body, fuge_info, &
     fuge_pair_options, fuge_solve_bodies, fuge_surface_pair, FUGE_NODE_TO_FACE, FUGE_NORMALS_GIVEN, &
     FUGE_NORMALS_OPPOSITE
   implicit none
 
-  real(dp), parameter :: TOLERANCE = 1.0e-12_dp
+  real(dp), parameter :: TOLERANCE = 1.0e-12_dp, PI = acos(-1.0_dp)
   character(len=256) :: words(4)
   integer :: dimensions, k
 
@@ -36,9 +36,12 @@ contains
 
     call make_block('lower', dimensions, lower)
     call make_block('upper', dimensions, upper)
-    call write_block(folder//'/lower', lower)
-    call write_block(folder//'/upper', upper)
-    if (dimensions == 2) call write_formats(folder//'/upper', upper)
+    call write_block(folder//'/lower', lower, merge('CPS4', 'C3D8', dimensions == 2))
+    call write_block(folder//'/upper', upper, merge('CPS4', 'C3D8', dimensions == 2))
+    if (dimensions == 2) then
+      call write_block(folder//'/ring', upper, 'CAX4')
+      call write_formats(folder//'/upper', upper)
+    end if
     call write_loads(folder//'/loads.csv', upper)
   end subroutine write_files
 
@@ -46,7 +49,7 @@ contains
     character(len=*), intent(in) :: path, scene
     type(block) :: upper
     type(fuge_bodies_contact) :: contact
-    real(dp) :: force, gap, pressure, off(3)
+    real(dp) :: area, force, gap, pressure, total, off(3)
     character(len=512) :: line
     character(len=16) :: body
     real(dp) :: values(6)
@@ -56,17 +59,22 @@ contains
     call solve(scene, contact)
     open (newunit=file, file=path, status='old', action='read')
     rows = 0
+    total = 0.0_dp
     off = 0.0_dp
     do
       read (file, '(a)', iostat=status) line
       if (status /= 0) exit
       if (line(1:1) == '#' .or. line(1:4) == 'pair') cycle
-      read (line, *) pair, body, node, values, pressure, force, pressure, gap
+      read (line, *) pair, body, node, values, area, force, pressure, gap
       rows = rows + 1
       i = findloc(upper%number(contact%pairs%node) == node .and. matmul(values(4:3 + dimensions), &
                   contact%pairs%direction) > 1.0_dp - TOLERANCE, .true., dim=1)
-      if (i == 0 .or. pair /= 1 .or. body /= 'upper') error stop 'another point'
+      if (i == 0 .or. pair /= 1 .or. (body /= 'upper' .and. body /= 'ring')) error stop 'another point'
       if (norm2(values(:dimensions) - upper%position(:, contact%pairs%node(i))) > TOLERANCE) error stop 'another place'
+      if (scene == 'ring') then
+        call check_ring(values(1), area)
+        total = total + area
+      end if
       off = max(off, abs([force - contact%force(i), gap - contact%gap(i), pressure - TOP_PRESSURE]))
     end do
     close (file)
@@ -74,9 +82,18 @@ contains
     if (rows /= size(contact%force) .or. rows == 0) error stop 'not as many points'
     if (off(1) > TOLERANCE*maxval(abs(contact%force))) error stop 'other forces'
     if (off(2) > TOLERANCE*(maxval(abs(contact%displacement)) + CLEARANCE)) error stop 'other gaps'
+    if (scene == 'ring' .and. abs(total - PI*WIDTH**2) > TOLERANCE*total) error stop 'another area'
     if (scene == 'patch' .and. off(3) > TOLERANCE*TOP_PRESSURE) error stop 'the pressure is not uniform'
     if (scene == 'corner' .and. (all(contact%touching) .or. .not. any(contact%touching))) error stop 'all points alike'
   end subroutine check
+
+  !> The area of a ring inside, 2 pi times its radius times the length of an element.
+  subroutine check_ring(radius, area)
+    real(dp), intent(in) :: radius, area
+
+    if (radius < 0.1_dp .or. radius > WIDTH - 0.1_dp) return
+    if (abs(area - 2.0_dp*PI*radius*WIDTH/4) > TOLERANCE*area) error stop 'another ring'
+  end subroutine check_ring
 
   !> The same by the library; it has no clearance, so the upper block is lifted.
   subroutine solve(scene, contact)
@@ -102,7 +119,7 @@ contains
     pair(1)%opposite_body = 1
     call upper%surface(upper%below, pair(1)%contact)
     call lower%surface(lower%above, pair(1)%opposite)
-    if (scene /= 'patch' .and. scene /= 'tied' .and. scene /= 'given') &
+    if (all(scene /= [character(len=5) :: 'patch', 'tied', 'given'])) &
       pair(1)%contact%node(dimensions, :) = pair(1)%contact%node(dimensions, :) + CLEARANCE
     call choose_options(scene, size(upper%position, 2), pair(1)%options)
     call fuge_solve_bodies(stiffness, bodies, pair, contact, info)
@@ -131,8 +148,8 @@ contains
       options%play = 0.2_dp
     case ('tied')
       options%tied = .true.
-    case ('smooth')
-      options%smooth = .true.
+    case ('faceted')
+      options%smooth = .false.
     end select
   end subroutine choose_options
 
