@@ -195,28 +195,29 @@ contains
     logical, intent(in) :: smooth
     real(dp), intent(in) :: place(2), facing(2), area
     type(face_moments), intent(inout) :: moments
-    real(dp) :: values(MOST_NODES), across_values(MOST_NODES), way(3), normal(3), weight
+    real(dp) :: mixed(MOST_NODES), values(MOST_NODES), across_values(MOST_NODES), way(3), normal(3), weight
     integer :: k
 
-    values = mixed_values(face%kind, shape_values(face%kind, place))
+    mixed = mixed_values(face%kind, shape_values(face%kind, place))
     weight = area
     if (smooth) then
-      call add_smooth_point(face, opposite, place, facing, area, values, moments, normal, weight)
+      call add_smooth_point(face, opposite, place, facing, area, mixed, moments, normal, weight)
     else
       way = face_position(opposite, facing) - face_position(face, place)
       normal = unit(face_normal(opposite, facing))
       do k = 1, face%count
-        moments%way(:, k) = moments%way(:, k) + weight*values(k)*way
+        moments%way(:, k) = moments%way(:, k) + weight*mixed(k)*way
       end do
     end if
-    values = weight*values
+    values = weight*mixed
     across_values = shape_values(opposite%kind, facing)
     moments%area = moments%area + values
     do k = 1, opposite%count
       moments%cross(:, k) = moments%cross(:, k) + values*across_values(k)
     end do
     do k = 1, face%count
-      moments%mass(:, k) = moments%mass(:, k) + values*(values(k)/weight)
+      ! Not by a division: in a part that is as narrow as rounding the weight may be zero.
+      moments%mass(:, k) = moments%mass(:, k) + values*mixed(k)
       moments%normal(:, k) = moments%normal(:, k) + values(k)*normal
       moments%place(:, k) = moments%place(:, k) + values(k)*facing
     end do
