@@ -40,7 +40,7 @@ contains
     type(fuge_surface_mesh), intent(inout) :: surface
     type(fuge_info), intent(out) :: info
     type(fuge_surface_mesh) :: found
-    integer, allocatable :: rows(:, :)
+    integer, allocatable :: member(:), rows(:, :)
     integer :: stat, strange
 
     if (dimensions < 2 .or. dimensions > 3) then
@@ -50,10 +50,10 @@ contains
     call fuge_mesh_faces(mesh, name, found%face, info)
     if (.not. info%failed()) call check_dimensions(mesh, name, dimensions, info)
     if (.not. info%failed()) call find_rows(mesh, node, direction, rows, strange, info)
-    if (.not. info%failed()) call check_nodes(mesh, 'surface '//quoted(name), members(found%face), node, rows, strange, &
-                                              info)
+    if (.not. info%failed()) call list_members(found%face, member, info)
+    if (.not. info%failed()) call check_nodes(mesh, 'surface '//quoted(name), member, node, rows, strange, info)
     if (info%failed()) return
-    if (.not. any(rows(:dimensions, members(found%face)) > 0)) then
+    if (.not. have_rows(rows(:dimensions, :), member)) then
       call report(info, FUGE_ERR_DOF, 'surface '//quoted(name)//': the stiffness matrix has no row of its nodes, so ' &
                   //'none of them moves: leave dof of a surface that is rigid out')
       return
@@ -85,8 +85,8 @@ contains
     integer, intent(in) :: along, node(:), direction(:)
     integer, allocatable, intent(inout) :: dof(:)
     type(fuge_info), intent(out) :: info
-    integer, allocatable :: member(:), rows(:, :)
-    integer :: strange
+    integer, allocatable :: found(:), member(:), rows(:, :)
+    integer :: count, k, stat, strange
 
     call fuge_mesh_node_set(mesh, name, member, info)
     if (info%failed()) return
@@ -95,7 +95,22 @@ contains
     if (.not. info%failed()) call find_rows(mesh, node, direction, rows, strange, info)
     if (.not. info%failed()) call check_nodes(mesh, 'set '//quoted(name), member, node, rows, strange, info)
     if (info%failed()) return
-    dof = pack(rows(along, member), rows(along, member) > 0)
+    count = 0
+    do k = 1, size(member)
+      if (rows(along, member(k)) > 0) count = count + 1
+    end do
+    allocate (found(count), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(count)//' degrees of freedom')
+      return
+    end if
+    count = 0
+    do k = 1, size(member)
+      if (rows(along, member(k)) == 0) cycle
+      count = count + 1
+      found(count) = rows(along, member(k))
+    end do
+    call move_alloc(found, dof)
   end subroutine fuge_mesh_degrees
 
   !> Refuse faces of elements that do not have as many dimensions.
@@ -186,12 +201,39 @@ contains
     end if
   end subroutine check_nodes
 
-  !> The nodes of all faces, repeated where faces meet.
-  pure function members(faces) result(nodes)
-    integer, intent(in) :: faces(:, :)
-    integer, allocatable :: nodes(:)
+  !> Has any of these nodes a row? Those that several faces share may be named more than once.
+  pure function have_rows(rows, member) result(any_row)
+    integer, intent(in) :: rows(:, :), member(:)
+    logical :: any_row
+    integer :: k
 
-    nodes = pack(faces, faces > 0)
-  end function members
+    any_row = .false.
+    do k = 1, size(member)
+      any_row = any(rows(:, member(k)) > 0)
+      if (any_row) return
+    end do
+  end function have_rows
+
+  !> The nodes of all faces, repeated where faces meet. Error: FUGE_ERR_MEMORY.
+  pure subroutine list_members(faces, member, info)
+    integer, intent(in) :: faces(:, :)
+    integer, allocatable, intent(out) :: member(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: f, k, n, stat
+
+    allocate (member(count(faces > 0)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the nodes of '//text(size(faces, 2))//' faces')
+      return
+    end if
+    n = 0
+    do f = 1, size(faces, 2)
+      do k = 1, size(faces, 1)
+        if (faces(k, f) == 0) cycle
+        n = n + 1
+        member(n) = faces(k, f)
+      end do
+    end do
+  end subroutine list_members
 
 end module fuge_mesh_rows

@@ -8,7 +8,7 @@ module fuge_contact_pairs_type
   implicit none
   private
 
-  public :: append_pairs, check_pair_options
+  public :: append_pairs, check_pair_options, move_pairs
 
   !> Method: weighted gaps of the dual mortar method.
   integer, parameter, public :: FUGE_MORTAR = 0
@@ -139,6 +139,27 @@ contains
 
     same = self%owned(i) == other%owned(j)
   end function same_node
+
+  !> Move contact points without a copy.
+  pure subroutine move_pairs(source, destination)
+    type(fuge_contact_pairs), intent(inout) :: source, destination
+
+    call move_alloc(source%dof, destination%dof)
+    call move_alloc(source%normal, destination%normal)
+    call move_alloc(source%gap, destination%gap)
+    call move_alloc(source%gap_upper, destination%gap_upper)
+    call move_alloc(source%area, destination%area)
+    call move_alloc(source%pair, destination%pair)
+    call move_alloc(source%node, destination%node)
+    call move_alloc(source%direction, destination%direction)
+    call move_alloc(source%face, destination%face)
+    call move_alloc(source%place, destination%place)
+    call move_alloc(source%unpaired_pair, destination%unpaired_pair)
+    call move_alloc(source%unpaired_node, destination%unpaired_node)
+    call move_alloc(source%owned, destination%owned)
+    destination%pairs = source%pairs
+    source%pairs = 0
+  end subroutine move_pairs
 
   !> Keep the contact points that are `kept` (points), in their order. `stat` is not zero, and nothing has changed,
   !> without memory.
