@@ -23,8 +23,8 @@ module fuge_bodies_solution
   type, public :: fuge_bodies_contact
     !> Where the contact points are: pair, node, opposite face, direction, area, initial gap.
     type(fuge_contact_pairs) :: pairs
-    !> Contact forces, (n), force; negative only at an upper stop and at tied points, where they are the components along
-    !> the axes of the force of the contact surface on the opposite one.
+    !> Contact forces, (n), force; negative only at an upper stop and at tied points, where they are the components
+    !> along the axes of the force of the contact surface on the opposite one.
     real(dp), allocatable :: force(:)
     !> Gaps under load, (n), length.
     real(dp), allocatable :: gap(:)
@@ -162,7 +162,8 @@ contains
     type(fuge_info), intent(in) :: other
     type(fuge_info), intent(inout) :: info
 
-    if (info%status == FUGE_DONE .and. other%status /= FUGE_DONE) call report(info, other%status, composed_message(other))
+    if (info%status /= FUGE_DONE .or. other%status == FUGE_DONE) return
+    call report(info, other%status, composed_message(other))
   end subroutine take_warning
 
   !> Move what joining and the solver have found to the results.

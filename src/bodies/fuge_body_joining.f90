@@ -152,7 +152,8 @@ contains
     end do
     stat = 1
     if (entries < int(huge(1), int64)) &
-      allocate (joined%column(joined%first(size(joined%first)) + 1), joined%row(entries), joined%value(entries), stat=stat)
+      allocate (joined%column(joined%first(size(joined%first)) + 1), joined%row(entries), joined%value(entries), &
+                stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the stiffness matrix of all bodies')
       return

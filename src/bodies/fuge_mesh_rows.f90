@@ -24,8 +24,8 @@ contains
 
   !> A surface of a mesh with the degrees of freedom that its nodes have in a stiffness matrix.
   !>
-  !> `name`: of the surface, in upper or lower case. `dimensions`: 2 for elements of a plane, whose x and y are taken, or
-  !> 3. `node` and `direction` (rows of the matrix): the names of the rows, as fuge_read_stiffness returns them.
+  !> `name`: of the surface, in upper or lower case. `dimensions`: 2 for elements of a plane, whose x and y are taken,
+  !> or 3. `node` and `direction` (rows of the matrix): the names of the rows, as fuge_read_stiffness returns them.
   !> `surface` is that of `fuge_find_pairs` and `fuge_join_bodies`, and has all nodes of the mesh, so that node i of it
   !> is node mesh%node(i) of the file; degrees of freedom that the matrix does not have are 0, since programs leave out
   !> those of supports.
@@ -74,8 +74,8 @@ contains
   !> loads.
   !>
   !> `name`: of the set of nodes, in upper or lower case. `along`: 1 to 3 for x, y, z, 4 to 6 for rotations. `node` and
-  !> `direction` as in `fuge_mesh_contact_surface`. `dof`, allocated afresh: in the order of the set, without nodes whose
-  !> degree of freedom the matrix does not have, since programs leave out those of supports.
+  !> `direction` as in `fuge_mesh_contact_surface`. `dof`, allocated afresh: in the order of the set, without nodes
+  !> whose degree of freedom the matrix does not have, since programs leave out those of supports.
   !> Errors, `dof` unchanged: FUGE_ERR_OPTION if the mesh has no such set, or for another direction; FUGE_ERR_SIZE;
   !> FUGE_ERR_DOF for a matrix without names, a row named twice and a matrix of another mesh, as in
   !> `fuge_mesh_contact_surface`; FUGE_ERR_MEMORY.
@@ -152,8 +152,8 @@ contains
                   //' directions of rows: both are needed for each row')
       return
     else if (.not. any(node /= 0 .and. direction /= 0)) then
-      call report(info, FUGE_ERR_DOF, 'the rows of the stiffness matrix have no names: read it from a file that names ' &
-                  //'node and direction, or with a file of names (names_path)')
+      call report(info, FUGE_ERR_DOF, 'the rows of the stiffness matrix have no names: read it from a file that ' &
+                  //'names node and direction, or with a file of names (names_path)')
       return
     end if
     allocate (rows(DIRECTIONS, size(mesh%node)), stat=stat)
@@ -196,8 +196,8 @@ contains
       call report(info, FUGE_ERR_DOF, 'the stiffness matrix has no row of any node of the mesh, such as ' &
                   //text(missing)//': are mesh and matrix of one model?')
     else if (strange > 0) then
-      call report(info, FUGE_ERR_DOF, name//': node '//text(missing)//' has no row in the stiffness matrix, which has ' &
-                  //'rows of node '//text(node(strange))//', unknown to the mesh: are mesh and matrix of one model?')
+      call report(info, FUGE_ERR_DOF, name//': node '//text(missing)//' has no row in the stiffness matrix, which ' &
+                  //'has rows of node '//text(node(strange))//', unknown to the mesh: are both of one model?')
     end if
   end subroutine check_nodes
 

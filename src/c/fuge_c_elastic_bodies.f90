@@ -233,8 +233,8 @@ contains
 
     call find_bodies(bodies, handle, info)
     call check_sizes([dimensions, nodes, most, faces], node, face, info)
-    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, handle%next%opposite, &
-                                               info)
+    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, &
+                                               handle%next%opposite, info)
     if (.not. info%failed()) handle%next%opposite_body = from_zero(body)
     status = report_to_bodies(info, handle)
   end function c_bodies_set_opposite
