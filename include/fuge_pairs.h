@@ -93,7 +93,9 @@ int fuge_pairs_get_gaps(const fuge_pairs *pairs, double *gap, double *gap_upper,
 
 /* Where the contact points are: the pair and the node of its contact surface, the opposite
  * face (with FUGE_MORTAR that with the largest share), n each; the place in it,
- * (dimensions - 1) x n, and the direction of the gap, dimensions x n.  Pairs, nodes and
+ * (dimensions - 1) x n, and the direction of the gap, dimensions x n: the
+ * force on the opposite body is force*direction, where direction is a unit vector, but between
+ * smooth bodies the mean of those of the places that belong to the point.  Pairs, nodes and
  * faces count from 0. */
 int fuge_pairs_get_points(const fuge_pairs *pairs, int *pair, int *node, int *face, double *place,
                           double *direction);

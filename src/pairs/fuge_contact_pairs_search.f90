@@ -238,7 +238,8 @@ contains
         if (options%normals == FUGE_NORMALS_OPPOSITE) direction = -unit(draft%normal(:, i))
         if (options%tied) direction = merge(1.0_dp, 0.0_dp, [1, 2, 3] == axis)
         call fill_point(options, draft, i, direction, n, found)
-        call fill_row(contact, opposite, draft, i, direction(:dimensions), place, found%dof(:, n), found%normal(:, n))
+        call fill_row(contact, opposite, draft, i, direction(:dimensions), place, found%dof(:, n), found%normal(:, n), &
+                      found%direction(:, n))
       end do
     end do
     call list_unpaired(contact, draft, found, stat)
@@ -257,7 +258,7 @@ contains
               found%place(dimensions - 1, n), stat=stat)
   end subroutine make_room
 
-  !> Everything about contact point `n`, of node `i`, except its row.
+  !> Everything about contact point `n`, of node `i`, except its row and direction.
   pure subroutine fill_point(options, draft, i, direction, n, found)
     type(fuge_pair_options), intent(in) :: options
     type(pair_draft), intent(in) :: draft
@@ -267,7 +268,6 @@ contains
 
     found%pair(n) = found%pairs
     found%node(n) = i
-    found%direction(:, n) = direction(:size(found%direction, 1))
     found%area(n) = draft%area(i)
     found%face(n) = draft%face(i)
     found%place(:, n) = draft%place(:size(found%place, 1), i)/draft%share(i)
@@ -280,14 +280,15 @@ contains
   end subroutine fill_point
 
   !> How the gap of node `i` along `direction` depends on the degrees of freedom. `place`, zeros, is left as it was.
-  pure subroutine fill_row(contact, opposite, draft, i, direction, place, dof, normal)
+  !> `resultant`: how it depends on a translation of the opposite surface, `direction` but for smooth bodies.
+  pure subroutine fill_row(contact, opposite, draft, i, direction, place, dof, normal, resultant)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(pair_draft), intent(in) :: draft
     integer, intent(in) :: i
     real(dp), intent(in) :: direction(:)
     integer, intent(inout) :: place(:)
     integer, intent(out) :: dof(:)
-    real(dp), intent(out) :: normal(:)
+    real(dp), intent(out) :: normal(:), resultant(:)
     integer :: nodes(size(dof)), used
     real(dp) :: axes(3, size(dof)), weight(size(dof))
 
@@ -300,6 +301,11 @@ contains
     call copy_row(draft%other, i, nodes, weight, axes)
     call add_terms(opposite, nodes(:row_length(draft%other, i)), weight/draft%weight(i), axes/draft%weight(i), &
                    direction, place, used, dof, normal)
+    resultant = direction
+    associate (n => row_length(draft%other, i), d => size(direction))
+      if (any(abs(axes(:, :n)) > 0.0_dp)) &
+        resultant = (direction*sum(weight(:n)) + sum(axes(:d, :n), 2))/draft%weight(i)
+    end associate
     place(dof(:used)) = 0
   end subroutine fill_row
 

@@ -60,7 +60,9 @@ module fuge_contact_pairs_type
     real(dp), allocatable :: area(:)
     !> The pair, numbered as they were added, and the node of its contact surface, (n).
     integer, allocatable :: pair(:), node(:)
-    !> Unit vectors of the gaps, from the contact surface towards the opposite one, (dimensions, n).
+    !> Directions of the gaps, from the contact surface towards the opposite one, (dimensions, n): unit vectors, but
+    !> between smooth bodies the mean of those of the places that belong to the point. The force on the opposite body is
+    !> force*direction, that on the contact body the opposite.
     real(dp), allocatable :: direction(:, :)
     !> The opposite face, (n); with FUGE_MORTAR that with the largest share of the gap.
     integer, allocatable :: face(:)
