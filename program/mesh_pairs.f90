@@ -3,7 +3,7 @@ module mesh_pairs
   use command_line, only: arguments, refuse
   use fuge, only: dp => fuge_dp, fuge_contact_pairs, fuge_info, fuge_mesh_faces, fuge_pair_options, fuge_surface_mesh, &
     fuge_surface_pair, FUGE_NODE_TO_FACE, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
-  use mesh_body, only: model_body
+  use mesh_body, only: model_body, refuse_memory
   use mesh_names, only: find_surface
   use mesh_rings, only: find_circumferences
   use number_words, only: number_text, read_real
@@ -221,7 +221,7 @@ contains
     integer, intent(out) :: dimensions
     type(fuge_info), intent(inout) :: info
     integer, allocatable :: faces(:, :)
-    integer :: at, i, k, nodes
+    integer :: at, i, k, nodes, status
 
     dimensions = 2
     associate (mesh => body%mesh)
@@ -235,8 +235,12 @@ contains
       if (info%failed()) return
       nodes = size(mesh%node)
       if (body%keeps_numbers) nodes = maxval(mesh%node)
-      allocate (surface%node(dimensions, nodes), source=0.0_dp)
-      if (body%elastic > 0) allocate (surface%dof(dimensions, nodes), source=0)
+      allocate (surface%node(dimensions, nodes), source=0.0_dp, stat=status)
+      if (status == 0 .and. body%elastic > 0) allocate (surface%dof(dimensions, nodes), source=0, stat=status)
+      if (status /= 0) then
+        call refuse_memory('the surfaces of --pair '//pair, info)
+        return
+      end if
       surface%face = faces(:maxval(count(faces > 0, 1)), :)
       do k = 1, size(surface%face, 2)
         do i = 1, size(surface%face, 1)
