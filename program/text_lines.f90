@@ -37,7 +37,9 @@ contains
     if (status == 0) return
     self%unit = -1
     info%status = FUGE_ERR_FILE
-    info%message = '"'//path//'" cannot be opened: '//trim(reason)
+    ! gfortran's message has the path again, in quotes.
+    info%message = '"'//path//'" cannot be opened: '//trim(reason(index(reason, ''': ', back=.true.) &
+      + merge(3, 1, index(reason, ''': ') > 0):))
   end subroutine open_lines
 
   !> The next line that is neither blank nor a comment. Error: FUGE_ERR_FILE.
