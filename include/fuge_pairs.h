@@ -71,11 +71,12 @@ int fuge_pairs_set_opposite(fuge_pairs *pairs, int dimensions, int nodes, const 
  *           for, exact on circles, spheres and cylinders; faces that meet at more than 40
  *           degrees keep their edge, flat faces stay flat.  0: those of the faces as they are,
  *           whose chords on a round body are wrong by L^2/(8 R)
- * FUGE_WARN_PAIRS: a node is a contact point of two pairs.  Errors, nothing is added:
- * FUGE_ERR_SIZE, FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF,
- * FUGE_ERR_GAP, FUGE_ERR_OPTION, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a
- * face that is folded over, has no area or looks the wrong way, and for surfaces that do not
- * face each other. */
+ * FUGE_WARN_PAIRS: a node is a contact point of two pairs; where it moves alike in both, it is
+ * listed once, with the area of both.  Errors, nothing is added: FUGE_ERR_SIZE,
+ * FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP,
+ * FUGE_ERR_OPTION, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is
+ * folded over, has no area or looks the wrong way, for a given normal that does, and for
+ * surfaces that do not face each other. */
 int fuge_pairs_find(fuge_pairs *pairs, int method, int normals, const double *normal, double reach, double play,
                     int tied, int smooth);
 

@@ -1,7 +1,7 @@
 !> The whole public interface of fuge, frictionless elastic contact.
 module fuge
-  use fuge_bodies_join, only: fuge_join_bodies, fuge_joined_bodies
   use fuge_bodies_solution, only: fuge_bodies_contact, fuge_solve_bodies
+  use fuge_body_joining, only: fuge_join_bodies, fuge_joined_bodies
   use fuge_body_type, only: fuge_body
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_condensation, only: fuge_condense, fuge_condensed

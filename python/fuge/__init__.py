@@ -10,6 +10,7 @@ those of Python (:class:`Warning`). The interpreter lock is released during call
 """
 
 from fuge import _library
+from fuge.bodies import BodiesContact, ElasticBodies, JoinedBodies
 from fuge.body import Body, Condensed, rigid_modes
 from fuge.columns import CompressedColumns
 from fuge.errors import (
@@ -84,6 +85,7 @@ from fuge.stress_peak import StressPeak, halfplane_peak, halfspace_peak, ring_pe
 __version__ = _library.version()
 
 __all__ = [
+    "BodiesContact",
     "Body",
     "CallOrderError",
     "CallbackError",
@@ -97,6 +99,7 @@ __all__ = [
     "DenseOperator",
     "Derivative",
     "EdgeKind",
+    "ElasticBodies",
     "EquilibriumError",
     "Error",
     "FileError",
@@ -107,6 +110,7 @@ __all__ = [
     "IllConditionedWarning",
     "Info",
     "InputError",
+    "JoinedBodies",
     "LimitError",
     "MatrixError",
     "Mesh",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import signal
 import threading
 from contextlib import contextmanager
 from typing import Any, Callable, Iterator
@@ -17,7 +18,8 @@ from fuge.errors import Status, error, finish
 
 MESSAGE_LENGTH = 256
 
-# The exception that a callback of this thread has raised, until the call that it ends is over.
+# Of each thread: the exception that a callback has raised, until the call that it ends is over, and whether Ctrl-C
+# was seen.
 _pending = threading.local()
 
 
@@ -25,6 +27,39 @@ def _take_exception() -> BaseException | None:
     exception: BaseException | None = getattr(_pending, "exception", None)
     _pending.exception = None
     return exception
+
+
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Let Ctrl-C end a call with callbacks by the next one of them.
+
+    Python would raise KeyboardInterrupt where a callback begins, outside its `try`, and ctypes would lose it.
+    """
+    main = threading.current_thread() is threading.main_thread()
+    if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield
+        return
+
+    def remember(number: int, frame: object) -> None:
+        _pending.interrupted = True
+
+    signal.signal(signal.SIGINT, remember)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        if _interrupted():
+            _pending.interrupted = False
+            raise KeyboardInterrupt
+
+
+def _interrupted() -> bool:
+    return bool(getattr(_pending, "interrupted", False))
+
+
+def _check_interrupt() -> None:
+    if _interrupted():
+        raise KeyboardInterrupt
 
 
 def end_call(code: int, read_message: Callable[[], str]) -> None:
@@ -166,6 +201,7 @@ def product_callback(apply: Callable[[NDArray[np.float64]], Any]) -> Any:
 
     def called(n: int, f: Any, u: Any, user: Any) -> int:
         try:
+            _check_interrupt()
             # A copy: the memory is the library's, and gone after the call.
             result = apply(np.array(np.ctypeslib.as_array(f, (n,))))
             np.ctypeslib.as_array(u, (n,))[:] = vector("the result of the operator's function", result, n)
@@ -179,11 +215,12 @@ def product_callback(apply: Callable[[NDArray[np.float64]], Any]) -> Any:
 def progress_callback(progress: Callable[[int, float, int], Any] | None) -> Any:
     """A C function that calls ``progress(iteration, residual, contacts)``.
 
-    Without one it does nothing but let Python see an interrupt from the keyboard.
+    Without one it does nothing but let Python see Ctrl-C.
     """
 
     def called(iteration: int, residual: float, contacts: int, user: Any) -> int:
         try:
+            _check_interrupt()
             return 1 if progress is not None and progress(iteration, residual, contacts) else 0
         except BaseException as exception:
             return _keep(exception)
@@ -196,6 +233,7 @@ def profile_callback(profile: Callable[[NDArray[np.float64]], Any]) -> Any:
 
     def called(n: int, x: Any, gap: Any, slope: Any, user: Any) -> int:
         try:
+            _check_interrupt()
             places = np.array(np.ctypeslib.as_array(x, (n,)))
             values = profile(places)
             if not (isinstance(values, (tuple, list)) and len(values) == 2):

@@ -61,6 +61,31 @@ fuge_write_surface: int text int int doubles doubles buffer size_t
 fuge_level_surface: int int int doubles int buffer size_t
 fuge_write_fields: int text int int doubles doubles int texts arrays buffer size_t
 fuge_write_volume: int text int int doubles doubles int doubles int texts arrays buffer size_t
+fuge_bodies_create: int fuge_bodies* buffer size_t
+fuge_bodies_free: void fuge_bodies*
+fuge_bodies_add: int fuge_bodies int ints ints doubles ints
+fuge_bodies_fix: int fuge_bodies int int ints doubles
+fuge_bodies_set_load: int fuge_bodies int doubles
+fuge_bodies_set_rigid_modes: int fuge_bodies int int doubles
+fuge_bodies_set_contact: int fuge_bodies int int int doubles int int ints ints
+fuge_bodies_set_opposite: int fuge_bodies int int int doubles int int ints ints
+fuge_bodies_add_pair: int fuge_bodies int int doubles double double int int
+fuge_bodies_solve: int fuge_bodies fuge_options
+fuge_bodies_solve_sparse: int fuge_bodies fuge_options
+fuge_bodies_get_sizes: int fuge_bodies ints ints ints
+fuge_bodies_get_forces: int fuge_bodies doubles doubles doubles
+fuge_bodies_get_points: int fuge_bodies ints ints ints doubles doubles
+fuge_bodies_get_areas: int fuge_bodies doubles doubles
+fuge_bodies_get_unpaired: int fuge_bodies ints ints
+fuge_bodies_get_displacement: int fuge_bodies int doubles
+fuge_bodies_get_info: int fuge_bodies fuge_info
+fuge_bodies_message: int fuge_bodies buffer size_t
+fuge_bodies_join: int fuge_bodies
+fuge_bodies_get_joined_sizes: int fuge_bodies ints ints ints ints
+fuge_bodies_get_matrix: int fuge_bodies ints ints doubles ints
+fuge_bodies_get_contact: int fuge_bodies ints doubles doubles doubles doubles
+fuge_mesh_get_surface_dof: int fuge_mesh text int int ints ints ints buffer size_t
+fuge_mesh_get_set_dof: int fuge_mesh text int int ints ints int ints ints buffer size_t
 fuge_body_dense: int int doubles int fuge_body* buffer size_t
 fuge_body_band: int int int doubles int int fuge_body* buffer size_t
 fuge_body_sparse: int int ints ints doubles fuge_body* buffer size_t

@@ -14,7 +14,7 @@ from fuge._declarations import DECLARATIONS
 from fuge._structs import STRUCTS
 
 # Functions that are not in the core library.
-_SPARSE = {"fuge_body_sparse"}
+_SPARSE = {"fuge_body_sparse", "fuge_bodies_solve_sparse"}
 
 Apply = ctypes.CFUNCTYPE(
     ctypes.c_int, ctypes.c_int, ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_double), ctypes.c_void_p
@@ -92,10 +92,18 @@ def _file_name(name: str) -> str:
     return f"lib{name}.dylib" if sys.platform == "darwin" else f"lib{name}.so"
 
 
+def _path(name: str) -> Path:
+    """The file of a library: in the folder FUGE_LIBRARY_DIR if that is set, else in that of the package."""
+    return Path(os.environ.get("FUGE_LIBRARY_DIR") or Path(__file__).parent) / _file_name(name)
+
+
+def has_sparse() -> bool:
+    """Whether there is the library for sparse matrices."""
+    return _path("fuge_sparse").exists()
+
+
 def _load(name: str) -> ctypes.CDLL:
-    """The library `name`, from the folder in FUGE_LIBRARY_DIR if that is set, else from that of the package."""
-    folder = Path(os.environ.get("FUGE_LIBRARY_DIR") or Path(__file__).parent)
-    path = folder / _file_name(name)
+    path = _path(name)
     if not path.exists():
         raise ImportError(
             f"{path} does not exist: install the package with pip, or set FUGE_LIBRARY_DIR to the folder of a "

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, call, new_handle
-from fuge.columns import compressed, is_sparse, stacked
+from fuge.columns import compressed, is_sparse, require_sparse, stacked
 from fuge.errors import Status, error
 
 
@@ -97,14 +97,8 @@ class Body(Owner):
         matrix = compressed("stiffness", stiffness)
         if matrix.shape[0] != matrix.shape[1]:
             raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
-        try:
-            self._create("fuge_body_sparse", matrix.shape[0], matrix.column, matrix.row, matrix.value)
-        except ImportError as missing:
-            raise error(
-                Status.ERR_UNSUPPORTED,
-                "this copy of fuge was built without CHOLMOD (Debian: libsuitesparse-dev), so it has no sparse matrices: "
-                "pass a dense matrix or a band",
-            ) from missing
+        require_sparse()
+        self._create("fuge_body_sparse", matrix.shape[0], matrix.column, matrix.row, matrix.value)
         self._handle.keep(matrix)
 
     def _create(self, create: str, degrees: int, *arguments: Any) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
+from fuge._library import has_sparse
 from fuge.errors import Status, error
 
 
@@ -38,15 +39,37 @@ class CompressedColumns:
         return csc_matrix((self.value, self.row, self.column), shape=self.shape)
 
 
+def require_sparse() -> None:
+    """Refuse what the library for sparse matrices would have to do if it is not there."""
+    if not has_sparse():
+        raise error(
+            Status.ERR_UNSUPPORTED,
+            "this copy of fuge was built without CHOLMOD (Debian: libsuitesparse-dev), so it has no sparse matrices: "
+            "pass a dense matrix or a band",
+        )
+
+
 def is_sparse(matrix: Any) -> bool:
     """Whether it is a matrix of this module or of scipy.sparse."""
     return isinstance(matrix, CompressedColumns) or hasattr(matrix, "tocsc")
 
 
+def compressed_dense(name: str, matrix: ArrayLike) -> CompressedColumns:
+    """Compressed columns of the entries of a matrix that are not zero."""
+    array = _arrays.doubles(name, matrix, (None, None))
+    columns, rows = np.nonzero(array.T)
+    first = np.searchsorted(columns, np.arange(array.shape[1] + 1)).astype(np.intc)
+    return CompressedColumns(
+        (array.shape[0], array.shape[1]), first, rows.astype(np.intc), np.ascontiguousarray(array[rows, columns])
+    )
+
+
 def compressed(name: str, matrix: Any) -> CompressedColumns:
     """Compressed columns of a sparse matrix, checked; the caller's arrays where their types fit."""
     if not is_sparse(matrix):
-        raise TypeError(f"{name} must be a sparse matrix (scipy.sparse or CompressedColumns), not {type(matrix).__name__}")
+        raise TypeError(
+            f"{name} must be a sparse matrix (scipy.sparse or CompressedColumns), not {type(matrix).__name__}"
+        )
     if isinstance(matrix, CompressedColumns):
         shape, column, row, value = matrix.shape, matrix.column, matrix.row, matrix.value
     else:

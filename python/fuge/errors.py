@@ -1,9 +1,9 @@
 """Status codes, exceptions and warnings.
 
-A call that cannot do what it is asked for raises :class:`Error`, or one of its subclasses, and changes nothing; a result
-that has to be taken with care comes with :class:`Warning`, through Python's module ``warnings``. Both have the status
-and the message of the library: what is wrong, where, and how to mend it. Points, rows and degrees of freedom count from
-0 in messages.
+A call that cannot do what it is asked for raises :class:`Error`, or one of its subclasses, and changes nothing; a
+result that has to be taken with care comes with :class:`Warning`, through Python's module ``warnings``. Both have the
+status and the message of the library: what is wrong, where, and how to mend it. Points, rows and degrees of freedom
+count from 0 in messages.
 """
 
 from __future__ import annotations
@@ -114,7 +114,7 @@ class FileError(Error, OSError):
     """A file cannot be read or written; the message has the file, the line and the reason."""
 
 
-class Warning(UserWarning):  # noqa: A001 (the module is its name space)
+class Warning(UserWarning):
     """A result that has to be taken with care.
 
     Attributes

@@ -135,8 +135,8 @@ def read_stiffness(
     format : {'any', 'matrix_market', 'calculix', 'abaqus', 'dmig', 'op4'}
         'any' recognises it by its content.
     names_path : str or path, optional
-        File with a line node.direction for each row, of a matrix whose entries have numbers only; without it job.dof for
-        a path job.sti.
+        File with a line node.direction for each row, of a matrix whose entries have numbers only; without it job.dof
+        for a path job.sti.
     name : str, optional
         Which matrix of a file of Nastran, such as KAAX.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-
 from typing import Mapping, Sequence
 
 import numpy as np
@@ -12,7 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from fuge import _arrays
 from fuge._calls import Handle, Owner, call, end_call, new_handle
 from fuge._library import function
-from fuge.files import PathLike, encoded
+from fuge.files import PathLike, StiffnessFile, encoded
+from fuge.pairs import Surface
 
 # The longest name of a set.
 _NAME_LENGTH = 80
@@ -115,6 +115,42 @@ class Mesh(Owner):
     def faces(self, name: str) -> NDArray[np.intc]:
         """Nodes of the faces of a surface, places, shape (faces, 8), -1 in unused places; for :class:`Surface`."""
         return self._members("fuge_mesh_get_faces", name, 8)
+
+    def surface(self, name: str, stiffness: StiffnessFile, dimensions: int = 3) -> Surface:
+        """A surface with the degrees of freedom of its nodes, for :class:`ElasticBodies` and :class:`ContactPairs`.
+
+        Parameters
+        ----------
+        name : str
+        stiffness : StiffnessFile
+            The matrix of this mesh, whose rows have names.
+        dimensions : int
+            2 or 3.
+
+        Raises
+        ------
+        InputError
+            The mesh has no such surface, or rows have no names, the same name or those of another mesh.
+        """
+        count = _arrays.integer("dimensions", dimensions)
+        dof = np.empty((self.node.size, count if count in (2, 3) else 3), dtype=np.intc)
+        rows = [stiffness.node.size, stiffness.node, stiffness.direction]
+        call("fuge_mesh_get_surface_dof", self._handle.pointer, name.encode(), count, *rows, dof)
+        return Surface(np.ascontiguousarray(self.position[:, :count]), self.faces(name), dof)
+
+    def set_dof(self, name: str, direction: int, stiffness: StiffnessFile) -> NDArray[np.intc]:
+        """Degrees of freedom of a set of nodes along one direction: 1 to 3 for x, y, z, 4 to 6 about them.
+
+        Nodes that have none are left out, as programs leave out those of supports.
+        """
+        count = np.empty(1, dtype=np.intc)
+        along = _arrays.integer("direction", direction)
+        rows = [stiffness.node.size, stiffness.node, stiffness.direction]
+        arguments = [self._handle.pointer, name.encode(), along, *rows]
+        call("fuge_mesh_get_set_dof", *arguments, 0, None, count)
+        dof = np.empty(int(count[0]), dtype=np.intc)
+        call("fuge_mesh_get_set_dof", *arguments, dof.size, dof, count)
+        return dof
 
     def _members(self, getter: str, name: str, width: int) -> NDArray[np.intc]:
         count = np.empty(1, dtype=np.intc)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -38,6 +38,37 @@ class Surface:
     node: ArrayLike
     face: ArrayLike
     dof: ArrayLike | None = None
+
+
+def surface_arguments(name: str, surface: Surface) -> list[Any]:
+    """dimensions, nodes, node, most, faces, face, dof."""
+    nodes = _arrays.doubles(f"{name}.node", surface.node, (None, 2), (None, 3))
+    faces = _arrays.integers(f"{name}.face", surface.face, (None, None))
+    dof = None if surface.dof is None else _arrays.integers(f"{name}.dof", surface.dof, nodes.shape)
+    count, dimensions = nodes.shape
+    return [dimensions, count, nodes, faces.shape[1], faces.shape[0], faces, dof]
+
+
+def pair_options(
+    contact: Surface,
+    method: PairMethod,
+    normals: Normals,
+    normal: ArrayLike | None,
+    reach: float,
+    play: float,
+    tied: bool,
+    smooth: bool,
+) -> list[Any]:
+    """method, normals, normal, reach, play, tied, smooth."""
+    return [
+        _arrays.choice("method", method, PAIR_METHODS),
+        _arrays.choice("normals", normals, NORMALS),
+        None if normal is None else _arrays.doubles("normal", normal, np.shape(contact.node)),
+        _arrays.number("reach", reach),
+        _arrays.number("play", play),
+        int(bool(tied)),
+        int(bool(smooth)),
+    ]
 
 
 class ContactPairs(Owner):
@@ -103,7 +134,8 @@ class ContactPairs(Owner):
             Glue the surfaces where they are, along each axis.
         smooth : bool
             Normals, gaps and areas of the smooth bodies that the meshes stand for, exact on circles, spheres and
-            cylinders; faces that meet at more than 40 degrees keep their edge. Otherwise those of the faces as they are.
+            cylinders; faces that meet at more than 40 degrees keep their edge. If false, those of the faces as they
+            are.
 
         Raises
         ------
@@ -115,27 +147,18 @@ class ContactPairs(Owner):
         PairsWarning
             A node is a contact point of two pairs.
         """
-        way = _arrays.choice("method", method, PAIR_METHODS)
-        chosen = _arrays.choice("normals", normals, NORMALS)
-        distances = [_arrays.number("reach", reach), _arrays.number("play", play)]
-        nodes = _arrays.doubles("contact.node", contact.node, (None, 2), (None, 3))
-        given = None if normal is None else _arrays.doubles("normal", normal, nodes.shape)
-        self._set("fuge_pairs_set_contact", "contact", contact)
-        self._set("fuge_pairs_set_opposite", "opposite", opposite)
+        options = pair_options(contact, method, normals, normal, reach, play, tied, smooth)
+        contact_arguments = surface_arguments("contact", contact)
+        self._call("fuge_pairs_set_contact", *contact_arguments)
+        self._call("fuge_pairs_set_opposite", *surface_arguments("opposite", opposite))
+        dimensions = int(contact_arguments[0])
         try:
-            self._call("fuge_pairs_find", way, chosen, given, *distances, int(bool(tied)), int(bool(smooth)))
+            self._call("fuge_pairs_find", *options)
         except Warning:
             # The caller has made an exception of it, but the pairs are there.
-            self._collect(nodes.shape[1])
+            self._collect(dimensions)
             raise
-        self._collect(nodes.shape[1])
-
-    def _set(self, name: str, argument: str, surface: Surface) -> None:
-        nodes = _arrays.doubles(f"{argument}.node", surface.node, (None, 2), (None, 3))
-        faces = _arrays.integers(f"{argument}.face", surface.face, (None, None))
-        dof = None if surface.dof is None else _arrays.integers(f"{argument}.dof", surface.dof, nodes.shape)
-        count, dimensions = nodes.shape
-        self._call(name, dimensions, count, nodes, faces.shape[1], faces.shape[0], faces, dof)
+        self._collect(dimensions)
 
     def _collect(self, dimensions: int) -> None:
         sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]

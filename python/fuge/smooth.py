@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Owner, call, new_handle, profile_callback
+from fuge._calls import Owner, call, interruptible, new_handle, profile_callback
 from fuge._structs import RoundReport, SmoothReport
 from fuge.halfplane import PlaneState
 from fuge.stress import at_points, elasticity
@@ -46,7 +46,8 @@ class SmoothContact(Owner):
 
     def __init__(self, profile: Any, limits: list[float], e_star: float, force: float, moment: Any) -> None:
         arguments = [profile, None, *limits, e_star, force, moment]
-        self._handle = new_handle("smooth contact", "fuge_solve_smooth_punch", "fuge_smooth_free", *arguments)
+        with interruptible():
+            self._handle = new_handle("smooth contact", "fuge_solve_smooth_punch", "fuge_smooth_free", *arguments)
         report = SmoothReport()
         call("fuge_smooth_get_report", self._handle.pointer, ctypes.byref(report))
         self.left: float = report.left
@@ -89,9 +90,7 @@ class SmoothContact(Owner):
         arguments = [self._handle.pointer, *elasticity(young, poisson, plane_state)]
         return at_points("fuge_smooth_displacement", arguments, 2, ("px", px), ("pz", pz))
 
-    def peak(
-        self, poisson: float, measure: Measure = "von_mises", *, plane_state: PlaneState = "strain"
-    ) -> StressPeak:
+    def peak(self, poisson: float, measure: Measure = "von_mises", *, plane_state: PlaneState = "strain") -> StressPeak:
         """The largest von Mises or Tresca stress and its place."""
         arguments = [self._handle.pointer, *plane_body(plane_state, poisson), measured(measure)]
         return find_peak("fuge_smooth_peak", *arguments)
@@ -166,7 +165,8 @@ class RoundContact(Owner):
     """
 
     def __init__(self, solve: str, *arguments: Any) -> None:
-        self._handle = new_handle("round contact", solve, "fuge_round_free", *arguments)
+        with interruptible():
+            self._handle = new_handle("round contact", solve, "fuge_round_free", *arguments)
         report = RoundReport()
         call("fuge_round_get_report", self._handle.pointer, ctypes.byref(report))
         self.radius: float = report.radius
@@ -229,7 +229,8 @@ def solve_round_punch(
     Parameters
     ----------
     profile : callable
-        ``gap, slope = profile(r)``: the initial gap and its derivative at distances from the axis; smooth, but for a tip.
+        ``gap, slope = profile(r)``: the initial gap and its derivative at distances from the axis; smooth, but
+        for a tip.
     reach : float
         Where the profile ends; length.
     e_star : float

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Owner, end_call, new_handle, progress_callback
+from fuge._calls import Owner, end_call, interruptible, new_handle, progress_callback
 from fuge._library import function
 from fuge._structs import InfoStruct, Options
 from fuge.errors import Status, error
@@ -130,6 +130,29 @@ class History:
     z: NDArray[np.float64]
 
 
+def chosen_options(
+    method: Method | None,
+    pivot_rule: PivotRule | None = None,
+    max_iterations: int | None = None,
+    keep_history: bool | None = None,
+    tolerance: float | None = None,
+) -> Options:
+    """The library's defaults, but for what is not None."""
+    options = Options()
+    function("fuge_default_options")(ctypes.byref(options))
+    if method is not None:
+        options.method = _arrays.choice("method", method, METHODS)
+    if pivot_rule is not None:
+        options.pivot_rule = _arrays.choice("pivot_rule", pivot_rule, PIVOT_RULES)
+    if max_iterations is not None:
+        options.max_iterations = _arrays.integer("max_iterations", max_iterations)
+    if keep_history is not None:
+        options.keep_history = int(bool(keep_history))
+    if tolerance is not None:
+        options.tolerance = _arrays.number("tolerance", tolerance)
+    return options
+
+
 class Solver(Owner):
     """A contact problem and its solution, for one solve after the other.
 
@@ -176,22 +199,9 @@ class Solver(Owner):
     ) -> None:
         self.operator = operator if isinstance(operator, Operator) else DenseOperator(operator)
         self._shape: tuple[int, ...] = (self.n,)
-        options = Options()
-        function("fuge_default_options")(ctypes.byref(options))
-        if method is not None:
-            options.method = _arrays.choice("method", method, METHODS)
-        if pivot_rule is not None:
-            options.pivot_rule = _arrays.choice("pivot_rule", pivot_rule, PIVOT_RULES)
-        if max_iterations is not None:
-            options.max_iterations = _arrays.integer("max_iterations", max_iterations)
-        if keep_history is not None:
-            options.keep_history = int(bool(keep_history))
-        if tolerance is not None:
-            options.tolerance = _arrays.number("tolerance", tolerance)
+        options = chosen_options(method, pivot_rule, max_iterations, keep_history, tolerance)
         read = self.operator._handle
-        self._handle = new_handle(
-            "solver", "fuge_solver_new", "fuge_solver_free", read.pointer, ctypes.byref(options)
-        )
+        self._handle = new_handle("solver", "fuge_solver_new", "fuge_solver_free", read.pointer, ctypes.byref(options))
         self._handle.need(read)
         self.set_progress(progress)
 
@@ -318,7 +328,7 @@ class Solver(Owner):
         LimitError, UnsupportedError, CallbackError, CancelledError
         """
         handle = self._handle
-        with handle.use() as pointer:
+        with interruptible(), handle.use() as pointer:
             code = function("fuge_solve")(pointer)
             message = self._read_message(pointer)
             # Before the warning, which the caller may turn into an exception.
@@ -336,11 +346,9 @@ class Solver(Owner):
         """Report of the last solve, failed or not."""
         report = InfoStruct()
         self._call("fuge_get_info", ctypes.byref(report))
-        return _info(report)
+        return info_of(report)
 
-    def derivative(
-        self, gap_change: ArrayLike | None = None, load_change: ArrayLike | None = None
-    ) -> Derivative:
+    def derivative(self, gap_change: ArrayLike | None = None, load_change: ArrayLike | None = None) -> Derivative:
         """Derivative of the last solution in a direction.
 
         With ``load_change=1`` alone the contact stiffness is ``1/derivative.motion[0]``.
@@ -365,7 +373,8 @@ class Solver(Owner):
         if load_change is not None:
             loads = _arrays.vector("load_change", np.atleast_1d(np.asarray(load_change)), m)
         force, gap, motion = np.empty(self._shape), np.empty(self._shape), np.empty(m)
-        self._call("fuge_get_derivatives", gaps, loads, force, gap, motion)
+        with interruptible():
+            self._call("fuge_get_derivatives", gaps, loads, force, gap, motion)
         return Derivative(force, gap, motion)
 
     def history(self) -> History:
@@ -409,7 +418,7 @@ class Solver(Owner):
         self._get("fuge_get_motion", pointer, motion)
         self._get("fuge_get_resultant", pointer, resultant)
         self._get("fuge_get_info", pointer, ctypes.byref(report))
-        return Contact(force, gap, motion, resultant, _info(report), message)
+        return Contact(force, gap, motion, resultant, info_of(report), message)
 
     def _get(self, name: str, pointer: ctypes.c_void_p, result: Any) -> None:
         end_call(function(name)(pointer, result), lambda: self._read_message(pointer))
@@ -425,7 +434,8 @@ class Solver(Owner):
         return _arrays.doubles(name, value, *self._shapes()).reshape(-1)
 
 
-def _info(report: InfoStruct) -> Info:
+def info_of(report: InfoStruct) -> Info:
+    """The report in a struct of the library."""
     return Info(
         Status(report.status),
         report.iterations,

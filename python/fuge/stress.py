@@ -1,9 +1,9 @@
 """Stresses and displacements inside the bodies, under the forces of a contact.
 
 z >= 0 counts from the surface into the body; tension is positive, so that under a pressure p at z = 0 the stress zz is
--p. Displacements are positive along their axes, that along z into the body. The body is the one below; for the other one
-turn z round and take its own moduli. Coordinates of points are broadcast against each other, as by numpy, and results
-have their shape followed by the components.
+-p. Displacements are positive along their axes, that along z into the body. The body is the one below; for the other
+one turn z round and take its own moduli. Coordinates of points are broadcast against each other, as by numpy, and
+results have their shape followed by the components.
 """
 
 from __future__ import annotations
@@ -19,7 +19,9 @@ from fuge.errors import Status
 from fuge.halfplane import ELEMENTS, PLANE_STATES, Element, PlaneState
 
 
-def at_points(name: str, arguments: list[Any], components: int, *coordinates: tuple[str, ArrayLike]) -> NDArray[np.float64]:
+def at_points(
+    name: str, arguments: list[Any], components: int, *coordinates: tuple[str, ArrayLike]
+) -> NDArray[np.float64]:
     """Call a function whose last arguments are points, their coordinates and the result, `components` for each."""
     shape, flat = _arrays.points(*coordinates)
     result = np.empty((*shape, components))

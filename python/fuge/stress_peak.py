@@ -109,8 +109,6 @@ def halfspace_peak(
     return find_peak("fuge_halfspace_peak", *arguments, measured(measure))
 
 
-def ring_peak(
-    radius: ArrayLike, force: ArrayLike, poisson: float, measure: Measure = "von_mises"
-) -> StressPeak:
+def ring_peak(radius: ArrayLike, force: ArrayLike, poisson: float, measure: Measure = "von_mises") -> StressPeak:
     """Under the forces of rings, which are those of :func:`ring_stress`."""
     return find_peak("fuge_ring_peak", *rings(radius, force), _arrays.number("poisson", poisson), measured(measure))

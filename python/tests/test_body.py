@@ -131,7 +131,13 @@ class Pairs(unittest.TestCase):
         above = fuge.Surface([[0.25, 0.25], [1.5, 0.25]], [[0, 1]], [[6, 7], [8, 9]])
         pairs = fuge.ContactPairs()
         pairs.find(
-            above, self.lower, method="node_to_face", normals="given", normal=[[0, -2], [0, -2]], reach=1.0, smooth=False
+            above,
+            self.lower,
+            method="node_to_face",
+            normals="given",
+            normal=[[0, -2], [0, -2]],
+            reach=1.0,
+            smooth=False,
         )
         np.testing.assert_allclose(pairs.gap, [0.25], rtol=1e-14)
         np.testing.assert_array_equal(pairs.unpaired, [[0, 1]])

@@ -34,7 +34,9 @@ class Matrices(InFolder):
 
     def test_sparse(self):
         path = self.folder / "k.mtx"
-        fuge.write_sparse(path, fuge.CompressedColumns((2, 3), np.array([0, 1, 1, 3]), np.array([1, 0, 1]), np.arange(1.0, 4)))
+        fuge.write_sparse(
+            path, fuge.CompressedColumns((2, 3), np.array([0, 1, 1, 3]), np.array([1, 0, 1]), np.arange(1.0, 4))
+        )
         back = fuge.read_sparse(path)
         self.assertEqual(back.shape, (2, 3))
         np.testing.assert_array_equal(back.column, [0, 1, 1, 3])

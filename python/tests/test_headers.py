@@ -4,9 +4,8 @@ import re
 import unittest
 from pathlib import Path
 
-import headers
-
 import fuge
+import headers
 from fuge import _library, _structs, files, halfplane, operators, pairs, solver, stress_peak
 from fuge._calls import MESSAGE_LENGTH
 
@@ -69,8 +68,11 @@ class Headers(unittest.TestCase):
         ]:
             for word, value in words.items():
                 self.assertEqual(value, constants[(prefix + word).upper()], word)
-        for rule, name in [("paper", "PAPER_RULE"), ("most_negative", "MOST_NEGATIVE"),
-                           ("greatest_decrease", "GREATEST_DECREASE")]:
+        for rule, name in [
+            ("paper", "PAPER_RULE"),
+            ("most_negative", "MOST_NEGATIVE"),
+            ("greatest_decrease", "GREATEST_DECREASE"),
+        ]:
             self.assertEqual(solver.PIVOT_RULES[rule], constants[name])
         for member in fuge.EdgeKind:
             self.assertEqual(member, constants["EDGE_" + member.name])

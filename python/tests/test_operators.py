@@ -93,7 +93,8 @@ class Halfspace(unittest.TestCase):
             contact = fuge.solve(operator, 0.0, 64.0)
             self.assertAlmostEqual(contact.load, 64.0, delta=1e-10)
         np.testing.assert_allclose(
-            fuge.solve(fuge.HalfspaceOperator(8, 8, 1.0, 1.0, 1.0, "mean", "periodic"), 0.0, 64.0).force, np.ones((8, 8))
+            fuge.solve(fuge.HalfspaceOperator(8, 8, 1.0, 1.0, 1.0, "mean", "periodic"), 0.0, 64.0).force,
+            np.ones((8, 8)),
         )
 
     def test_symmetric(self):
@@ -139,7 +140,9 @@ class Callback(unittest.TestCase):
             self.same(fuge.CallbackOperator(self.n, apply, diagonal=np.diag(self.alpha)))
         with self.subTest("preconditioner"):
             inverse = np.linalg.inv(self.alpha)
-            self.assertLess(self.same(fuge.CallbackOperator(self.n, apply, preconditioner=lambda f: inverse @ f)), plain)
+            self.assertLess(
+                self.same(fuge.CallbackOperator(self.n, apply, preconditioner=lambda f: inverse @ f)), plain
+            )
         with self.subTest("auxiliary"):
             operator = fuge.CallbackOperator(self.n, apply)
             operator.set_auxiliary(fuge.HalfplaneOperator(self.n, 1 / 16, 1.0, "mean"))

@@ -1,6 +1,7 @@
 """Problems and solvers: known answers, warm starts, derivatives, paths, and what refuses bad data."""
 
 import gc
+import signal
 import threading
 import unittest
 import warnings
@@ -89,11 +90,15 @@ class Errors(unittest.TestCase):
         self.assertEqual(str(caught.exception), caught.exception.message)
 
     def test_negative_load(self):
-        self.refused(fuge.EquilibriumError, fuge.Status.ERR_NO_EQUILIBRIUM, lambda: fuge.solve(ALPHA, GAP, -2.0), "-2.0")
+        self.refused(
+            fuge.EquilibriumError, fuge.Status.ERR_NO_EQUILIBRIUM, lambda: fuge.solve(ALPHA, GAP, -2.0), "-2.0"
+        )
 
     def test_unsymmetric(self):
         matrix = [[0.2, 0.1], [0.3, 0.2]]
-        self.refused(fuge.MatrixError, fuge.Status.ERR_NOT_SYMMETRIC, lambda: fuge.solve(matrix, GAP, 2.0), "alpha(1,0)")
+        self.refused(
+            fuge.MatrixError, fuge.Status.ERR_NOT_SYMMETRIC, lambda: fuge.solve(matrix, GAP, 2.0), "alpha(1,0)"
+        )
 
     def test_not_definite(self):
         matrix = [[-1.0, 0.0], [0.0, -1.0]]
@@ -279,6 +284,28 @@ class Solvers(unittest.TestCase):
         # The next call has nothing left of it.
         self.solver.set_progress(None)
         self.assertEqual(self.solver.solve().info.status, fuge.Status.DONE)
+
+    @unittest.skipUnless(hasattr(signal, "pthread_kill"), "no signals for threads")
+    def test_interrupt(self):
+        # Ctrl-C comes while the library works; the next iteration sees it. A job in the background ignores it at first.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        main = threading.get_ident()
+
+        def product(f):
+            if not sent:
+                sent.append(threading.Thread(target=signal.pthread_kill, args=(main, signal.SIGINT)))
+                sent[0].start()
+                sent[0].join()
+            return self.alpha @ f
+
+        for progress in (None, lambda *report: None):
+            sent = []
+            solver = fuge.Solver(fuge.CallbackOperator(80, product), progress=progress)
+            solver.set_gap(self.gap)
+            solver.set_load(400.0)
+            self.assertRaises(KeyboardInterrupt, solver.solve)
+            self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+            self.assertAlmostEqual(solver.solve().load, 400.0, delta=1e-7)
 
     def test_calls_from_inside_are_refused(self):
         for call in (self.solver.reset, self.solver.close, lambda: self.solver.set_load(1.0)):

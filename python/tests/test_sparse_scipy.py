@@ -8,7 +8,6 @@ import numpy as np
 import scipy.sparse
 
 import fuge
-
 from test_body import chain
 
 
@@ -31,7 +30,9 @@ class Sparse(unittest.TestCase):
         for stiffness in (csc, csc.tocsr(), csc.tocoo(), scipy.sparse.tril(csc).tocsc()):
             self.check(stiffness)
         self.check(fuge.CompressedColumns(csc.shape, csc.indptr, csc.indices, csc.data))
-        self.check(fuge.CompressedColumns(csc.shape, csc.indptr.astype(np.int64), csc.indices.astype(np.int64), csc.data))
+        self.check(
+            fuge.CompressedColumns(csc.shape, csc.indptr.astype(np.int64), csc.indices.astype(np.int64), csc.data)
+        )
 
     def test_the_matrix_is_kept(self):
         body = fuge.Body(self.stiffness.tocsr())
@@ -41,8 +42,12 @@ class Sparse(unittest.TestCase):
     def test_errors(self):
         csc = self.stiffness.tocsc()
         self.assertRaises(fuge.InputError, fuge.Body, csc[:, :3])
-        self.assertRaises(fuge.InputError, fuge.Body, fuge.CompressedColumns(csc.shape, csc.indptr[:-1], csc.indices, csc.data))
-        self.assertRaises(fuge.InputError, fuge.Body, fuge.CompressedColumns(csc.shape, csc.indptr, csc.indices[:5], csc.data))
+        self.assertRaises(
+            fuge.InputError, fuge.Body, fuge.CompressedColumns(csc.shape, csc.indptr[:-1], csc.indices, csc.data)
+        )
+        self.assertRaises(
+            fuge.InputError, fuge.Body, fuge.CompressedColumns(csc.shape, csc.indptr, csc.indices[:5], csc.data)
+        )
         self.assertRaises(TypeError, fuge.Body, csc * 1j)
 
     def test_dense_is_the_same(self):

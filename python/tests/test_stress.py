@@ -44,7 +44,9 @@ class Halfplane(unittest.TestCase):
         half = fuge.halfplane_stress(x[1:], 1.0, [2.0], "mean", 0.3, 0.7, symmetric=True)
         np.testing.assert_allclose(half, whole, rtol=1e-13)
         np.testing.assert_allclose(
-            fuge.halfplane_displacement(x[1:], 1.0, [2.0], "mean", E, NU, 0.3, 0.7, plane_state="stress", symmetric=True),
+            fuge.halfplane_displacement(
+                x[1:], 1.0, [2.0], "mean", E, NU, 0.3, 0.7, plane_state="stress", symmetric=True
+            ),
             fuge.halfplane_displacement(x, 1.0, force, "mean", E, NU, 0.3, 0.7, plane_state="stress"),
             rtol=1e-12,
         )

@@ -1,7 +1,7 @@
 !> Elastic bodies with their own meshes in contact, from stiffness matrices and surfaces to forces, pressures and
 !> displacements in one call.
 module fuge_bodies_solution
-  use fuge_bodies_join, only: fuge_join_bodies, fuge_joined_bodies
+  use fuge_body_joining, only: fuge_join_bodies, fuge_joined_bodies
   use fuge_condensation, only: fuge_condense, fuge_condensed
   use fuge_contact_pairs_type, only: fuge_contact_pairs
   use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair

@@ -11,6 +11,8 @@ module fuge_c_pairs
   implicit none
   private
 
+  public :: check_sizes, copy_surface
+
   !> Behind struct fuge_pairs.
   type :: pairs_handle
     type(fuge_surface_mesh) :: contact, opposite

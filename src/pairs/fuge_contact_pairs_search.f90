@@ -1,19 +1,21 @@
 !> Contact between two surfaces of finite elements whose nodes do not face each other.
 module fuge_contact_pairs_search
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
-  use fuge_contact_pairs_type, only: append_pairs, check_pair_options, fuge_contact_pairs, fuge_pair_options, &
+  use fuge_common_points, only: add_found
+  use fuge_contact_pairs_type, only: check_pair_options, fuge_contact_pairs, fuge_pair_options, &
     FUGE_MORTAR, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
   use fuge_face_geometry, only: unit
   use fuge_kinds, only: dp
   use fuge_mortar_pairing, only: pair_faces
+  use fuge_near_origin, only: move_surface, way_to_origin
   use fuge_nodal_areas, only: find_nodal_areas
-  use fuge_nodal_normals, only: average_normals
+  use fuge_nodal_normals, only: average_normals, take_normals
   use fuge_node_to_face, only: pair_nodes
   use fuge_number_text, only: index_text, text
   use fuge_opposite_faces, only: opposite_faces, prepare_opposite
   use fuge_pair_draft_type, only: pair_draft, start_draft
   use fuge_smooth_normals, only: find_smooth_normals, mean_of_faces
-  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE, FUGE_WARN_PAIRS
+  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE
   use fuge_surface_checks, only: check_surface
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_weight_rows, only: copy_row, row_length
@@ -32,31 +34,56 @@ contains
 
   !> Find the contact points of a pair of surfaces, and add them to `pairs`.
   !>
-  !> The nodes of `contact` become contact points, and pressures are those on it: with linear faces let it be the coarser
-  !> surface, whose pressures are smooth, with quadratic faces the finer one. The degrees of freedom of both surfaces are numbered in one stiffness matrix, that of both bodies.
-  !> Sliding is small: pairs are those of the positions given. A later call adds another pair of surfaces.
+  !> The nodes of `contact` become contact points, and pressures are those on it: with linear faces let it be the
+  !> coarser surface, whose pressures are smooth, with quadratic faces the finer one. The degrees of freedom of both
+  !> surfaces are numbered in one stiffness matrix, that of both bodies. Sliding is small: pairs are those of the
+  !> positions given. A later call adds another pair of surfaces.
   !>
   !> Then `dof` and `normal` of fuge_body are those of `pairs`; `fuge_condense`, `pose(pairs%gap, problem, ..)`,
   !> problem%gap_upper = pairs%gap_upper, solve; pressure = force/area.
   !> O(n log n) for n faces. Nodes that have no opposite are listed in `unpaired_node`.
-  !> Warning: FUGE_WARN_PAIRS, a node is a contact point of two pairs. Errors, `pairs` unchanged, name the face or the
-  !> node: FUGE_ERR_SIZE, FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP,
-  !> FUGE_ERR_OPTION, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is folded over, has no area or looks the wrong way,
-  !> and for surfaces that do not face each other.
+  !> Warning: FUGE_WARN_PAIRS, a node is a contact point of two pairs; where it moves alike in both, it is listed once,
+  !> in the first one, with the area of both. Errors, `pairs` unchanged, name the face or the node: FUGE_ERR_SIZE,
+  !> FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP, FUGE_ERR_OPTION,
+  !> FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is folded over, has no area or looks the wrong way, for a given
+  !> normal that does, and for surfaces that do not face each other.
   subroutine fuge_find_pairs(contact, opposite, options, pairs, info)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     type(fuge_contact_pairs), intent(inout) :: pairs
     type(fuge_info), intent(out) :: info
-    type(fuge_contact_pairs) :: found
-    type(pair_draft) :: draft
-    type(opposite_faces) :: faces
-    real(dp), allocatable :: normal(:, :)
-    integer, allocatable :: before(:)
+    type(fuge_surface_mesh) :: near_contact, near_opposite
+    real(dp), allocatable :: way(:)
     integer :: stat
 
     call check_pair(contact, opposite, options, pairs, info)
     if (info%failed()) return
+    way = way_to_origin(contact, opposite)
+    if (.not. any(abs(way) > 0.0_dp)) then
+      call find_near_pairs(contact, opposite, options, pairs, info)
+      return
+    end if
+    call move_surface(contact, way, near_contact, stat)
+    if (stat == 0) call move_surface(opposite, way, near_opposite, stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for copies of the surfaces')
+    else
+      call find_near_pairs(near_contact, near_opposite, options, pairs, info)
+    end if
+  end subroutine fuge_find_pairs
+
+  !> The same for surfaces near the origin, checked.
+  subroutine find_near_pairs(contact, opposite, options, pairs, info)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    type(fuge_pair_options), intent(in) :: options
+    type(fuge_contact_pairs), intent(inout) :: pairs
+    type(fuge_info), intent(inout) :: info
+    type(fuge_contact_pairs) :: found
+    type(pair_draft) :: draft
+    type(opposite_faces) :: faces
+    real(dp), allocatable :: normal(:, :)
+    integer :: stat
+
     allocate (normal(3, size(contact%node, 2)), stat=stat)
     if (stat == 0) call start_draft(draft, size(contact%node, 2), stat)
     if (stat == 0) call set_bends(contact, opposite, options%smooth .and. .not. options%tied, faces, stat)
@@ -69,14 +96,9 @@ contains
       found%pairs = pairs%pairs + 1
       call collect(contact, opposite, options, normal, draft, found, stat)
     end if
-    if (stat == 0) allocate (before(max(largest_dof(contact, opposite), largest_before(pairs))), stat=stat)
-    if (stat == 0) call append_pairs(pairs, found, stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to find contact pairs')
-    else
-      call warn_repeated(pairs, before, info)
-    end if
-  end subroutine fuge_find_pairs
+    if (stat == 0) call add_found(found, faces%reach, pairs, stat, info)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to find contact pairs')
+  end subroutine find_near_pairs
 
   !> Refuse surfaces and options that do not fit.
   subroutine check_pair(contact, opposite, options, pairs, info)
@@ -118,21 +140,14 @@ contains
     real(dp), intent(out) :: normal(:, :)
     integer, intent(out) :: stat
     type(fuge_info), intent(inout) :: info
-    real(dp) :: given(3)
-    integer :: i
 
     stat = 0
-    if (options%normals /= FUGE_NORMALS_GIVEN) then
+    if (options%normals == FUGE_NORMALS_GIVEN) then
+      call take_normals(contact, CONTACT_NAME, options%normal, normal, info)
+    else
       call average_normals(contact, CONTACT_NAME, normal, stat, info)
       if (stat == 0 .and. size(faces%own_bend, 3) > 0) call mean_of_faces(contact, faces%own_bend, normal, stat)
-      return
     end if
-    do i = 1, size(normal, 2)
-      given = 0.0_dp
-      given(:size(options%normal, 1)) = options%normal(:, i)
-      normal(:, i) = 0.0_dp
-      if (maxval(abs(given)) > 0.0_dp) normal(:, i) = unit(given/maxval(abs(given)))
-    end do
   end subroutine set_normals
 
   !> Find what lies across from each node, by the method chosen.
@@ -376,31 +391,5 @@ contains
     dof = 0
     if (allocated(surface%dof)) dof = maxval(surface%dof(:, i))
   end function owned_dof
-
-  !> The largest degree of freedom of the pairs found earlier; 0 if there are none.
-  pure function largest_before(pairs) result(largest)
-    type(fuge_contact_pairs), intent(in) :: pairs
-    integer :: largest
-
-    largest = 0
-    if (pairs%pairs > 0) largest = max(0, maxval(pairs%dof))
-  end function largest_before
-
-  !> Warn of a node that is a contact point of two pairs. `before` is work space, one element for each degree of
-  !> freedom.
-  pure subroutine warn_repeated(pairs, before, info)
-    type(fuge_contact_pairs), intent(in) :: pairs
-    integer, intent(inout) :: before(:)
-    type(fuge_info), intent(inout) :: info
-    integer :: both(2)
-
-    if (pairs%pairs < 2) return
-    call pairs%first_repeated(before, both)
-    if (both(1) == 0) return
-    call report(info, FUGE_WARN_PAIRS, 'node '//index_text(pairs%node(both(2)))//' of the contact surface of pair ' &
-                //index_text(pairs%pair(both(2)))//' is a contact point of pair '//index_text(pairs%pair(both(1))) &
-                //' too, as node '//index_text(pairs%node(both(1)))//': leave its faces out of one of them, unless ' &
-                //'both bodies press on it')
-  end subroutine warn_repeated
 
 end module fuge_contact_pairs_search

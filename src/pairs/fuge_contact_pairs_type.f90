@@ -77,6 +77,8 @@ module fuge_contact_pairs_type
     procedure :: points
     procedure :: set_owned
     procedure :: first_repeated
+    procedure :: largest_dof
+    procedure :: same_node
     procedure :: keep
   end type fuge_contact_pairs
 
@@ -118,6 +120,25 @@ contains
     end do
     both = 0
   end subroutine first_repeated
+
+  !> The largest degree of freedom of the contact points and of their nodes; 0 if there are none.
+  pure function largest_dof(self) result(largest)
+    class(fuge_contact_pairs), intent(in) :: self
+    integer :: largest
+
+    largest = 0
+    if (self%points() > 0) largest = max(0, maxval(self%dof), maxval(self%owned))
+  end function largest_dof
+
+  !> Are contact point `i` and point `j` of other pairs of the same node? Of rigid ones this is not known.
+  pure function same_node(self, i, other, j) result(same)
+    class(fuge_contact_pairs), intent(in) :: self
+    integer, intent(in) :: i, j
+    type(fuge_contact_pairs), intent(in) :: other
+    logical :: same
+
+    same = self%owned(i) == other%owned(j)
+  end function same_node
 
   !> Keep the contact points that are `kept` (points), in their order. `stat` is not zero, and nothing has changed,
   !> without memory.

@@ -10,10 +10,13 @@ module fuge_nodal_normals
   implicit none
   private
 
-  public :: average_normals
+  public :: average_normals, take_normals
 
   !> A mean of normals shorter than this part of their lengths points nowhere.
   real(dp), parameter :: NO_DIRECTION = 1.0e-8_dp
+
+  !> A normal looks outwards if the cosine of its angle with that of one of the faces is above this.
+  real(dp), parameter :: OUTWARDS = 0.1_dp
 
 contains
 
@@ -75,5 +78,43 @@ contains
       end do
     end do
   end subroutine refuse_cancelled
+
+  !> Unit normals along those given, (dimensions, nodes), of any length.
+  !>
+  !> FUGE_ERR_MESH for one that looks along all faces at its node, or into the body.
+  pure subroutine take_normals(surface, name, given, normal, info)
+    type(fuge_surface_mesh), intent(in) :: surface
+    character(len=*), intent(in) :: name
+    real(dp), intent(in) :: given(:, :)
+    real(dp), intent(out) :: normal(:, :)
+    type(fuge_info), intent(inout) :: info
+    logical :: outwards_somewhere(size(normal, 2))
+    type(face_nodes) :: face
+    integer :: f, i, k
+
+    normal = 0.0_dp
+    outwards_somewhere = .false.
+    do f = 1, size(surface%face, 2)
+      face = get_face(surface, f)
+      do k = 1, face%count
+        i = surface%face(k, f)
+        normal(:size(given, 1), i) = given(:, i)/maxval(abs(given(:, i)))
+        normal(:, i) = unit(normal(:, i))
+        if (dot_product(unit(face_normal(face, node_place(face%kind, k))), normal(:, i)) > OUTWARDS) &
+          outwards_somewhere(i) = .true.
+      end do
+    end do
+    do f = 1, size(surface%face, 2)
+      do k = 1, size(surface%face, 1)
+        i = surface%face(k, f)
+        if (i == 0) exit
+        if (outwards_somewhere(i)) cycle
+        call report(info, FUGE_ERR_MESH, name//': the normal given at node '//index_text(i)//' does not look ' &
+                    //'outwards, as face '//index_text(f)//' does there: turn it round, or reverse the order of the ' &
+                    //'nodes of the face if that is wrong')
+        return
+      end do
+    end do
+  end subroutine take_normals
 
 end module fuge_nodal_normals

@@ -3,7 +3,7 @@
 !> The degrees of freedom of the bodies follow each other, so that the stiffness matrix of all is block-diagonal, and
 !> surfaces are paired with their degrees of freedom shifted. Rigid motions that supports leave are part of the
 !> unknowns, whichever bodies have them.
-module fuge_bodies_join
+module fuge_body_joining
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_body_surfaces, only: greatest_extent, pair_surfaces
@@ -250,4 +250,4 @@ contains
     destination%pairs = source%pairs
   end subroutine move_joined
 
-end module fuge_bodies_join
+end module fuge_body_joining
