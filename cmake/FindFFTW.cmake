@@ -1,4 +1,4 @@
-# FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads.
+# FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads; FFTW::mpi if it is there for MPI.
 # FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a nonstandard location.
 find_package(PkgConfig QUIET)
 if(PkgConfig_FOUND)
@@ -6,7 +6,8 @@ if(PkgConfig_FOUND)
 endif()
 find_library(FFTW_LIBRARY NAMES fftw3 libfftw3-3 HINTS ${PC_FFTW_LIBRARY_DIRS})
 find_library(FFTW_THREADS_LIBRARY NAMES fftw3_threads HINTS ${PC_FFTW_LIBRARY_DIRS})
-mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY)
+find_library(FFTW_MPI_LIBRARY NAMES fftw3_mpi HINTS ${PC_FFTW_LIBRARY_DIRS})
+mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY FFTW_MPI_LIBRARY)
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(FFTW REQUIRED_VARS FFTW_LIBRARY FFTW_THREADS_LIBRARY
@@ -25,4 +26,9 @@ if(FFTW_FOUND AND NOT TARGET FFTW::threads)
   set_target_properties(FFTW::threads PROPERTIES
     IMPORTED_LOCATION "${FFTW_THREADS_LIBRARY}" INTERFACE_LINK_LIBRARIES FFTW::fftw)
   unset(fftw_needs)
+endif()
+if(FFTW_FOUND AND FFTW_MPI_LIBRARY AND NOT TARGET FFTW::mpi)
+  add_library(FFTW::mpi UNKNOWN IMPORTED)
+  set_target_properties(FFTW::mpi PROPERTIES
+    IMPORTED_LOCATION "${FFTW_MPI_LIBRARY}" INTERFACE_LINK_LIBRARIES FFTW::fftw)
 endif()

@@ -80,6 +80,12 @@ if(TARGET fuge_sparse)
     DESCRIPTION "Condensation of sparse stiffness matrices for fuge, by CHOLMOD" REQUIRES fuge NEEDS ${CHOLMOD_LIBRARY})
 endif()
 
+if(TARGET fuge_mpi)
+  # The compiler wrappers of MPI know its libraries.
+  fuge_install_library(fuge_mpi fuge-mpi
+    DESCRIPTION "Surfaces over MPI for fuge: compile with the wrapper of the MPI" REQUIRES fuge NEEDS ${FFTW_MPI_LIBRARY})
+endif()
+
 install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")
 # Only the public modules are for users. gfortran's files of these are complete in themselves; those of other
 # compilers (flang) refer to the files of the modules that they use.
@@ -88,6 +94,9 @@ if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
   install(FILES "${modules_dir}/fuge.mod" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers})
   if(TARGET fuge_sparse)
     install(FILES "${modules_dir}/fuge_sparse.mod" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers})
+  endif()
+  if(TARGET fuge_mpi)
+    install(FILES "${modules_dir}/fuge_mpi.mod" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers})
   endif()
 else()
   install(DIRECTORY "${modules_dir}/" DESTINATION "${FUGE_MODULE_DIR}" ${for_developers}

@@ -93,8 +93,12 @@ contains
     if (body > 0) then
       name = word(point + 1:)
       call find_in_mesh(bodies(body), name, kinds, kind, at)
-      if (kind == NOTHING) call refuse_name(place//': body '//bodies(body)%name//' has no '//what//' "'//name//'"', &
-                                            bodies(body:body), what, info)
+      if (kind == NOTHING .and. is_number(name)) then
+        call refuse(place//': body '//bodies(body)%name//' has no node '//name, info)
+      else if (kind == NOTHING) then
+        call refuse_name(place//': body '//bodies(body)%name//' has no '//what//' "'//name//'"', bodies(body:body), &
+                         what, info)
+      end if
       return
     end if
     other = 0
@@ -108,10 +112,20 @@ contains
     if (other > 0) then
       call refuse(place//': bodies '//bodies(other)%name//' and '//bodies(body)%name//' both have "'//name &
                   //'": write '//bodies(body)%name//'.'//name//' or '//bodies(other)%name//'.'//name, info)
+    else if (body == 0 .and. is_number(name)) then
+      call refuse(place//': there is no node '//name, info)
     else if (body == 0) then
       call refuse_name(place//': there is no '//what//' "'//name//'"', bodies, what, info)
     end if
   end subroutine find_body
+
+  pure function is_number(name)
+    character(len=*), intent(in) :: name
+    logical :: is_number
+    integer :: number
+
+    call read_integer(name, number, is_number)
+  end function is_number
 
   !> Refuse a name, and list those that there are.
   subroutine refuse_name(reason, bodies, what, info)

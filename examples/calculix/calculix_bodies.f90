@@ -1,6 +1,6 @@
 !> Two bodies of a CalculiX model in contact, by fuge: its stiffness, the two surfaces of its input file, one call.
 module calculix_bodies
-  use calculix_files, only: run_job, wall_clock
+  use calculix_files, only: processor_time, run_job
   use fuge, only: dp => fuge_dp, fuge_bodies_contact, fuge_elastic_body, fuge_info, fuge_mesh, &
     fuge_mesh_contact_surface, fuge_mesh_degrees, fuge_pair_options, fuge_read_mesh, fuge_read_stiffness, &
     fuge_solve_bodies, fuge_surface_pair
@@ -31,7 +31,7 @@ module calculix_bodies
     integer :: degrees = 0
     !> Largest scaled violation of the contact conditions.
     real(dp) :: certificate = 0.0_dp
-    !> Time of CalculiX, and of fuge with the reading of the files; s.
+    !> Processor time of CalculiX, and of fuge with the reading of the files; s.
     real(dp) :: assembling = 0.0_dp, solving = 0.0_dp
   end type contact_result
 
@@ -49,11 +49,12 @@ contains
     type(fuge_info) :: info
     character(len=:), allocatable :: job
     integer, allocatable :: node(:), direction(:)
-    real(dp) :: start
+    real(dp) :: start, wall
 
     job = trim(request%model)//'_stiffness'
-    call run_job(command, job, job//'.sti', result%assembling)
-    start = wall_clock()
+    call run_job(command, job, job//'.sti', wall)
+    result%assembling = processor_time(job)
+    call cpu_time(start)
     call fuge_read_stiffness(job//'.sti', body(1)%column, body(1)%row, body(1)%value, node, direction, info)
     if (.not. info%failed()) call fuge_read_mesh(trim(request%model)//'.inp', mesh, info)
     if (.not. info%failed()) &
@@ -71,7 +72,8 @@ contains
     pair(1)%opposite_body = 1
     pair(1)%options = request%options
     call fuge_solve_bodies(stiffness, body, pair, result%contact, info)
-    result%solving = wall_clock() - start
+    call cpu_time(result%solving)
+    result%solving = result%solving - start
     if (info%status /= 0) call give_up(info)
     result%degrees = size(node)
     result%certificate = info%residual

@@ -1,6 +1,6 @@
 !> CalculiX's own contact of a model, by penalties or Lagrange multipliers.
 module calculix_own
-  use calculix_files, only: count_iterations, read_contact, read_total, try_job
+  use calculix_files, only: count_iterations, processor_time, read_contact, read_total, try_job
   use fuge, only: dp => fuge_dp
   implicit none
   private
@@ -19,6 +19,7 @@ module calculix_own
 
   type, public :: own_answer
     logical :: solved = .false.
+    !> Processor time, s.
     real(dp) :: seconds = 0.0_dp
     integer :: increments = 0, iterations = 0
     !> Forces of the supports of a set of nodes, their sum.
@@ -53,7 +54,8 @@ contains
     type(own_answer), intent(out) :: answer
     real(dp), allocatable :: value(:, :)
 
-    call try_job(command, job, most, answer%solved, answer%seconds)
+    call try_job(command, job, most, answer%solved)
+    answer%seconds = processor_time(job)
     call count_iterations(job, answer%increments, answer%iterations)
     if (.not. answer%solved) return
     call read_total(job, supported, answer%total)

@@ -104,13 +104,14 @@ contains
     type(flange_sizes), intent(in) :: sizes
     type(flange_joint), intent(inout), target :: model
     type(flange_state) :: state(size(PRESSURES))
-    real(dp) :: inner(2), last_inner(2)
+    real(dp) :: inner(2), last_gap, last_inner(2)
     integer :: file, k
 
     call create_file('flange.csv', 2, file)
     write (file, '(a)') 'pressure [N/mm2],thrust [kN],bolt [kN],joint [kN],touching [%],gap at the bore [mm]'
     print '(/,a)', 'Forces for one bolt; radius from which on the joint touches, beside the bolt and between two bolts'
     print '(a)', ' p [N/mm2]  thrust [kN]  bolt   joint  touching  gap at the bore [mm]  touches from [mm]'
+    last_gap = 0.0_dp
     last_inner = 0.0_dp
     do k = 1, size(PRESSURES)
       call press(model, PRESSURES(k), state(k))
@@ -121,7 +122,9 @@ contains
         bore_gap(model, state(k)), inner
       write (file, '(f6.1,5('','',es14.6))') PRESSURES(k), 1.0e-3_dp*state(k)%thrust, 1.0e-3_dp*state(k)%head, &
         1.0e-3_dp*state(k)%joint, 100.0_dp*state(k)%touching, bore_gap(model, state(k))
-      if (any(inner < last_inner - 1.0e-9_dp*sizes%rim)) error stop 'the joint does not open from the bore outwards'
+      if (any(inner < last_inner - 1.0e-9_dp*sizes%rim) .or. bore_gap(model, state(k)) < last_gap) &
+        error stop 'the joint does not open from the bore outwards'
+      last_gap = bore_gap(model, state(k))
       last_inner = inner
     end do
     close (file)

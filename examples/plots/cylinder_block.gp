@@ -44,14 +44,14 @@ set xlabel "x [mm]"
 set ylabel "N/mm^2" offset 1.5
 set xrange [0:1.2]
 set yrange [0:900]
-set key bottom left Left reverse
+set key inside bottom left Left reverse samplen 1.5
 plot p(x) with lines lw 2 lc rgb "#999999" title "Hertz", \
      "cylinder_block_pressure.csv" index 4 using 1:2 with points pt 2 ps 1.1 lw 1.5 lc rgb brown \
-       title "linear, nodes against faces", \
-     "" index 1 using 1:2 with points pt 6 ps 1.1 lw 1.5 lc rgb blue title "linear, mortar on the finer surface", \
-     "" index 0 using 1:2 with points pt 7 ps 1.1 lc rgb blue title "linear, mortar on the coarser surface", \
+       title "linear, nodes to faces", \
+     "" index 1 using 1:2 with points pt 6 ps 1.1 lw 1.5 lc rgb blue title "linear, on the finer surface", \
+     "" index 0 using 1:2 with points pt 7 ps 1.1 lc rgb blue title "linear, on the coarser one", \
      "" index 5 using 1:2 with points pt 7 ps 0.35 lc rgb "black" title "the same, finest mesh", \
-     "" index 3 using 1:2 with points pt 7 ps 0.8 lc rgb red title "quadratic, mortar"
+     "" index 3 using 1:2 with points pt 7 ps 0.8 lc rgb red title "quadratic"
 
 set lmargin at screen 0.73
 set rmargin at screen 0.99
@@ -65,10 +65,10 @@ set xrange [0.03:0.33]
 set xtics (0.05, 0.1, 0.2, 0.3)
 set yrange [1e-7:0.5]
 set mytics 10
-set key bottom right Left reverse samplen 2
+set key inside bottom right Left reverse samplen 2
 E = "cylinder_block_errors.csv"
 of(v, c) = column(1) == v ? column(c) : NaN
-plot E using (1/$2):(of(5, 5)) with linespoints pt 2 lw 1.5 lc rgb brown title "peak, nodes against faces", \
+plot E using (1/$2):(of(5, 5)) with linespoints pt 2 lw 1.5 lc rgb brown title "peak, nodes to faces", \
      E using (1/$2):(of(2, 5)) with linespoints pt 6 lw 1.5 lc rgb blue title "peak, linear, finer", \
      E using (1/$2):(of(1, 5)) with linespoints pt 7 lw 1.5 lc rgb blue title "peak, linear, coarser", \
      E using (1/$2):(of(4, 5)) with linespoints pt 7 lw 1.5 lc rgb red title "peak, quadratic", \

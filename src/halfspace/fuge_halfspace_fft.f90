@@ -5,8 +5,8 @@ module fuge_halfspace_fft
   use fuge_grid_plan, only: fast_length, grid_plan
   use fuge_grid_store, only: grid_store
   use fuge_halfplane_fft, only: FUGE_FREE
-  use fuge_halfspace_grid, only: check_grid, coarsened, count_coarser, cyclic, halfspace_grid, periodic, &
-    term_length
+  use fuge_halfspace_grid, only: check_grid, coarsened, complete, count_coarser, cyclic, halfspace_grid, periodic, &
+    term_length, MEAN_TERM, MOST_CELLS
   use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
@@ -18,13 +18,8 @@ module fuge_halfspace_fft
   implicit none
   private
 
-  !> On a periodic surface the terms of a displacement by the forces f are about this times the sum of |f|/(e_star L),
-  !> L being the `term_length`.
-  real(dp), parameter :: MEAN_TERM = 0.4_dp
   !> A coarser grid of fewer cells is multiplied by one thread: starting more would take longer.
   integer, parameter :: FEWEST_FOR_THREADS = 65536
-  !> Cells of one direction, at most: a row of the circle has a default integer of numbers.
-  integer, parameter :: MOST_CELLS = 2**28
 
   !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes a third of the memory again.
@@ -101,14 +96,6 @@ contains
     call prepare(new, info)
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
-
-  !> The periods, and where a force displaces nothing, of a grid that is no window.
-  pure subroutine complete(grid)
-    type(halfspace_grid), intent(inout) :: grid
-
-    grid%period = merge(grid%cells, 0, periodic(grid))
-    if (.not. all(periodic(grid))) grid%reach = 2.0_dp*maxval(grid%cells*grid%spacing, mask=.not. periodic(grid))
-  end subroutine complete
 
   !> Plan and compute what belongs to the cells of `operator`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
   subroutine prepare(operator, info)

@@ -12,12 +12,18 @@ module fuge_halfspace_grid
   implicit none
   private
 
-  public :: check_grid, coarsened, count_coarser, cyclic, periodic, term_length
+  public :: check_grid, coarsened, complete, count_coarser, cyclic, periodic, term_length
 
   !> `boundary`: the cells repeat periodically along x, and beyond them along y the surface is free.
   integer, parameter, public :: FUGE_PERIODIC_X = 2
   !> `boundary`: the cells repeat periodically along y, and beyond them along x the surface is free.
   integer, parameter, public :: FUGE_PERIODIC_Y = 3
+
+  !> On a periodic surface the terms of a displacement by the forces f are about this times the sum of |f|/(e_star L),
+  !> L being the `term_length`.
+  real(dp), parameter, public :: MEAN_TERM = 0.4_dp
+  !> Cells of one direction, at most: a row of the circle has a default integer of numbers.
+  integer, parameter, public :: MOST_CELLS = 2**28
 
   !> A grid of fewer cells is not made by `coarsen`.
   integer, parameter :: FEWEST_CELLS = 32
@@ -96,6 +102,14 @@ contains
                   //' is unknown: use FUGE_FREE, FUGE_PERIODIC, FUGE_PERIODIC_X or FUGE_PERIODIC_Y')
     end if
   end subroutine check_options
+
+  !> The periods, and where a force displaces nothing, of a grid that is no window.
+  pure subroutine complete(grid)
+    type(halfspace_grid), intent(inout) :: grid
+
+    grid%period = merge(grid%cells, 0, periodic(grid))
+    if (.not. all(periodic(grid))) grid%reach = 2.0_dp*maxval(grid%cells*grid%spacing, mask=.not. periodic(grid))
+  end subroutine complete
 
   !> Is the surface periodic in each direction?
   pure function periodic(grid)

@@ -11,7 +11,7 @@ module fuge_halfspace_spectra
   implicit none
   private
 
-  public :: bytes_needed, compute_spectra
+  public :: bytes_needed, compute_spectra, invert
 
 contains
 

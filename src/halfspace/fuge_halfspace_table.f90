@@ -10,7 +10,7 @@ module fuge_halfspace_table
   implicit none
   private
 
-  public :: fill_halfspace_table
+  public :: fill_halfspace_rows, fill_halfspace_table
 
 contains
 
@@ -24,9 +24,19 @@ contains
     integer, intent(in) :: element
     real(dp), intent(inout) :: table(0:, 0:)
     integer, intent(out) :: stat
+
+    call fill_halfspace_rows(spacing, e_star, element, 0, size(table, 2), table, stat)
+  end subroutine fill_halfspace_table
+
+  !> As fill_halfspace_table, the rows from number `begin` on of a table that has `rows` of them.
+  pure subroutine fill_halfspace_rows(spacing, e_star, element, begin, rows, table, stat)
+    real(dp), intent(in) :: spacing(2), e_star
+    integer, intent(in) :: element, begin, rows
+    real(dp), intent(inout) :: table(0:, begin:)
+    integer, intent(out) :: stat
     type(rectangle_kernel), allocatable :: kernel
     type(double_double) :: factor, offset
-    real(dp), allocatable :: x_high(:), x_low(:)
+    real(dp), allocatable :: near(:, :), x_high(:), x_low(:)
     real(dp) :: observed(2)
     integer :: near_x, near_y, first, i, j
 
@@ -38,19 +48,23 @@ contains
     call new_rectangle_kernel(factor, kernel)
     call set_widths(kernel, observed, spacing)
     near_x = near_count(observed, spacing, 1, size(table, 1))
-    near_y = near_count(observed, spacing, 2, size(table, 2))
-    call near_table(spacing, element == FUGE_CENTRE, factor, table(:near_x - 1, :near_y - 1), stat)
+    near_y = near_count(observed, spacing, 2, rows)
+    allocate (near(0:near_x - 1, 0:near_y - 1), stat=stat)
+    if (stat == 0) call near_table(spacing, element == FUGE_CENTRE, factor, near, stat)
     if (stat /= 0) return
+    do j = begin, min(near_y - 1, ubound(table, 2))
+      table(:near_x - 1, j) = near(:, j)
+    end do
     do i = 0, ubound(table, 1)
       offset = exact_product(real(i, dp), spacing(1))
       x_high(i) = offset%high
       x_low(i) = offset%low
     end do
-    do j = 0, ubound(table, 2)
+    do j = begin, ubound(table, 2)
       first = merge(near_x, 0, j < near_y)
       call fill_row(kernel, x_high(first:), x_low(first:), spacing(2), j, table(first:, j))
     end do
-  end subroutine fill_halfspace_table
+  end subroutine fill_halfspace_rows
 
   !> How many rectangles in `direction` may be too close for the multipoles, at most `most`.
   pure function near_count(observed, loaded, direction, most) result(count)

@@ -23,7 +23,7 @@ module fuge_halfspace_waves
   implicit none
   private
 
-  public :: fill_periodic_eigenvalues, fill_periodic_kernel, fill_strip_kernel
+  public :: fill_periodic_columns, fill_periodic_eigenvalues, fill_periodic_kernel, fill_strip_kernel
 
   !> Step of the trapezoidal rule in log t; its relative error is 3 exp(-pi**2/(2 STEP)).
   real(dp), parameter :: STEP = 0.12_dp
@@ -72,6 +72,17 @@ contains
     real(dp), intent(in) :: spacing(2), e_star
     real(dp), intent(inout), contiguous :: kernel(0:, 0:)
     integer, intent(out) :: stat
+
+    call fill_periodic_columns(surface, wanted_waves, spacing, e_star, element, 0, kernel, stat)
+  end subroutine fill_periodic_kernel
+
+  !> As fill_periodic_kernel, the columns of `kernel` from number `begin` on.
+  subroutine fill_periodic_columns(surface, wanted_waves, spacing, e_star, element, begin, kernel, stat)
+    integer, intent(in) :: surface(2), element, begin
+    logical, intent(in) :: wanted_waves(2)
+    real(dp), intent(in) :: spacing(2), e_star
+    real(dp), intent(inout), contiguous :: kernel(0:, begin:)
+    integer, intent(out) :: stat
     real(dp), allocatable :: node(:), weight(:), along_x(:, :), along_y(:, :)
     real(dp), dimension(0:1) :: mean_x, mean_y
     integer :: i, j
@@ -79,23 +90,28 @@ contains
     call new_rule(maxval(spacing*surface)/minval(spacing), node, weight, stat)
     if (stat /= 0) return
     weight = weight*(4.0_dp/sqrt(PI))*(minval(spacing)/spacing(1)/spacing(2)/e_star)
-    allocate (along_x(0:ubound(kernel, 2), size(node)), along_y(0:ubound(kernel, 1), size(node)), stat=stat)
+    allocate (along_x(0:max(ubound(kernel, 2), 0), size(node)), along_y(0:ubound(kernel, 1), size(node)), stat=stat)
     if (stat == 0) call fill_circle(surface(1), wanted_waves(1), node*(minval(spacing)/spacing(1)), &
                                     element, .true., along_x, stat)
     if (stat == 0) call fill_circle(surface(2), wanted_waves(2), node*(minval(spacing)/spacing(2)), &
                                     element, .true., along_y, stat)
-    if (stat /= 0) return
-    call multiply(along_y, weight, along_x, kernel)
+    if (stat /= 0 .or. size(kernel, 2) < 1) return
+    if (begin == 0) then
+      call multiply(along_y, weight, along_x, kernel)
+    else
+      along_x = along_x(begin:, :)
+      call multiply(along_y, weight, along_x, kernel)
+    end if
     ! Without the constant, which is the first wave, or at all distances.
     mean_x = constant(surface(1), wanted_waves(1))*sum(weight)
     mean_y = constant(surface(2), wanted_waves(2))
-    do j = 0, ubound(kernel, 2)
+    do j = begin, ubound(kernel, 2)
       do i = 0, ubound(kernel, 1)
         kernel(i, j) = kernel(i, j) - mean_y(min(i, 1))*mean_x(min(j, 1))
       end do
     end do
-    if (all(wanted_waves)) kernel(0, 0) = 0.0_dp
-  end subroutine fill_periodic_kernel
+    if (all(wanted_waves) .and. begin == 0) kernel(0, 0) = 0.0_dp
+  end subroutine fill_periodic_columns
 
   !> The constant on a circle of `n` cells: the first wave and the others, or at distance 0 and farther.
   pure function constant(n, waves) result(values)

@@ -22,6 +22,8 @@ module fuge_grid_convolution
   implicit none
   private
 
+  public :: add_untwisted, convolve_line, opposite, twist_line
+
   !> Columns in the buffer.
   integer, parameter :: COLUMNS = 16
   !> Rows whose distance in memory is a multiple of so many bytes fall on the same places of the cache.
@@ -395,24 +397,38 @@ contains
     type(product_job), intent(in) :: job
     integer, intent(in) :: k
     real(c_double), intent(inout), contiguous, target :: f(:), t(:), u(:)
-    integer :: n, rows
 
-    n = job%length(2)
-    rows = job%cells(2)
-    call job%columns%transform_to(c_loc(f), c_loc(t))
-    call multiply_even(n, job%spectrum(:n/2 + 1, k + 1), t)
-    if (.not. job%padded(2)) then
-      call job%columns%transform_to(c_loc(t), c_loc(f))
+    call convolve_line(job%columns, job%column_twist, job%cells(2), job%padded(2), job%spectrum(:, k + 1), f, t, u)
+  end subroutine convolve_column
+
+  !> Convolve the complex numbers `f`, of which the first `count` are given and wanted, with the kernel that has the
+  !> `spectrum`; the result has real and imaginary parts exchanged.
+  !>
+  !> `plan` and `twist` (2, N) of a circle of N, or of 2N if it is `padded`; `f`, `t` and `u` N complex numbers each, the
+  !> last two for work.
+  subroutine convolve_line(plan, twist, count, padded, spectrum, f, t, u)
+    type(fft_plan), intent(in) :: plan
+    real(dp), intent(in), contiguous :: twist(:, :), spectrum(:)
+    integer, intent(in) :: count
+    logical, intent(in) :: padded
+    real(c_double), intent(inout), contiguous, target :: f(:), t(:), u(:)
+    integer :: n
+
+    n = size(twist, 2)
+    call plan%transform_to(c_loc(f), c_loc(t))
+    call multiply_even(n, spectrum(:n/2 + 1), t)
+    if (.not. padded) then
+      call plan%transform_to(c_loc(t), c_loc(f))
       return
     end if
-    call job%columns%transform_to(c_loc(t), c_loc(u))
-    call twist_line(job%column_twist, rows, f, t)
-    call job%columns%transform_to(c_loc(t), c_loc(f))
-    call multiply_odd(n, job%spectrum(n/2 + 2:, k + 1), f)
-    call job%columns%transform_to(c_loc(f), c_loc(t))
-    f(:2*rows) = u(:2*rows)
-    call add_untwisted(job%column_twist, rows, t, f)
-  end subroutine convolve_column
+    call plan%transform_to(c_loc(t), c_loc(u))
+    call twist_line(twist, count, f, t)
+    call plan%transform_to(c_loc(t), c_loc(f))
+    call multiply_odd(n, spectrum(n/2 + 2:), f)
+    call plan%transform_to(c_loc(f), c_loc(t))
+    f(:2*count) = u(:2*count)
+    call add_untwisted(twist, count, t, f)
+  end subroutine convolve_line
 
   !> Multiply `n` complex numbers by the spectrum, of which the numbers 0 .. n/2 are given, and exchange their parts.
   pure subroutine multiply_even(n, spectrum, z)

@@ -34,9 +34,10 @@ contains
 
   !> Find the contact points of a pair of surfaces, and add them to `pairs`.
   !>
-  !> The nodes of `contact` become contact points, and pressures are those on it: with linear faces let it be the coarser
-  !> surface, whose pressures are smooth, with quadratic faces the finer one. The degrees of freedom of both surfaces are numbered in one stiffness matrix, that of both bodies.
-  !> Sliding is small: pairs are those of the positions given. A later call adds another pair of surfaces.
+  !> The nodes of `contact` become contact points, and pressures are those on it: with linear faces let it be the
+  !> coarser surface, whose pressures are smooth, with quadratic faces the finer one. The degrees of freedom of both
+  !> surfaces are numbered in one stiffness matrix, that of both bodies. Sliding is small: pairs are those of the
+  !> positions given. A later call adds another pair of surfaces.
   !>
   !> Then `dof` and `normal` of fuge_body are those of `pairs`; `fuge_condense`, `pose(pairs%gap, problem, ..)`,
   !> problem%gap_upper = pairs%gap_upper, solve; pressure = force/area.

@@ -6,7 +6,7 @@ module fuge_corner_normals
   implicit none
   private
 
-  public :: corner_normal, reflected, side_tangent
+  public :: corner_normal, half_edge_normal, middle_edge_normal, reflected, side_tangent
 
 contains
 
@@ -32,6 +32,26 @@ contains
       normal = cross(side_tangent(face, k, modulo(k, corners) + 1), side_tangent(face, k, modulo(k - 2, corners) + 1))
     end if
   end function corner_normal
+
+  !> The normal of the half of a quadratic edge at corner `k`, over its length.
+  pure function half_edge_normal(face, k) result(normal)
+    type(face_nodes), intent(in) :: face
+    integer, intent(in) :: k
+    real(dp) :: normal(3), tangent(3)
+
+    tangent = inverted(face%x(:, 3) - face%x(:, k))
+    if (k == 2) tangent = -tangent
+    normal = [tangent(2), -tangent(1), 0.0_dp]
+  end function half_edge_normal
+
+  !> The normal at the middle node of a quadratic edge, of the circle through its three nodes.
+  pure function middle_edge_normal(face) result(normal)
+    type(face_nodes), intent(in) :: face
+    real(dp) :: normal(3), tangent(3)
+
+    tangent = inverted(face%x(:, 2) - face%x(:, 3)) - inverted(face%x(:, 1) - face%x(:, 3))
+    normal = [tangent(2), -tangent(1), 0.0_dp]
+  end function middle_edge_normal
 
   !> The tangent at corner `from` of the side towards corner `to`, divided by about the length of the side. A side with
   !> a middle node is an arc of the circle through its three nodes, found by inversion about `from`.

@@ -7,9 +7,10 @@
 !>
 !> On a circle, a sphere or a cylinder of radius R about c the nodes are x_i = c + R n_i along these, so that x = c + R
 !> n and sum N_i (x_i - x).n_i = R (1 - |n|**2): the surface is c + R n/|n|, that of the body to rounding, for all kinds
-!> of faces. On a flat face h is zero. A side belongs to its nodes alone, so faces join. Linear faces that are no part
-!> of a sphere have a cubic term in addition, so that along each side the surface has the slopes that the normals demand
-!> (Hermite's interpolation); n/|n| stands across it in the nodes only, and so the normal is that of its tangents.
+!> of faces. On a flat face h is zero. A side belongs to its nodes alone, so faces join. Linear faces, and edges,
+!> that are no part of a sphere have a cubic term in addition, so that along each side the surface has the slopes that
+!> the normals demand (Hermite's interpolation); n/|n| stands across it in the nodes only, and so the normal is that of
+!> its tangents.
 module fuge_smooth_faces
   use fuge_face_geometry, only: cross, face_nodes, frame_across, solve_step
   use fuge_face_shapes, only: corner_count, shape_slopes, shape_values, EDGE_3, MOST_NODES
@@ -126,7 +127,8 @@ contains
     end do
   end function smooth_weights
 
-  !> The cubic part of the height of a linear face: where the normals at both ends of a side lean to the same side.
+  !> The cubic part of the height of a linear face, or of an edge: where the normals at both ends of a side lean to the
+  !> same side.
   pure function turn(face, values)
     type(face_nodes), intent(in) :: face
     real(dp), intent(in) :: values(MOST_NODES)
@@ -134,6 +136,7 @@ contains
     integer :: i, j, k
 
     turn = 0.0_dp
+    if (face%kind == EDGE_3) turn = -0.25_dp*values(3)*(values(2) - values(1))*(lean(face, 1, 3) + lean(face, 3, 2))
     if (face%count > corner_count(face%kind)) return
     do k = 1, merge(1, face%count, face%kind <= EDGE_3)
       i = k
@@ -150,6 +153,8 @@ contains
     integer :: i, j, k
 
     slope = 0.0_dp
+    if (face%kind == EDGE_3) slope = -0.25_dp*(slopes(3)*(values(2) - values(1)) + values(3)*(slopes(2) - slopes(1))) &
+      *(lean(face, 1, 3) + lean(face, 3, 2))
     if (face%count > corner_count(face%kind)) return
     do k = 1, merge(1, face%count, face%kind <= EDGE_3)
       i = k

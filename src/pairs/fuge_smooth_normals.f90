@@ -3,7 +3,7 @@
 !> Each face has normals of its own: at an edge of the body, where faces meet at more than `CREASE`, they differ from
 !> those of its neighbour, so that the edge stays sharp.
 module fuge_smooth_normals
-  use fuge_corner_normals, only: corner_normal, reflected, side_tangent
+  use fuge_corner_normals, only: corner_normal, half_edge_normal, middle_edge_normal, reflected, side_tangent
   use fuge_face_geometry, only: cross, face_nodes, face_normal, frame_across, unit
   use fuge_face_shapes, only: corner_count, node_place, side_ends, EDGE_3
   use fuge_kinds, only: dp
@@ -173,15 +173,21 @@ contains
     integer, intent(in) :: f, k
     type(corner_data), intent(inout) :: data
     type(face_nodes) :: face
-    real(dp) :: normal(3), sides(3, 2)
-    integer :: p
+    real(dp) :: halves(3), normal(3), sides(3, 2)
+    integer :: p, quadratic
 
     normal = 0.0_dp
+    halves = 0.0_dp
+    quadratic = 0
     do p = around%begin(surface%face(k, f)), around%begin(surface%face(k, f) + 1) - 1
       associate (g => around%face(p), here => around%corner(p))
         if (.not. continues(data%own(:, k, f), data%own(:, here, g))) cycle
         normal = normal + data%own(:, here, g)
         face = get_face(surface, g)
+        if (face%kind == EDGE_3) then
+          halves = halves + half_edge_normal(face, here)
+          quadratic = quadratic + 1
+        end if
         call face_sides(face, here, sides)
         ! Of two faces side by side the common side cancels.
         data%border(:, k, f) = data%border(:, k, f) + unit(sides(:, 1)) - unit(sides(:, 2))
@@ -190,6 +196,9 @@ contains
     end do
     if (.not. norm2(normal) > 0.0_dp) normal = middle_normal(get_face(surface, f))
     data%normal(:, k, f) = unit(normal)
+    ! Between two quadratic edges the errors of the circles of each of them and of that through the nodes beside the
+    ! corner have opposite signs, and the former are twice as large.
+    if (quadratic == 2) data%normal(:, k, f) = unit(unit(normal) + 2.0_dp*unit(halves))
   end subroutine average_corner
 
   !> Do two faces with these normals at a common node belong to one smooth surface?
@@ -371,6 +380,8 @@ contains
       normal(:, k) = unit(reflected(normal(:, ends(1)), face%x(:, k) - face%x(:, ends(1))) &
                           + reflected(normal(:, ends(2)), face%x(:, k) - face%x(:, ends(2))))
     end do
+    ! That of the circle errs by as much, to the other side.
+    if (face%kind == EDGE_3) normal(:, 3) = unit(normal(:, 3) + unit(middle_edge_normal(face)))
   end subroutine add_middle_normals
 
 end module fuge_smooth_normals

@@ -13,8 +13,10 @@ contains
   subroutine write_block(path, model, type_name)
     character(len=*), intent(in) :: path, type_name
     type(block), intent(in) :: model
-    integer :: e, file
+    integer :: e, file, first
 
+    ! Elements of both blocks have different numbers.
+    first = merge(100, 0, model%is_upper)
     open (newunit=file, file=path//'.inp', status='replace', action='write')
     write (file, '(a)') '** A block of finite elements, from test/program/blocks.f90', '*NODE, NSET=ALL'
     do e = 1, size(model%number)
@@ -22,7 +24,7 @@ contains
     end do
     write (file, '(2a)') '*ELEMENT, ELSET=ALL, TYPE=', type_name
     do e = 1, size(model%element, 2)
-      write (file, '(i0,8(:,'','',i0))') e, model%number(model%element(:, e))
+      write (file, '(i0,8(:,'','',i0))') first + e, model%number(model%element(:, e))
     end do
     call write_set('BOTTOM', model%bottom)
     call write_set('TOP', model%top)
@@ -30,13 +32,15 @@ contains
     if (model%dimensions == 3) call write_set('FRONT', model%front)
     write (file, '(a)') '*SURFACE, NAME=FACE'
     if (model%is_upper) then
-      write (file, '(i0,a)') (model%below(e), ', S1', e=1, size(model%below))
+      write (file, '(i0,a)') (first + model%below(e), ', S1', e=1, size(model%below))
     else
-      write (file, '(i0,a)') (model%above(e), merge(', S3', ', S2', model%dimensions == 2), e=1, size(model%above))
+      write (file, '(i0,a)') (first + model%above(e), merge(', S3', ', S2', model%dimensions == 2), &
+                              e=1, size(model%above))
     end if
     if (model%is_upper) then
       write (file, '(a)') '*SURFACE, NAME=ABOVE'
-      write (file, '(i0,a)') (model%above(e), merge(', S3', ', S2', model%dimensions == 2), e=1, size(model%above))
+      write (file, '(i0,a)') (first + model%above(e), merge(', S3', ', S2', model%dimensions == 2), &
+                              e=1, size(model%above))
     end if
     close (file)
     call write_entries(path//'.sti')

@@ -40,6 +40,7 @@ contains
     call write_block(folder//'/upper', upper, merge('CPS4', 'C3D8', dimensions == 2))
     if (dimensions == 2) then
       call write_block(folder//'/ring', upper, 'CAX4')
+      call write_formats(folder//'/lower', lower)
       call write_formats(folder//'/upper', upper)
     end if
     call write_loads(folder//'/loads.csv', upper)
@@ -69,7 +70,7 @@ contains
       rows = rows + 1
       i = findloc(upper%number(contact%pairs%node) == node .and. matmul(values(4:3 + dimensions), &
                   contact%pairs%direction) > 1.0_dp - TOLERANCE, .true., dim=1)
-      if (i == 0 .or. pair /= 1 .or. (body /= 'upper' .and. body /= 'ring')) error stop 'another point'
+      if (i == 0 .or. pair /= 1 .or. all(body /= [character(len=5) :: 'upper', 'ring', 'both'])) error stop 'another point'
       if (norm2(values(:dimensions) - upper%position(:, contact%pairs%node(i))) > TOLERANCE) error stop 'another place'
       if (scene == 'ring') then
         call check_ring(values(1), area)

@@ -1,0 +1,8 @@
+!> Surfaces over MPI: the public interface of the component, a library of its own.
+!>
+!> The ranks of a communicator share the rows of a grid; a `fuge_solver` on each of them solves as one process does.
+module fuge_mpi
+  use fuge_slab_halfspace, only: fuge_mpi_halfspace_operator
+  implicit none
+  public
+end module fuge_mpi

@@ -1,0 +1,98 @@
+!> What products of a grid whose rows ranks share have in common: transforms of its lines, and buffers.
+module fuge_slab_plan
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_intptr_t, c_null_ptr, c_ptr
+  use fuge_fft, only: allocate_values, release_buffer
+  use fuge_grid_plan, only: grid_plan, stored_waves
+  use fuge_number_text, only: text
+  use fuge_rank_communicator, only: rank_communicator
+  use fuge_slab_rows, only: block_of_pairs, block_of_waves
+  use fuge_slab_transpose, only: local_numbers
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  !> Columns are convolved in lines of this many complex numbers more than they have.
+  integer, parameter :: LINES = 4
+  !> Numbers in a line of the buffers, which are allocated in lines.
+  integer, parameter :: STRIDE = 1024
+
+  !> It must not be copied.
+  type, public :: slab_plan
+    !> Transforms of the lines; plan%cells are those of the whole grid.
+    type(grid_plan) :: plan
+    !> The ranks that have rows.
+    type(rank_communicator) :: group
+    !> Pairs of rows of all ranks, in a block, and of this rank; its rows.
+    integer :: all_pairs = 0, block = 0, pairs = 0, rows = 0
+    !> In turn the pairs of rows of this rank and the columns of its waves.
+    real(c_double), pointer, contiguous :: by_rows(:) => null(), by_columns(:) => null()
+    !> A few lines of a row or a column.
+    real(c_double), pointer, contiguous :: lines(:, :) => null()
+    type(c_ptr), private :: memory(3) = c_null_ptr
+  contains
+    procedure :: set
+    procedure :: free
+  end type slab_plan
+
+contains
+
+  !> Plan for `cells` (2) of the whole grid on circles of `length` (2), or twice that where `padded` (2), shared by the
+  !> ranks of `group`. Errors, on any rank: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  subroutine set(self, group, cells, length, padded, ranks, measured, info)
+    class(slab_plan), intent(inout) :: self
+    type(rank_communicator), intent(in) :: group
+    integer, intent(in) :: cells(2), length(2), ranks
+    logical, intent(in) :: padded(2), measured
+    type(fuge_info), intent(inout) :: info
+    integer(c_intptr_t) :: numbers
+    integer :: k, status(3), waves
+
+    call self%plan%set(cells, length, info, measured)
+    if (info%failed()) return
+    self%group = group
+    self%all_pairs = (cells(2) + 1)/2
+    self%block = block_of_pairs(cells, ranks)
+    self%pairs = max(min(self%block, self%all_pairs - group%number()*self%block), 0)
+    self%rows = min(2*self%pairs, cells(2) - 2*group%number()*self%block)
+    numbers = 0
+    do k = 1, 2
+      ! Those of a product, and those of the preconditioner.
+      waves = stored_waves(length(1), padded(1) .and. k == 1)
+      numbers = max(numbers, local_numbers(group, self%all_pairs, waves, 4, &
+                                           [self%block, block_of_waves(waves, group%members())]))
+    end do
+    call allocate_line(numbers, self%memory(1), self%by_rows, status(1))
+    call allocate_line(numbers, self%memory(2), self%by_columns, status(2))
+    call allocate_values(2*max(maxval(length), 2*self%all_pairs) + 2, LINES, self%memory(3), self%lines, status(3))
+    if (any(status /= 0)) call report(info, FUGE_ERR_MEMORY, 'no memory for transforms of '//text(length(1))//' by ' &
+                                      //text(length(2))//' values')
+  end subroutine set
+
+  !> `values`: at least `numbers` real numbers, aligned for FFTW. `status` as for allocate_values.
+  subroutine allocate_line(numbers, memory, values, status)
+    integer(c_intptr_t), intent(in) :: numbers
+    type(c_ptr), intent(out) :: memory
+    real(c_double), pointer, contiguous, intent(out) :: values(:)
+    integer, intent(out) :: status
+    real(c_double), pointer, contiguous :: table(:, :)
+    integer :: columns
+
+    columns = int((numbers - 1)/STRIDE + 1)
+    call allocate_values(STRIDE, columns, memory, table, status)
+    nullify (values)
+    if (status == 0) call c_f_pointer(memory, values, [int(STRIDE, c_intptr_t)*columns])
+  end subroutine allocate_line
+
+  !> Free the buffers.
+  subroutine free(self)
+    class(slab_plan), intent(inout) :: self
+    integer :: k
+
+    do k = 1, size(self%memory)
+      if (c_associated(self%memory(k))) call release_buffer(self%memory(k))
+      self%memory(k) = c_null_ptr
+    end do
+    nullify (self%by_rows, self%by_columns, self%lines)
+  end subroutine free
+
+end module fuge_slab_plan

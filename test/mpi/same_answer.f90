@@ -1,0 +1,154 @@
+! The ranks of MPI_COMM_WORLD find the solution of one process: the same contact set, the same forces, the same counts.
+program same_answer
+  use fuge, dp => fuge_dp
+  use fuge_mpi, only: fuge_mpi_halfspace_operator
+  use mpi_f08
+  implicit none
+
+  integer :: failures, rank
+
+  call MPI_Init()
+  call MPI_Comm_rank(MPI_COMM_WORLD, rank)
+  failures = 0
+  call run()
+  call MPI_Bcast(failures, 1, MPI_INTEGER, 0, MPI_COMM_WORLD)
+  call MPI_Finalize()
+  if (failures > 0) error stop 1
+
+contains
+
+  subroutine run()
+    ! Sizes that 2, 3 and 4 divide and do not divide, grids with fewer rows than ranks, one row, one column, one cell.
+    call compare('free', 200, 192, FUGE_FREE, 1.0_dp, 0.02_dp)
+    call compare('free, uneven', 211, 177, FUGE_FREE, 1.0_dp, 0.02_dp)
+    call compare('free, small contact', 300, 310, FUGE_FREE, 1.0_dp, 0.00002_dp)
+    call compare('free, three rows', 9000, 3, FUGE_FREE, 1.0_dp, 0.00001_dp)
+    call compare('free, small', 70, 45, FUGE_FREE, 1.0_dp, 0.01_dp)
+    call compare('one row', 200, 1, FUGE_FREE, 1.0_dp, 0.01_dp)
+    call compare('one column', 1, 200, FUGE_FREE, 1.0_dp, 0.01_dp)
+    call compare('one cell', 1, 1, FUGE_FREE, 1.0_dp, 0.01_dp)
+    call compare('periodic', 200, 180, FUGE_PERIODIC, 0.0_dp, 0.0005_dp)
+    call compare('periodic, uneven', 135, 301, FUGE_PERIODIC, 0.0_dp, 0.0005_dp)
+    call compare('periodic, small contact', 300, 300, FUGE_PERIODIC, 4.0_dp, 0.00001_dp)
+    call compare('no load', 256, 200, FUGE_FREE, 1.0_dp, 0.0_dp)
+  end subroutine run
+
+  ! The gaps of the rows first .. last of a wavy sphere, or of waves, on a grid whose longer side is 1.
+  pure subroutine fill_gap(nx, ny, first, last, curvature, gap)
+    integer, intent(in) :: nx, ny, first, last
+    real(dp), intent(in) :: curvature
+    real(dp), intent(out) :: gap(nx, first:last)
+    real(dp) :: x, y
+    integer :: i, j
+
+    do j = first, last
+      do i = 1, nx
+        x = (real(i, dp) - 0.5_dp*real(nx, dp))/real(max(nx, ny), dp)
+        y = (real(j, dp) - 0.4_dp*real(ny, dp))/real(max(nx, ny), dp)
+        gap(i, j) = 0.5_dp*curvature*(x**2 + y**2) + 0.002_dp*sin(44.0_dp*x)*cos(31.0_dp*y)
+      end do
+    end do
+  end subroutine fill_gap
+
+  ! A load, more of it from the first solution, and a prescribed approach.
+  subroutine compare(name, nx, ny, boundary, curvature, load)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: nx, ny, boundary
+    real(dp), intent(in) :: curvature, load
+    type(fuge_mpi_halfspace_operator) :: shared
+    type(fuge_halfspace_operator) :: whole
+    type(fuge_problem) :: problem, whole_problem
+    type(fuge_solution) :: solution, expected
+    type(fuge_solver) :: solver, whole_solver
+    type(fuge_info) :: info, whole_info
+    integer :: k, rows(2)
+
+    call shared%set(nx, ny, 1.0_dp/max(nx, ny), 1.0_dp/max(nx, ny), 1.0_dp, MPI_COMM_WORLD, info, boundary=boundary)
+    call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
+    if (info%failed()) return
+    rows = shared%own_rows()
+    allocate (problem%gap(shared%points()))
+    call fill_gap(nx, ny, rows(1), rows(2), curvature, problem%gap)
+    problem%resultant = [load]
+    if (rank == 0) then
+      call whole%set(nx, ny, 1.0_dp/max(nx, ny), 1.0_dp/max(nx, ny), 1.0_dp, whole_info, boundary=boundary)
+      allocate (whole_problem%gap(nx*ny))
+      call fill_gap(nx, ny, 1, ny, curvature, whole_problem%gap)
+      whole_problem%resultant = [load]
+    end if
+    do k = 1, 3
+      call solver%solve(shared, problem, solution, info)
+      call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
+      if (info%failed()) return
+      if (rank == 0) call whole_solver%solve(whole, whole_problem, expected, whole_info)
+      call check(name, nx, rows, info, solution, whole_info, expected)
+      problem%resultant = [1.1_dp*load]
+      whole_problem%resultant = problem%resultant
+      if (k == 2) then
+        problem%prescribed = [.true.]
+        problem%motion = 0.7_dp*solution%motion
+        whole_problem%prescribed = problem%prescribed
+        whole_problem%motion = problem%motion
+      end if
+    end do
+  end subroutine compare
+
+  ! Compare on rank 0.
+  subroutine check(name, nx, rows, info, solution, whole_info, expected)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: nx, rows(2)
+    type(fuge_info), intent(in) :: info, whole_info
+    type(fuge_solution), intent(in) :: solution, expected
+    real(dp), allocatable :: force(:), gap(:)
+    real(dp) :: largest
+
+    call gather(nx, rows, solution%force, force)
+    call gather(nx, rows, solution%gap, gap)
+    if (rank > 0) return
+    call expect(size(force) == size(expected%force), name//': number of points')
+    call expect(info%products == whole_info%products, name//': products')
+    call expect(info%preconditionings == whole_info%preconditionings, name//': preconditionings')
+    call expect(info%iterations == whole_info%iterations, name//': contact sets')
+    call expect(info%contacts == whole_info%contacts, name//': number of contacts')
+    call expect(info%message == whole_info%message, name//': '//trim(info%message)//' / '//trim(whole_info%message))
+    call expect(all((force > 0.0_dp) .eqv. (expected%force > 0.0_dp)), name//': contact set')
+    largest = maxval(expected%force)
+    call expect(maxval(abs(force - expected%force)) <= 1.0e-12_dp*largest, name//': forces')
+    largest = maxval(expected%gap)
+    call expect(maxval(abs(gap - expected%gap)) <= 1.0e-12_dp*largest, name//': gaps')
+    call expect(abs(solution%motion(1) - expected%motion(1)) <= 1.0e-12_dp*abs(expected%motion(1)), name//': approach')
+    write (*, '(a24,4i6,es10.2,2x,a)') name, info%iterations, info%products, info%preconditionings, info%contacts, &
+      maxval(abs(force - expected%force))/max(maxval(expected%force), tiny(1.0_dp)), trim(info%message)
+  end subroutine check
+
+  ! `all_values` on rank 0: those of all ranks.
+  subroutine gather(nx, rows, values, all_values)
+    integer, intent(in) :: nx, rows(2)
+    real(dp), intent(in) :: values(:)
+    real(dp), allocatable, intent(out) :: all_values(:)
+    integer, allocatable :: counts(:), begins(:)
+    integer :: r, ranks
+
+    call MPI_Comm_size(MPI_COMM_WORLD, ranks)
+    allocate (counts(0:ranks - 1), begins(0:ranks - 1))
+    call MPI_Gather(nx*(rows(2) - rows(1) + 1), 1, MPI_INTEGER, counts, 1, MPI_INTEGER, 0, MPI_COMM_WORLD)
+    if (rank > 0) counts = 0
+    begins(0) = 0
+    do r = 1, ranks - 1
+      begins(r) = begins(r - 1) + counts(r - 1)
+    end do
+    allocate (all_values(sum(counts)))
+    call MPI_Gatherv(values, size(values), MPI_DOUBLE_PRECISION, all_values, counts, begins, MPI_DOUBLE_PRECISION, 0, &
+                     MPI_COMM_WORLD)
+  end subroutine gather
+
+  subroutine expect(true, what)
+    logical, intent(in) :: true
+    character(len=*), intent(in) :: what
+
+    if (true) return
+    failures = failures + 1
+    write (*, '(a,i0,2a)') 'rank ', rank, ', not as expected: ', what
+  end subroutine expect
+
+end program same_answer
