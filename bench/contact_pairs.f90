@@ -1,7 +1,8 @@
 !> Time to pair two surfaces of about n faces each, by both methods, and of the search alone.
 !>
-!> contact_pairs [n]; n = 100000 by default. Prints surfaces | faces | tree | search | node to face | mortar | points,
-!> processor times in seconds, the least of three. `search` is the search for the faces near each face.
+!> contact_pairs [n]; n = 100000 by default. Prints surfaces | faces | tree | search | node to face | mortar | mortar
+!> without `smooth` | points, processor times in seconds, the least of three. `search` is the search for the faces near
+!> each face.
 program contact_pairs
   use fuge, only: dp => fuge_dp, fuge_contact_pairs, fuge_find_pairs, fuge_info, fuge_pair_options, fuge_surface_mesh, &
     FUGE_MORTAR, FUGE_NODE_TO_FACE
@@ -16,7 +17,7 @@ program contact_pairs
   call get_command_argument(1, argument)
   if (argument /= '') read (argument, *) n
   m = nint(sqrt(real(n, dp)))
-  print '(a)', 'surfaces | faces | tree | search | node to face | mortar | points'
+  print '(a)', 'surfaces | faces | tree | search | node to face | mortar | not smooth | points'
   call measure('plane, quadrangles', flat(m, .true., 0.0_dp, .false.), flat(m + 1, .false., 0.0_dp, .false.))
   call measure('plane, triangles', flat(nint(m/sqrt(2.0_dp)), .true., 0.0_dp, .true.), &
                flat(nint(m/sqrt(2.0_dp)) + 1, .false., 0.0_dp, .true.))
@@ -64,18 +65,19 @@ contains
     character(len=*), intent(in) :: name
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_contact_pairs) :: pairs
-    real(dp) :: time(4), least(4)
+    real(dp) :: time(5), least(5)
     integer :: k
 
     least = huge(least)
     do k = 1, REPETITIONS
       call time_search(contact, opposite, time(1), time(2))
-      call time_pairs(contact, opposite, FUGE_NODE_TO_FACE, pairs, time(3))
-      call time_pairs(contact, opposite, FUGE_MORTAR, pairs, time(4))
+      call time_pairs(contact, opposite, FUGE_NODE_TO_FACE, .true., pairs, time(3))
+      call time_pairs(contact, opposite, FUGE_MORTAR, .true., pairs, time(4))
+      call time_pairs(contact, opposite, FUGE_MORTAR, .false., pairs, time(5))
       least = min(least, time)
     end do
-    print '(2a, i0, 4(a, f0.3), a, i0)', name, ' | ', size(contact%face, 2), ' | ', least(1), ' | ', least(2), ' | ', &
-      least(3), ' | ', least(4), ' | ', pairs%points()
+    print '(2a, i0, 5(a, f0.3), a, i0)', name, ' | ', size(contact%face, 2), ' | ', least(1), ' | ', least(2), ' | ', &
+      least(3), ' | ', least(4), ' | ', least(5), ' | ', pairs%points()
   end subroutine measure
 
   subroutine time_search(contact, opposite, build, search)
@@ -118,9 +120,10 @@ contains
     end do
   end subroutine find_boxes
 
-  subroutine time_pairs(contact, opposite, method, pairs, time)
+  subroutine time_pairs(contact, opposite, method, smooth, pairs, time)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     integer, intent(in) :: method
+    logical, intent(in) :: smooth
     type(fuge_contact_pairs), intent(out) :: pairs
     real(dp), intent(out) :: time
     type(fuge_pair_options) :: options
@@ -128,6 +131,7 @@ contains
     real(dp) :: start
 
     options%method = method
+    options%smooth = smooth
     call cpu_time(start)
     call fuge_find_pairs(contact, opposite, options, pairs, info)
     call cpu_time(time)

@@ -600,6 +600,7 @@ int fuge_solver_message(const fuge_solver *s, char *message, size_t len);
 #include "fuge_area.h"
 #include "fuge_fe.h"
 #include "fuge_pairs.h"
+#include "fuge_bodies.h"
 #include "fuge_smooth.h"
 #include "fuge_stress.h"
 

@@ -186,9 +186,10 @@ int fuge_read_stiffness(const char *path, int format, const char *names_path, co
 /* ---- mesh files ---------------------------------------------------------
  *
  * Nodes, elements, sets and surfaces from input files of Abaqus and CalculiX: *NODE,
- * *ELEMENT, *NSET, *ELSET (GENERATE), *SURFACE (faces S1 to S6, or nodes, which become a set),
- * *INCLUDE; other keywords are skipped.  Nodes and elements have the order of the file; places
- * in it count from 0. */
+ * *ELEMENT, *NSET (GENERATE, ELSET), *ELSET (GENERATE), *SURFACE (faces S1 to S6, SPOS, SNEG, or
+ * nodes, which become a set), *INCLUDE; other keywords are skipped, *TRANSFORM too: the mesh
+ * does not depend on it, but the rows of a stiffness matrix may have the turned directions.
+ * Nodes and elements have the order of the file; places in it count from 0. */
 
 typedef struct fuge_mesh fuge_mesh;
 

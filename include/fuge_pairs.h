@@ -40,8 +40,9 @@ int fuge_pairs_create(fuge_pairs **pairs, char *message, size_t len);
 /* Free and set *pairs to NULL; NULL and *pairs == NULL are fine. */
 void fuge_pairs_free(fuge_pairs **pairs);
 
-/* The surface whose nodes become contact points (the finer one, or that of the softer body)
- * and the opposite one, for the next fuge_pairs_find; both are copied.
+/* The surface whose nodes become contact points (with linear faces the coarser one, whose
+ * pressures are smooth; with quadratic faces the finer one) and the opposite one, for the next
+ * fuge_pairs_find; both are copied.
  *   dimensions  2 or 3
  *   node        positions, dimensions x nodes
  *   face        numbers of the nodes of each face, most x faces, from 0; unused places, at
@@ -66,13 +67,16 @@ int fuge_pairs_set_opposite(fuge_pairs *pairs, int dimensions, int nodes, const 
  *   play    between the lower and the upper stop, length: 0 for points that stay in contact
  *           but slide, INFINITY for one-sided contact
  *   tied    1: glue the surfaces where they are, along each axis; else 0
- *   smooth  1: gaps as if the bodies were smooth, where linear faces bulge between their nodes
- *           as the averaged normals suggest; else 0
- * FUGE_WARN_PAIRS: a node is a contact point of two pairs.  Errors, nothing is added:
- * FUGE_ERR_SIZE, FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF,
- * FUGE_ERR_GAP, FUGE_ERR_OPTION, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a
- * face that is folded over, has no area or looks the wrong way, and for surfaces that do not
- * face each other. */
+ *   smooth  1, as a rule: normals, gaps and areas of the smooth bodies that the meshes stand
+ *           for, exact on circles, spheres and cylinders; faces that meet at more than 40
+ *           degrees keep their edge, flat faces stay flat.  0: those of the faces as they are,
+ *           whose chords on a round body are wrong by L^2/(8 R)
+ * FUGE_WARN_PAIRS: a node is a contact point of two pairs; where it moves alike in both, it is
+ * listed once, with the area of both.  Errors, nothing is added: FUGE_ERR_SIZE,
+ * FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP,
+ * FUGE_ERR_OPTION, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is
+ * folded over, has no area or looks the wrong way, for a given normal that does, and for
+ * surfaces that do not face each other. */
 int fuge_pairs_find(fuge_pairs *pairs, int method, int normals, const double *normal, double reach, double play,
                     int tied, int smooth);
 

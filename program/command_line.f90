@@ -153,7 +153,7 @@ contains
     if (self%count == size(self%settings)) then
       allocate (more(2*self%count))
       do k = 1, self%count
-        call move_setting(self%settings(k), more(k))
+        call copy_setting(self%settings(k), more(k))
       end do
       call move_alloc(more, self%settings)
     end if
@@ -168,14 +168,16 @@ contains
     end associate
   end subroutine add
 
-  pure subroutine move_setting(from, to)
-    type(setting), intent(inout) :: from, to
+  !> Component by component, which all compilers do rightly.
+  pure subroutine copy_setting(from, to)
+    type(setting), intent(in) :: from
+    type(setting), intent(inout) :: to
 
     to%name = from%name
-    call move_alloc(from%value, to%value)
-    call move_alloc(from%place, to%place)
-    call move_alloc(from%folder, to%folder)
-  end subroutine move_setting
+    to%value = from%value
+    to%place = from%place
+    to%folder = from%folder
+  end subroutine copy_setting
 
   pure function prefix(place)
     character(len=*), intent(in) :: place

@@ -4,10 +4,11 @@ program fuge_program
   use, intrinsic :: iso_c_binding, only: c_int
   use, intrinsic :: iso_fortran_env, only: error_unit
   use chosen_stiffness, only: STORAGE
-  use command_line, only: arguments, refuse
+  use command_line, only: arguments
   use fuge, only: fuge_info, FUGE_VERSION
   use matrix_problem, only: solve_body, solve_influence
-  use option_checks, only: check_options, WITH_ALPHA, WITH_MATRICES
+  use mesh_problem, only: solve_meshes
+  use option_checks, only: check_options, WITH_ALPHA, WITH_MATRICES, WITH_MESHES
   use option_table, only: print_help
   use progress_log, only: progress
   use text_table, only: check_path
@@ -59,8 +60,8 @@ contains
       call solve_influence(given, log, info)
     case (WITH_MATRICES)
       call solve_body(given, log, info)
-    case default
-      call refuse('meshes are not supported yet', info)
+    case (WITH_MESHES)
+      call solve_meshes(given, log, info)
     end select
     if (.not. info%failed()) call log%say('done')
   end subroutine solve

@@ -12,7 +12,7 @@ module matrix_body
 
   type, public :: elastic_body
     private
-    type(stored_stiffness) :: stored
+    type(stored_stiffness) :: stiffness
     type(fuge_body) :: body
     type(fuge_condensed), public :: condensed
     integer :: degrees = 0
@@ -38,7 +38,7 @@ contains
                              names_path=given%file('rows'))
     if (info%failed()) return
     call log%say('stiffness matrix of '//number_text(size(column) - 1)//' rows is read')
-    call self%stored%set(column, row, value, info)
+    call self%stiffness%set_columns(column, row, value, info)
     if (info%failed()) return
     self%degrees = size(column) - 1
     self%body%floats = given%has('floats')
@@ -48,7 +48,7 @@ contains
       call read_vector(given%file('external'), self%degrees, self%body%load, info)
     end if
     if (info%failed()) return
-    call fuge_condense(self%stored%stiffness, self%body, self%condensed, info)
+    call fuge_condense(self%stiffness, self%body, self%condensed, info)
     if (.not. info%failed()) call log%say('the body is condensed to '//number_text(self%points())//' points')
   end subroutine read_body
 

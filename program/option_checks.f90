@@ -13,10 +13,10 @@ module option_checks
 
   !> What each of these options needs: one of the three.
   character(len=12), parameter :: ONLY_ALPHA(3) = [character(len=12) :: 'modes', 'motion', 'resultant']
-  character(len=12), parameter :: ONLY_MATRICES(3) = [character(len=12) :: 'contact', 'external', 'fixed']
-  character(len=12), parameter :: ONLY_MESHES(13) = [character(len=12) :: 'body', 'clearance', 'loads', 'matrix', &
-    'mesh', 'node-to-face', 'normals', 'pair', 'reach', 'smooth', 'support', 'supports', 'tied']
-  character(len=12), parameter :: NOT_ALPHA(3) = [character(len=12) :: 'field', 'floats', 'rows']
+  character(len=12), parameter :: ONLY_MATRICES(4) = [character(len=12) :: 'contact', 'external', 'fixed', 'floats']
+  character(len=12), parameter :: ONLY_MESHES(14) = [character(len=12) :: 'body', 'clearance', 'faceted', 'loads', &
+    'matrix', 'mesh', 'node-to-face', 'normals', 'pair', 'pressure', 'reach', 'support', 'supports', 'tied']
+  character(len=12), parameter :: NOT_ALPHA(2) = [character(len=12) :: 'field', 'rows']
 
 contains
 
@@ -37,7 +37,7 @@ contains
       call check_matrices(given, kind, info)
     end if
     if (kind /= WITH_ALPHA) call check_absent(given, ONLY_ALPHA, NEEDED(WITH_ALPHA), info)
-    if (kind /= WITH_MATRICES) call check_absent(given, ONLY_MATRICES, '--contact and --stiffness', info)
+    if (kind /= WITH_MATRICES) call check_absent(given, ONLY_MATRICES, '--stiffness without --mesh', info)
     if (kind /= WITH_MESHES) call check_absent(given, ONLY_MESHES, NEEDED(WITH_MESHES), info)
     if (kind == WITH_ALPHA) call check_absent(given, NOT_ALPHA, NEEDED(WITH_MATRICES), info)
   end subroutine check_options

@@ -6,17 +6,17 @@ module option_table
   public :: may_repeat, option_number, print_help, takes_value
 
   !> The names of the options, after two hyphens.
-  character(len=12), parameter, public :: OPTION_NAMES(33) = [character(len=12) :: &
-    'alpha', 'approach', 'body', 'clearance', 'contact', 'exclude', 'external', 'field', 'fixed', 'floats', 'gap', &
-    'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
-    'play', 'reach', 'resultant', 'rows', 'smooth', 'stiffness', 'support', 'supports', 'tied', 'verbose', 'version']
+  character(len=12), parameter, public :: OPTION_NAMES(34) = [character(len=12) :: &
+    'alpha', 'approach', 'body', 'clearance', 'contact', 'exclude', 'external', 'faceted', 'field', 'fixed', 'floats', &
+    'gap', 'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
+    'play', 'pressure', 'reach', 'resultant', 'rows', 'stiffness', 'support', 'supports', 'tied', 'verbose', 'version']
   !> Those without a value.
   character(len=12), parameter :: WITHOUT_VALUE(7) = [character(len=12) :: &
-    'floats', 'help', 'node-to-face', 'smooth', 'tied', 'verbose', 'version']
+    'faceted', 'floats', 'help', 'node-to-face', 'tied', 'verbose', 'version']
   !> Those that may be given again: of another body or pair, or one more support.
-  character(len=12), parameter :: REPEATED(19) = [character(len=12) :: &
-    'body', 'clearance', 'exclude', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', 'normals', 'pair', &
-    'play', 'reach', 'rows', 'smooth', 'stiffness', 'support', 'supports', 'tied']
+  character(len=12), parameter :: REPEATED(20) = [character(len=12) :: &
+    'body', 'clearance', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
+    'normals', 'pair', 'play', 'pressure', 'reach', 'rows', 'stiffness', 'support', 'supports', 'tied']
 
   character(len=*), parameter :: HELP(64) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
@@ -44,17 +44,17 @@ module option_table
     '  --tied                  glued', &
     '  --play D                a second stop, D above the first one; 0: sliding, not lifting off', &
     '  --clearance C           added to the gaps; an interference is negative', &
-    '  --smooth                gaps as if the faces were round', &
+    '  --faceted               gaps of the faces as they are, not of the smooth bodies they stand for', &
     '  --node-to-face          instead of mortar; fails the patch test', &
     '  --normals WHICH         averaged (default), opposite, or a direction: 0,0,1', &
     '  --reach L               how far apart opposite points may be', &
     'Supports and loads; NODES: a set, or the number of a node, such as hub.BOTTOM or hub.17', &
     '  --support NODES:XYZ     held along these axes; NODES:z=U: displaced by U', &
     '  --load NODES:z=F        the force F on each node, as *CLOAD; all loads are added', &
-    '  --supports FILE         lines NODES,DIRECTION[,U], or an input file with *BOUNDARY', &
-    '  --loads FILE            lines NODES,DIRECTION,F, or an input file with *CLOAD', &
+    '  --pressure SURFACE=P    uniform; positive into the body', &
+    '  --supports [BODY=]FILE  lines NODES,XYZ[,U], or an input file with *BOUNDARY; of BODY', &
+    '  --loads [BODY=]FILE     lines NODES,z,F, or an input file with *CLOAD; of BODY', &
     '  --exclude NODES         no contact at these nodes', &
-    '  --floats                the supports leave rigid motions, which the contact has to resist', &
     '', &
     'Matrices; n points, nd degrees of freedom from 1', &
     '  --alpha FILE            n x n    influence matrix, displacement per force', &
@@ -65,7 +65,7 @@ module option_table
     '                          the body, into it, in the columns of its degrees of freedom', &
     '  --fixed FILE            k x 1    degrees of freedom held; k x 2: displacements too', &
     '  --external FILE         nd       external forces on the body', &
-    '  --floats                as above', &
+    '  --floats                the supports leave rigid motions, which the contact has to resist', &
     '  --exclude POINTS        no contact at these points, such as 3,7-9', &
     'MOTION of the rigid counter-body, one of (none with --stiffness: it stands still)', &
     '  --load F                pressed on with this force', &

@@ -1,6 +1,7 @@
-!> C bindings, section "condensation", of the sparse component.
+!> C bindings, sections "condensation" and "elastic bodies", of the sparse component.
 module fuge_c_sparse
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use fuge_c_bodies_contact, only: solve_bodies
   use fuge_c_body, only: new_body, stiffness_source
   use fuge_c_types, only: from_zero, report_to_c, require_columns, require_count, require_pointer
   use fuge_number_text, only: text
@@ -58,5 +59,13 @@ contains
     call sparse%set(from_zero(self%column), from_zero(self%row), self%value, info)
     call move_alloc(sparse, stiffness)
   end subroutine read_sparse
+
+  function c_bodies_solve_sparse(bodies, options) bind(c, name='fuge_bodies_solve_sparse') result(status)
+    type(c_ptr), intent(in), value :: bodies, options
+    integer(c_int) :: status
+    type(fuge_sparse_stiffness) :: sparse
+
+    status = solve_bodies(bodies, options, sparse)
+  end function c_bodies_solve_sparse
 
 end module fuge_c_sparse

@@ -1,23 +1,21 @@
 !> A sparse stiffness matrix, factorised by CHOLMOD. It is a library of its own, so that programs
 !> that do not need it need not link it.
 module fuge_sparse
-  use, intrinsic :: iso_fortran_env, only: int64
   use fuge_cholmod_factor, only: cholmod_factor
-  use fuge_compressed_columns, only: compress_columns, compressed_columns, matrix_triplets
+  use fuge_compressed_columns, only: compressed_columns
   use fuge_kinds, only: dp
-  use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_MEMORY
-  use fuge_stiffness_check, only: check_entry, check_pair
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_MEMORY
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
+  use fuge_symmetric_columns, only: symmetric_columns
   implicit none
   private
 
   !> A sparse stiffness matrix in compressed columns: `set` it, then condense.
   type, extends(fuge_stiffness), public :: fuge_sparse_stiffness
-    !> The upper triangle, each entry once.
-    type(compressed_columns), private :: upper
+    type(symmetric_columns), private :: matrix
   contains
     procedure :: set
+    procedure :: set_columns => set
     procedure :: degrees
     procedure :: diagonal
     procedure :: multiply
@@ -41,210 +39,16 @@ contains
     integer, intent(in) :: column(:), row(:)
     real(dp), intent(in) :: value(:)
     type(fuge_info), intent(out) :: info
-    type(compressed_columns) :: lower, upper
-    integer :: stat
 
-    call check_columns(column, row, value, info)
-    if (info%failed()) return
-    call split_triangles(column, row, value, lower, upper, stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the stiffness matrix with '//text(size(row)) &
-                  //' entries')
-      return
-    end if
-    if (.not. has_triangle(upper)) then
-      call move_columns(lower, self%upper)
-    else
-      if (has_triangle(lower)) call check_symmetry(lower, upper, info)
-      if (.not. info%failed()) call move_columns(upper, self%upper)
-    end if
+    call self%matrix%set(column, row, value, info)
   end subroutine set
-
-  !> Move a matrix without a copy.
-  pure subroutine move_columns(source, destination)
-    type(compressed_columns), intent(inout) :: source, destination
-
-    call move_alloc(source%column, destination%column)
-    call move_alloc(source%row, destination%row)
-    call move_alloc(source%value, destination%value)
-  end subroutine move_columns
-
-  !> Refuse columns that are not in order, rows out of range, and unusable values.
-  pure subroutine check_columns(column, row, value, info)
-    integer, intent(in) :: column(:), row(:)
-    real(dp), intent(in) :: value(:)
-    type(fuge_info), intent(inout) :: info
-    integer :: j, n, p
-
-    n = size(column) - 1
-    if (n < 1) then
-      call report(info, FUGE_ERR_SIZE, 'column has '//text(n + 1)//' value(s): it needs one more than the matrix ' &
-                  //'has columns, and the matrix at least one')
-      return
-    else if (column(1) /= 1) then
-      call report(info, FUGE_ERR_SIZE, 'column('//index_text(1)//') = '//index_text(column(1)) &
-                  //': the first column starts at '//index_text(1))
-      return
-    end if
-    do j = 1, n
-      if (column(j + 1) >= column(j)) cycle
-      call report(info, FUGE_ERR_SIZE, 'column('//index_text(j + 1)//') = '//index_text(column(j + 1)) &
-                  //' is less than column('//index_text(j)//') = '//index_text(column(j)) &
-                  //': each column begins where the one before it ends')
-      return
-    end do
-    if (min(size(row), size(value)) < column(n + 1) - 1) then
-      call report(info, FUGE_ERR_SIZE, 'row has '//text(size(row))//' and value '//text(size(value)) &
-                  //' value(s): column('//index_text(n + 1)//') = '//index_text(column(n + 1))//' needs ' &
-                  //text(column(n + 1) - 1)//' of each')
-      return
-    end if
-    do j = 1, n
-      do p = column(j), column(j + 1) - 1
-        if (row(p) >= 1 .and. row(p) <= n) cycle
-        call report(info, FUGE_ERR_DOF, 'row('//index_text(p)//') = '//index_text(row(p))//' in column ' &
-                    //index_text(j)//' is not one of '//text(n)//' degrees of freedom')
-        return
-      end do
-      do p = column(j), column(j + 1) - 1
-        call check_entry(value(p), row(p), j, info)
-        if (info%failed()) return
-      end do
-    end do
-  end subroutine check_columns
-
-  !> The upper triangle of K, and of its transpose: entry (i, j) of `lower` is entry (j, i)
-  !> of K; both contain the diagonal.
-  pure subroutine split_triangles(column, row, value, lower, upper, stat)
-    integer, intent(in) :: column(:), row(:)
-    real(dp), intent(in) :: value(:)
-    type(compressed_columns), intent(out) :: lower, upper
-    integer, intent(out) :: stat
-
-    call compress_triangle(column, row, value, .false., lower, stat)
-    if (stat == 0) call compress_triangle(column, row, value, .true., upper, stat)
-  end subroutine split_triangles
-
-  !> The upper triangle of K, or of its transpose if not `upper`; repeated entries are added.
-  pure subroutine compress_triangle(column, row, value, upper, triangle, stat)
-    integer, intent(in) :: column(:), row(:)
-    real(dp), intent(in) :: value(:)
-    logical, intent(in) :: upper
-    type(compressed_columns), intent(out) :: triangle
-    integer, intent(out) :: stat
-    type(matrix_triplets) :: triplets
-    integer :: j, n, overflow, p
-
-    n = size(column) - 1
-    call triplets%reserve(count_in_triangle(column, row, upper), stat)
-    if (stat /= 0) return
-    do j = 1, n
-      do p = column(j), column(j + 1) - 1
-        if (upper .and. row(p) <= j) then
-          call triplets%append(row(p), j, value(p))
-        else if (.not. upper .and. row(p) >= j) then
-          call triplets%append(j, row(p), value(p))
-        end if
-      end do
-    end do
-    ! No sum overflows, because `check_entry` has refused entries near overflow.
-    call compress_columns(triplets, n, n, triangle, overflow, stat)
-  end subroutine compress_triangle
-
-  !> Number of entries on and above the diagonal, or on and below it if not `upper`.
-  pure function count_in_triangle(column, row, upper) result(entries)
-    integer, intent(in) :: column(:), row(:)
-    logical, intent(in) :: upper
-    integer(int64) :: entries
-    integer :: j
-
-    entries = 0_int64
-    do j = 1, size(column) - 1
-      associate (rows => row(column(j):column(j + 1) - 1))
-        if (upper) then
-          entries = entries + int(count(rows <= j), int64)
-        else
-          entries = entries + int(count(rows >= j), int64)
-        end if
-      end associate
-    end do
-  end function count_in_triangle
-
-  !> Does the matrix have entries off the diagonal?
-  pure function has_triangle(matrix) result(filled)
-    type(compressed_columns), intent(in) :: matrix
-    logical :: filled
-    integer :: j
-
-    filled = .false.
-    do j = 1, size(matrix%column) - 1
-      if (matrix%column(j + 1) == matrix%column(j)) cycle
-      filled = matrix%row(matrix%column(j)) < j
-      if (filled) return
-    end do
-  end function has_triangle
-
-  !> Refuse triangles that differ; a missing entry counts as zero.
-  pure subroutine check_symmetry(lower, upper, info)
-    type(compressed_columns), intent(in) :: lower, upper
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: diagonal(size(upper%column) - 1), above, below
-    integer :: i, j, p, q
-
-    call find_diagonal(upper, diagonal)
-    do j = 1, size(diagonal)
-      p = upper%column(j)
-      q = lower%column(j)
-      do
-        i = min(row_at(upper, j, p), row_at(lower, j, q))
-        if (i > j) exit
-        above = 0.0_dp
-        below = 0.0_dp
-        if (row_at(upper, j, p) == i) then
-          above = upper%value(p)
-          p = p + 1
-        end if
-        if (row_at(lower, j, q) == i) then
-          below = lower%value(q)
-          q = q + 1
-        end if
-        call check_pair(i, j, above, below, diagonal(i), diagonal(j), info)
-        if (info%failed()) return
-      end do
-    end do
-  end subroutine check_symmetry
-
-  !> Row of entry p of column j; j + 1, below the diagonal, where the column has ended.
-  pure function row_at(matrix, j, p) result(i)
-    type(compressed_columns), intent(in) :: matrix
-    integer, intent(in) :: j, p
-    integer :: i
-
-    i = j + 1
-    if (p < matrix%column(j + 1)) i = matrix%row(p)
-  end function row_at
-
-  !> The diagonal `terms` of a matrix from its upper triangle.
-  pure subroutine find_diagonal(upper, terms)
-    type(compressed_columns), intent(in) :: upper
-    real(dp), intent(out) :: terms(:)
-    integer :: j, p
-
-    terms = 0.0_dp
-    do j = 1, size(terms)
-      p = upper%column(j + 1) - 1
-      if (p < upper%column(j)) cycle
-      if (upper%row(p) == j) terms(j) = upper%value(p)
-    end do
-  end subroutine find_diagonal
 
   !> Number of degrees of freedom; 0 before `set`.
   pure function degrees(self)
     class(fuge_sparse_stiffness), intent(in) :: self
     integer :: degrees
 
-    degrees = 0
-    if (allocated(self%upper%column)) degrees = size(self%upper%column) - 1
+    degrees = self%matrix%degrees()
   end function degrees
 
   !> The diagonal of K: `terms` (degrees), force per displacement.
@@ -252,7 +56,7 @@ contains
     class(fuge_sparse_stiffness), intent(in) :: self
     real(dp), intent(out) :: terms(:)
 
-    call find_diagonal(self%upper, terms)
+    call self%matrix%diagonal(terms)
   end subroutine diagonal
 
   !> `u` (degrees); `product` = K u and `magnitude` = |K| |u|, (degrees), force.
@@ -260,22 +64,8 @@ contains
     class(fuge_sparse_stiffness), intent(in) :: self
     real(dp), intent(in) :: u(:)
     real(dp), intent(out) :: product(:), magnitude(:)
-    real(dp) :: term
-    integer :: i, j, p
 
-    product = 0.0_dp
-    magnitude = 0.0_dp
-    do j = 1, self%degrees()
-      do p = self%upper%column(j), self%upper%column(j + 1) - 1
-        i = self%upper%row(p)
-        term = self%upper%value(p)
-        product(i) = product(i) + term*u(j)
-        magnitude(i) = magnitude(i) + abs(term*u(j))
-        if (i == j) cycle
-        product(j) = product(j) + term*u(i)
-        magnitude(j) = magnitude(j) + abs(term*u(i))
-      end do
-    end do
+    call self%matrix%multiply(u, product, magnitude)
   end subroutine multiply
 
   !> Columns of K; arguments as in `fuge_stiffness_type`.
@@ -283,19 +73,8 @@ contains
     class(fuge_sparse_stiffness), intent(in) :: self
     integer, intent(in) :: places(:)
     real(dp), intent(out), contiguous :: block(:, :)
-    integer, allocatable :: place(:)
-    integer :: i, j, k, p
 
-    block = 0.0_dp
-    allocate (place(size(block, 1)), source=0)
-    place(places) = [(k, k=1, size(places))]
-    do j = 1, size(place)
-      do p = self%upper%column(j), self%upper%column(j + 1) - 1
-        i = self%upper%row(p)
-        if (place(i) > 0) block(j, place(i)) = self%upper%value(p)
-        if (place(j) > 0) block(i, place(j)) = self%upper%value(p)
-      end do
-    end do
+    call self%matrix%copy_columns(places, block)
   end subroutine copy_columns
 
   !> CHOLMOD takes any order.
@@ -321,7 +100,7 @@ contains
     pivots = 0.0_dp
     failed = 0
     status = FUGE_ERR_MEMORY
-    call copy_constrained(self%upper, constrained, shift, matrix, stat)
+    call copy_constrained(self%matrix%upper, constrained, shift, matrix, stat)
     if (stat == 0) allocate (own, stat=stat)
     if (stat /= 0) return
     if (allocated(self%last)) then

@@ -1,5 +1,7 @@
 !> The whole public interface of fuge, frictionless elastic contact.
 module fuge
+  use fuge_bodies_solution, only: fuge_bodies_contact, fuge_solve_bodies
+  use fuge_body_joining, only: fuge_join_bodies, fuge_joined_bodies
   use fuge_body_type, only: fuge_body
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_condensation, only: fuge_condense, fuge_condensed
@@ -10,6 +12,7 @@ module fuge
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval, FUGE_EDGE_REFINED, FUGE_EDGE_FEW_CELLS, &
     FUGE_EDGE_SINGULAR, FUGE_EDGE_GRID_END
+  use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair
   use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
     FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
   use fuge_field_files, only: fuge_write_fields, fuge_write_volume
@@ -32,6 +35,7 @@ module fuge
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_mesh_files, only: fuge_read_mesh
   use fuge_mesh_making, only: fuge_join_meshes, fuge_make_mesh
+  use fuge_mesh_rows, only: fuge_mesh_contact_surface, fuge_mesh_degrees
   use fuge_mesh_sets, only: fuge_mesh_element_set, fuge_mesh_faces, fuge_mesh_node_set
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_field, fuge_mesh_set, fuge_mesh_surface
   use fuge_mesh_writer, only: fuge_write_mesh

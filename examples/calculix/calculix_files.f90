@@ -5,7 +5,7 @@ module calculix_files
   implicit none
   private
 
-  public :: wall_clock, run_job, read_table, count_iterations
+  public :: wall_clock, processor_time, run_job, try_job, read_table, read_total, read_contact, count_iterations
 
 contains
 
@@ -23,19 +23,62 @@ contains
   subroutine run_job(command, job, result, seconds)
     character(len=*), intent(in) :: command, job, result
     real(dp), intent(out) :: seconds
-    integer :: file, status, failed
-    logical :: exists
+    logical :: exists, ended
 
-    open (newunit=file, file=result, status='unknown')
-    close (file, status='delete')
     seconds = wall_clock()
-    call execute_command_line('"'//command//'" -i '//job//' >'//job//'.log 2>&1', exitstat=status, cmdstat=failed)
+    call run_command('rm -f '//result, '"'//command//'"', job, ended)
     seconds = wall_clock() - seconds
     inquire (file=result, exist=exists)
-    if (failed == 0 .and. status == 0 .and. exists) return
+    if (ended .and. exists) return
     print '(a)', command//' -i '//job//' has failed: see '//job//'.log'
     error stop 'no result from CalculiX'
   end subroutine run_job
+
+  !> Run `command -i job` for at most `most` seconds, where the system has the command `timeout`. `solved`: it has ended
+  !> by itself, and without an error.
+  subroutine try_job(command, job, most, solved)
+    character(len=*), intent(in) :: command, job
+    integer, intent(in) :: most
+    logical, intent(out) :: solved
+    character(len=24) :: limit
+    integer :: failed, status
+
+    write (limit, '(a,i0,a)') 'timeout ', most, ' '
+    call execute_command_line('timeout 1 true', exitstat=status, cmdstat=failed)
+    if (failed /= 0 .or. status /= 0) limit = ''
+    call run_command('rm -f '//job//'.dat '//job//'.frd', trim(limit)//' "'//command//'"', job, solved)
+  end subroutine try_job
+
+  !> Run `prepare`, then `command -i job`, whose processor time goes to job.times.
+  subroutine run_command(prepare, command, job, ended)
+    character(len=*), intent(in) :: prepare, command, job
+    logical, intent(out) :: ended
+    integer :: failed, status
+
+    call execute_command_line(prepare//'; '//command//' -i '//job//' >'//job//'.log 2>&1; status=$?; times >'//job &
+                              //'.times; exit $status', exitstat=status, cmdstat=failed)
+    ended = failed == 0 .and. status == 0
+  end subroutine run_command
+
+  !> Processor time of the last run of a job, s. On a busy machine it tells more than wall time. The second line of
+  !> job.times has that of the shell's children, as in 0m1.25s 0m0.05s: of the program, and of the system for it.
+  function processor_time(job) result(seconds)
+    character(len=*), intent(in) :: job
+    real(dp) :: seconds
+    character(len=80) :: line
+    real(dp) :: parts(4)
+    integer :: file, k, status
+
+    open (newunit=file, file=job//'.times', status='old', action='read')
+    read (file, '(/,a)', iostat=status) line
+    close (file)
+    do k = 1, len(line)
+      if (index('ms', line(k:k)) > 0) line(k:k) = ' '
+    end do
+    if (status == 0) read (line, *, iostat=status) parts
+    seconds = 0.0_dp
+    if (status == 0) seconds = 60.0_dp*(parts(1) + parts(3)) + parts(2) + parts(4)
+  end function processor_time
 
   pure function filled(text)
     character(len=*), intent(in) :: text
@@ -106,6 +149,56 @@ contains
     end do
   end subroutine skip_headings
 
+  !> The sum of the forces on the set of nodes `name` in job.dat, the last one.
+  subroutine read_total(job, name, force)
+    character(len=*), intent(in) :: job, name
+    real(dp), intent(out) :: force(3)
+    character(len=256) :: line
+    integer :: file, status
+
+    force = 0.0_dp
+    open (newunit=file, file=job//'.dat', status='old', action='read')
+    do
+      read (file, '(a)', iostat=status) line
+      if (status /= 0) exit
+      if (index(line, ' total force (fx,fy,fz) for set '//name//' ') == 1) read (file, *) force
+    end do
+    close (file)
+  end subroutine read_total
+
+  !> The last contact table of job.frd: nodes of the contact surface, and for each its gap, two components of slip, the
+  !> pressure, and two shear stresses.
+  subroutine read_contact(job, node, value)
+    character(len=*), intent(in) :: job
+    integer, allocatable, intent(out) :: node(:)
+    real(dp), allocatable, intent(out) :: value(:, :)
+    character(len=256) :: line
+    real(dp), allocatable :: values(:)
+    real(dp) :: six(6)
+    integer :: file, number, status
+    logical :: inside
+
+    allocate (node(0), values(0))
+    inside = .false.
+    open (newunit=file, file=job//'.frd', status='old', action='read')
+    do
+      read (file, '(a)', iostat=status) line
+      if (status /= 0) exit
+      if (line(:13) == ' -4  CONTACT ') then
+        inside = .true.
+        node = [integer ::]
+        values = [real(dp) ::]
+      end if
+      if (line(:3) == ' -3') inside = .false.
+      if (.not. inside .or. line(:3) /= ' -1') cycle
+      read (line, '(3x,i10,6e12.5)') number, six
+      node = [node, number]
+      values = [values, six]
+    end do
+    close (file)
+    value = reshape(values, [6, size(node)])
+  end subroutine read_contact
+
   !> Increments and all iterations of a job, those of failed attempts included: job.sta.
   subroutine count_iterations(job, increments, iterations)
     character(len=*), intent(in) :: job
@@ -116,8 +209,9 @@ contains
 
     increments = 0
     iterations = 0
-    open (newunit=file, file=job//'.sta', status='old', action='read')
-    read (file, '(/,a)') line
+    open (newunit=file, file=job//'.sta', status='old', action='read', iostat=status)
+    if (status /= 0) return
+    read (file, '(/,a)', iostat=status) line
     do
       read (file, *, iostat=status) step, increment, attempt, times
       if (status /= 0) exit

@@ -11,6 +11,9 @@ module fuge_c_mesh_files
   implicit none
   private
 
+  !> Sets of nodes, sets of elements, and surfaces.
+  integer, parameter :: OF_NODES = 1, OF_ELEMENTS = 2, OF_FACES = 3
+
 contains
 
   function c_read_mesh(path, destination, message, length) bind(c, name='fuge_read_mesh') result(status)
@@ -128,13 +131,9 @@ contains
     integer(c_int), intent(in), value :: capacity
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_mesh), pointer :: mesh
-    integer, allocatable :: found(:)
     type(fuge_info) :: info
 
-    call check_arguments(handle, name, capacity, count, 'member', mesh, info)
-    if (.not. info%failed()) call fuge_mesh_node_set(mesh, from_c_string(name), found, info)
-    if (.not. info%failed()) call copy_members(found, int(capacity), member, count)
+    call get_set(handle, OF_NODES, name, capacity, member, count, info)
     status = report_to_c(info, message, length)
   end function c_mesh_get_node_set
 
@@ -144,15 +143,32 @@ contains
     integer(c_int), intent(in), value :: capacity
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_mesh), pointer :: mesh
-    integer, allocatable :: found(:)
     type(fuge_info) :: info
 
-    call check_arguments(handle, name, capacity, count, 'member', mesh, info)
-    if (.not. info%failed()) call fuge_mesh_element_set(mesh, from_c_string(name), found, info)
-    if (.not. info%failed()) call copy_members(found, int(capacity), member, count)
+    call get_set(handle, OF_ELEMENTS, name, capacity, member, count, info)
     status = report_to_c(info, message, length)
   end function c_mesh_get_element_set
+
+  !> Copy the first `capacity` members of a set, OF_NODES or OF_ELEMENTS, counted from 0, and their number.
+  subroutine get_set(handle, kind, name, capacity, member, count, info)
+    type(c_ptr), intent(in) :: handle, name, member, count
+    integer, intent(in) :: kind
+    integer(c_int), intent(in) :: capacity
+    type(fuge_info), intent(inout) :: info
+    type(fuge_mesh), pointer :: mesh
+    integer, allocatable :: found(:)
+
+    call check_arguments(handle, name, capacity, count, 'member', mesh, info)
+    if (info%failed()) return
+    if (kind == OF_NODES) then
+      call fuge_mesh_node_set(mesh, from_c_string(name), found, info)
+    else
+      call fuge_mesh_element_set(mesh, from_c_string(name), found, info)
+    end if
+    if (info%failed()) return
+    call copy_integers(found(:min(int(capacity), size(found))) - 1, member)
+    call copy_integers([size(found)], count)
+  end subroutine get_set
 
   subroutine check_arguments(handle, name, capacity, count, array, mesh, info)
     type(c_ptr), intent(in) :: handle, name, count
@@ -166,15 +182,6 @@ contains
     call require_pointer(count, 'count', info)
     call require_count(capacity, 0, 'capacity', 'elements that fit into '//array, info)
   end subroutine check_arguments
-
-  !> Copy the first `capacity` members of a set, counted from 0, and their number.
-  subroutine copy_members(found, capacity, member, count)
-    integer, intent(in) :: found(:), capacity
-    type(c_ptr), intent(in) :: member, count
-
-    call copy_integers(found(:min(capacity, size(found))) - 1, member)
-    call copy_integers([size(found)], count)
-  end subroutine copy_members
 
   function c_mesh_get_set_counts(handle, node_sets, element_sets, surfaces) &
     bind(c, name='fuge_mesh_get_set_counts') result(status)
@@ -196,12 +203,8 @@ contains
     integer(c_int), intent(in), value :: k
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_mesh), pointer :: mesh
-    type(fuge_info) :: info
 
-    call find_mesh(handle, mesh, info)
-    if (.not. info%failed()) call copy_name(mesh%node_set%name, k, name, length, info)
-    status = info%status
+    status = get_name(handle, OF_NODES, k, name, length)
   end function c_mesh_get_node_set_name
 
   function c_mesh_get_element_set_name(handle, k, name, length) &
@@ -210,12 +213,8 @@ contains
     integer(c_int), intent(in), value :: k
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_mesh), pointer :: mesh
-    type(fuge_info) :: info
 
-    call find_mesh(handle, mesh, info)
-    if (.not. info%failed()) call copy_name(mesh%element_set%name, k, name, length, info)
-    status = info%status
+    status = get_name(handle, OF_ELEMENTS, k, name, length)
   end function c_mesh_get_element_set_name
 
   function c_mesh_get_surface_name(handle, k, name, length) bind(c, name='fuge_mesh_get_surface_name') result(status)
@@ -223,28 +222,37 @@ contains
     integer(c_int), intent(in), value :: k
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_mesh), pointer :: mesh
-    type(fuge_info) :: info
 
-    call find_mesh(handle, mesh, info)
-    if (.not. info%failed()) call copy_name(mesh%surface%name, k, name, length, info)
-    status = info%status
+    status = get_name(handle, OF_FACES, k, name, length)
   end function c_mesh_get_surface_name
 
-  !> Copy name k, counted from 0; FUGE_ERR_SIZE if there is none.
-  subroutine copy_name(names, k, name, length, info)
-    character(len=*), intent(in) :: names(:)
+  !> Copy the name of set or surface k, counted from 0; FUGE_ERR_SIZE if there is none.
+  function get_name(handle, kind, k, name, length) result(status)
+    type(c_ptr), intent(in) :: handle, name
+    integer, intent(in) :: kind
     integer(c_int), intent(in) :: k
-    type(c_ptr), intent(in) :: name
     integer(c_size_t), intent(in) :: length
-    type(fuge_info), intent(inout) :: info
+    integer(c_int) :: status
+    type(fuge_mesh), pointer :: mesh
+    type(fuge_info) :: info
+    integer :: counts(3)
 
-    if (k < 0 .or. k >= size(names)) then
-      call report(info, FUGE_ERR_SIZE, 'there is no name '//index_text(int(k) + 1))
-    else
-      call copy_string(names(k + 1), name, length)
+    call find_mesh(handle, mesh, info)
+    if (.not. info%failed()) then
+      counts = [size(mesh%node_set), size(mesh%element_set), size(mesh%surface)]
+      if (k < 0 .or. k >= counts(kind)) call report(info, FUGE_ERR_SIZE, 'there is no name '//index_text(int(k) + 1))
     end if
-  end subroutine copy_name
+    status = info%status
+    if (info%failed()) return
+    select case (kind)
+    case (OF_NODES)
+      call copy_string(mesh%node_set(k + 1)%name, name, length)
+    case (OF_ELEMENTS)
+      call copy_string(mesh%element_set(k + 1)%name, name, length)
+    case (OF_FACES)
+      call copy_string(mesh%surface(k + 1)%name, name, length)
+    end select
+  end function get_name
 
   function c_mesh_get_faces(handle, name, capacity, faces, count, message, length) &
     bind(c, name='fuge_mesh_get_faces') result(status)

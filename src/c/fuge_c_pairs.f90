@@ -11,6 +11,8 @@ module fuge_c_pairs
   implicit none
   private
 
+  public :: check_sizes, copy_surface
+
   !> Behind struct fuge_pairs.
   type :: pairs_handle
     type(fuge_surface_mesh) :: contact, opposite
@@ -57,13 +59,8 @@ contains
     type(c_ptr), intent(in), value :: pairs, node, face, dof
     integer(c_int), intent(in), value :: dimensions, nodes, most, faces
     integer(c_int) :: status
-    type(pairs_handle), pointer :: handle
-    type(fuge_info) :: info
 
-    call find_pairs(pairs, handle, info)
-    call check_sizes([dimensions, nodes, most, faces], node, face, info)
-    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, handle%contact, info)
-    status = report_to_pairs(info, handle)
+    status = set_surface(pairs, .true., [dimensions, nodes, most, faces], node, face, dof)
   end function c_pairs_set_contact
 
   function c_pairs_set_opposite(pairs, dimensions, nodes, node, most, faces, face, dof) &
@@ -71,14 +68,32 @@ contains
     type(c_ptr), intent(in), value :: pairs, node, face, dof
     integer(c_int), intent(in), value :: dimensions, nodes, most, faces
     integer(c_int) :: status
+
+    status = set_surface(pairs, .false., [dimensions, nodes, most, faces], node, face, dof)
+  end function c_pairs_set_opposite
+
+  !> Replace the contact surface or the opposite one; `sizes`: dimensions, nodes, most nodes of a face, faces.
+  function set_surface(pairs, of_contact, sizes, node, face, dof) result(status)
+    type(c_ptr), intent(in) :: pairs, node, face, dof
+    logical, intent(in) :: of_contact
+    integer(c_int), intent(in) :: sizes(4)
+    integer(c_int) :: status
     type(pairs_handle), pointer :: handle
     type(fuge_info) :: info
 
     call find_pairs(pairs, handle, info)
-    call check_sizes([dimensions, nodes, most, faces], node, face, info)
-    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, handle%opposite, info)
+    call check_sizes(sizes, node, face, info)
+    if (info%failed()) then
+      status = report_to_pairs(info, handle)
+      return
+    end if
+    if (of_contact) then
+      call copy_surface(sizes, node, face, dof, handle%contact, info)
+    else
+      call copy_surface(sizes, node, face, dof, handle%opposite, info)
+    end if
     status = report_to_pairs(info, handle)
-  end function c_pairs_set_opposite
+  end function set_surface
 
   !> Refuse sizes (dimensions, nodes, most nodes of a face, faces) that no arrays have, and NULL.
   subroutine check_sizes(sizes, node, face, info)

@@ -10,7 +10,7 @@ module fuge_body_type
   implicit none
   private
 
-  public :: check_body, check_load_field
+  public :: check_body, check_load_field, check_supports
 
   !> The data of a body with nd degrees of freedom, numbered from 1. Set components by name, since
   !> later versions may add some.

@@ -16,7 +16,8 @@
 module fuge_condensation
   use fuge_body_type, only: check_body, check_load_field, fuge_body
   use fuge_condensed_influence, only: find_influence, touched_degrees
-  use fuge_contact_modes, only: check_unresisted, find_contact_modes, load_resultant, split_rigid_modes, ROUNDING_ERROR
+  use fuge_contact_modes, only: check_unresisted, find_contact_modes, load_resultant, remove_motions, split_rigid_modes, &
+    ROUNDING_ERROR
   use fuge_contact_normals, only: add_contact_forces, check_free_points, displacement_scale, &
     pin_scale, point_displacement
   use fuge_floating_factor, only: factorise_floating
@@ -220,7 +221,8 @@ contains
   !> Displacements of all degrees of freedom for a solution of the contact problem.
   !>
   !> `u` (degrees), length. Of the solution, the forces and the first m motions are used, with m
-  !> the number of `modes`. A rigid mode that moves no contact point is zero at its pin.
+  !> the number of `modes`. Of rigid modes that move no contact point `u` has no part: with them the mean of the squares
+  !> of its displacements, weighted by the diagonal of K, would be larger.
   !> info%residual is the largest force that K u leaves unbalanced at a free degree of freedom,
   !> relative to the largest force; FUGE_WARN_RESIDUAL if it exceeds 1e-10.
   !> Errors, `u` unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
@@ -250,6 +252,11 @@ contains
     do j = 1, size(self%rigid_modes, 2)
       field(:, 1) = field(:, 1) + self%rigid_modes(:, j)*solution%motion(j)
     end do
+    if (allocated(self%unresisted_modes)) call remove_motions(self%unresisted_modes, self%scale, field(:, 1), stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
+      return
+    end if
     call find_residual(self, solution, field(:, 1), info)
     if (.not. info%failed()) u = field(:, 1)
   end subroutine recover

@@ -5,12 +5,13 @@ module fuge_contact_modes
   use fuge_contact_normals, only: displacement_scale, point_displacement
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text
-  use fuge_pivoted_qr, only: combine_independent, factorise_pivoted, numerical_rank
+  use fuge_pivoted_qr, only: combine_independent, factorise_pivoted, numerical_rank, orthonormalise
+  use fuge_smallest_eigenvalue, only: unscale
   use fuge_status, only: fuge_info, report, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
 
-  public :: check_unresisted, find_contact_modes, load_resultant, split_rigid_modes
+  public :: check_unresisted, find_contact_modes, load_resultant, remove_motions, split_rigid_modes
 
   !> Displacements of the contact points below this fraction of those of the body count as
   !> zero, and so does the work of a load below this fraction of its terms.
@@ -133,5 +134,31 @@ contains
       return
     end do
   end subroutine check_unresisted
+
+  !> Remove from displacements the part of rigid `modes` (degrees, any number), so that the displacements, multiplied by
+  !> the `scale` (degrees), become as small as they can in the mean of their squares. They then do not depend on where
+  !> the modes were pinned. `stat` is not zero, and `displacement` unchanged, without memory.
+  subroutine remove_motions(modes, scale, displacement, stat)
+    real(dp), intent(in) :: modes(:, :), scale(:)
+    real(dp), intent(inout) :: displacement(:)
+    integer, intent(out) :: stat
+    real(dp), allocatable :: y(:, :), part(:)
+    integer :: k, order(size(modes, 2)), rank
+
+    stat = 0
+    if (size(modes, 2) < 1) return
+    allocate (y(size(modes, 1), size(modes, 2)), part(size(modes, 1)), stat=stat)
+    if (stat /= 0) return
+    do k = 1, size(modes, 2)
+      y(:, k) = modes(:, k)*scale
+    end do
+    call orthonormalise(y, 0.0_dp, order, rank, stat)
+    if (stat /= 0) return
+    do k = 1, size(y, 2)
+      part = y(:, k)*dot_product(y(:, k), displacement*scale)
+      call unscale(part, scale)
+      displacement = displacement - part
+    end do
+  end subroutine remove_motions
 
 end module fuge_contact_modes

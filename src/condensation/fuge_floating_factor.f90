@@ -19,8 +19,9 @@ module fuge_floating_factor
 
   public :: factorise_floating
 
-  !> Degrees of freedom scattered over the body, among which the pins are.
-  integer, parameter :: SCATTERED = 12
+  !> Degrees of freedom scattered over the bodies, among which the pins are: with 24 a block that floats upon another
+  !> has as many as it needs.
+  integer, parameter :: SCATTERED = 36
   !> D over the diagonal of K. As large as the diagonal, it is subtracted without a loss of digits.
   real(dp), parameter :: STIFFENING = 1.0_dp
 

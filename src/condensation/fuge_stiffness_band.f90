@@ -1,5 +1,5 @@
-!> A stiffness matrix in LAPACK's symmetric band storage. The stiffness refers to the caller's
-!> array; only the factorisation makes a copy.
+!> A stiffness matrix in LAPACK's symmetric band storage. The stiffness refers to the caller's array, or has a copy of
+!> compressed columns; the factorisation alone fills a band.
 module fuge_stiffness_band
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
   use fuge_kinds, only: dp
@@ -8,6 +8,7 @@ module fuge_stiffness_band
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY
   use fuge_stiffness_check, only: check_entries
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
+  use fuge_symmetric_columns, only: symmetric_columns
   implicit none
   private
 
@@ -20,8 +21,11 @@ module fuge_stiffness_band
     integer :: width = 0
     !> The upper triangle is stored; otherwise the lower one.
     logical :: upper = .true.
+    !> A copy of compressed columns, if `band` is not associated.
+    type(symmetric_columns) :: entries
   contains
     procedure, public :: set
+    procedure, public :: set_columns
     procedure, public :: degrees
     procedure, public :: diagonal
     procedure, public :: multiply
@@ -79,14 +83,37 @@ contains
     self%band => checked%band
     self%width = checked%width
     self%upper = upper
+    self%entries = symmetric_columns()
   end subroutine set
+
+  !> Copy a stiffness matrix in compressed columns, of which the entry farthest from the diagonal sets the width;
+  !> arguments as in `fuge_stiffness_type`.
+  subroutine set_columns(self, column, row, value, info)
+    class(fuge_band_stiffness), intent(inout) :: self
+    integer, intent(in) :: column(:), row(:)
+    real(dp), intent(in) :: value(:)
+    type(fuge_info), intent(out) :: info
+    integer :: j
+
+    call self%entries%set(column, row, value, info)
+    if (info%failed()) return
+    nullify (self%band)
+    self%upper = .true.
+    self%width = 0
+    associate (upper => self%entries%upper)
+      do j = 1, self%degrees()
+        ! Rows ascend.
+        if (upper%column(j + 1) > upper%column(j)) self%width = max(self%width, j - upper%row(upper%column(j)))
+      end do
+    end associate
+  end subroutine set_columns
 
   !> Number of degrees of freedom; 0 before `set`.
   pure function degrees(self)
     class(fuge_band_stiffness), intent(in) :: self
     integer :: degrees
 
-    degrees = 0
+    degrees = self%entries%degrees()
     if (associated(self%band)) degrees = size(self%band, 2)
   end function degrees
 
@@ -125,7 +152,11 @@ contains
     class(fuge_band_stiffness), intent(in) :: self
     real(dp), intent(out) :: terms(:)
 
-    terms = self%band(1 + self%offset(1), :)
+    if (associated(self%band)) then
+      terms = self%band(1 + self%offset(1), :)
+    else
+      call self%entries%diagonal(terms)
+    end if
   end subroutine diagonal
 
   !> `u` (degrees); `product` = K u and `magnitude` = |K| |u|, (degrees), force.
@@ -136,6 +167,10 @@ contains
     real(dp) :: term
     integer :: i, j
 
+    if (.not. associated(self%band)) then
+      call self%entries%multiply(u, product, magnitude)
+      return
+    end if
     product = 0.0_dp
     magnitude = 0.0_dp
     do j = 1, self%degrees()
@@ -170,7 +205,11 @@ contains
     if (stat /= 0) return
     status = FUGE_DONE
     own%triangle = merge('U', 'L', self%upper)
-    call copy_constrained(self, constrained, shift, own%band)
+    if (associated(self%band)) then
+      call copy_constrained(self, constrained, shift, own%band)
+    else
+      call fill_constrained(self%entries, self%width, constrained, shift, own%band)
+    end if
     call dpbtrf(own%triangle, n, self%width, own%band, self%width + 1, failed)
     if (failed /= 0) return
     pivots = own%band(1 + self%offset(1), :)**2
@@ -199,6 +238,26 @@ contains
       band(row, j) = band(row, j)*(1.0_dp + shift)
     end do
   end subroutine copy_constrained
+
+  !> As `copy_constrained`, from compressed columns into the upper band of this width.
+  pure subroutine fill_constrained(matrix, width, constrained, shift, band)
+    type(symmetric_columns), intent(in) :: matrix
+    integer, intent(in) :: width
+    logical, intent(in) :: constrained(:)
+    real(dp), intent(in) :: shift
+    real(dp), intent(out) :: band(:, :)
+    integer :: i, j, p
+
+    band = 0.0_dp
+    do j = 1, size(constrained)
+      do p = matrix%upper%column(j), matrix%upper%column(j + 1) - 1
+        i = matrix%upper%row(p)
+        if (.not. (constrained(i) .or. constrained(j))) band(width + 1 + i - j, j) = matrix%upper%value(p)
+      end do
+      if (constrained(j)) band(width + 1, j) = 1.0_dp
+      if (.not. constrained(j)) band(width + 1, j) = band(width + 1, j)*(1.0_dp + shift)
+    end do
+  end subroutine fill_constrained
 
   !> Replace loads by displacements; arguments as in `fuge_stiffness_type`.
   subroutine solve(self, block, status)

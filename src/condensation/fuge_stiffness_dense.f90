@@ -1,5 +1,5 @@
-!> A stiffness matrix in full storage. The stiffness refers to the caller's array; only the
-!> factorisation makes a copy.
+!> A stiffness matrix in full storage. The stiffness refers to the caller's array, or has a copy of compressed columns;
+!> the factorisation alone fills a square.
 module fuge_stiffness_dense
   use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
   use fuge_input_checks, only: find_asymmetry
@@ -9,6 +9,7 @@ module fuge_stiffness_dense
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_MEMORY
   use fuge_stiffness_check, only: check_entries, check_pair, SYMMETRY_TOLERANCE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
+  use fuge_symmetric_columns, only: symmetric_columns
   implicit none
   private
 
@@ -16,8 +17,11 @@ module fuge_stiffness_dense
   type, extends(fuge_stiffness), public :: fuge_dense_stiffness
     !> Columns of the caller's matrix; rows beyond the degrees of freedom are padding.
     real(dp), pointer, contiguous, private :: matrix(:, :) => null()
+    !> A copy of compressed columns, if `matrix` is not associated.
+    type(symmetric_columns), private :: entries
   contains
     procedure :: set
+    procedure :: set_columns
     procedure :: degrees
     procedure :: diagonal
     procedure :: multiply
@@ -56,14 +60,26 @@ contains
     if (info%failed()) return
     ! Through an address, because only `set` knows that the matrix is contiguous.
     call c_f_pointer(c_loc(matrix(1, 1)), self%matrix, shape(matrix))
+    self%entries = symmetric_columns()
   end subroutine set
+
+  !> Copy a stiffness matrix in compressed columns; arguments as in `fuge_stiffness_type`.
+  subroutine set_columns(self, column, row, value, info)
+    class(fuge_dense_stiffness), intent(inout) :: self
+    integer, intent(in) :: column(:), row(:)
+    real(dp), intent(in) :: value(:)
+    type(fuge_info), intent(out) :: info
+
+    call self%entries%set(column, row, value, info)
+    if (.not. info%failed()) nullify (self%matrix)
+  end subroutine set_columns
 
   !> Number of degrees of freedom; 0 before `set`.
   pure function degrees(self)
     class(fuge_dense_stiffness), intent(in) :: self
     integer :: degrees
 
-    degrees = 0
+    degrees = self%entries%degrees()
     if (associated(self%matrix)) degrees = size(self%matrix, 2)
   end function degrees
 
@@ -73,6 +89,10 @@ contains
     real(dp), intent(out) :: terms(:)
     integer :: j
 
+    if (.not. associated(self%matrix)) then
+      call self%entries%diagonal(terms)
+      return
+    end if
     do j = 1, self%degrees()
       terms(j) = self%matrix(j, j)
     end do
@@ -85,6 +105,10 @@ contains
     real(dp), intent(out) :: product(:), magnitude(:)
     integer :: j, n
 
+    if (.not. associated(self%matrix)) then
+      call self%entries%multiply(u, product, magnitude)
+      return
+    end if
     n = self%degrees()
     product = 0.0_dp
     magnitude = 0.0_dp
@@ -114,7 +138,11 @@ contains
     if (stat == 0) allocate (own%upper(n, n), stat=stat)
     if (stat /= 0) return
     status = FUGE_DONE
-    call copy_constrained(self%matrix, constrained, shift, own%upper)
+    if (associated(self%matrix)) then
+      call copy_constrained(self%matrix, constrained, shift, own%upper)
+    else
+      call fill_constrained(self%entries, constrained, shift, own%upper)
+    end if
     call dpotrf('U', n, own%upper, n, failed)
     if (failed /= 0) return
     do j = 1, n
@@ -141,6 +169,25 @@ contains
       end if
     end do
   end subroutine copy_constrained
+
+  !> As `copy_constrained`, from compressed columns.
+  pure subroutine fill_constrained(matrix, constrained, shift, upper)
+    type(symmetric_columns), intent(in) :: matrix
+    logical, intent(in) :: constrained(:)
+    real(dp), intent(in) :: shift
+    real(dp), intent(out) :: upper(:, :)
+    integer :: i, j, p
+
+    upper = 0.0_dp
+    do j = 1, size(constrained)
+      do p = matrix%upper%column(j), matrix%upper%column(j + 1) - 1
+        i = matrix%upper%row(p)
+        if (.not. (constrained(i) .or. constrained(j))) upper(i, j) = matrix%upper%value(p)
+      end do
+      if (constrained(j)) upper(j, j) = 1.0_dp
+      if (.not. constrained(j)) upper(j, j) = upper(j, j)*(1.0_dp + shift)
+    end do
+  end subroutine fill_constrained
 
   !> Replace loads by displacements; arguments as in `fuge_stiffness_type`.
   subroutine solve(self, block, status)

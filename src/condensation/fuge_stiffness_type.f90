@@ -2,7 +2,7 @@
 !> factor with enough degrees of freedom constrained. Each kind of storage extends it.
 module fuge_stiffness_type
   use fuge_kinds, only: dp
-  use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -27,6 +27,8 @@ module fuge_stiffness_type
     !> The diagonal terms of `last` are multiplied by 1 + `stiffening` before the factorisation.
     real(dp) :: stiffening = 0.0_dp
   contains
+    !> Copy a matrix in compressed columns, whatever the storage.
+    procedure(set_compressed_columns), deferred :: set_columns
     !> Number of degrees of freedom, 0 before the matrix is set.
     procedure(count_degrees), deferred :: degrees
     !> The diagonal.
@@ -41,6 +43,21 @@ module fuge_stiffness_type
   end type fuge_stiffness
 
   abstract interface
+    !> Copy a stiffness matrix in compressed columns, counted from 1; nothing else refers to the arrays afterwards.
+    !>
+    !> `column` (degrees + 1), `row` and `value` (column(degrees + 1) - 1): column j holds the entries
+    !> column(j) .. column(j + 1) - 1, force per displacement. The rows of a column may be in any order, repeated
+    !> entries are added; the matrix has both triangles, or one of them.
+    !> Errors, the stiffness unchanged: FUGE_ERR_SIZE, FUGE_ERR_DOF for a row out of range, FUGE_ERR_NOT_FINITE,
+    !> FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_MEMORY.
+    subroutine set_compressed_columns(self, column, row, value, info)
+      import :: fuge_stiffness, fuge_info, dp
+      class(fuge_stiffness), intent(inout) :: self
+      integer, intent(in) :: column(:), row(:)
+      real(dp), intent(in) :: value(:)
+      type(fuge_info), intent(out) :: info
+    end subroutine set_compressed_columns
+
     !> Number of degrees of freedom; 0 before the matrix is set.
     pure function count_degrees(self) result(degrees)
       import :: fuge_stiffness

@@ -1,19 +1,22 @@
 !> Nodes and faces of the elements of Abaqus and CalculiX, by the names of their types.
 !>
 !> Numbering of nodes and faces: Abaqus and CalculiX agree. Solids C3D4, C3D6, C3D8, C3D10, C3D15, C3D20, elements of a
-!> plane with 3, 4, 6 or 8 nodes, with any letters behind, such as C3D20R.
+!> plane with 3, 4, 6 or 8 nodes, with any letters behind, such as C3D20R; shells S3, S4, S6,
+!> S8 and membranes.
 module fuge_element_faces
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_text_fields, only: read_whole
   implicit none
   private
 
-  public :: face_nodes, nodes_of_type, split_type
+  public :: face_nodes, is_shell, nodes_of_type, split_type
 
   !> Most nodes of a face.
   integer, parameter, public :: MOST_FACE_NODES = 8
-  !> Families of types: unknown, others whose number of nodes is known, elements of a plane, solids.
-  integer, parameter, public :: FAMILY_UNKNOWN = 0, FAMILY_OTHER = 1, FAMILY_PLANE = 2, FAMILY_SOLID = 3
+  !> Families of types: unknown, others whose number of nodes is known, elements of a plane, solids, and shells with
+  !> membranes and rigid faces.
+  integer, parameter, public :: FAMILY_UNKNOWN = 0, FAMILY_OTHER = 1, FAMILY_PLANE = 2, FAMILY_SOLID = 3, &
+    FAMILY_SHELL = 4
 
   !> Corners of the faces S1, S2 .. as the programs list them, their normal into the element; 0 where a face has three.
   integer, parameter :: TETRAHEDRON(4, 4) = reshape([1, 2, 3, 0, 1, 4, 2, 0, 2, 4, 3, 0, 3, 4, 1, 0], [4, 4])
@@ -33,8 +36,8 @@ contains
     character(len=*), intent(in) :: element_type
     integer, intent(out) :: family, nodes
     character(len=3), parameter :: NAMES(8) = ['C3D', 'CPS', 'CPE', 'CAX', 'M3D', 'T3D', 'T2D', 'R3D']
-    integer, parameter :: FAMILIES(8) = [FAMILY_SOLID, FAMILY_PLANE, FAMILY_PLANE, FAMILY_PLANE, FAMILY_OTHER, &
-                                         FAMILY_OTHER, FAMILY_OTHER, FAMILY_OTHER]
+    integer, parameter :: FAMILIES(8) = [FAMILY_SOLID, FAMILY_PLANE, FAMILY_PLANE, FAMILY_PLANE, FAMILY_SHELL, &
+                                         FAMILY_OTHER, FAMILY_OTHER, FAMILY_SHELL]
     integer :: k, begin
 
     family = FAMILY_UNKNOWN
@@ -43,7 +46,7 @@ contains
       if (index(element_type, NAMES(k)) == 1) family = FAMILIES(k)
     end do
     if (family == FAMILY_UNKNOWN .and. element_type(1:1) == 'S' .and. scan(element_type, '3468') == 2) then
-      family = FAMILY_OTHER
+      family = FAMILY_SHELL
       begin = 2
     end if
     nodes = 0
@@ -76,11 +79,22 @@ contains
     call split_type(element_type, family, nodes)
   end function nodes_of_type
 
+  !> Is the element a shell, a membrane or a rigid face, which has faces on both sides?
+  pure function is_shell(element_type) result(shell)
+    character(len=*), intent(in) :: element_type
+    logical :: shell
+    integer :: family, nodes
+
+    call split_type(element_type, family, nodes)
+    shell = family == FAMILY_SHELL
+  end function is_shell
+
   !> The nodes of a face, their numbers in the element; `count` is 0 if the type has no such face.
   !>
   !> Corners first, then the nodes on the edges from corner to corner. The corners of a solid's face follow each other
   !> counter-clockwise if it is seen from outside. For an element of a plane a face is an edge from corner to corner,
-  !> counter-clockwise round the element.
+  !> counter-clockwise round the element. A shell has two faces, 1 on the side of its negative normal, 2 on that of its
+  !> positive one.
   pure subroutine face_nodes(element_type, face, count, nodes)
     character(len=*), intent(in) :: element_type
     integer, intent(in) :: face
@@ -92,6 +106,8 @@ contains
     call split_type(element_type, family, number)
     if (family == FAMILY_PLANE) then
       call edge_nodes(number, face, count, nodes)
+    else if (family == FAMILY_SHELL) then
+      call shell_side(number, face, count, nodes)
     else if (family == FAMILY_SOLID) then
       select case (number)
       case (4, 10)
@@ -121,6 +137,24 @@ contains
     count = 3
     nodes(3) = corners + face
   end subroutine edge_nodes
+
+  !> A side of a shell with 3, 4, 6 or 8 nodes: seen from its positive normal they run counter-clockwise.
+  pure subroutine shell_side(number, face, count, nodes)
+    integer, intent(in) :: number, face
+    integer, intent(out) :: count
+    integer, intent(inout) :: nodes(MOST_FACE_NODES)
+    integer :: corners, k
+
+    count = 0
+    if (number == 9 .or. face < 1 .or. face > 2) return
+    corners = number
+    if (number > 4) corners = number/2
+    count = number
+    do k = 1, corners
+      nodes(k) = merge(k, modulo(1 - k, corners) + 1, face == 2)
+      if (number > corners) nodes(corners + k) = corners + merge(k, corners + 1 - k, face == 2)
+    end do
+  end subroutine shell_side
 
   !> A face of a solid whose `quadratic` form has nodes on its edges behind its corners.
   pure subroutine solid_face(faces, edges, corners, quadratic, face, count, nodes)

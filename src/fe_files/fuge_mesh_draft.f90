@@ -1,5 +1,6 @@
 !> A mesh while its file is read: labels as the file has them, with the lines where they stand, until all are known.
 module fuge_mesh_draft
+  use fuge_element_faces, only: is_shell
   use fuge_integer_list, only: integer_list
   use fuge_kinds, only: dp
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set, NAME_LENGTH, TYPE_LENGTH
@@ -13,6 +14,8 @@ module fuge_mesh_draft
 
   !> Length of the name of a file in a message.
   integer, parameter, public :: FILE_LENGTH = 104
+  !> In place of a number of a face: SNEG and SPOS of shells; the numbers 1 and 2 in the mesh.
+  integer, parameter, public :: FACE_SNEG = -1, FACE_SPOS = -2
   !> In place of a line: a label that GENERATE made, which need not exist.
   integer, parameter, public :: GENERATED = 0
 
@@ -133,7 +136,7 @@ contains
     if (self%status == 0) self%position(:, number) = position
   end subroutine add_node
 
-  !> The number of a type of elements, a new one if it is new.
+  !> The number of a type of elements, a new one if it is new; without memory `status` is set.
   pure subroutine type_number(self, name, number)
     class(mesh_draft), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -143,14 +146,15 @@ contains
     do number = 1, self%types_count
       if (self%types(number) == name) return
     end do
-    allocate (longer(self%types_count + 1))
+    if (self%status == 0) allocate (longer(self%types_count + 1), stat=self%status)
+    if (self%status /= 0) return
     if (self%types_count > 0) longer(:self%types_count) = self%types
     longer(number) = name
     call move_alloc(longer, self%types)
     self%types_count = number
   end subroutine type_number
 
-  !> The number of a file, a new one if it is new.
+  !> The number of a file, a new one if it is new; without memory `status` is set.
   pure subroutine file_number(self, name, number)
     class(mesh_draft), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -160,7 +164,8 @@ contains
     do number = 1, self%files_count
       if (self%files(number) == name) return
     end do
-    allocate (longer(self%files_count + 1))
+    if (self%status == 0) allocate (longer(self%files_count + 1), stat=self%status)
+    if (self%status /= 0) return
     if (self%files_count > 0) longer(:self%files_count) = self%files
     longer(number) = name
     call move_alloc(longer, self%files)
@@ -313,12 +318,33 @@ contains
       associate (from => draft%surfaces%set(k), element => mesh%surface(k)%element(i))
         mesh%surface(k)%face(i) = from%face%item(i)
         element = draft%elements%place_of(from%label%item(i), 0)
-        if (element > 0) cycle
-        call undefined(draft, from%file%item(i), from%line%item(i), 'element', from%label%item(i), ' of the surface ' &
-                       //trim(from%name), info)
-        return
+        if (element == 0) then
+          call undefined(draft, from%file%item(i), from%line%item(i), 'element', from%label%item(i), &
+                         ' of the surface '//trim(from%name), info)
+        else if (from%face%item(i) < 0) then
+          call name_shell_face(draft, from%file%item(i), from%line%item(i), mesh, k, i, info)
+        end if
+        if (info%failed()) return
       end associate
     end do
   end subroutine finish_surface
+
+  !> The number of face i of surface k, SNEG or SPOS in a line of a file; refused if its element is no shell.
+  pure subroutine name_shell_face(draft, file, line, mesh, k, i, info)
+    type(mesh_draft), intent(in) :: draft
+    integer, intent(in) :: file, line, k, i
+    type(fuge_mesh), intent(inout) :: mesh
+    type(fuge_info), intent(inout) :: info
+    integer :: element
+
+    element = mesh%surface(k)%element(i)
+    if (is_shell(mesh%element_type(element))) then
+      mesh%surface(k)%face(i) = -mesh%surface(k)%face(i)
+    else
+      call report(info, FUGE_ERR_FILE, trim(draft%files(file))//', line '//text(line)//': element ' &
+                  //text(mesh%element(element))//' of type '//trim(mesh%element_type(element)) &
+                  //' has no faces SPOS and SNEG, which shells have')
+    end if
+  end subroutine name_shell_face
 
 end module fuge_mesh_draft

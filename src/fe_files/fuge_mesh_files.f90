@@ -3,7 +3,8 @@ module fuge_mesh_files
   use fuge_element_faces, only: nodes_of_type
   use fuge_input_deck, only: input_deck, upper_case, LINE_DATA, LINE_END, LINE_KEYWORD, VALUE_LENGTH
   use fuge_mesh_draft, only: draft_sets, finish_mesh, mesh_draft
-  use fuge_mesh_lines, only: mesh_block, read_element_line, read_node_line, read_set_line, read_surface_line
+  use fuge_mesh_lines, only: add_element_nodes, mesh_block, read_element_line, read_node_line, read_set_line, &
+    read_surface_line
   use fuge_mesh_type, only: fuge_mesh, move_mesh, NAME_LENGTH, TYPE_LENGTH
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
@@ -25,8 +26,9 @@ contains
 
   !> Read nodes, elements, sets and surfaces from an input file of Abaqus or CalculiX.
   !>
-  !> Read are *NODE (NSET), *ELEMENT (TYPE, ELSET), *NSET, *ELSET (GENERATE), *SURFACE of elements (faces S1 to S6) or
-  !> of nodes, which becomes a set of nodes, and *INCLUDE; other keywords are skipped with their data. Words may be in
+  !> Read are *NODE (NSET), *ELEMENT (TYPE, ELSET), *NSET (GENERATE, ELSET), *ELSET (GENERATE), *SURFACE of elements
+  !> (faces S1 to S6, SPOS, SNEG) or of nodes, which becomes a set of nodes, and *INCLUDE; other keywords are skipped
+  !> with their data, *TRANSFORM too, although the directions at its nodes may be turned. Words may be in
   !> upper or lower case, names are returned in upper case. A label of GENERATE that does not exist is left out.
   !> Errors, `mesh` unchanged: FUGE_ERR_FILE with file, line and reason, also for *PART, *INSTANCE, *NGEN and other
   !> keywords without which the mesh would be another one, and if there is no node; FUGE_ERR_MEMORY.
@@ -71,8 +73,8 @@ contains
       else if (content /= DATA_SKIPPED) then
         call draft%file_number(deck%file(deck%depth)%name, block%file)
         block%line = deck%file(deck%depth)%line
-        call read_data(deck%file(deck%depth)%content(deck%file(deck%depth)%first:deck%file(deck%depth)%last), content, &
-                       draft, block, reason)
+        if (draft%status == 0) call read_data(deck%file(deck%depth)%content( &
+          deck%file(deck%depth)%first:deck%file(deck%depth)%last), content, draft, block, reason)
         if (allocated(reason)) call deck%refuse(reason, info)
       end if
       if (draft%status /= 0 .and. .not. info%failed()) &
@@ -137,8 +139,8 @@ contains
       call choose_set(deck, 'ELSET', .false., draft%element_sets, block, draft%status, info)
     else if (deck%keyword == 'NSET') then
       content = DATA_NODE_SET
-      if (deck%has('ELSET')) call deck%refuse('the nodes of a set of elements are not read: list the nodes', info)
       call choose_set(deck, 'NSET', .true., draft%node_sets, block, draft%status, info)
+      if (deck%has('ELSET') .and. .not. info%failed()) call begin_nodes_of_elements(deck, draft, block, info)
     else if (deck%keyword == 'ELSET') then
       content = DATA_ELEMENT_SET
       call choose_set(deck, 'ELSET', .true., draft%element_sets, block, draft%status, info)
@@ -155,6 +157,20 @@ contains
     if (content /= DATA_SKIPPED .and. deck%has('INPUT')) &
       call deck%refuse('INPUT = is not read here: use *INCLUDE', info)
   end subroutine begin_block
+
+  !> The set of nodes of a keyword line consists of the nodes of elements above.
+  subroutine begin_nodes_of_elements(deck, draft, block, info)
+    type(input_deck), intent(inout) :: deck
+    type(mesh_draft), intent(inout) :: draft
+    type(mesh_block), intent(inout) :: block
+    type(fuge_info), intent(inout) :: info
+    character(len=:), allocatable :: reason
+
+    if (draft%status == 0) call draft%file_number(deck%file(deck%depth)%name, block%file)
+    block%line = deck%file(deck%depth)%line
+    if (draft%status == 0) call add_element_nodes(trim(upper_case(deck%parameter('ELSET'))), block, draft, reason)
+    if (allocated(reason)) call deck%refuse(reason, info)
+  end subroutine begin_nodes_of_elements
 
   !> The surface of a keyword line: of faces, or of nodes.
   subroutine begin_surface(deck, draft, block, content, info)

@@ -4,7 +4,7 @@ module fuge_mesh_lines
   use fuge_input_deck, only: upper_case
   use fuge_integer_list, only: integer_list
   use fuge_kinds, only: dp
-  use fuge_mesh_draft, only: draft_sets, mesh_draft, GENERATED
+  use fuge_mesh_draft, only: draft_sets, mesh_draft, FACE_SNEG, FACE_SPOS, GENERATED
   use fuge_mesh_type, only: NAME_LENGTH
   use fuge_number_text, only: text
   use fuge_text_columns, only: begin_columns, next_column, SEPARATOR_COMMA
@@ -12,7 +12,7 @@ module fuge_mesh_lines
   implicit none
   private
 
-  public :: read_element_line, read_node_line, read_set_line, read_surface_line
+  public :: add_element_nodes, read_element_line, read_node_line, read_set_line, read_surface_line
 
   !> Most members that one line of GENERATE may make.
   integer, parameter :: MOST_GENERATED = 20000000
@@ -233,7 +233,55 @@ contains
     end if
   end subroutine generate_members
 
-  !> A face of a surface: an element or a set of them, and Sn.
+  !> Add the nodes of all elements of a set to the set of nodes of a block.
+  pure subroutine add_element_nodes(name, block, draft, reason)
+    character(len=*), intent(in) :: name
+    type(mesh_block), intent(in) :: block
+    type(mesh_draft), intent(inout) :: draft
+    character(len=:), allocatable, intent(out) :: reason
+    integer :: element, k, last, number, p
+
+    number = draft%element_sets%known(name)
+    if (number == 0) then
+      reason = 'the element set '//quoted(name)//' is not defined above'
+      return
+    end if
+    do k = 1, draft%element_sets%set(number)%label%count
+      associate (label => draft%element_sets%set(number)%label%item(k))
+        element = draft%elements%place_of(label, 0)
+        if (element == 0) then
+          if (draft%element_sets%set(number)%line%item(k) == GENERATED) cycle
+          reason = 'element '//text(label)//' of the set '//quoted(name)//' is not defined above'
+          return
+        end if
+      end associate
+      last = draft%connection%count
+      if (element < draft%first%count) last = draft%first%item(element + 1) - 1
+      do p = draft%first%item(element), last
+        call add_member(draft%node_sets, block, draft%connection%item(p), 0, block%line, draft%status)
+      end do
+    end do
+  end subroutine add_element_nodes
+
+  !> The number of a face: S1 to S6, SPOS or SNEG.
+  pure subroutine read_face(field, face, reason)
+    character(len=*), intent(in) :: field
+    integer, intent(out) :: face
+    character(len=:), allocatable, intent(inout) :: reason
+
+    face = 0
+    if (upper_case(field) == 'SPOS') then
+      face = FACE_SPOS
+    else if (upper_case(field) == 'SNEG') then
+      face = FACE_SNEG
+    else if (scan(field(1:1), 'sS') == 0) then
+      reason = quoted(field)//' is no face: S1 to S6, SPOS and SNEG are read'
+    else
+      call read_label(field(2:), 'face S', 1, 6, face, reason)
+    end if
+  end subroutine read_face
+
+  !> A face of a surface: an element or a set of them, and Sn, SPOS or SNEG.
   pure subroutine read_surface_line(line, block, draft, reason)
     character(len=*), intent(in) :: line
     type(mesh_block), intent(in) :: block
@@ -246,10 +294,8 @@ contains
     call next_field(line, k, face_first, face_last, separator)
     if (face_first > face_last) then
       reason = 'the face of '//quoted(line(first:last))//' is missing: write its number, as in S1'
-    else if (scan(line(face_first:face_first), 'sS') == 0) then
-      reason = quoted(line(face_first:face_last))//' is no face: S1 to S6 are read'
     else
-      call read_label(line(face_first + 1:face_last), 'face S', 1, 6, face, reason)
+      call read_face(line(face_first:face_last), face, reason)
     end if
     if (allocated(reason)) return
     if (.not. is_name(line(first:last))) then

@@ -122,10 +122,14 @@ contains
   pure subroutine check_nodes(mesh, info)
     type(fuge_mesh), intent(in) :: mesh
     type(fuge_info), intent(inout) :: info
+    logical :: known
     integer :: e, needed
 
+    needed = 0
     do e = 1, size(mesh%element)
-      needed = nodes_of_type(mesh%element_type(e))
+      known = .false.
+      if (e > 1) known = mesh%element_type(e) == mesh%element_type(e - 1)
+      if (.not. known) needed = nodes_of_type(mesh%element_type(e))
       if (needed == 0 .or. needed == mesh%first(e + 1) - mesh%first(e)) cycle
       call report(info, FUGE_ERR_ELEMENT, 'element '//index_text(e)//' of type '//trim(mesh%element_type(e))//' has ' &
                   //text(mesh%first(e + 1) - mesh%first(e))//' nodes instead of '//text(needed))
@@ -136,7 +140,8 @@ contains
   !> Join meshes, such as those of several bodies, to one, for `fuge_write_mesh`: nodes and elements of all of them, one
   !> mesh after the other.
   !>
-  !> `node` and `element` keep the numbers of the files, so that numbers may be repeated. Sets and surfaces are left out.
+  !> `node` and `element` keep the numbers of the files, so that numbers may be repeated. Sets and surfaces are left
+  !> out.
   !> Errors, `joined` unchanged: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_MEMORY.
   subroutine fuge_join_meshes(meshes, joined, info)
     type(fuge_mesh), intent(in) :: meshes(:)
@@ -170,8 +175,8 @@ contains
     used = 0
     if (allocated(joined%position)) used = int(sizes_of(joined))
     all = used + sizes_of(mesh)
-    if (maxval(all) >= huge(1)) call report(info, FUGE_ERR_SIZE, 'up to mesh '//index_text(k)//' there are more nodes ' &
-                                            //'or elements than an integer counts')
+    if (maxval(all) >= huge(1)) call report(info, FUGE_ERR_SIZE, 'up to mesh '//index_text(k)//' there are more ' &
+                                            //'nodes or elements than an integer counts')
     if (.not. info%failed()) call allocate_mesh(int(all(1)), int(all(2)), int(all(3)), longer, info)
     if (info%failed()) return
     longer%first(1) = 1

@@ -104,8 +104,8 @@ contains
   !> `name`: in upper or lower case. `faces` (8, faces), allocated afresh: places of the nodes in mesh%node, corners
   !> first, then those on the edges, 0 beyond. Corners of a solid's face follow each other counter-clockwise if it is
   !> seen from outside; an edge of an element of a plane goes counter-clockwise round the element.
-  !> Errors, `faces` unchanged: FUGE_ERR_OPTION if the mesh has no such surface, with the names of those it has; FUGE_ERR_ELEMENT for a type of elements
-  !> that has no such face or whose faces are not known; FUGE_ERR_MEMORY.
+  !> Errors, `faces` unchanged: FUGE_ERR_OPTION if the mesh has no such surface, with the names of those it has;
+  !> FUGE_ERR_ELEMENT for a type of elements that has no such face or whose faces are not known; FUGE_ERR_MEMORY.
   subroutine fuge_mesh_faces(mesh, name, faces, info)
     type(fuge_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: name

@@ -25,7 +25,7 @@ module fuge_mesh_type
     character(len=NAME_LENGTH) :: name = ''
     !> The element of each face: its place in `element` of the mesh.
     integer, allocatable :: element(:)
-    !> The number n, of Sn, of each face.
+    !> The number n, of Sn, of each face; of a shell 1 is SNEG and 2 SPOS.
     integer, allocatable :: face(:)
   end type fuge_mesh_surface
 

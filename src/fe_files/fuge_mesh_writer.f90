@@ -63,10 +63,17 @@ contains
     type(fuge_mesh), intent(in) :: mesh
     integer, intent(out) :: cells(:), nodes(:)
     type(fuge_info), intent(inout) :: info
-    integer :: e
+    logical :: known
+    integer :: cell, count, e
 
+    cell = CELL_UNKNOWN
+    count = 0
     do e = 1, size(cells)
-      call vtk_cell(upper_case(mesh%element_type(e)), cells(e), nodes(e))
+      known = .false.
+      if (e > 1) known = mesh%element_type(e) == mesh%element_type(e - 1)
+      if (.not. known) call vtk_cell(upper_case(mesh%element_type(e)), cell, count)
+      cells(e) = cell
+      nodes(e) = count
       call check_nodes(mesh, e, cells(e), nodes(e), info)
       if (info%failed()) return
     end do
@@ -80,6 +87,7 @@ contains
     integer :: found, more
 
     found = mesh%first(e + 1) - mesh%first(e)
+    if (cell /= CELL_UNKNOWN .and. found == nodes) return
     more = merge(1, 0, index(upper_case(mesh%element_type(e)), 'B') == 1)
     if (cell == CELL_UNKNOWN) then
       call report(info, FUGE_ERR_ELEMENT, trim(element_name(mesh, e))//' has the type "'//trim(mesh%element_type(e)) &
@@ -118,8 +126,8 @@ contains
       call report(info, FUGE_ERR_SIZE, 'field "'//trim(field%name)//'" has no values')
     else if (size(field%value, 1) < 1 .or. size(field%value, 1) > 3 .or. size(field%value, 2) /= columns) then
       call report(info, FUGE_ERR_SIZE, 'field "'//trim(field%name)//'" is '//text(size(field%value, 1))//' by ' &
-                  //text(size(field%value, 2))//': it needs 1, 2 or 3 components and '//text(columns)//' columns, one ' &
-                  //'for each '//trim(merge('element', 'node   ', field%of_elements)))
+                  //text(size(field%value, 2))//': it needs 1, 2 or 3 components and '//text(columns)//' columns, ' &
+                  //'one for each '//trim(merge('element', 'node   ', field%of_elements)))
     end if
     if (info%failed()) return
     do k = 1, columns

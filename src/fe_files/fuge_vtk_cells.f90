@@ -5,7 +5,7 @@
 !> .frd, have another order.) Only lines of three nodes differ. Cells: vtkCellType.h, and W. Schroeder, K. Martin,
 !> B. Lorensen, The Visualization Toolkit, chapter 5; a wedge is orientated as VTK 9 integrates and draws it.
 module fuge_vtk_cells
-  use fuge_element_faces, only: split_type, FAMILY_PLANE, FAMILY_SOLID
+  use fuge_element_faces, only: split_type, FAMILY_PLANE, FAMILY_SHELL, FAMILY_SOLID
   implicit none
   private
 
@@ -32,7 +32,7 @@ contains
       cell = merge(LINE_3, LINE, nodes == 3)
     else if (family == FAMILY_SOLID) then
       cell = solid_cell(nodes)
-    else if (family == FAMILY_PLANE .or. index('SMR', element_type(1:1)) > 0) then
+    else if (family == FAMILY_PLANE .or. family == FAMILY_SHELL) then
       cell = face_cell(nodes)
     else
       cell = CELL_UNKNOWN

@@ -116,9 +116,9 @@ contains
     error = (problem%gap - rigid_displacement) + error - solution%gap
     magnitude = abs(problem%gap - rigid_displacement) + elastic
     if (allocated(problem%modes)) then
-      ! Motions are solved for together: each is rounded like the largest magnitude of its body.
-      rigid_magnitude = rigid_magnitude &
-                        + largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included))
+      ! Motions are solved for together: each one that moves a point is rounded like the largest magnitude of its body.
+      rigid_magnitude = rigid_magnitude + max(count(abs(problem%modes) > 0.0_dp, 2), 1) &
+                        *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included))
     end if
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
                                            .not. allocated(problem%modes), ranks)
@@ -272,12 +272,14 @@ contains
     end if
   end function equilibrium_violation
 
-  !> Equation (11) in the free modes of a problem that has modes.
+  !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
+  !> relative to the largest force of the body, since along an axis without a load forces at tied points may be the
+  !> rounding of those along the other axes.
   pure function imbalance_in_modes(problem, force) result(violation)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:)
     real(dp) :: violation
-    real(dp) :: body_forces(size(force)), largest, imbalance
+    real(dp) :: body_forces(size(force)), own, largest, imbalance
     logical :: loaded(size(force))
     integer :: j
 
@@ -287,11 +289,13 @@ contains
     do j = 1, size(problem%modes, 2)
       if (is_prescribed(problem, j)) cycle
       associate (mode => problem%modes(:, j), resultant => problem%resultant(j))
+        own = maxval(body_forces, mask=abs(mode) > 0.0_dp)
         largest = maxval(abs(force))
-        if (any(loaded .and. abs(mode) > 0.0_dp)) largest = maxval(body_forces, mask=abs(mode) > 0.0_dp)
+        if (any(loaded .and. abs(mode) > 0.0_dp)) largest = own
         largest = ROUNDINGS*epsilon(largest)*maxval(abs(mode))*largest
         imbalance = max(abs(sum(mode*force) - resultant) - largest, 0.0_dp)
-        violation = max(violation, relative(imbalance, max(sum(abs(mode*force)), abs(resultant))))
+        if (abs(resultant) > 0.0_dp) own = 0.0_dp
+        violation = max(violation, relative(imbalance, max(sum(abs(mode*force)), abs(resultant), maxval(abs(mode))*own)))
       end associate
     end do
   end function imbalance_in_modes

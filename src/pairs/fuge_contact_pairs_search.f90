@@ -1,18 +1,21 @@
 !> Contact between two surfaces of finite elements whose nodes do not face each other.
 module fuge_contact_pairs_search
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
-  use fuge_contact_pairs_type, only: append_pairs, check_pair_options, fuge_contact_pairs, fuge_pair_options, &
+  use fuge_common_points, only: add_found
+  use fuge_contact_pairs_type, only: check_pair_options, fuge_contact_pairs, fuge_pair_options, &
     FUGE_MORTAR, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
   use fuge_face_geometry, only: unit
   use fuge_kinds, only: dp
   use fuge_mortar_pairing, only: pair_faces
+  use fuge_near_origin, only: move_surface, way_to_origin
   use fuge_nodal_areas, only: find_nodal_areas
-  use fuge_nodal_normals, only: average_normals
+  use fuge_nodal_normals, only: average_normals, take_normals
   use fuge_node_to_face, only: pair_nodes
   use fuge_number_text, only: index_text, text
   use fuge_opposite_faces, only: opposite_faces, prepare_opposite
   use fuge_pair_draft_type, only: pair_draft, start_draft
-  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE, FUGE_WARN_PAIRS
+  use fuge_smooth_normals, only: find_smooth_normals, mean_of_faces
+  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE
   use fuge_surface_checks, only: check_surface
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_weight_rows, only: copy_row, row_length
@@ -31,49 +34,71 @@ contains
 
   !> Find the contact points of a pair of surfaces, and add them to `pairs`.
   !>
-  !> The nodes of `contact` become contact points, so let it be the finer surface, or that of the softer body; pressures
-  !> are those on it. The degrees of freedom of both surfaces are numbered in one stiffness matrix, that of both bodies.
-  !> Sliding is small: pairs are those of the positions given. A later call adds another pair of surfaces.
+  !> The nodes of `contact` become contact points, and pressures are those on it: with linear faces let it be the
+  !> coarser surface, whose pressures are smooth, with quadratic faces the finer one. The degrees of freedom of both
+  !> surfaces are numbered in one stiffness matrix, that of both bodies. Sliding is small: pairs are those of the
+  !> positions given. A later call adds another pair of surfaces.
   !>
   !> Then `dof` and `normal` of fuge_body are those of `pairs`; `fuge_condense`, `pose(pairs%gap, problem, ..)`,
   !> problem%gap_upper = pairs%gap_upper, solve; pressure = force/area.
   !> O(n log n) for n faces. Nodes that have no opposite are listed in `unpaired_node`.
-  !> Warning: FUGE_WARN_PAIRS, a node is a contact point of two pairs. Errors, `pairs` unchanged, name the face or the
-  !> node: FUGE_ERR_SIZE, FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP,
-  !> FUGE_ERR_OPTION, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is folded over, has no area or looks the wrong way,
-  !> and for surfaces that do not face each other.
+  !> Warning: FUGE_WARN_PAIRS, a node is a contact point of two pairs; where it moves alike in both, it is listed once,
+  !> in the first one, with the area of both. Errors, `pairs` unchanged, name the face or the node: FUGE_ERR_SIZE,
+  !> FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP, FUGE_ERR_OPTION,
+  !> FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is folded over, has no area or looks the wrong way, for a given
+  !> normal that does, and for surfaces that do not face each other.
   subroutine fuge_find_pairs(contact, opposite, options, pairs, info)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     type(fuge_contact_pairs), intent(inout) :: pairs
     type(fuge_info), intent(out) :: info
-    type(fuge_contact_pairs) :: found
-    type(pair_draft) :: draft
-    real(dp), allocatable :: normal(:, :)
-    integer, allocatable :: before(:)
+    type(fuge_surface_mesh) :: near_contact, near_opposite
+    real(dp), allocatable :: way(:)
     integer :: stat
 
     call check_pair(contact, opposite, options, pairs, info)
     if (info%failed()) return
+    way = way_to_origin(contact, opposite)
+    if (.not. any(abs(way) > 0.0_dp)) then
+      call find_near_pairs(contact, opposite, options, pairs, info)
+      return
+    end if
+    call move_surface(contact, way, near_contact, stat)
+    if (stat == 0) call move_surface(opposite, way, near_opposite, stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for copies of the surfaces')
+    else
+      call find_near_pairs(near_contact, near_opposite, options, pairs, info)
+    end if
+  end subroutine fuge_find_pairs
+
+  !> The same for surfaces near the origin, checked.
+  subroutine find_near_pairs(contact, opposite, options, pairs, info)
+    type(fuge_surface_mesh), intent(in) :: contact, opposite
+    type(fuge_pair_options), intent(in) :: options
+    type(fuge_contact_pairs), intent(inout) :: pairs
+    type(fuge_info), intent(inout) :: info
+    type(fuge_contact_pairs) :: found
+    type(pair_draft) :: draft
+    type(opposite_faces) :: faces
+    real(dp), allocatable :: normal(:, :)
+    integer :: stat
+
     allocate (normal(3, size(contact%node, 2)), stat=stat)
     if (stat == 0) call start_draft(draft, size(contact%node, 2), stat)
-    if (stat == 0) call set_normals(contact, options, normal, info)
+    if (stat == 0) call set_bends(contact, opposite, options%smooth .and. .not. options%tied, faces, stat)
+    if (stat == 0) call set_normals(contact, options, faces, normal, stat, info)
     if (info%failed()) return
-    if (stat == 0) call find_draft(contact, opposite, options, normal, draft, stat, info)
-    if (stat == 0 .and. .not. info%failed()) call refuse_none(contact, draft, info)
+    if (stat == 0) call find_draft(contact, opposite, options, normal, faces, draft, stat)
+    if (stat == 0) call refuse_none(contact, draft, info)
     if (info%failed()) return
     if (stat == 0) then
       found%pairs = pairs%pairs + 1
       call collect(contact, opposite, options, normal, draft, found, stat)
     end if
-    if (stat == 0) allocate (before(max(largest_dof(contact, opposite), largest_before(pairs))), stat=stat)
-    if (stat == 0) call append_pairs(pairs, found, stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to find contact pairs')
-    else
-      call warn_repeated(pairs, before, info)
-    end if
-  end subroutine fuge_find_pairs
+    if (stat == 0) call add_found(found, faces%reach, pairs, stat, info)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to find contact pairs')
+  end subroutine find_near_pairs
 
   !> Refuse surfaces and options that do not fit.
   subroutine check_pair(contact, opposite, options, pairs, info)
@@ -108,43 +133,38 @@ contains
   end function moves
 
   !> The unit normals along which opposites are sought.
-  pure subroutine set_normals(contact, options, normal, info)
+  pure subroutine set_normals(contact, options, faces, normal, stat, info)
     type(fuge_surface_mesh), intent(in) :: contact
     type(fuge_pair_options), intent(in) :: options
+    type(opposite_faces), intent(in) :: faces
     real(dp), intent(out) :: normal(:, :)
+    integer, intent(out) :: stat
     type(fuge_info), intent(inout) :: info
-    real(dp) :: given(3)
-    integer :: i
 
-    if (options%normals /= FUGE_NORMALS_GIVEN) then
-      call average_normals(contact, CONTACT_NAME, normal, info)
-      return
+    stat = 0
+    if (options%normals == FUGE_NORMALS_GIVEN) then
+      call take_normals(contact, CONTACT_NAME, options%normal, normal, info)
+    else
+      call average_normals(contact, CONTACT_NAME, normal, stat, info)
+      if (stat == 0 .and. size(faces%own_bend, 3) > 0) call mean_of_faces(contact, faces%own_bend, normal, stat)
     end if
-    do i = 1, size(normal, 2)
-      given = 0.0_dp
-      given(:size(options%normal, 1)) = options%normal(:, i)
-      normal(:, i) = 0.0_dp
-      if (maxval(abs(given)) > 0.0_dp) normal(:, i) = unit(given/maxval(abs(given)))
-    end do
   end subroutine set_normals
 
   !> Find what lies across from each node, by the method chosen.
-  pure subroutine find_draft(contact, opposite, options, normal, draft, stat, info)
+  pure subroutine find_draft(contact, opposite, options, normal, faces, draft, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     real(dp), intent(in) :: normal(:, :)
+    type(opposite_faces), intent(inout) :: faces
     type(pair_draft), intent(inout) :: draft
     integer, intent(out) :: stat
-    type(fuge_info), intent(inout) :: info
-    type(opposite_faces) :: faces
     real(dp), allocatable :: whole(:)
 
     allocate (whole(size(contact%node, 2)), stat=stat)
     if (stat == 0) call prepare_opposite(contact, opposite, options%reach, faces, stat)
     if (stat /= 0) return
-    call set_bends(contact, opposite, options%smooth, faces, stat, info)
-    if (stat /= 0 .or. info%failed()) return
-    call find_nodal_areas(contact, whole)
+    faces%turning = options%normals == FUGE_NORMALS_AVERAGED
+    call find_nodal_areas(contact, faces%own_bend, whole)
     if (options%method == FUGE_MORTAR) then
       call pair_faces(contact, opposite, faces, draft, stat)
       where (draft%weight < SMALLEST_PART*whole) draft%weight = 0.0_dp
@@ -155,19 +175,17 @@ contains
     end if
   end subroutine find_draft
 
-  !> The normals by which faces bulge, if `smooth`.
-  pure subroutine set_bends(contact, opposite, smooth, faces, stat, info)
+  !> The normals of the smooth surfaces that the meshes stand for, if `smooth`.
+  pure subroutine set_bends(contact, opposite, smooth, faces, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     logical, intent(in) :: smooth
     type(opposite_faces), intent(inout) :: faces
     integer, intent(out) :: stat
-    type(fuge_info), intent(inout) :: info
 
-    allocate (faces%own_bend(3, merge(size(contact%node, 2), 0, smooth)), &
-              faces%bend(3, merge(size(opposite%node, 2), 0, smooth)), stat=stat)
-    if (stat /= 0 .or. .not. smooth) return
-    call average_normals(contact, CONTACT_NAME, faces%own_bend, info)
-    if (.not. info%failed()) call average_normals(opposite, OPPOSITE_NAME, faces%bend, info)
+    allocate (faces%own_bend(3, size(contact%face, 1), merge(size(contact%face, 2), 0, smooth)), &
+              faces%bend(3, size(opposite%face, 1), merge(size(opposite%face, 2), 0, smooth)), stat=stat)
+    if (stat == 0 .and. smooth) call find_smooth_normals(contact, faces%own_bend, stat)
+    if (stat == 0 .and. smooth) call find_smooth_normals(opposite, faces%bend, stat)
   end subroutine set_bends
 
   !> Refuse surfaces none of whose points are opposite to each other.
@@ -256,9 +274,7 @@ contains
     found%gap(n) = 0.0_dp
     found%gap_upper(n) = 0.0_dp
     if (options%tied) return
-    found%gap(n) = dot_product(direction, draft%way(:, i))/draft%weight(i)
-    if (options%smooth .and. options%normals == FUGE_NORMALS_AVERAGED .and. options%method == FUGE_MORTAR) &
-      found%gap(n) = draft%gap(i)/draft%weight(i)
+    found%gap(n) = (dot_product(direction, draft%way(:, i)) + draft%gap(i))/draft%weight(i)
     found%gap_upper(n) = options%play
     if (options%play >= huge(1.0_dp)) found%gap_upper(n) = ieee_value(1.0_dp, ieee_positive_inf)
   end subroutine fill_point
@@ -273,41 +289,41 @@ contains
     integer, intent(out) :: dof(:)
     real(dp), intent(out) :: normal(:)
     integer :: nodes(size(dof)), used
-    real(dp) :: weight(size(dof))
+    real(dp) :: axes(3, size(dof)), weight(size(dof))
 
     dof = 0
     normal = 0.0_dp
     used = 0
-    call copy_row(draft%own, i, nodes, weight)
-    call add_terms(contact, nodes(:row_length(draft%own, i)), -weight/draft%weight(i), direction, place, used, dof, &
-        normal)
-    call copy_row(draft%other, i, nodes, weight)
-    call add_terms(opposite, nodes(:row_length(draft%other, i)), weight/draft%weight(i), direction, place, used, dof, &
-                   normal)
+    call copy_row(draft%own, i, nodes, weight, axes)
+    call add_terms(contact, nodes(:row_length(draft%own, i)), -weight/draft%weight(i), -axes/draft%weight(i), &
+                   direction, place, used, dof, normal)
+    call copy_row(draft%other, i, nodes, weight, axes)
+    call add_terms(opposite, nodes(:row_length(draft%other, i)), weight/draft%weight(i), axes/draft%weight(i), &
+                   direction, place, used, dof, normal)
     place(dof(:used)) = 0
   end subroutine fill_row
 
-  !> Add the terms of the nodes of one surface; a degree of freedom that both bodies share comes once.
-  pure subroutine add_terms(surface, nodes, weight, direction, place, used, dof, normal)
+  !> Add the terms of the nodes of one surface, with weights along `direction` and along each axis; a degree of freedom
+  !> that both bodies share comes once.
+  pure subroutine add_terms(surface, nodes, weight, axes, direction, place, used, dof, normal)
     type(fuge_surface_mesh), intent(in) :: surface
     integer, intent(in) :: nodes(:)
-    real(dp), intent(in) :: weight(:), direction(:)
+    real(dp), intent(in) :: weight(:), axes(:, :), direction(:)
     integer, intent(inout) :: place(:), used, dof(:)
     real(dp), intent(inout) :: normal(:)
     integer :: axis, k
 
     if (.not. allocated(surface%dof)) return
     do k = 1, size(nodes)
-      if (abs(weight(k)) <= NO_WEIGHT) cycle
       do axis = 1, size(direction)
-        associate (degree => surface%dof(axis, nodes(k)))
-          if (degree == 0 .or. .not. abs(direction(axis)) > 0.0_dp) cycle
+        associate (degree => surface%dof(axis, nodes(k)), factor => weight(k)*direction(axis) + axes(axis, k))
+          if (degree == 0 .or. abs(factor) <= NO_WEIGHT) cycle
           if (place(degree) == 0) then
             used = used + 1
             place(degree) = used
             dof(used) = degree
           end if
-          normal(place(degree)) = normal(place(degree)) + weight(k)*direction(axis)
+          normal(place(degree)) = normal(place(degree)) + factor
         end associate
       end do
     end do
@@ -375,30 +391,5 @@ contains
     dof = 0
     if (allocated(surface%dof)) dof = maxval(surface%dof(:, i))
   end function owned_dof
-
-  !> The largest degree of freedom of the pairs found earlier; 0 if there are none.
-  pure function largest_before(pairs) result(largest)
-    type(fuge_contact_pairs), intent(in) :: pairs
-    integer :: largest
-
-    largest = 0
-    if (pairs%pairs > 0) largest = max(0, maxval(pairs%dof))
-  end function largest_before
-
-  !> Warn of a node that is a contact point of two pairs. `before` is work space, one element for each degree of freedom.
-  pure subroutine warn_repeated(pairs, before, info)
-    type(fuge_contact_pairs), intent(in) :: pairs
-    integer, intent(inout) :: before(:)
-    type(fuge_info), intent(inout) :: info
-    integer :: both(2)
-
-    if (pairs%pairs < 2) return
-    call pairs%first_repeated(before, both)
-    if (both(1) == 0) return
-    call report(info, FUGE_WARN_PAIRS, 'node '//index_text(pairs%node(both(2)))//' of the contact surface of pair ' &
-                //index_text(pairs%pair(both(2)))//' is a contact point of pair '//index_text(pairs%pair(both(1))) &
-                //' too, as node '//index_text(pairs%node(both(1)))//': leave its faces out of one of them, unless ' &
-                //'both bodies press on it')
-  end subroutine warn_repeated
 
 end module fuge_contact_pairs_search

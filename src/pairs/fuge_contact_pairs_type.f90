@@ -39,9 +39,10 @@ module fuge_contact_pairs_type
     real(dp) :: play = huge(1.0_dp)
     !> Glue the surfaces where they are: along each axis, with a gap and a play of zero.
     logical :: tied = .false.
-    !> Gaps as if the bodies were smooth: linear faces bulge between their nodes as the averaged normals suggest. For
-    !> round bodies whose interference or clearance is not large beside the height of a chord, L**2/(8 R).
-    logical :: smooth = .false.
+    !> Normals, gaps and areas are those of the smooth bodies that the meshes stand for, which on circles, spheres and
+    !> cylinders are exact; faces that meet at more than 40 degrees keep their edge, flat faces stay flat. False: those
+    !> of the faces as they are, whose chords on a round body are wrong by L**2/(8 R), often more than the gap itself.
+    logical :: smooth = .true.
   end type fuge_pair_options
 
   !> Contact points, in the form in which `fuge_body` and `fuge_problem` take them; n contact points.
@@ -76,6 +77,9 @@ module fuge_contact_pairs_type
     procedure :: points
     procedure :: set_owned
     procedure :: first_repeated
+    procedure :: largest_dof
+    procedure :: same_node
+    procedure :: keep
   end type fuge_contact_pairs
 
 contains
@@ -116,6 +120,65 @@ contains
     end do
     both = 0
   end subroutine first_repeated
+
+  !> The largest degree of freedom of the contact points and of their nodes; 0 if there are none.
+  pure function largest_dof(self) result(largest)
+    class(fuge_contact_pairs), intent(in) :: self
+    integer :: largest
+
+    largest = 0
+    if (self%points() > 0) largest = max(0, maxval(self%dof), maxval(self%owned))
+  end function largest_dof
+
+  !> Are contact point `i` and point `j` of other pairs of the same node? Of rigid ones this is not known.
+  pure function same_node(self, i, other, j) result(same)
+    class(fuge_contact_pairs), intent(in) :: self
+    integer, intent(in) :: i, j
+    type(fuge_contact_pairs), intent(in) :: other
+    logical :: same
+
+    same = self%owned(i) == other%owned(j)
+  end function same_node
+
+  !> Keep the contact points that are `kept` (points), in their order. `stat` is not zero, and nothing has changed,
+  !> without memory.
+  pure subroutine keep(self, kept, stat)
+    class(fuge_contact_pairs), intent(inout) :: self
+    logical, intent(in) :: kept(:)
+    integer, intent(out) :: stat
+    type(fuge_contact_pairs) :: all
+    integer, allocatable :: places(:)
+    integer :: i, n
+
+    n = count(kept)
+    allocate (places(n), all%dof(size(self%dof, 1), n), all%normal(size(self%dof, 1), n), &
+              all%direction(size(self%direction, 1), n), all%place(size(self%place, 1), n), all%gap(n), &
+              all%gap_upper(n), all%area(n), all%pair(n), all%node(n), all%face(n), all%owned(n), stat=stat)
+    if (stat /= 0) return
+    places = pack([(i, i=1, size(kept))], kept)
+    all%dof = self%dof(:, places)
+    all%normal = self%normal(:, places)
+    all%direction = self%direction(:, places)
+    all%place = self%place(:, places)
+    all%gap = self%gap(places)
+    all%gap_upper = self%gap_upper(places)
+    all%area = self%area(places)
+    all%pair = self%pair(places)
+    all%node = self%node(places)
+    all%face = self%face(places)
+    all%owned = self%owned(places)
+    call move_alloc(all%dof, self%dof)
+    call move_alloc(all%normal, self%normal)
+    call move_alloc(all%direction, self%direction)
+    call move_alloc(all%place, self%place)
+    call move_alloc(all%gap, self%gap)
+    call move_alloc(all%gap_upper, self%gap_upper)
+    call move_alloc(all%area, self%area)
+    call move_alloc(all%pair, self%pair)
+    call move_alloc(all%node, self%node)
+    call move_alloc(all%face, self%face)
+    call move_alloc(all%owned, self%owned)
+  end subroutine keep
 
   !> Refuse options that make no sense for this contact surface.
   pure subroutine check_pair_options(options, contact, info)

@@ -2,14 +2,14 @@
 !>
 !> A face in the plane has a third coordinate that is zero.
 module fuge_face_geometry
-  use fuge_face_shapes, only: corner_count, middle_place, shape_slopes, shape_values, side_ends, EDGE_2, EDGE_3, &
-    MOST_NODES, QUADRANGLE_4, QUADRANGLE_8, TRIANGLE_3, TRIANGLE_6
+  use fuge_face_shapes, only: corner_count, middle_place, node_place, shape_slopes, shape_values, side_ends, &
+    EDGE_2, EDGE_3, MOST_NODES, QUADRANGLE_4, QUADRANGLE_8, TRIANGLE_3
   use fuge_kinds, only: dp
   implicit none
   private
 
-  public :: across, bend, bulge_at, cross, face_normal, face_position, find_across, frame_across, is_affine, &
-      is_straight, unit
+  public :: across, bend, cross, face_normal, face_position, find_across, frame_across, is_affine, &
+      is_straight, solve_step, unit
 
   !> The nodes of a face.
   type, public :: face_nodes
@@ -17,16 +17,18 @@ module fuge_face_geometry
     integer :: count = 0
     !> Positions of the nodes, (3, count).
     real(dp) :: x(3, MOST_NODES) = 0.0_dp
-    !> How far the body's surface bulges beyond the middle of each side of a linear face, (3, sides).
-    real(dp) :: bulge(3, 4) = 0.0_dp
-    !> Unit normals at the nodes, where known, (3, count); else 0.
+    !> Unit normals of the smooth surface that the face stands for, at its nodes, where known, (3, count); else 0.
     real(dp) :: normal(3, MOST_NODES) = 0.0_dp
+    !> Is that surface another one than the face itself?
+    logical :: bent = .false.
   end type face_nodes
 
   !> Steps of Newton's iteration; on a face that is not folded five are enough.
   integer, parameter :: MOST_STEPS = 25
   !> Relative deviation of a middle node, or of a fourth corner, that is taken for rounding.
   real(dp), parameter :: ROUNDING = 1.0e-10_dp
+  !> Sides that lean by less than this from the plane across a normal are flat.
+  real(dp), parameter :: FLAT = 1.0e-12_dp
 
 contains
 
@@ -40,46 +42,30 @@ contains
     x = matmul(face%x(:, :face%count), values(:face%count))
   end function face_position
 
-  !> Let a linear face bulge between its nodes as the unit normals there, (3, count), suggest.
-  !>
-  !> The middle of a side of length L moves by L/8 times the change of the normal along it, which on a circle of radius
-  !> R is its height L**2/(8 R). (After T. Nagata: Simple local interpolation of surfaces using normal vectors, Computer
-  !> Aided Geometric Design 22, 2005.) Sides along which the normal turns by more than 60 degrees are edges of the body.
+  !> Give a face the unit normals of a smooth surface at its nodes, (3, count); where they are across it, it is not
+  !> bent, nor where they look nearly along it. A normal that leans by more than 60 degrees from that of the face at the
+  !> node is replaced by the latter.
   pure subroutine bend(face, normal)
     type(face_nodes), intent(inout) :: face
     real(dp), intent(in) :: normal(:, :)
-    integer :: k, next
+    real(dp) :: own(3)
+    integer :: i, k
 
-    face%normal(:, :face%count) = normal
-    if (face%count /= corner_count(face%kind)) return
-    do k = 1, merge(1, face%count, face%kind <= EDGE_3)
-      next = modulo(k, face%count) + 1
-      if (dot_product(normal(:, k), normal(:, next)) < 0.5_dp) cycle
-      face%bulge(:, k) = 0.125_dp*dot_product(normal(:, next) - normal(:, k), face%x(:, next) - face%x(:, k)) &
-                         *unit(normal(:, k) + normal(:, next))
+    face%normal(:, :face%count) = normal(:, :face%count)
+    do k = 1, face%count
+      own = unit(face_normal(face, node_place(face%kind, k)))
+      if (dot_product(own, normal(:, k)) < 0.5_dp) face%normal(:, k) = own
+    end do
+    face%bent = .false.
+    own = unit(face_normal(face, middle_place(face%kind)))
+    if (minval(matmul(own, face%normal(:, :face%count))) < 0.1_dp) return
+    do k = 1, face%count
+      do i = 1, face%count
+        own = face%x(:, i) - face%x(:, k)
+        face%bent = face%bent .or. abs(dot_product(own, face%normal(:, k))) > FLAT*norm2(own)
+      end do
     end do
   end subroutine bend
-
-  !> How far the surface of the body bulges beyond a linear face: along the sides quadratic, as middle nodes would have
-  !> it.
-  pure function bulge_at(face, place) result(way)
-    type(face_nodes), intent(in) :: face
-    real(dp), intent(in) :: place(2)
-    real(dp) :: way(3), values(MOST_NODES)
-
-    way = 0.0_dp
-    select case (face%kind)
-    case (EDGE_2)
-      values = shape_values(EDGE_3, place)
-      way = values(3)*face%bulge(:, 1)
-    case (TRIANGLE_3)
-      values = shape_values(TRIANGLE_6, place)
-      way = matmul(face%bulge(:, :3), values(4:6))
-    case (QUADRANGLE_4)
-      values = shape_values(QUADRANGLE_8, place)
-      way = matmul(face%bulge, values(5:8))
-    end select
-  end function bulge_at
 
   !> The normal at a place, outwards; its length is the area, or length, per area of the places.
   pure function face_normal(face, place) result(normal)

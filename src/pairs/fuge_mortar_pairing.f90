@@ -187,18 +187,19 @@ contains
     type(face_nodes) :: face
     real(dp) :: direction(3), frame(3, 2), mass(MOST_NODES, MOST_NODES), area(MOST_NODES), &
       coefficient(MOST_NODES, MOST_NODES), own(MOST_NODES, MOST_NODES), positive(MOST_NODES, MOST_NODES)
-    logical :: dual
-    integer :: a, b, k
+    logical :: dual, smooth
+    integer :: k
 
     allocate (moments(size(parts)), stat=stat)
     if (stat /= 0) return
     face = get_face(contact, f, faces%own_bend)
+    smooth = face%bent .or. any_bent(opposite, parts%face, faces%bend)
     direction = unit(face_normal(face, middle_place(face%kind)))
     frame = frame_across(direction)
     mass = 0.0_dp
     area = 0.0_dp
     do k = 1, size(parts)
-      call add_moments(face, get_face(opposite, parts(k)%face, faces%bend), direction, frame, parts(k)%shape, &
+      call add_moments(face, get_face(opposite, parts(k)%face, faces%bend), direction, frame, smooth, parts(k)%shape, &
           moments(k))
       mass = mass + moments(k)%mass
       area = area + moments(k)%area
@@ -208,54 +209,96 @@ contains
       positive = nowhere_negative(face%kind, n)
       own = unmixed(face%kind, n)
       if (dual) then
-        do a = 1, n
-          own(a, :) = area(a)*own(a, :)
-        end do
+        own(:n, :n) = spread(area(:n), 2, n)*own(:n, :n)
       else
         coefficient = positive
         own(:n, :n) = matmul(matmul(positive(:n, :n), mass(:n, :n)), own(:n, :n))
         area(:n) = matmul(positive(:n, :n), area(:n))
       end if
-      do a = 1, n
-        draft%weight(contact%face(a, f)) = draft%weight(contact%face(a, f)) + area(a)
-        do b = 1, n
-          if (abs(own(a, b)) > 0.0_dp) call add_weight(draft%own, contact%face(a, f), contact%face(b, f), own(a, &
-              b), stat)
-        end do
-      end do
+      draft%weight(contact%face(:n, f)) = draft%weight(contact%face(:n, f)) + area(:n)
+      if (.not. (smooth .and. faces%turning)) call add_own(contact%face(:n, f), own(:n, :n), draft, stat)
       do k = 1, size(parts)
-        call add_part(contact%face(:n, f), opposite, parts(k)%face, coefficient(:n, :n), positive(:n, :n), moments(k), &
-                      draft, stat)
+        call add_part(contact%face(:n, f), face%normal(:, :n), opposite, parts(k)%face, coefficient(:n, :n), &
+                      positive(:n, :n), smooth, faces%turning, moments(k), draft, stat)
       end do
     end associate
   end subroutine weigh_face
 
-  !> Add the weights of one opposite face to those of the nodes of a face.
-  pure subroutine add_part(nodes, opposite, f, coefficient, positive, moments, draft, stat)
+  !> Is any of these faces bent?
+  pure function any_bent(surface, numbers, normals) result(bent)
+    type(fuge_surface_mesh), intent(in) :: surface
+    integer, intent(in) :: numbers(:)
+    real(dp), intent(in) :: normals(:, :, :)
+    type(face_nodes) :: face
+    logical :: bent
+    integer :: k
+
+    bent = .false.
+    if (size(normals, 3) == 0) return
+    do k = 1, size(numbers)
+      face = get_face(surface, numbers(k), normals)
+      bent = bent .or. face%bent
+    end do
+  end function any_bent
+
+  !> Add the weights of the displacements of a face's own nodes: `own` has a row for each contact point.
+  pure subroutine add_own(nodes, own, draft, stat)
+    integer, intent(in) :: nodes(:)
+    real(dp), intent(in) :: own(:, :)
+    type(pair_draft), intent(inout) :: draft
+    integer, intent(inout) :: stat
+    real(dp), parameter :: NONE(3) = 0.0_dp
+    integer :: a, b
+
+    do a = 1, size(nodes)
+      do b = 1, size(nodes)
+        if (abs(own(a, b)) > 0.0_dp) call add_weight(draft%own, nodes(a), nodes(b), own(a, b), NONE, stat)
+      end do
+    end do
+  end subroutine add_own
+
+  !> Add the weights of one opposite face to those of the nodes of a face. `along` are the normals of the smooth surface
+  !> at these nodes. Between `smooth` surfaces the gap is along the normal at each place if the normals are `turning`,
+  !> else along one direction for each node.
+  pure subroutine add_part(nodes, along, opposite, f, coefficient, positive, smooth, turning, moments, draft, stat)
     integer, intent(in) :: nodes(:), f
+    real(dp), intent(in) :: along(:, :)
     type(fuge_surface_mesh), intent(in) :: opposite
     real(dp), intent(in) :: coefficient(:, :), positive(:, :)
+    logical, intent(in) :: smooth, turning
     type(face_moments), intent(in) :: moments
     type(pair_draft), intent(inout) :: draft
     integer, intent(inout) :: stat
     real(dp) :: weight(size(nodes), MOST_NODES), way(3, size(nodes)), normal(3, size(nodes)), place(2, size(nodes)), &
-      share(size(nodes)), gap(size(nodes))
+      share(size(nodes)), axes(3, MOST_NODES, size(nodes))
     integer :: a, c
 
     weight = matmul(coefficient, moments%cross(:size(nodes), :))
     way = matmul(moments%way(:, :size(nodes)), transpose(coefficient))
-    gap = matmul(coefficient, moments%gap(:size(nodes)))
+    if (smooth) way = spread(matmul(coefficient, moments%gap(:size(nodes))), 1, 3)*along
+    axes = 0.0_dp
+    if (smooth .and. turning) then
+      weight = 0.0_dp
+      way = 0.0_dp
+      draft%gap(nodes) = draft%gap(nodes) + matmul(coefficient, moments%gap(:size(nodes)))
+      axes = combined(coefficient, moments%own_axes)
+      do a = 1, size(nodes)
+        do c = 1, size(nodes)
+          call add_weight(draft%own, nodes(a), nodes(c), 0.0_dp, axes(:, c, a), stat)
+        end do
+      end do
+      axes = combined(coefficient, moments%axes)
+    end if
     normal = matmul(moments%normal(:, :size(nodes)), transpose(positive))
     place = matmul(moments%place(:, :size(nodes)), transpose(positive))
     share = matmul(positive, moments%area(:size(nodes)))
     do a = 1, size(nodes)
       associate (i => nodes(a))
         draft%way(:, i) = draft%way(:, i) + way(:, a)
-        draft%gap(i) = draft%gap(i) + gap(a)
         draft%normal(:, i) = draft%normal(:, i) + normal(:, a)
         do c = 1, size(opposite%face, 1)
           if (opposite%face(c, f) == 0) exit
-          call add_weight(draft%other, i, opposite%face(c, f), weight(a, c), stat)
+          call add_weight(draft%other, i, opposite%face(c, f), weight(a, c), axes(:, c, a), stat)
           if (stat /= 0) return
         end do
         if (draft%face(i) == f) then
@@ -269,6 +312,20 @@ contains
       end associate
     end do
   end subroutine add_part
+
+  !> Integrals with dual functions from those with shape functions.
+  pure function combined(coefficient, integrals) result(axes)
+    real(dp), intent(in) :: coefficient(:, :), integrals(3, MOST_NODES, MOST_NODES)
+    real(dp) :: axes(3, MOST_NODES, size(coefficient, 1))
+    integer :: a, b
+
+    axes = 0.0_dp
+    do a = 1, size(axes, 3)
+      do b = 1, size(coefficient, 2)
+        axes(:, :, a) = axes(:, :, a) + coefficient(a, b)*integrals(:, :, b)
+      end do
+    end do
+  end function combined
 
   !> Order a few numbers, so that no sum depends on the shape of the tree.
   pure subroutine sort_upwards(list)

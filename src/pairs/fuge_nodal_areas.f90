@@ -5,6 +5,7 @@ module fuge_nodal_areas
   use fuge_face_shapes, only: shape_values, EDGE_3, MOST_NODES, TRIANGLE_3, TRIANGLE_6
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
+  use fuge_smooth_faces, only: smooth_point
   use fuge_surface_mesh_type, only: fuge_surface_mesh, get_face
   implicit none
   private
@@ -18,15 +19,16 @@ contains
 
   !> The area, in the plane the length, of each node, (nodes): the integral of its shape function
   !> mixed with its neighbours' (`middle_share`). Their sum is the area of the surface; zero at nodes that no face
-  !> names.
-  pure subroutine find_nodal_areas(surface, area)
+  !> names. `normals` as in `get_face`: the area is that of the smooth surface.
+  pure subroutine find_nodal_areas(surface, normals, area)
     type(fuge_surface_mesh), intent(in) :: surface
+    real(dp), intent(in) :: normals(:, :, :)
     real(dp), intent(out) :: area(:)
     integer :: f
 
     area = 0.0_dp
     do f = 1, size(surface%face, 2)
-      call add_areas(get_face(surface, f), surface%face(:, f), area)
+      call add_areas(get_face(surface, f, normals), surface%face(:, f), area)
     end do
   end subroutine find_nodal_areas
 
@@ -51,10 +53,24 @@ contains
           place = 2.0_dp*[node(i), node(j)] - 1.0_dp
           values = 4.0_dp*weight(i)*weight(j)
         end if
-        values = values*norm2(face_normal(face, place))*mixed_values(face%kind, shape_values(face%kind, place))
+        values = values*area_at(face, place)*mixed_values(face%kind, shape_values(face%kind, place))
         area(nodes(:face%count)) = area(nodes(:face%count)) + values(:face%count)
       end do
     end do
   end subroutine add_areas
+
+  !> The area per area of the places.
+  pure function area_at(face, place) result(area)
+    type(face_nodes), intent(in) :: face
+    real(dp), intent(in) :: place(2)
+    real(dp) :: area, normal(3), position(3)
+
+    if (face%bent) then
+      call smooth_point(face, place, position, normal)
+    else
+      normal = face_normal(face, place)
+    end if
+    area = norm2(normal)
+  end function area_at
 
 end module fuge_nodal_areas

@@ -3,11 +3,12 @@
 !> Simple, but forces between nodes cannot balance a uniform pressure if the meshes do not match: this method fails the
 !> patch test (R. Taylor, P. Papadopoulos: On a patch test for contact problems in two dimensions, 1991).
 module fuge_node_to_face
-  use fuge_face_geometry, only: bulge_at, face_nodes, face_normal, find_across, unit
+  use fuge_face_geometry, only: face_nodes, face_normal, face_position, find_across, unit
   use fuge_face_shapes, only: lies_inside, shape_values, MOST_NODES
   use fuge_kinds, only: dp
   use fuge_opposite_faces, only: opposite_faces, FACING
   use fuge_pair_draft_type, only: pair_draft
+  use fuge_smooth_faces, only: find_opposite, smooth_gap, smooth_point, smooth_weights
   use fuge_surface_mesh_type, only: fuge_surface_mesh, get_face
   use fuge_weight_rows, only: add_weight
   implicit none
@@ -100,7 +101,9 @@ contains
     type(pair_draft), intent(inout) :: draft
     integer, intent(inout) :: stat
     type(face_nodes) :: face
-    real(dp) :: direction(3), distance, here(2), next(2), values(MOST_NODES)
+    real(dp) :: direction(3), distance, facing(3), here(2), next(2), there(3), values(MOST_NODES), &
+      axes(3, MOST_NODES)
+    real(dp), parameter :: NONE(3) = 0.0_dp
     integer :: k
     logical :: found
 
@@ -123,10 +126,22 @@ contains
     draft%face(i) = f
     draft%place(:, i) = here
     draft%normal(:, i) = -direction
-    draft%way(:, i) = matmul(face%x(:, :face%count), values(:face%count)) - x + bulge_at(face, here)
-    call add_weight(draft%own, i, i, 1.0_dp, stat)
+    draft%way(:, i) = face_position(face, here) - x
+    if (face%bent) then
+      if (.not. along_face) call find_opposite(face, x, direction, here)
+      call smooth_point(face, here, there, facing)
+      facing = unit(facing)
+      if (along_face) direction = -facing
+      draft%normal(:, i) = facing
+      draft%way(:, i) = smooth_gap(there - x, direction, facing)*direction
+    end if
+    axes = 0.0_dp
+    if (face%bent) then
+      axes = smooth_weights(face, here, direction) - spread(direction, 2, MOST_NODES)*spread(values, 1, 3)
+    end if
+    call add_weight(draft%own, i, i, 1.0_dp, NONE, stat)
     do k = 1, face%count
-      call add_weight(draft%other, i, opposite%face(k, f), values(k), stat)
+      call add_weight(draft%other, i, opposite%face(k, f), values(k), axes(:, k), stat)
       if (stat /= 0) return
     end do
   end subroutine add_pair

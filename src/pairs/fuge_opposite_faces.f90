@@ -17,9 +17,11 @@ module fuge_opposite_faces
     type(face_tree) :: tree
     !> Unit normals in the middle of the faces, (3, faces).
     real(dp), allocatable :: normal(:, :)
-    !> Unit normals at the nodes of the contact surface and of the opposite one, (3, nodes), where the gaps are those of
-    !> smooth surfaces; else (3, 0).
-    real(dp), allocatable :: own_bend(:, :), bend(:, :)
+    !> Unit normals at the nodes of the faces of the contact surface and of the opposite one, (3, nodes of a face,
+    !> faces), where the gaps are those of smooth surfaces; else (3, nodes of a face, 0).
+    real(dp), allocatable :: own_bend(:, :, :), bend(:, :, :)
+    !> Do gaps between smooth surfaces follow the normal from place to place, or one direction for each node?
+    logical :: turning = .false.
     !> How far an opposite may be, on both sides.
     real(dp) :: reach = 0.0_dp
   end type opposite_faces

@@ -14,7 +14,7 @@ module fuge_pair_draft_type
     real(dp), allocatable :: area(:)
     !> From the contact surface to the opposite one, and normals of the latter, (3, nodes).
     real(dp), allocatable :: way(:, :), normal(:, :)
-    !> That way along the normals interpolated between the nodes, for smooth surfaces; else 0.
+    !> Gaps along directions that turn from place to place; those along one direction are in `way`.
     real(dp), allocatable :: gap(:)
     !> The opposite face with the largest share of the weight, that share, and the sum of places in it, (2, nodes).
     integer, allocatable :: face(:)
@@ -33,8 +33,8 @@ contains
     integer, intent(in) :: nodes
     integer, intent(out) :: stat
 
-    allocate (draft%weight(nodes), draft%area(nodes), draft%way(3, nodes), draft%gap(nodes), draft%normal(3, &
-              nodes), draft%face(nodes), draft%share(nodes), draft%place(2, nodes), stat=stat)
+    allocate (draft%weight(nodes), draft%area(nodes), draft%way(3, nodes), draft%normal(3, nodes), draft%gap(nodes), &
+              draft%face(nodes), draft%share(nodes), draft%place(2, nodes), stat=stat)
     if (stat == 0) call start_rows(draft%own, nodes, stat)
     if (stat == 0) call start_rows(draft%other, nodes, stat)
     if (stat /= 0) return

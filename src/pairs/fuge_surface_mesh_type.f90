@@ -38,11 +38,12 @@ contains
     end do
   end function face_size
 
-  !> The positions of the nodes of face `f`, and its bulge if there are unit normals at the nodes, (3, nodes).
+  !> The positions of the nodes of face `f`, and the normals of a smooth surface there if they are known, (3, nodes of a
+  !> face, faces).
   pure function get_face(surface, f, normal) result(face)
     type(fuge_surface_mesh), intent(in) :: surface
     integer, intent(in) :: f
-    real(dp), intent(in), optional :: normal(:, :)
+    real(dp), intent(in), optional :: normal(:, :, :)
     type(face_nodes) :: face
     integer :: k
 
@@ -52,7 +53,7 @@ contains
       face%x(:size(surface%node, 1), k) = surface%node(:, surface%face(k, f))
     end do
     if (.not. present(normal)) return
-    if (size(normal, 2) > 0) call bend(face, normal(:, surface%face(:face%count, f)))
+    if (size(normal, 3) > 0) call bend(face, normal(:, :, f))
   end function get_face
 
 end module fuge_surface_mesh_type

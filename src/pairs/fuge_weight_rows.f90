@@ -1,4 +1,5 @@
-!> Rows of weights that grow as they are added to: a sparse matrix under construction.
+!> Rows of weights that grow as they are added to: a sparse matrix under construction. Each entry has a weight along the
+!> direction of its row, which is not known yet, and one along each axis.
 module fuge_weight_rows
   use fuge_kinds, only: dp
   implicit none
@@ -10,7 +11,7 @@ module fuge_weight_rows
     !> First entry of each row and the entry after each one, 0 at the end.
     integer, allocatable, private :: first(:), next(:)
     integer, allocatable, private :: column(:)
-    real(dp), allocatable, private :: weight(:)
+    real(dp), allocatable, private :: weight(:), axes(:, :)
     integer, private :: used = 0
   end type weight_rows
 
@@ -22,15 +23,16 @@ contains
     integer, intent(in) :: count
     integer, intent(out) :: stat
 
-    allocate (rows%first(count), rows%next(8*count + 8), rows%column(8*count + 8), rows%weight(8*count + 8), stat=stat)
+    allocate (rows%first(count), rows%next(8*count + 8), rows%column(8*count + 8), rows%weight(8*count + 8), &
+              rows%axes(3, 8*count + 8), stat=stat)
     if (stat == 0) rows%first = 0
   end subroutine start_rows
 
-  !> Add to one weight. `stat` is left alone on success.
-  pure subroutine add_weight(rows, row, column, weight, stat)
+  !> Add to the weights of one entry. `stat` is left alone on success.
+  pure subroutine add_weight(rows, row, column, weight, axes, stat)
     type(weight_rows), intent(inout) :: rows
     integer, intent(in) :: row, column
-    real(dp), intent(in) :: weight
+    real(dp), intent(in) :: weight, axes(3)
     integer, intent(inout) :: stat
     integer :: p
 
@@ -38,6 +40,7 @@ contains
     do while (p > 0)
       if (rows%column(p) == column) then
         rows%weight(p) = rows%weight(p) + weight
+        rows%axes(:, p) = rows%axes(:, p) + axes
         return
       end if
       p = rows%next(p)
@@ -47,6 +50,7 @@ contains
     rows%used = rows%used + 1
     rows%column(rows%used) = column
     rows%weight(rows%used) = weight
+    rows%axes(:, rows%used) = axes
     rows%next(rows%used) = rows%first(row)
     rows%first(row) = rows%used
   end subroutine add_weight
@@ -65,22 +69,24 @@ contains
     end do
   end function row_length
 
-  !> The entries of a row; `column` and `weight` have room for them.
-  pure subroutine copy_row(rows, row, column, weight)
+  !> The entries of a row; `column`, `weight` and `axes` have room for them.
+  pure subroutine copy_row(rows, row, column, weight, axes)
     type(weight_rows), intent(in) :: rows
     integer, intent(in) :: row
     integer, intent(out) :: column(:)
-    real(dp), intent(out) :: weight(:)
+    real(dp), intent(out) :: weight(:), axes(:, :)
     integer :: k, p
 
     column = 0
     weight = 0.0_dp
+    axes = 0.0_dp
     k = 0
     p = rows%first(row)
     do while (p > 0)
       k = k + 1
       column(k) = rows%column(p)
       weight(k) = rows%weight(p)
+      axes(:, k) = rows%axes(:, p)
       p = rows%next(p)
     end do
   end subroutine copy_row
@@ -89,18 +95,20 @@ contains
     type(weight_rows), intent(inout) :: rows
     integer, intent(inout) :: stat
     integer, allocatable :: column(:), next(:)
-    real(dp), allocatable :: weight(:)
+    real(dp), allocatable :: axes(:, :), weight(:)
     integer :: length
 
     length = rows%used + rows%used/2 + 16
-    allocate (column(length), next(length), weight(length), stat=stat)
+    allocate (axes(3, length), column(length), next(length), weight(length), stat=stat)
     if (stat /= 0) return
     column(:rows%used) = rows%column(:rows%used)
     next(:rows%used) = rows%next(:rows%used)
     weight(:rows%used) = rows%weight(:rows%used)
+    axes(:, :rows%used) = rows%axes(:, :rows%used)
     call move_alloc(column, rows%column)
     call move_alloc(next, rows%next)
     call move_alloc(weight, rows%weight)
+    call move_alloc(axes, rows%axes)
   end subroutine lengthen
 
 end module fuge_weight_rows

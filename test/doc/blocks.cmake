@@ -1,7 +1,8 @@
 # Code in the pages of the manual becomes programs that are tests.
 #
-# fuge_page_programs(page): each block ```fortran with a `program`, and each block ```c with a
-# `main`, is compiled; the block ```text after it is what the program has to print.
+# fuge_page_programs(page [file ..]): each block ```fortran with a `program`, and each block ```c
+# with a `main`, is compiled; the block ```text after it is what the program has to print. The
+# programs run in a folder with copies of the files.
 # fuge_page_calls(page): each block ```fortran that begins with `use fuge`, and each block ```c
 # that begins with `#include <fuge.h>`, is a piece of a program; where a comment says
 # `name = value, value    name = value`, these are the values that it has to find.
@@ -59,6 +60,11 @@ endfunction()
 function(fuge_page_programs page)
   fuge_read_page("${page}" text)
   get_filename_component(stem "${page}" NAME_WE)
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${stem}")
+  file(MAKE_DIRECTORY "${folder}")
+  foreach(file IN LISTS ARGN)
+    configure_file("${file}" "${folder}" COPYONLY)
+  endforeach()
   set(name "")
   set(fortran)
   set(count 0)
@@ -70,7 +76,7 @@ function(fuge_page_programs page)
       file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/${name}.txt" CONTENT "${code}" @ONLY)
       add_test(NAME doc_${name} COMMAND "${CMAKE_COMMAND}" -DPROGRAM=$<TARGET_FILE:doc_${name}>
         -DEXPECTED=${CMAKE_CURRENT_BINARY_DIR}/${name}.txt -P "${CMAKE_CURRENT_SOURCE_DIR}/prints.cmake")
-      set_tests_properties(doc_${name} PROPERTIES LABELS doc)
+      set_tests_properties(doc_${name} PROPERTIES LABELS doc WORKING_DIRECTORY "${folder}")
       if(name IN_LIST fortran)
         # What a main program allocates lives to its end, and counts as leaked.
         set_property(TEST doc_${name} PROPERTY ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")

@@ -1,7 +1,7 @@
-# A program prints what a page says: cmake -D PROGRAM=... -D EXPECTED=file -P prints.cmake
+# A program prints what a page says: cmake -D PROGRAM=... [-D ARGUMENT=...] -D EXPECTED=file -P prints.cmake
 cmake_minimum_required(VERSION 3.20)
 
-execute_process(COMMAND "${PROGRAM}" OUTPUT_VARIABLE printed RESULT_VARIABLE status)
+execute_process(COMMAND "${PROGRAM}" ${ARGUMENT} OUTPUT_VARIABLE printed RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "it ended with ${status} after\n${printed}")
 endif()

@@ -1,0 +1,146 @@
+"""Arguments: type, shape and memory order are checked here, values by the library."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fuge.errors import Status, error
+
+Doubles = NDArray[np.float64]
+Ints = NDArray[np.intc]
+
+_LARGEST = int(np.iinfo(np.intc).max)
+
+
+def number(name: str, value: Any) -> float:
+    """A real number."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
+        return float(value)
+    except TypeError:
+        raise TypeError(f"{name} must be a real number, not {type(value).__name__}") from None
+
+
+def optional_number(name: str, value: Any) -> Doubles | None:
+    """A number as C takes it where it may be NULL."""
+    return None if value is None else np.array([number(name, value)])
+
+
+def integer(name: str, value: Any) -> int:
+    """An integer that fits into a C int."""
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} must be an integer, not {type(value).__name__}") from None
+    if not -_LARGEST <= found <= _LARGEST:
+        raise error(Status.ERR_SIZE, f"{name} is {found}, beyond the range of an int")
+    return found
+
+
+def _described(shape: tuple[int | None, ...]) -> str:
+    return "(" + ", ".join("any" if k is None else str(k) for k in shape) + ("," if len(shape) == 1 else "") + ")"
+
+
+def _fits(found: tuple[int, ...], wanted: tuple[int | None, ...]) -> bool:
+    return len(found) == len(wanted) and all(w is None or f == w for f, w in zip(found, wanted))
+
+
+def check_shape(name: str, found: tuple[int, ...], *wanted: tuple[int | None, ...]) -> None:
+    """One of the shapes `wanted`, in which None stands for any number."""
+    if not any(_fits(found, shape) for shape in wanted):
+        shapes = " or ".join(_described(shape) for shape in wanted)
+        raise error(Status.ERR_SIZE, f"{name} has the shape {_described(found)}, but must have {shapes}")
+
+
+def _real(name: str, value: ArrayLike) -> NDArray[Any]:
+    found = np.asarray(value)
+    if found.dtype.kind not in "iuf":
+        raise TypeError(f"{name} must hold real numbers, not {found.dtype}")
+    return found
+
+
+def doubles(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Doubles:
+    """An array of doubles in C order; the caller's own memory if it is one. No shapes: any shape."""
+    found = _real(name, value)
+    if shapes:
+        check_shape(name, found.shape, *shapes)
+    # ascontiguousarray makes a scalar an array of one.
+    return np.ascontiguousarray(found, dtype=np.float64).reshape(found.shape)
+
+
+def vector(name: str, value: ArrayLike, n: int | None = None) -> Doubles:
+    """n doubles, or any number of them."""
+    return doubles(name, value, (n,))
+
+
+def spread(name: str, value: ArrayLike, n: int) -> Doubles:
+    """n doubles, or one for all."""
+    found = _real(name, value)
+    if found.ndim == 0:
+        return np.full(n, float(found))
+    return vector(name, found, n)
+
+
+def columns(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Doubles:
+    """An array of doubles in Fortran's order."""
+    found = _real(name, value)
+    check_shape(name, found.shape, *shapes)
+    return np.asfortranarray(found, dtype=np.float64)
+
+
+def symmetric(name: str, value: ArrayLike) -> Doubles:
+    """A square symmetric matrix, in either order: its transpose is the same matrix."""
+    found = _real(name, value)
+    check_shape(name, found.shape, (None, None))
+    if found.shape[0] != found.shape[1]:
+        raise error(Status.ERR_SIZE, f"{name} has the shape {_described(found.shape)}, but must be square")
+    if found.flags.f_contiguous:
+        return np.asfortranarray(found, dtype=np.float64)
+    return np.ascontiguousarray(found, dtype=np.float64)
+
+
+def integers(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Ints:
+    """An array of C ints in C order."""
+    found = np.asarray(value)
+    if found.size == 0 and found.dtype.kind == "f":
+        found = found.astype(np.intc)
+    if found.dtype.kind not in "iu":
+        raise TypeError(f"{name} must hold integers, not {found.dtype}")
+    if shapes:
+        check_shape(name, found.shape, *shapes)
+    if found.dtype != np.intc and found.size > 0 and (found.max() > _LARGEST or found.min() < -_LARGEST):
+        raise error(Status.ERR_SIZE, f"{name} has numbers beyond the range of an int")
+    return np.ascontiguousarray(found, dtype=np.intc).reshape(found.shape)
+
+
+def flags(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Ints:
+    """Booleans as C ints."""
+    found = np.asarray(value)
+    if found.dtype.kind != "b":
+        raise TypeError(f"{name} must hold booleans, not {found.dtype}")
+    check_shape(name, found.shape, *shapes)
+    return np.ascontiguousarray(found, dtype=np.intc)
+
+
+def choice(name: str, value: Any, values: Mapping[str, int], status: Status = Status.ERR_OPTION) -> int:
+    """The number of a word."""
+    if isinstance(value, str) and value in values:
+        return values[value]
+    raise error(status, f"{name} is {value!r}, but must be one of " + ", ".join(repr(word) for word in values))
+
+
+def points(*named: tuple[str, ArrayLike]) -> tuple[tuple[int, ...], list[Doubles]]:
+    """Coordinates that are broadcast against each other: their common shape, and a flat array of each."""
+    found = [_real(name, value) for name, value in named]
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in found))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for (name, _), array in zip(named, found))
+        raise error(Status.ERR_SIZE, f"the shapes of coordinates do not fit together: {shapes}") from None
+    flat = [np.ascontiguousarray(np.broadcast_to(array, shape), dtype=np.float64).reshape(-1) for array in found]
+    return shape, flat

@@ -1,0 +1,247 @@
+"""Calls of C functions: messages become exceptions and warnings, handles are freed."""
+
+from __future__ import annotations
+
+import ctypes
+import signal
+import threading
+from contextlib import contextmanager
+from typing import Any, Callable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fuge import _library
+from fuge._arrays import vector
+from fuge._library import function
+from fuge.errors import Status, error, finish
+
+MESSAGE_LENGTH = 256
+
+# Of each thread: the exception that a callback has raised, until the call that it ends is over, and whether Ctrl-C
+# was seen.
+_pending = threading.local()
+
+
+def _take_exception() -> BaseException | None:
+    exception: BaseException | None = getattr(_pending, "exception", None)
+    _pending.exception = None
+    return exception
+
+
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Let Ctrl-C end a call with callbacks by the next one of them.
+
+    Python would raise KeyboardInterrupt where a callback begins, outside its `try`, and ctypes would lose it.
+    """
+    main = threading.current_thread() is threading.main_thread()
+    if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield
+        return
+
+    def remember(number: int, frame: object) -> None:
+        _pending.interrupted = True
+
+    signal.signal(signal.SIGINT, remember)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        if _interrupted():
+            _pending.interrupted = False
+            raise KeyboardInterrupt
+
+
+def _interrupted() -> bool:
+    return bool(getattr(_pending, "interrupted", False))
+
+
+def _check_interrupt() -> None:
+    if _interrupted():
+        raise KeyboardInterrupt
+
+
+def end_call(code: int, read_message: Callable[[], str]) -> None:
+    """Raise what a callback has raised, or raise and warn as the status demands."""
+    exception = _take_exception()
+    if exception is not None:
+        raise exception
+    if code != 0:
+        finish(code, read_message())
+
+
+def call(name: str, *arguments: Any) -> None:
+    """Call a function whose last two arguments, not in `arguments`, are message and len."""
+    message = ctypes.create_string_buffer(MESSAGE_LENGTH + 1)
+    code = function(name)(*arguments, message, MESSAGE_LENGTH + 1)
+    end_call(code, lambda: message.value.decode(errors="replace"))
+
+
+class Handle:
+    """A C object, freed when nothing uses it any more.
+
+    `needs` are the handles that it refers to: they are freed after it, in whatever order the garbage collector
+    or the caller finds them.
+    """
+
+    # Reentrant, because the garbage collector may free one handle while another one is being freed.
+    _counting = threading.RLock()
+
+    def __init__(self, name: str, free: str, pointer: ctypes.c_void_p) -> None:
+        self.name = name
+        self._free = function(free)
+        self._pointer = pointer
+        self._needs: list[Handle] = []
+        self._kept: list[Any] = []
+        self._users = 0
+        self._closed = False
+        self._lock = threading.Lock()
+        self._owner: int | None = None
+
+    def need(self, other: Handle) -> None:
+        """Keep `other` until this one has been freed."""
+        with self._counting:
+            self._needs.append(other)
+            other._users += 1
+
+    def keep(self, *objects: Any) -> None:
+        """Keep arrays and callbacks to which the C object refers as long as it lives."""
+        self._kept.extend(objects)
+
+    def keep_only(self, callback: Any) -> None:
+        """Keep this callback in place of the one before."""
+        self._kept = [callback]
+
+    @property
+    def pointer(self) -> ctypes.c_void_p:
+        """For calls that only read what threads may share."""
+        if self._closed:
+            raise error(Status.ERR_CALL_ORDER, f"the {self.name} is closed")
+        return self._pointer
+
+    @contextmanager
+    def use(self) -> Iterator[ctypes.c_void_p]:
+        """The pointer, for one thread at a time; not from a callback that is called in a use."""
+        me = threading.get_ident()
+        if self._owner == me:
+            raise error(Status.ERR_CALL_ORDER, f"the {self.name} is in use: its functions cannot be called from inside")
+        with self._lock:
+            self._owner = me
+            try:
+                yield self.pointer
+            finally:
+                self._owner = None
+
+    def close(self) -> None:
+        """Free it, or let its last user free it."""
+        if not self._closed:
+            with self.use():
+                self._closed = True
+        self._release()
+
+    def _release(self) -> None:
+        with self._counting:
+            if self._closed and self._users == 0 and self._pointer:
+                self._free(ctypes.byref(self._pointer))
+                needs, self._needs = self._needs, []
+                for other in needs:
+                    other._users -= 1
+                    other._release()
+
+    def __del__(self) -> None:
+        # Nobody can be using it: a call holds a reference.
+        self._closed = True
+        self._release()
+
+
+class Owner:
+    """An object that owns a handle: ``close()``, and a context manager."""
+
+    _handle: Handle
+
+    def close(self) -> None:
+        """Free the memory of the library now; otherwise that happens when the object is no longer used."""
+        self._handle.close()
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+    def _call(self, name: str, *arguments: Any) -> None:
+        """Call a function of the handle which leaves its message there."""
+        with self._handle.use() as pointer:
+            code = function(name)(pointer, *arguments)
+            end_call(code, lambda: self._read_message(pointer))
+
+    _message_function = ""
+
+    def _read_message(self, pointer: ctypes.c_void_p) -> str:
+        message = ctypes.create_string_buffer(MESSAGE_LENGTH + 1)
+        function(self._message_function)(pointer, message, MESSAGE_LENGTH + 1)
+        return message.value.decode(errors="replace")
+
+
+def new_handle(name: str, create: str, free: str, *arguments: Any) -> Handle:
+    """Call `create`, whose arguments are followed by the place for the handle, message and len."""
+    pointer = ctypes.c_void_p()
+    call(create, *arguments, ctypes.byref(pointer))
+    return Handle(name, free, pointer)
+
+
+def _keep(exception: BaseException) -> int:
+    _pending.exception = exception
+    return 1
+
+
+def product_callback(apply: Callable[[NDArray[np.float64]], Any]) -> Any:
+    """A C function that calls ``apply(forces)`` and checks what it returns."""
+
+    def called(n: int, f: Any, u: Any, user: Any) -> int:
+        try:
+            _check_interrupt()
+            # A copy: the memory is the library's, and gone after the call.
+            result = apply(np.array(np.ctypeslib.as_array(f, (n,))))
+            np.ctypeslib.as_array(u, (n,))[:] = vector("the result of the operator's function", result, n)
+            return 0
+        except BaseException as exception:
+            return _keep(exception)
+
+    return _library.Apply(called)
+
+
+def progress_callback(progress: Callable[[int, float, int], Any] | None) -> Any:
+    """A C function that calls ``progress(iteration, residual, contacts)``.
+
+    Without one it does nothing but let Python see Ctrl-C.
+    """
+
+    def called(iteration: int, residual: float, contacts: int, user: Any) -> int:
+        try:
+            _check_interrupt()
+            return 1 if progress is not None and progress(iteration, residual, contacts) else 0
+        except BaseException as exception:
+            return _keep(exception)
+
+    return _library.Progress(called)
+
+
+def profile_callback(profile: Callable[[NDArray[np.float64]], Any]) -> Any:
+    """A C function that calls ``gap, slope = profile(x)``."""
+
+    def called(n: int, x: Any, gap: Any, slope: Any, user: Any) -> int:
+        try:
+            _check_interrupt()
+            places = np.array(np.ctypeslib.as_array(x, (n,)))
+            values = profile(places)
+            if not (isinstance(values, (tuple, list)) and len(values) == 2):
+                raise TypeError("the profile has to return two arrays, gap and slope")
+            for place, value in zip((gap, slope), values):
+                np.ctypeslib.as_array(place, (n,))[:] = np.asarray(value, dtype=np.float64)
+            return 0
+        except BaseException as exception:
+            return _keep(exception)
+
+    return _library.Profile(called)

@@ -1,0 +1,276 @@
+"""Elastic bodies with meshes of their own in contact: from stiffness matrices and surfaces to forces."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fuge import _arrays
+from fuge._calls import Owner, new_handle
+from fuge._library import has_sparse
+from fuge._structs import InfoStruct
+from fuge.columns import CompressedColumns, compressed, compressed_dense, is_sparse, require_sparse
+from fuge.errors import Status, error
+from fuge.pairs import Normals, PairMethod, Surface, pair_options, surface_arguments
+from fuge.solver import Info, Method, chosen_options, info_of
+
+
+@dataclass(frozen=True, eq=False)
+class BodiesContact:
+    """Contact of elastic bodies.
+
+    Attributes
+    ----------
+    force : ndarray, shape (n,)
+        Contact forces; negative only at an upper stop and at tied points, where they are components along the axes.
+    pressure : ndarray, shape (n,)
+        Force over area.
+    gap, initial_gap : ndarray, shape (n,)
+        Under load and before; length.
+    area : ndarray, shape (n,)
+        In the plane lengths.
+    pair, node, face : ndarray of int, shape (n,)
+        The pair, the node of its contact surface, and the opposite face.
+    place : ndarray, shape (n, dimensions - 1)
+        Place in the opposite face.
+    direction : ndarray, shape (n, dimensions)
+        Direction of the gap.
+    unpaired : ndarray of int, shape (count, 2)
+        Pair and node of the nodes that have no opposite.
+    displacement : list of ndarray
+        Of all degrees of freedom of each body; length.
+    info : Info
+        Report, with the certificate.
+    message : str
+        What there is to say about the solution; mostly empty.
+    """
+
+    force: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    initial_gap: NDArray[np.float64]
+    area: NDArray[np.float64]
+    pair: NDArray[np.intc]
+    node: NDArray[np.intc]
+    face: NDArray[np.intc]
+    place: NDArray[np.float64]
+    direction: NDArray[np.float64]
+    unpaired: NDArray[np.intc]
+    displacement: list[NDArray[np.float64]]
+    info: Info
+    message: str
+
+
+@dataclass(frozen=True, eq=False)
+class JoinedBodies:
+    """Bodies as one, for :class:`Body`.
+
+    Attributes
+    ----------
+    stiffness : CompressedColumns
+        The upper triangle of the matrix of all bodies.
+    first : ndarray of int, shape (bodies + 1,)
+        Degree of freedom j of body k is first[k] + j.
+    dof, normal : ndarray, shape (n, width)
+        For :meth:`Body.set_contact`.
+    gap, gap_upper, area : ndarray, shape (n,)
+        Initial gaps, plays and areas.
+    """
+
+    stiffness: CompressedColumns
+    first: NDArray[np.intc]
+    dof: NDArray[np.intc]
+    normal: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    gap_upper: NDArray[np.float64]
+    area: NDArray[np.float64]
+
+
+class ElasticBodies(Owner):
+    """Bodies and pairs of their surfaces. Bodies may float; sliding is small, without friction.
+
+    Examples
+    --------
+    >>> bodies = fuge.ElasticBodies()
+    >>> block, punch = bodies.add(block_stiffness), bodies.add(punch_stiffness)
+    >>> bodies.fix(block, block_supports)
+    >>> bodies.set_load(punch, punch_load)
+    >>> bodies.add_pair(punch, punch_surface, block, block_surface)
+    >>> contact = bodies.solve()
+    """
+
+    _message_function = "fuge_bodies_message"
+
+    def __init__(self) -> None:
+        self._handle = new_handle("bodies", "fuge_bodies_create", "fuge_bodies_free")
+        self._degrees: list[int] = []
+        self._dimensions = 0
+
+    def add(self, stiffness: Any) -> int:
+        """Add a body; its number, from 0.
+
+        Parameters
+        ----------
+        stiffness : scipy.sparse matrix, CompressedColumns or StiffnessFile, or array_like of shape (degrees, degrees)
+            Symmetric, both triangles or one of them.
+        """
+        pack = compressed if is_sparse(stiffness) else compressed_dense
+        matrix = pack("stiffness", stiffness)
+        if matrix.shape[0] != matrix.shape[1]:
+            raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
+        body = np.empty(1, dtype=np.intc)
+        self._call("fuge_bodies_add", matrix.shape[0], matrix.column, matrix.row, matrix.value, body)
+        self._degrees.append(matrix.shape[0])
+        return int(body[0])
+
+    def fix(self, body: int, dof: ArrayLike, displacement: ArrayLike | None = None) -> None:
+        """Fix degrees of freedom of a body; see :meth:`Body.fix`."""
+        fixed = _arrays.integers("dof", dof, (None,))
+        given = None if displacement is None else _arrays.spread("displacement", displacement, fixed.size)
+        self._call("fuge_bodies_fix", _arrays.integer("body", body), fixed.size, fixed, given)
+
+    def set_load(self, body: int, load: ArrayLike) -> None:
+        """External load of a body, one force for each of its degrees of freedom."""
+        number = self._number(body)
+        self._call("fuge_bodies_set_load", number, _arrays.vector("load", load, self._degrees[number]))
+
+    def set_rigid_modes(self, body: int, rigid_modes: ArrayLike) -> None:
+        """Rigid modes that the supports of a body leave, (degrees, m): for all bodies that float, or they are found."""
+        number = self._number(body)
+        modes = _arrays.columns("rigid_modes", rigid_modes, (self._degrees[number], None))
+        self._call("fuge_bodies_set_rigid_modes", number, modes.shape[1], modes)
+
+    def add_pair(
+        self,
+        contact_body: int | None,
+        contact: Surface,
+        opposite_body: int | None,
+        opposite: Surface,
+        *,
+        method: PairMethod = "mortar",
+        normals: Normals = "averaged",
+        normal: ArrayLike | None = None,
+        reach: float = 0.0,
+        play: float = np.inf,
+        tied: bool = False,
+        smooth: bool = True,
+    ) -> None:
+        """Add a pair of surfaces, each with degrees of freedom of its own body.
+
+        Parameters
+        ----------
+        contact_body, opposite_body : int or None
+            Both may be the same; None: the surface is rigid and held in space.
+        contact, opposite, method, normals, normal, reach, play, tied, smooth
+            As in :meth:`ContactPairs.find`.
+        """
+        options = pair_options(contact, method, normals, normal, reach, play, tied, smooth)
+        arguments = surface_arguments("contact", contact)
+        self._call("fuge_bodies_set_contact", self._owner(contact_body), *arguments)
+        self._call("fuge_bodies_set_opposite", self._owner(opposite_body), *surface_arguments("opposite", opposite))
+        self._call("fuge_bodies_add_pair", *options)
+        self._dimensions = int(arguments[0])
+
+    def solve(
+        self,
+        *,
+        sparse: bool | None = None,
+        method: Method | None = None,
+        max_iterations: int | None = None,
+        tolerance: float | None = None,
+    ) -> BodiesContact:
+        """Solve: pairs, condensation, contact and displacements.
+
+        Parameters
+        ----------
+        sparse : bool, optional
+            Factorise by CHOLMOD, or as a band, which is for small models; by CHOLMOD if the library has it.
+        method, max_iterations, tolerance
+            As in :class:`Solver`.
+
+        Raises
+        ------
+        Error
+            As :meth:`ContactPairs.find`, :meth:`Body.condense` and :meth:`Solver.solve`; the message names the body or
+            the pair.
+
+        Warns
+        -----
+        Warning
+            Those of these calls.
+        """
+        options = chosen_options(method, None, max_iterations, None, tolerance)
+        by_cholmod = has_sparse() if sparse is None else sparse
+        if by_cholmod:
+            require_sparse()
+        self._call("fuge_bodies_solve_sparse" if by_cholmod else "fuge_bodies_solve", ctypes.byref(options))
+        return self._contact()
+
+    def join(self) -> JoinedBodies:
+        """The bodies as one, for further loads on the same factor or for points that are excluded."""
+        self._call("fuge_bodies_join")
+        sizes = [np.empty(1, dtype=np.intc) for _ in range(4)]
+        self._call("fuge_bodies_get_joined_sizes", *sizes)
+        degrees, entries, n, width = (int(size[0]) for size in sizes)
+        column, row = np.empty(degrees + 1, dtype=np.intc), np.empty(entries, dtype=np.intc)
+        value, first = np.empty(entries), np.empty(len(self._degrees) + 1, dtype=np.intc)
+        dof, normal = np.empty((n, width), dtype=np.intc), np.empty((n, width))
+        gap, gap_upper, area = np.empty(n), np.empty(n), np.empty(n)
+        self._call("fuge_bodies_get_matrix", column, row, value, first)
+        self._call("fuge_bodies_get_contact", dof, normal, gap, gap_upper, area)
+        stiffness = CompressedColumns((degrees, degrees), column, row, value)
+        return JoinedBodies(stiffness, first, dof, normal, gap, gap_upper, area)
+
+    @property
+    def info(self) -> Info:
+        """Report of the last solve, failed or not."""
+        report = InfoStruct()
+        self._call("fuge_bodies_get_info", ctypes.byref(report))
+        return info_of(report)
+
+    def _contact(self) -> BodiesContact:
+        with self._handle.use() as pointer:
+            message = self._read_message(pointer)
+        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
+        self._call("fuge_bodies_get_sizes", *sizes)
+        n, lonely = int(sizes[0][0]), int(sizes[1][0])
+        force, pressure, gap, area, initial_gap = (np.empty(n) for _ in range(5))
+        pair, node, face = (np.empty(n, dtype=np.intc) for _ in range(3))
+        place, direction = np.empty((n, max(self._dimensions - 1, 0))), np.empty((n, self._dimensions))
+        unpaired = [np.empty(lonely, dtype=np.intc) for _ in range(2)]
+        self._call("fuge_bodies_get_forces", force, pressure, gap)
+        self._call("fuge_bodies_get_points", pair, node, face, place, direction)
+        self._call("fuge_bodies_get_areas", area, initial_gap)
+        self._call("fuge_bodies_get_unpaired", *unpaired)
+        displacement = [np.empty(degrees) for degrees in self._degrees]
+        for body, result in enumerate(displacement):
+            self._call("fuge_bodies_get_displacement", body, result)
+        return BodiesContact(
+            force,
+            pressure,
+            gap,
+            initial_gap,
+            area,
+            pair,
+            node,
+            face,
+            place,
+            direction,
+            np.column_stack(unpaired),
+            displacement,
+            self.info,
+            message,
+        )
+
+    def _number(self, body: int) -> int:
+        number = _arrays.integer("body", body)
+        if not 0 <= number < len(self._degrees):
+            raise error(Status.ERR_SIZE, f"there is no body {number}: {len(self._degrees)} have been added")
+        return number
+
+    def _owner(self, body: int | None) -> int:
+        return -1 if body is None else self._number(body)

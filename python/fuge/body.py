@@ -1,0 +1,232 @@
+"""Condensation: from the stiffness matrix of a finite element model to the influence matrix of its contact points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fuge import _arrays
+from fuge._calls import Owner, call, new_handle
+from fuge.columns import compressed, is_sparse, require_sparse, stacked
+from fuge.errors import Status, error
+
+
+@dataclass(frozen=True, eq=False)
+class Condensed:
+    """What a contact problem has to know of a body.
+
+    Attributes
+    ----------
+    influence : ndarray, shape (n, n)
+        Displacement of the contact points per contact force, for :class:`Solver` or :func:`solve`.
+    displacement : ndarray, shape (n,)
+        Displacements of the contact points by load and supports, to be added to the gaps; length.
+    modes : ndarray, shape (n, m)
+        Rigid modes that the contact has to resist; m = 0 if the body does not float.
+    resultant : ndarray, shape (m,)
+        Their resultants.
+    """
+
+    influence: NDArray[np.float64]
+    displacement: NDArray[np.float64]
+    modes: NDArray[np.float64]
+    resultant: NDArray[np.float64]
+
+
+class Body(Owner):
+    """A body by its stiffness matrix K, symmetric, force per displacement.
+
+    Two bodies in contact are one Body: K has both, and contact points name degrees of freedom of both surfaces.
+    Degrees of freedom count from 0.
+
+    Parameters
+    ----------
+    stiffness : array_like of shape (degrees, degrees), scipy.sparse matrix or CompressedColumns
+        Both triangles; of a sparse matrix one of them will do. Its arrays are not copied if they have the right types:
+        leave them unchanged.
+
+    Raises
+    ------
+    InputError
+        The shape is not square.
+    UnsupportedError
+        A sparse matrix, and the library was built without CHOLMOD.
+
+    Examples
+    --------
+    >>> body = fuge.Body(stiffness)
+    >>> body.fix([0, 1])
+    >>> body.set_contact(dof, normal)
+    >>> condensed = body.condense()
+    >>> contact = fuge.solve(condensed.influence, gap + condensed.displacement, load)
+    >>> displacement = body.recover(contact.force)
+    """
+
+    _message_function = "fuge_body_message"
+
+    def __init__(self, stiffness: Any) -> None:
+        if is_sparse(stiffness):
+            self._sparse(stiffness)
+            return
+        matrix = _arrays.symmetric("stiffness", stiffness)
+        self._create("fuge_body_dense", matrix.shape[0], matrix, matrix.shape[0])
+        self._handle.keep(matrix)
+
+    @classmethod
+    def from_band(cls, ab: ArrayLike, *, upper: bool = False) -> Body:
+        """A body by the diagonals of its stiffness, as ``scipy.linalg.cholesky_banded`` takes them.
+
+        Parameters
+        ----------
+        ab : array_like, shape (kd + 1, degrees)
+            Lower form: ab[i - j, j] = K[i, j], i >= j; upper form: ab[kd + i - j, j] = K[i, j], i <= j.
+        upper : bool
+            The form.
+        """
+        band = _arrays.columns("ab", ab, (None, None))
+        rows, degrees = band.shape
+        body = cls.__new__(cls)
+        body._create("fuge_body_band", degrees, rows - 1, band, rows, int(bool(upper)))
+        body._handle.keep(band)
+        return body
+
+    def _sparse(self, stiffness: Any) -> None:
+        matrix = compressed("stiffness", stiffness)
+        if matrix.shape[0] != matrix.shape[1]:
+            raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
+        require_sparse()
+        self._create("fuge_body_sparse", matrix.shape[0], matrix.column, matrix.row, matrix.value)
+        self._handle.keep(matrix)
+
+    def _create(self, create: str, degrees: int, *arguments: Any) -> None:
+        self.degrees = degrees
+        self._n = 0
+        self._handle = new_handle("body", create, "fuge_body_free", degrees, *arguments)
+
+    def fix(self, dof: ArrayLike, displacement: ArrayLike | None = None) -> None:
+        """Fix degrees of freedom, at zero or at these displacements; replaces those of the call before.
+
+        Parameters
+        ----------
+        dof : array_like of int, shape (count,)
+        displacement : array_like, shape (count,), or float, optional
+        """
+        fixed = _arrays.integers("dof", dof, (None,))
+        given = None if displacement is None else _arrays.spread("displacement", displacement, fixed.size)
+        self._call("fuge_body_fix", fixed.size, fixed, given)
+
+    def set_load(self, load: ArrayLike) -> None:
+        """External load, one force for each degree of freedom. After :meth:`condense` it costs one solve."""
+        self._call("fuge_body_set_load", _arrays.vector("load", load, self.degrees))
+
+    def set_rigid_modes(self, rigid_modes: ArrayLike) -> None:
+        """The body floats: the rigid modes that its supports allow, shape (degrees, m); see :func:`rigid_modes`."""
+        modes = _arrays.columns("rigid_modes", rigid_modes, (self.degrees, None))
+        self._call("fuge_body_set_rigid_modes", modes.shape[1], modes)
+
+    def find_rigid_modes(self) -> None:
+        """The body floats, and :meth:`condense` finds its rigid modes."""
+        self._call("fuge_body_find_rigid_modes")
+
+    def set_contact(self, dof: ArrayLike, normal: ArrayLike) -> None:
+        """Contact points; point i moves by the sum of normal[i, k] * u[dof[i, k]] over k, which opens its gap.
+
+        Parameters
+        ----------
+        dof : array_like of int, shape (n, width) or (n,)
+            Degrees of freedom of each point; -1 for none.
+        normal : array_like of the same shape
+            The direction in which the contact force acts on the body, into the body; for the second body the opposite.
+        """
+        degrees = _arrays.integers("dof", stacked("dof", dof), (None, None))
+        n, width = degrees.shape
+        directions = _arrays.doubles("normal", stacked("normal", normal), (n, width))
+        self._call("fuge_body_set_contact", n, width, degrees, directions)
+        self._n = n
+
+    def condense(self) -> Condensed:
+        """Condense to the contact points: one Cholesky factorisation and n + 4 solves.
+
+        Returns
+        -------
+        Condensed
+
+        Raises
+        ------
+        MatrixError
+            K is not symmetric, or not positive definite; the message names the degree of freedom that still moves.
+        InputError
+            A degree of freedom is out of range or named twice, a number is not finite, or modes are not rigid modes.
+        EquilibriumError
+            A load that no contact can resist.
+
+        Warns
+        -----
+        ResidualWarning
+            K is so close to singular that few digits may be correct.
+        """
+        self._call("fuge_body_condense")
+        count = np.empty(1, dtype=np.intc)
+        self._call("fuge_body_get_mode_count", count)
+        n, m = self._n, int(count[0])
+        influence, displacement = np.empty((n, n), order="F"), np.empty(n)
+        modes, resultant = np.empty((n, m), order="F"), np.empty(m)
+        self._call("fuge_body_get_influence", influence, n)
+        self._call("fuge_body_get_displacement", displacement)
+        self._call("fuge_body_get_modes", modes, resultant)
+        return Condensed(influence, displacement, modes, resultant)
+
+    def recover(self, force: ArrayLike, motion: ArrayLike | None = None) -> NDArray[np.float64]:
+        """Displacements of all degrees of freedom under contact forces.
+
+        Parameters
+        ----------
+        force : array_like, shape (n,)
+            Forces of a solution.
+        motion : array_like, shape (m,), optional
+            Motions of the solution, if the body floats.
+
+        Returns
+        -------
+        ndarray, shape (degrees,)
+
+        Raises
+        ------
+        CallOrderError
+            The body has not been condensed, or has changed since.
+
+        Warns
+        -----
+        ResidualWarning
+            K u is out of balance by more than 1e-10 of the forces.
+        """
+        forces = _arrays.vector("force", force, self._n)
+        count = np.empty(1, dtype=np.intc)
+        self._call("fuge_body_get_mode_count", count)
+        motions = None if motion is None else _arrays.vector("motion", motion, int(count[0]))
+        displacement = np.empty(self.degrees)
+        self._call("fuge_body_recover", forces, motions, displacement)
+        return displacement
+
+
+def rigid_modes(position: ArrayLike) -> NDArray[np.float64]:
+    """Rigid modes of nodes in the plane or in space, for degrees of freedom dimensions*node + direction.
+
+    Parameters
+    ----------
+    position : array_like, shape (nodes, 2) or (nodes, 3)
+        Length.
+
+    Returns
+    -------
+    ndarray, shape (2 nodes, 3) or (3 nodes, 6)
+        Translations, then rotations about the centre of the nodes.
+    """
+    places = _arrays.doubles("position", position, (None, 2), (None, 3))
+    nodes, dimensions = places.shape
+    modes = np.empty((dimensions * nodes, 3 if dimensions == 2 else 6), order="F")
+    call("fuge_rigid_modes", dimensions, nodes, places, modes)
+    return modes

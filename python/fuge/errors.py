@@ -1,0 +1,195 @@
+"""Status codes, exceptions and warnings.
+
+A call that cannot do what it is asked for raises :class:`Error`, or one of its subclasses, and changes nothing; a
+result that has to be taken with care comes with :class:`Warning`, through Python's module ``warnings``. Both have the
+status and the message of the library: what is wrong, where, and how to mend it. Points, rows and degrees of freedom
+count from 0 in messages.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from enum import IntEnum
+from pathlib import Path
+
+from fuge._library import function
+
+
+class Status(IntEnum):
+    """What a call of the library has come to; doc/errors.md has a line for each."""
+
+    DONE = 0
+    WARN_RESIDUAL = 1
+    WARN_NOT_UNIQUE = 2
+    WARN_ILL_CONDITIONED = 3
+    WARN_PAIRS = 4
+    ERR_SIZE = -1
+    ERR_POINTER = -2
+    ERR_NOT_FINITE = -3
+    ERR_WIDTH = -4
+    ERR_MODULUS = -5
+    ERR_ELEMENT = -6
+    ERR_GRID = -7
+    ERR_NOT_SYMMETRIC = -8
+    ERR_NOT_DEFINITE = -9
+    ERR_NO_EQUILIBRIUM = -10
+    ERR_ITERATION_LIMIT = -11
+    ERR_MEMORY = -12
+    ERR_CALL_ORDER = -13
+    ERR_OPTION = -14
+    ERR_UNSUPPORTED = -15
+    ERR_OVERFLOW = -16
+    ERR_CALLBACK = -17
+    ERR_CANCELLED = -18
+    ERR_FILE = -19
+    ERR_GAP = -20
+    ERR_MODES = -21
+    ERR_DOF = -22
+    ERR_MESH = -23
+
+    @property
+    def text(self) -> str:
+        """General meaning of the status."""
+        return str(function("fuge_status_text")(int(self)).decode())
+
+
+class Error(Exception):
+    """A call that could not be done.
+
+    Attributes
+    ----------
+    status : Status
+        Which kind of error it is.
+    message : str
+        What is wrong, where, and how to mend it.
+    """
+
+    def __init__(self, message: str, status: Status) -> None:
+        super().__init__(message)
+        self.status = status
+        self.message = message
+
+    def __reduce__(self) -> tuple[type[Error], tuple[str, Status]]:
+        return type(self), (self.message, self.status)
+
+
+class InputError(Error, ValueError):
+    """An argument has a value, a shape or a size that is not allowed."""
+
+
+class MatrixError(InputError):
+    """An influence or stiffness matrix is not symmetric, or not positive definite."""
+
+
+class EquilibriumError(Error):
+    """No contact forces can be in equilibrium with the load."""
+
+
+class LimitError(Error, ArithmeticError):
+    """The iteration limit was reached, or magnitudes exceed the range of double precision."""
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """There is not enough memory."""
+
+
+class CallOrderError(Error, RuntimeError):
+    """A call came before another one that it requires."""
+
+
+class UnsupportedError(Error, NotImplementedError):
+    """This engine or operator cannot solve this kind of problem."""
+
+
+class CallbackError(Error, RuntimeError):
+    """A function of the caller returned NaN or infinity. An exception in it is raised as it is."""
+
+
+class CancelledError(Error):
+    """The progress function cancelled the solve."""
+
+
+class FileError(Error, OSError):
+    """A file cannot be read or written; the message has the file, the line and the reason."""
+
+
+class Warning(UserWarning):
+    """A result that has to be taken with care.
+
+    Attributes
+    ----------
+    status : Status
+    message : str
+    """
+
+    def __init__(self, message: str, status: Status) -> None:
+        super().__init__(message)
+        self.status = status
+        self.message = message
+
+
+class ResidualWarning(Warning):
+    """The residual, or an estimated error, is above the tolerance."""
+
+
+class NotUniqueWarning(Warning):
+    """The solution is one of many; the message says which part of it."""
+
+
+class IllConditionedWarning(Warning):
+    """The equations hold, but the forces may be far off."""
+
+
+class PairsWarning(Warning):
+    """A node is a contact point of two pairs."""
+
+
+_ERRORS: dict[Status, type[Error]] = {
+    Status.ERR_NOT_SYMMETRIC: MatrixError,
+    Status.ERR_NOT_DEFINITE: MatrixError,
+    Status.ERR_NO_EQUILIBRIUM: EquilibriumError,
+    Status.ERR_ITERATION_LIMIT: LimitError,
+    Status.ERR_OVERFLOW: LimitError,
+    Status.ERR_MEMORY: OutOfMemoryError,
+    Status.ERR_CALL_ORDER: CallOrderError,
+    Status.ERR_UNSUPPORTED: UnsupportedError,
+    Status.ERR_CALLBACK: CallbackError,
+    Status.ERR_CANCELLED: CancelledError,
+    Status.ERR_FILE: FileError,
+}
+
+_WARNINGS: dict[Status, type[Warning]] = {
+    Status.WARN_RESIDUAL: ResidualWarning,
+    Status.WARN_NOT_UNIQUE: NotUniqueWarning,
+    Status.WARN_ILL_CONDITIONED: IllConditionedWarning,
+    Status.WARN_PAIRS: PairsWarning,
+}
+
+_PACKAGE = str(Path(__file__).parent)
+
+
+def _callers_level() -> int:
+    """The `stacklevel` of the code outside this package, as seen by the caller of this function."""
+    level = 1
+    frame = sys._getframe(1)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+        frame = frame.f_back
+        level += 1
+    return level
+
+
+def error(status: Status, message: str) -> Error:
+    """The exception for a status."""
+    return _ERRORS.get(status, InputError)(message, status)
+
+
+def finish(code: int, message: str) -> None:
+    """Raise or warn as the status of a call demands."""
+    if code == 0:
+        return
+    status = Status(code)
+    message = message or status.text
+    if code < 0:
+        raise error(status, message)
+    warnings.warn(_WARNINGS[status](message, status), stacklevel=_callers_level())

@@ -1,0 +1,348 @@
+"""Matrices, stiffness matrices, profiles and surfaces in files; doc/files.md describes the formats."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from dataclasses import dataclass
+from typing import Any, Literal, Mapping, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fuge import _arrays
+from fuge._calls import call
+from fuge.columns import CompressedColumns, compressed
+
+PathLike = Union[str, "os.PathLike[str]"]
+StiffnessFormat = Literal["any", "matrix_market", "calculix", "abaqus", "dmig", "op4"]
+SurfaceFormat = Literal["any", "grid", "points", "sdf"]
+
+STIFFNESS_FORMATS = {"any": 0, "matrix_market": 1, "calculix": 2, "abaqus": 3, "dmig": 4, "op4": 5}
+SURFACE_FORMATS = {"any": 0, "grid": 1, "points": 2, "sdf": 3}
+LINE_FORMS = {"mean": 0, "line": 1}
+PLANE_FORMS = {"mean": 0, "plane": 2}
+
+
+def encoded(path: PathLike) -> bytes:
+    """The name of a file as C takes it."""
+    return os.fsencode(path)
+
+
+def _counts(number: int) -> list[NDArray[np.intc]]:
+    return [np.zeros(1, dtype=np.intc) for _ in range(number)]
+
+
+def _value(count: NDArray[np.intc]) -> int:
+    return int(count[0])
+
+
+# ---- matrices
+
+
+def read_matrix(path: PathLike) -> NDArray[np.float64]:
+    """Read a matrix of the Matrix Market format, shape (rows, columns); both triangles of a symmetric one.
+
+    Raises
+    ------
+    FileError
+        The message has the file, the line and the reason.
+    """
+    rows, columns = _counts(2)
+    call("fuge_read_matrix", encoded(path), 0, 0, None, rows, columns)
+    matrix = np.zeros((_value(rows), _value(columns)), order="F")
+    call("fuge_read_matrix", encoded(path), *matrix.shape, matrix, rows, columns)
+    return matrix
+
+
+def write_matrix(path: PathLike, matrix: ArrayLike, *, symmetric: bool = False) -> None:
+    """Write a matrix to a file of the Matrix Market format, with 17 digits; an existing file is replaced.
+
+    Parameters
+    ----------
+    path : str or path
+    matrix : array_like, shape (rows, columns)
+    symmetric : bool
+        Only the lower triangle of a square matrix is written.
+    """
+    array = _arrays.columns("matrix", matrix, (None, None))
+    rows, columns = array.shape
+    call("fuge_write_matrix", encoded(path), rows, columns, array, rows, int(bool(symmetric)))
+
+
+def read_sparse(path: PathLike) -> CompressedColumns:
+    """Read a matrix of the Matrix Market format into compressed columns; both triangles of a symmetric one.
+
+    Raises
+    ------
+    FileError
+        The message has the file, the line and the reason.
+    """
+    counts = _counts(3)
+    call("fuge_read_sparse", encoded(path), 0, 0, None, None, None, *counts)
+    rows, columns, entries = (_value(count) for count in counts)
+    column, row = np.empty(columns + 1, dtype=np.intc), np.empty(entries, dtype=np.intc)
+    value = np.empty(entries)
+    call("fuge_read_sparse", encoded(path), columns, entries, column, row, value, *counts)
+    return CompressedColumns((rows, columns), column, row, value)
+
+
+def write_sparse(path: PathLike, matrix: Any, *, symmetric: bool = False) -> None:
+    """Write a sparse matrix (scipy.sparse or CompressedColumns) to a file of the Matrix Market format.
+
+    With `symmetric` only the lower triangle of a square matrix is written.
+    """
+    columns = compressed("matrix", matrix)
+    call(
+        "fuge_write_sparse",
+        encoded(path),
+        *columns.shape,
+        columns.column,
+        columns.row,
+        columns.value,
+        int(bool(symmetric)),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class StiffnessFile(CompressedColumns):
+    """A stiffness matrix, for :class:`Body`, and the names of its rows.
+
+    Attributes
+    ----------
+    shape, column, row, value
+        As in :class:`CompressedColumns`.
+    node, direction : ndarray of int, shape (rows,)
+        Node of each row and its direction, 1 to 3 along x, y, z, 4 to 6 about them; 0 where no name is known.
+    """
+
+    node: NDArray[np.intc]
+    direction: NDArray[np.intc]
+
+
+def read_stiffness(
+    path: PathLike,
+    format: StiffnessFormat = "any",
+    *,
+    names_path: PathLike | None = None,
+    name: str | None = None,
+) -> StiffnessFile:
+    """Read a stiffness matrix from a file of a finite element program.
+
+    Parameters
+    ----------
+    path : str or path
+    format : {'any', 'matrix_market', 'calculix', 'abaqus', 'dmig', 'op4'}
+        'any' recognises it by its content.
+    names_path : str or path, optional
+        File with a line node.direction for each row, of a matrix whose entries have numbers only; without it job.dof
+        for a path job.sti.
+    name : str, optional
+        Which matrix of a file of Nastran, such as KAAX.
+
+    Raises
+    ------
+    FileError
+        The message has the file, the line and the reason.
+    """
+    arguments = [
+        encoded(path),
+        _arrays.choice("format", format, STIFFNESS_FORMATS),
+        None if names_path is None else encoded(names_path),
+        None if name is None else name.encode(),
+    ]
+    counts = _counts(2)
+    call("fuge_read_stiffness", *arguments, 0, 0, *[None] * 5, *counts)
+    rows, entries = (_value(count) for count in counts)
+    column, row = np.empty(rows + 1, dtype=np.intc), np.empty(entries, dtype=np.intc)
+    value = np.empty(entries)
+    node, direction = np.empty(rows, dtype=np.intc), np.empty(rows, dtype=np.intc)
+    call("fuge_read_stiffness", *arguments, rows, entries, column, row, value, node, direction, *counts)
+    return StiffnessFile((rows, rows), column, row, value, node, direction)
+
+
+# ---- profiles
+
+
+def read_profile(path: PathLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Read a profile: x, strictly increasing, and heights z, positive upwards.
+
+    The initial gap of two profiles is upper - lower.
+
+    Raises
+    ------
+    FileError
+        The message has the file, the line and the reason.
+    """
+    (count,) = _counts(1)
+    call("fuge_read_profile", encoded(path), 0, None, None, count)
+    x, z = np.empty(_value(count)), np.empty(_value(count))
+    call("fuge_read_profile", encoded(path), x.size, x, z, count)
+    return x, z
+
+
+def sample_profile(x: ArrayLike, z: ArrayLike, centre: ArrayLike) -> NDArray[np.float64]:
+    """Heights of a profile at places within it, of any shape, by linear interpolation; length."""
+    places = _arrays.vector("x", x)
+    centres = _arrays.doubles("centre", centre)
+    height = np.empty(centres.shape)
+    call(
+        "fuge_sample_profile",
+        places.size,
+        places,
+        _arrays.vector("z", z, places.size),
+        centres.size,
+        centres,
+        height,
+    )
+    return height
+
+
+def level_profile(x: ArrayLike, z: ArrayLike, form: Literal["mean", "line"]) -> NDArray[np.float64]:
+    """Heights without their mean, or without the least-squares line; each weighted by the length it stands for."""
+    places = _arrays.vector("x", x)
+    heights = _arrays.vector("z", z, places.size).copy()
+    call("fuge_level_profile", places.size, places, heights, _arrays.choice("form", form, LINE_FORMS))
+    return heights
+
+
+# ---- surfaces
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceHeights:
+    """Heights on a regular grid, positive upwards.
+
+    The initial gap of a surface below a plane is ``height.max() - height``.
+
+    Attributes
+    ----------
+    height : ndarray, shape (ny, nx)
+        In the unit of the file.
+    spacing : tuple of float or None
+        Along x and y; None if the file does not say.
+    origin : tuple of float
+        Position of height[0, 0].
+    filled : int
+        Number of points that were not measured and have been filled.
+    """
+
+    height: NDArray[np.float64]
+    spacing: tuple[float, float] | None
+    origin: tuple[float, float]
+    filled: int
+
+
+def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = False) -> SurfaceHeights:
+    """Read a surface.
+
+    Parameters
+    ----------
+    path : str or path
+    format : {'any', 'grid', 'points', 'sdf'}
+        A line for each row; x, y and height of a point on each line; ISO 25178-71; 'any' recognises them.
+    fill : bool
+        Points that were not measured get the mean height of their neighbours; otherwise they are refused.
+
+    Raises
+    ------
+    FileError
+        The message has the file, the line and the reason.
+    """
+    arguments = [encoded(path), _arrays.choice("format", format, SURFACE_FORMATS), int(bool(fill))]
+    nx, ny, filled = _counts(3)
+    spacing, origin = np.empty(2), np.empty(2)
+    call("fuge_read_surface", *arguments, 0, None, nx, ny, spacing, origin, filled)
+    height = np.empty((_value(ny), _value(nx)))
+    call("fuge_read_surface", *arguments, height.size, height, nx, ny, spacing, origin, filled)
+    known = (float(spacing[0]), float(spacing[1])) if spacing.all() else None
+    return SurfaceHeights(height, known, (float(origin[0]), float(origin[1])), _value(filled))
+
+
+def write_surface(path: PathLike, height: ArrayLike, spacing: tuple[float, float] | None = None) -> None:
+    """Write heights of shape (ny, nx) as a plain grid of 17 digits; an existing file is replaced."""
+    heights = _arrays.doubles("height", height, (None, None))
+    ny, nx = heights.shape
+    steps = None if spacing is None else _arrays.vector("spacing", spacing, 2)
+    call("fuge_write_surface", encoded(path), nx, ny, steps, heights)
+
+
+def level_surface(height: ArrayLike, form: Literal["mean", "plane"]) -> NDArray[np.float64]:
+    """Heights of shape (ny, nx) without their mean, or without the least-squares plane."""
+    heights = _arrays.doubles("height", height, (None, None)).copy()
+    ny, nx = heights.shape
+    call("fuge_level_surface", nx, ny, heights, _arrays.choice("form", form, PLANE_FORMS))
+    return heights
+
+
+# ---- pictures
+
+
+def _named(fields: Mapping[str, ArrayLike], shape: tuple[int, ...]) -> tuple[list[Any], Any]:
+    """C arrays of names and fields, and what keeps them alive."""
+    arrays = [_arrays.doubles(f"the field {name!r}", field, shape) for name, field in fields.items()]
+    names = (ctypes.c_char_p * len(arrays))(*(name.encode() for name in fields))
+    pointers = (ctypes.c_void_p * len(arrays))(*(array.ctypes.data for array in arrays))
+    return [len(arrays), names, pointers], arrays
+
+
+def _grid_shape(fields: Mapping[str, ArrayLike], dimensions: int) -> tuple[int, ...]:
+    for name, field in fields.items():
+        shape = np.shape(field)
+        _arrays.check_shape(f"the field {name!r}", shape, (None,) * dimensions)
+        return shape
+    return (0,) * dimensions
+
+
+def write_fields(
+    path: PathLike,
+    spacing: tuple[float, float],
+    fields: Mapping[str, ArrayLike],
+    *,
+    origin: tuple[float, float] | None = None,
+) -> None:
+    """Write fields on the cells of a grid for ParaView, a VTI file; an existing file is replaced.
+
+    Parameters
+    ----------
+    path : str or path
+    spacing : (float, float)
+        Sizes of a cell along x and y; length.
+    fields : dict of array_like, shape (ny, nx)
+        By their names.
+    origin : (float, float), optional
+        Centre of the first cell; length.
+    """
+    ny, nx = _grid_shape(fields, 2)
+    named, kept = _named(fields, (ny, nx))
+    start = None if origin is None else _arrays.vector("origin", origin, 2)
+    call("fuge_write_fields", encoded(path), nx, ny, _arrays.vector("spacing", spacing, 2), start, *named)
+    del kept
+
+
+def write_volume(
+    path: PathLike,
+    spacing: tuple[float, float],
+    depth: ArrayLike,
+    fields: Mapping[str, ArrayLike],
+    *,
+    origin: tuple[float, float] | None = None,
+) -> None:
+    """Write fields below the cells of a grid, at several depths, for ParaView: a VTR file.
+
+    Parameters
+    ----------
+    path, spacing, origin
+        As in :func:`write_fields`.
+    depth : array_like, shape (d,)
+        Ascending; length.
+    fields : dict of array_like, shape (d, ny, nx)
+        Such as the components of :func:`halfspace_stress_grid`.
+    """
+    depths = _arrays.vector("depth", depth)
+    shape = _grid_shape(fields, 3)
+    named, kept = _named(fields, (depths.size, *shape[1:]))
+    start = None if origin is None else _arrays.vector("origin", origin, 2)
+    steps = _arrays.vector("spacing", spacing, 2)
+    call("fuge_write_volume", encoded(path), shape[2], shape[1], steps, start, depths.size, depths, *named)
+    del kept

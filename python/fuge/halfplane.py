@@ -1,0 +1,200 @@
+"""Line contact: elastic moduli, influence matrices of a half-plane, and edges of the contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fuge import _arrays
+from fuge._calls import call
+from fuge.errors import Status
+
+Element = Literal["centre", "mean", "hat"]
+PlaneState = Literal["strain", "stress"]
+
+ELEMENTS = {"centre": 0, "mean": 1, "hat": 2}
+PLANE_STATES = {"strain": 0, "stress": 1}
+
+
+def plane_modulus(young: float, poisson: float, plane_state: PlaneState = "strain") -> float:
+    """Modulus of one body's surface: E/(1 - nu^2) in plane strain and on a half-space, E in plane stress.
+
+    Parameters
+    ----------
+    young : float
+        E > 0, infinity for a rigid body; force per length^2.
+    poisson : float
+        nu, above -1 and at most 0.5.
+    plane_state : {'strain', 'stress'}
+        Long bodies, or thin ones.
+
+    Returns
+    -------
+    float
+        Force per length^2.
+
+    Raises
+    ------
+    InputError
+        E or nu is out of range.
+    """
+    modulus = np.empty(1)
+    state = _arrays.choice("plane_state", plane_state, PLANE_STATES)
+    call("fuge_plane_modulus", _arrays.number("young", young), _arrays.number("poisson", poisson), state, modulus)
+    return float(modulus[0])
+
+
+def combined_modulus(e1: float, e2: float) -> float:
+    """Combined modulus e_star of two bodies, 1/e_star = 1/e1 + 1/e2.
+
+    Parameters
+    ----------
+    e1, e2 : float
+        Moduli of :func:`plane_modulus`; one of them may be infinity, for a rigid body.
+
+    Raises
+    ------
+    InputError
+        A modulus is not positive, or both bodies are rigid.
+    """
+    e_star = np.empty(1)
+    call("fuge_combined_modulus", _arrays.number("e1", e1), _arrays.number("e2", e2), e_star)
+    return float(e_star[0])
+
+
+def displacement_shares(e1: float, e2: float) -> tuple[float, float]:
+    """Shares of the two bodies in the displacement: e_star/e1 and e_star/e2, whose sum is 1."""
+    share1, share2 = np.empty(1), np.empty(1)
+    call("fuge_displacement_shares", _arrays.number("e1", e1), _arrays.number("e2", e2), share1, share2)
+    return float(share1[0]), float(share2[0])
+
+
+def halfplane_matrix(
+    x: ArrayLike, width: ArrayLike, e_star: float, element: Element, *, symmetric: bool = False
+) -> NDArray[np.float64]:
+    """Influence matrix of cells on an elastic half-plane.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Centres of the cells, in any order; length.
+    width : array_like, shape (n,), or float
+        Widths of the cells; length.
+    e_star : float
+        Combined modulus; force per length^2.
+    element : {'centre', 'mean', 'hat'}
+        What a force and a displacement stand for: uniform pressure force/width on a cell and the displacement at
+        its centre; the same pressure and the mean displacement of a cell, for any widths; or a pressure with the peak
+        force/width at x that falls linearly to zero at x - width and x + width, and the displacement at x.
+    symmetric : bool
+        The model is symmetric about x = 0, and only the cells with x >= 0 are passed: a force is the sum over
+        a cell and its mirror image, the load is the whole load.
+
+    Returns
+    -------
+    ndarray, shape (n, n)
+        Displacement per force per unit depth. The displacement by a line load is zero at twice the length that
+        the cells cover.
+
+    Raises
+    ------
+    InputError
+        Widths that are not positive, cells that overlap, 'centre' or 'hat' with unequal widths, a modulus out of range.
+    """
+    centres = _arrays.vector("x", x)
+    n = centres.size
+    alpha = np.empty((n, n), order="F")
+    name = "fuge_halfplane_symmetric_matrix" if symmetric else "fuge_halfplane_matrix"
+    widths = _arrays.spread("width", width, n)
+    chosen = _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT)
+    call(name, n, centres, widths, _arrays.number("e_star", e_star), chosen, alpha, n)
+    return alpha
+
+
+class EdgeKind(IntEnum):
+    """How well an edge of contact is known; all but REFINED are edges of cells."""
+
+    REFINED = 0
+    """Extrapolated from the forces, more accurate than the grid."""
+    FEW_CELLS = 1
+    """Fewer than five cells are in contact."""
+    SINGULAR = 2
+    """The pressure does not fall like a square root, as under a corner."""
+    GRID_END = 3
+    """The contact reaches the last cell of the grid."""
+
+
+@dataclass(frozen=True, eq=False)
+class ContactEdges:
+    """Intervals of contact, from left to right; each array has one element for each interval.
+
+    Attributes
+    ----------
+    left, right : ndarray
+        Where they begin and end; length.
+    left_error, right_error : ndarray
+        Estimated errors, to an order of magnitude; length.
+    left_kind, right_kind : ndarray of int
+        Values of :class:`EdgeKind`.
+    """
+
+    left: NDArray[np.float64]
+    right: NDArray[np.float64]
+    left_error: NDArray[np.float64]
+    right_error: NDArray[np.float64]
+    left_kind: NDArray[np.intc]
+    right_kind: NDArray[np.intc]
+
+
+def contact_edges(
+    x: ArrayLike, width: ArrayLike, force: ArrayLike, element: Element, *, symmetric: bool = False
+) -> ContactEdges:
+    """Intervals of contact on a half-plane and their edges, from the forces.
+
+    For a smooth gap the error of an edge is of third order in the width of the cells. Beyond some 600 cells in contact
+    the forces should come from a solver with ``tolerance=1e-13``.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Centres of the cells of a uniform grid, ascending; length.
+    width : array_like, shape (n,), or float
+        Widths of the cells, all equal; length.
+    force : array_like, shape (n,)
+        In contact where positive; force per depth.
+    element : {'centre', 'mean', 'hat'}
+        As for the matrix; 'hat' also if with 'mean' the gap is that at the centre.
+    symmetric : bool
+        The model of ``halfplane_matrix(.., symmetric=True)``.
+
+    Raises
+    ------
+    InputError
+        The grid is not uniform, or arrays do not fit together.
+    """
+    centres = _arrays.vector("x", x)
+    n = centres.size
+    numbers = [np.empty(n) for _ in range(4)]
+    kinds = [np.empty(n, dtype=np.intc) for _ in range(2)]
+    count = np.empty(1, dtype=np.intc)
+    call(
+        "fuge_contact_edges",
+        n,
+        centres,
+        _arrays.spread("width", width, n),
+        _arrays.vector("force", force, n),
+        _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
+        int(bool(symmetric)),
+        n,
+        *numbers,
+        *kinds,
+        count,
+    )
+    m = int(count[0])
+    left, right, left_error, right_error = (array[:m].copy() for array in numbers)
+    left_kind, right_kind = (array[:m].copy() for array in kinds)
+    return ContactEdges(left, right, left_error, right_error, left_kind, right_kind)

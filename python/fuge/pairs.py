@@ -1,0 +1,182 @@
+"""Contact points from two surfaces of finite elements whose nodes do not face each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fuge import _arrays
+from fuge._calls import Owner, new_handle
+from fuge.errors import Warning
+
+PairMethod = Literal["mortar", "node_to_face"]
+Normals = Literal["averaged", "opposite", "given"]
+
+PAIR_METHODS = {"mortar": 0, "node_to_face": 1}
+NORMALS = {"averaged": 0, "opposite": 1, "given": 2}
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A surface of finite elements.
+
+    Attributes
+    ----------
+    node : array_like, shape (nodes, 2) or (nodes, 3)
+        Positions; length.
+    face : array_like of int, shape (faces, most)
+        Nodes of each face, from 0, -1 in unused places: 2 or 3 in the plane, 3, 4, 6 or 8 in space; corners first, then
+        the nodes in the middle of the sides. In the plane the body lies to the left of the way from corner 0 to
+        corner 1; in space the corners run counter-clockwise if seen from outside.
+    dof : array_like of int, shape of node, optional
+        Degrees of freedom of the nodes, -1 where a node does not move; without them the surface is rigid.
+    """
+
+    node: ArrayLike
+    face: ArrayLike
+    dof: ArrayLike | None = None
+
+
+def surface_arguments(name: str, surface: Surface) -> list[Any]:
+    """dimensions, nodes, node, most, faces, face, dof."""
+    nodes = _arrays.doubles(f"{name}.node", surface.node, (None, 2), (None, 3))
+    faces = _arrays.integers(f"{name}.face", surface.face, (None, None))
+    dof = None if surface.dof is None else _arrays.integers(f"{name}.dof", surface.dof, nodes.shape)
+    count, dimensions = nodes.shape
+    return [dimensions, count, nodes, faces.shape[1], faces.shape[0], faces, dof]
+
+
+def pair_options(
+    contact: Surface,
+    method: PairMethod,
+    normals: Normals,
+    normal: ArrayLike | None,
+    reach: float,
+    play: float,
+    tied: bool,
+    smooth: bool,
+) -> list[Any]:
+    """method, normals, normal, reach, play, tied, smooth."""
+    return [
+        _arrays.choice("method", method, PAIR_METHODS),
+        _arrays.choice("normals", normals, NORMALS),
+        None if normal is None else _arrays.doubles("normal", normal, np.shape(contact.node)),
+        _arrays.number("reach", reach),
+        _arrays.number("play", play),
+        int(bool(tied)),
+        int(bool(smooth)),
+    ]
+
+
+class ContactPairs(Owner):
+    """Contact points of pairs of surfaces; :meth:`find` adds those of one pair.
+
+    Pressure is force/area.
+
+    Attributes
+    ----------
+    dof, normal : ndarray, shape (n, width)
+        For :meth:`Body.set_contact`; dof is -1 where unused.
+    gap, gap_upper : ndarray, shape (n,)
+        Initial gaps and plays, for :meth:`Solver.set_gap`; length.
+    area : ndarray, shape (n,)
+        Areas of the contact points, in the plane lengths.
+    pair, node, face : ndarray of int, shape (n,)
+        The pair, the node of its contact surface, and the opposite face (with 'mortar' that with the largest share).
+    place : ndarray, shape (n, dimensions - 1)
+        Place in the opposite face.
+    direction : ndarray, shape (n, dimensions)
+        Direction of the gap.
+    unpaired : ndarray of int, shape (count, 2)
+        Pair and node of the nodes that have no opposite, and so are no contact points.
+    """
+
+    _message_function = "fuge_pairs_message"
+
+    def __init__(self) -> None:
+        self._handle = new_handle("contact pairs", "fuge_pairs_create", "fuge_pairs_free")
+        self._keep(0, 0, 0, 0)
+
+    def find(
+        self,
+        contact: Surface,
+        opposite: Surface,
+        *,
+        method: PairMethod = "mortar",
+        normals: Normals = "averaged",
+        normal: ArrayLike | None = None,
+        reach: float = 0.0,
+        play: float = np.inf,
+        tied: bool = False,
+        smooth: bool = True,
+    ) -> None:
+        """Find the contact points of two surfaces and add them to those found before.
+
+        Parameters
+        ----------
+        contact, opposite : Surface
+            The surface whose nodes become contact points (the finer one, or that of the softer body), and the other.
+        method : {'mortar', 'node_to_face'}
+            Weighted gaps of the dual mortar method; or each node against the face across from it, which does not
+            reproduce a uniform pressure on meshes that do not match.
+        normals : {'averaged', 'opposite', 'given'}
+            Averaged at the nodes of the contact surface, those of the opposite faces, or `normal`.
+        normal : array_like, shape of contact.node, optional
+            For 'given': outwards from the contact surface, of any length.
+        reach : float
+            How far apart, or one inside the other, opposite points may be; 0: as far as the surfaces extend; length.
+        play : float
+            Between the two stops: 0 for points that stay in contact but slide; length.
+        tied : bool
+            Glue the surfaces where they are, along each axis.
+        smooth : bool
+            Normals, gaps and areas of the smooth bodies that the meshes stand for, exact on circles, spheres and
+            cylinders; faces that meet at more than 40 degrees keep their edge. If false, those of the faces as they
+            are.
+
+        Raises
+        ------
+        InputError
+            Faces have no area, look the wrong way or not at each other, or numbers and shapes do not fit.
+
+        Warns
+        -----
+        PairsWarning
+            A node is a contact point of two pairs.
+        """
+        options = pair_options(contact, method, normals, normal, reach, play, tied, smooth)
+        contact_arguments = surface_arguments("contact", contact)
+        self._call("fuge_pairs_set_contact", *contact_arguments)
+        self._call("fuge_pairs_set_opposite", *surface_arguments("opposite", opposite))
+        dimensions = int(contact_arguments[0])
+        try:
+            self._call("fuge_pairs_find", *options)
+        except Warning:
+            # The caller has made an exception of it, but the pairs are there.
+            self._collect(dimensions)
+            raise
+        self._collect(dimensions)
+
+    def _collect(self, dimensions: int) -> None:
+        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
+        self._call("fuge_pairs_get_sizes", *sizes)
+        n, width, unpaired = (int(size[0]) for size in sizes)
+        lonely = self._keep(n, width, unpaired, dimensions)
+        self._call("fuge_pairs_get_contact", self.dof, self.normal)
+        self._call("fuge_pairs_get_gaps", self.gap, self.gap_upper, self.area)
+        self._call("fuge_pairs_get_points", self.pair, self.node, self.face, self.place, self.direction)
+        self._call("fuge_pairs_get_unpaired", *lonely)
+        self.unpaired = np.column_stack(lonely)
+
+    def _keep(self, n: int, width: int, unpaired: int, dimensions: int) -> list[NDArray[np.intc]]:
+        """New arrays; the result is for pair and node of the nodes without an opposite."""
+        self.dof: NDArray[np.intc] = np.empty((n, width), dtype=np.intc)
+        self.normal = np.empty((n, width))
+        self.gap, self.gap_upper, self.area = np.empty(n), np.empty(n), np.empty(n)
+        self.pair, self.node, self.face = (np.empty(n, dtype=np.intc) for _ in range(3))
+        self.place, self.direction = np.empty((n, max(dimensions - 1, 0))), np.empty((n, dimensions))
+        self.unpaired = np.empty((unpaired, 2), dtype=np.intc)
+        return [np.empty(unpaired, dtype=np.intc) for _ in range(2)]

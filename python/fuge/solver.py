@@ -1,0 +1,533 @@
+"""Contact problems and their solutions."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any, Callable, Literal, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fuge import _arrays
+from fuge._calls import Owner, end_call, interruptible, new_handle, progress_callback
+from fuge._library import function
+from fuge._structs import InfoStruct, Options
+from fuge.errors import Status, error
+from fuge.operators import DenseOperator, Operator
+from fuge.path import Path, collect_path
+
+Method = Literal["auto", "tableau", "active_set", "iterative"]
+PivotRule = Literal["paper", "most_negative", "greatest_decrease"]
+
+METHODS = {"auto": 0, "tableau": 1, "active_set": 2, "iterative": 3}
+PIVOT_RULES = {"paper": 0, "most_negative": 1, "greatest_decrease": 2}
+
+Progress = Callable[[int, float, int], Any]
+
+
+@dataclass(frozen=True)
+class Info:
+    """Report of a solve.
+
+    Attributes
+    ----------
+    status : Status
+    iterations : int
+        Pivots of the tableau, otherwise contact sets, on all grids.
+    contacts : int
+        Points with a contact force.
+    products : int
+        Products by the operator; those on coarser grids count by their cost.
+    preconditionings : int
+        Applications of a preconditioner, likewise.
+    residual : float
+        The certificate: the largest scaled violation of the contact conditions.
+    force_error : float
+        Estimated largest error of a force, relative to the largest force; 1 if no digit is known.
+    """
+
+    status: Status
+    iterations: int
+    contacts: int
+    products: int
+    preconditionings: int
+    residual: float
+    force_error: float
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """Solution of a contact problem.
+
+    Attributes
+    ----------
+    force : ndarray, shape of the gaps
+        Contact forces, positive where the bodies press on each other.
+    gap : ndarray, shape of the gaps
+        Gaps under load; length.
+    motion : ndarray, shape (m,)
+        Rigid motions, free and prescribed.
+    resultant : ndarray, shape (m,)
+        Resultants of the forces in the directions of the motions.
+    info : Info
+        Report, with the certificate.
+    message : str
+        What there is to say about the solution; mostly empty.
+    """
+
+    force: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    motion: NDArray[np.float64]
+    resultant: NDArray[np.float64]
+    info: Info
+    message: str
+
+    @property
+    def approach(self) -> float:
+        """By how much the bodies have approached each other, where that is the only motion; length."""
+        return float(self._one(self.motion))
+
+    @property
+    def load(self) -> float:
+        """Sum of the forces, where the approach is the only motion."""
+        return float(self._one(self.resultant))
+
+    def _one(self, values: NDArray[np.float64]) -> float:
+        if values.size != 1:
+            raise error(Status.ERR_SIZE, f"there are {values.size} rigid motions: use motion and resultant")
+        return float(values[0])
+
+
+@dataclass(frozen=True, eq=False)
+class Derivative:
+    """Changes of a solution in a direction, exact as long as the contact set does not change.
+
+    Attributes
+    ----------
+    force, gap : ndarray, shape of the gaps
+    motion : ndarray, shape (m,)
+    """
+
+    force: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    motion: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """Steps of the tableau, of which the first one is the artificial start and each other one a pivot.
+
+    Attributes
+    ----------
+    basis : ndarray of int, shape (steps, n + m)
+        Column numbers as in the paper, from 1: 1 to n forces, n + 1 to 2 n gaps, then motions, then artificials.
+    z : ndarray, shape (steps,)
+        Sum of the artificial variables.
+    """
+
+    basis: NDArray[np.intc]
+    z: NDArray[np.float64]
+
+
+def chosen_options(
+    method: Method | None,
+    pivot_rule: PivotRule | None = None,
+    max_iterations: int | None = None,
+    keep_history: bool | None = None,
+    tolerance: float | None = None,
+) -> Options:
+    """The library's defaults, but for what is not None."""
+    options = Options()
+    function("fuge_default_options")(ctypes.byref(options))
+    if method is not None:
+        options.method = _arrays.choice("method", method, METHODS)
+    if pivot_rule is not None:
+        options.pivot_rule = _arrays.choice("pivot_rule", pivot_rule, PIVOT_RULES)
+    if max_iterations is not None:
+        options.max_iterations = _arrays.integer("max_iterations", max_iterations)
+    if keep_history is not None:
+        options.keep_history = int(bool(keep_history))
+    if tolerance is not None:
+        options.tolerance = _arrays.number("tolerance", tolerance)
+    return options
+
+
+class Solver(Owner):
+    """A contact problem and its solution, for one solve after the other.
+
+    The problem has three parts, each set on its own: gaps (:meth:`set_gap`), exclusions (:meth:`set_excluded`) and
+    motions (:meth:`set_load`, :meth:`set_approach` or :meth:`set_modes`). A solve starts from the contact of the one
+    before. Calls from several threads wait for each other.
+
+    Parameters
+    ----------
+    operator : Operator or array_like, shape (n, n)
+        How the bodies deform; an influence matrix becomes a :class:`DenseOperator`.
+    method : {'auto', 'tableau', 'active_set', 'iterative'}, optional
+        The engine. 'auto' takes the active set for a matrix, the tableau if the history is kept, and the iteration
+        for any other operator.
+    pivot_rule : {'paper', 'most_negative', 'greatest_decrease'}, optional
+        Of the tableau.
+    max_iterations : int, optional
+        Limit of pivots or contact sets.
+    keep_history : bool, optional
+        Keep all steps of the tableau for :meth:`history`.
+    tolerance : float, optional
+        Largest residual without a warning.
+    progress : callable, optional
+        See :meth:`set_progress`.
+
+    Raises
+    ------
+    InputError
+        An option has an invalid value.
+    """
+
+    _message_function = "fuge_solver_message"
+
+    def __init__(
+        self,
+        operator: Operator | ArrayLike,
+        *,
+        method: Method | None = None,
+        pivot_rule: PivotRule | None = None,
+        max_iterations: int | None = None,
+        keep_history: bool | None = None,
+        tolerance: float | None = None,
+        progress: Progress | None = None,
+    ) -> None:
+        self.operator = operator if isinstance(operator, Operator) else DenseOperator(operator)
+        self._shape: tuple[int, ...] = (self.n,)
+        options = chosen_options(method, pivot_rule, max_iterations, keep_history, tolerance)
+        read = self.operator._handle
+        self._handle = new_handle("solver", "fuge_solver_new", "fuge_solver_free", read.pointer, ctypes.byref(options))
+        self._handle.need(read)
+        self.set_progress(progress)
+
+    @property
+    def n(self) -> int:
+        """Number of contact points."""
+        return self.operator.n
+
+    def set_progress(self, progress: Progress | None) -> None:
+        """Call ``progress(iteration, residual, contacts)`` in each iteration of a solve; None for no such calls.
+
+        If it returns a true value the solve ends with :class:`CancelledError`. An exception in it ends the solve, and
+        is raised there. Ctrl-C ends a solve in the main thread with or without a progress function.
+        """
+        if progress is not None and not callable(progress):
+            raise TypeError(f"progress must be callable, not {type(progress).__name__}")
+        called = progress_callback(progress)
+        self._call("fuge_set_progress", called, None)
+        self._handle.keep_only(called)
+
+    # ---- the problem
+
+    def set_gap(self, gap: ArrayLike, gap_upper: ArrayLike | None = None) -> None:
+        """Initial gaps.
+
+        Parameters
+        ----------
+        gap : array_like, shape (n,), or that of the operator's grid, or float
+            Initial gaps, including those that external loads cause; length. Results have this shape.
+        gap_upper : array_like of the same shape, or float, optional
+            Play between the two stops of a point: infinity where contact is one-sided, as it is everywhere without
+            this argument; 0 where the point is tied; length.
+
+        Raises
+        ------
+        InputError
+            A shape does not fit, a gap is not finite, or gap_upper is negative.
+        """
+        shape = np.shape(gap) or self.operator.grid or (self.n,)
+        values = self._points("gap", gap)
+        upper = None if gap_upper is None else self._points("gap_upper", gap_upper)
+        self._call("fuge_set_gap", values, upper)
+        self._shape = shape
+
+    def set_excluded(self, excluded: ArrayLike | None) -> None:
+        """Points that carry no force, where the booleans are true; None: no such points.
+
+        Their gaps are computed nevertheless, and may be negative.
+        """
+        chosen = None
+        if excluded is not None:
+            chosen = _arrays.flags("excluded", excluded, *self._shapes()).reshape(-1)
+        self._call("fuge_set_excluded", chosen)
+
+    def set_load(self, load: float) -> None:
+        """One translation, free under a load that is not negative; force."""
+        self._call("fuge_set_load", _arrays.number("load", load))
+
+    def set_approach(self, approach: float) -> None:
+        """One translation, prescribed; length. The load is then a result."""
+        self._call("fuge_set_approach", _arrays.number("approach", approach))
+
+    def set_modes(self, modes: ArrayLike, resultant: ArrayLike) -> None:
+        """Several rigid motions, all free.
+
+        Parameters
+        ----------
+        modes : array_like, shape (n, m) or that of the grid followed by m
+            Column j says how far each point closes per unit of motion j. m = 0: no motions.
+        resultant : array_like, shape (m,)
+            Resultant of the forces for each motion: the sum of the forces times the column.
+        """
+        found = np.asarray(modes)
+        grid = self.operator.grid
+        if grid is not None and found.shape[:-1] == grid:
+            found = found.reshape(self.n, found.shape[-1])
+        matrix = _arrays.columns("modes", found, (self.n, None))
+        m = matrix.shape[1]
+        self._call("fuge_set_modes", m, matrix, _arrays.vector("resultant", resultant, m))
+
+    def set_motion(self, mode: int, motion: float) -> None:
+        """Prescribe one of the motions, which count from 0, or change its value."""
+        self._call("fuge_set_motion", _arrays.integer("mode", mode), _arrays.number("motion", motion))
+
+    def set_resultant(self, mode: int, resultant: float) -> None:
+        """Let a motion be free under a resultant of either sign, or change the resultant."""
+        self._call("fuge_set_resultant", _arrays.integer("mode", mode), _arrays.number("resultant", resultant))
+
+    @property
+    def mode_count(self) -> int:
+        """Number m of rigid motions of the problem."""
+        m = np.empty(1, dtype=np.intc)
+        self._call("fuge_get_mode_count", m)
+        return int(m[0])
+
+    # ---- the solution
+
+    def solve(self) -> Contact:
+        """Solve the problem.
+
+        Returns
+        -------
+        Contact
+
+        Warns
+        -----
+        ResidualWarning
+            The residual is above the tolerance.
+        NotUniqueWarning
+            Forces, or a motion that the contact does not resist, are not unique.
+        IllConditionedWarning
+            The forces may be far off.
+
+        Raises
+        ------
+        CallOrderError
+            Gaps or motions have not been set.
+        EquilibriumError
+            No contact forces can be in equilibrium with the load.
+        MatrixError
+            The influence matrix is not positive definite.
+        InputError
+            Modes depend on each other.
+        LimitError, UnsupportedError, CallbackError, CancelledError
+        """
+        handle = self._handle
+        with interruptible(), handle.use() as pointer:
+            code = function("fuge_solve")(pointer)
+            message = self._read_message(pointer)
+            # Before the warning, which the caller may turn into an exception.
+            contact = self._contact(pointer, message) if code >= 0 else None
+            end_call(code, lambda: message)
+        assert contact is not None
+        return contact
+
+    def reset(self) -> None:
+        """Forget results, contact set and history: the next solve starts from scratch."""
+        self._call("fuge_reset")
+
+    @property
+    def info(self) -> Info:
+        """Report of the last solve, failed or not."""
+        report = InfoStruct()
+        self._call("fuge_get_info", ctypes.byref(report))
+        return info_of(report)
+
+    def derivative(self, gap_change: ArrayLike | None = None, load_change: ArrayLike | None = None) -> Derivative:
+        """Derivative of the last solution in a direction.
+
+        With ``load_change=1`` alone the contact stiffness is ``1/derivative.motion[0]``.
+
+        Parameters
+        ----------
+        gap_change : array_like, shape (n,) or that of the grid, optional
+            Changes of the gaps.
+        load_change : float, or array_like of shape (m,), optional
+            Changes of the load; of the resultants of free motions and of prescribed motions.
+
+        Raises
+        ------
+        CallOrderError
+            There is no solution of the present problem.
+        EquilibriumError
+            The contact does not resist what the changes load.
+        """
+        m = self.mode_count
+        gaps = None if gap_change is None else self._points("gap_change", gap_change)
+        loads = None
+        if load_change is not None:
+            loads = _arrays.vector("load_change", np.atleast_1d(np.asarray(load_change)), m)
+        force, gap, motion = np.empty(self._shape), np.empty(self._shape), np.empty(m)
+        with interruptible():
+            self._call("fuge_get_derivatives", gaps, loads, force, gap, motion)
+        return Derivative(force, gap, motion)
+
+    def history(self) -> History:
+        """Steps of the tableau, kept if the solver was made with ``keep_history=True``."""
+        available = np.empty(1, dtype=np.intc)
+        self._call("fuge_get_history", 0, 0, None, None, available)
+        steps = int(available[0])
+        basis = np.empty((steps, self.n + self.mode_count), dtype=np.intc)
+        z = np.empty(steps)
+        self._call("fuge_get_history", 0, steps, basis, z, available)
+        return History(basis, z)
+
+    def follow_path(self, finish: ArrayLike) -> Path:
+        """The exact course of the contact from the present problem to one with other loads, without load steps.
+
+        Parameters
+        ----------
+        finish : float, or array_like of shape (m,)
+            Resultants of free motions and prescribed motions at the end; all change linearly with a parameter from
+            0 to 1.
+
+        Raises
+        ------
+        EquilibriumError
+            Equilibrium ends on the path; the message has the parameter.
+        UnsupportedError
+            The operator has no matrix.
+        """
+        m = self.mode_count
+        end = _arrays.vector("finish", np.atleast_1d(np.asarray(finish)), m)
+        return collect_path(self.n, m, lambda *results: self._call("fuge_follow_path", end, *results))
+
+    def _contact(self, pointer: ctypes.c_void_p, message: str) -> Contact:
+        count = np.empty(1, dtype=np.intc)
+        report = InfoStruct()
+        self._get("fuge_get_mode_count", pointer, count)
+        force, gap = np.empty(self._shape), np.empty(self._shape)
+        motion, resultant = np.empty(int(count[0])), np.empty(int(count[0]))
+        self._get("fuge_get_force", pointer, force)
+        self._get("fuge_get_gap", pointer, gap)
+        self._get("fuge_get_motion", pointer, motion)
+        self._get("fuge_get_resultant", pointer, resultant)
+        self._get("fuge_get_info", pointer, ctypes.byref(report))
+        return Contact(force, gap, motion, resultant, info_of(report), message)
+
+    def _get(self, name: str, pointer: ctypes.c_void_p, result: Any) -> None:
+        end_call(function(name)(pointer, result), lambda: self._read_message(pointer))
+
+    def _shapes(self) -> list[tuple[int | None, ...]]:
+        grid = self.operator.grid
+        return [(self.n,)] if grid is None else [(self.n,), grid]
+
+    def _points(self, name: str, value: ArrayLike) -> NDArray[np.float64]:
+        """One value for each point; a number for all."""
+        if np.ndim(value) == 0:
+            return _arrays.spread(name, value, self.n)
+        return _arrays.doubles(name, value, *self._shapes()).reshape(-1)
+
+
+def info_of(report: InfoStruct) -> Info:
+    """The report in a struct of the library."""
+    return Info(
+        Status(report.status),
+        report.iterations,
+        report.contacts,
+        report.products,
+        report.preconditionings,
+        report.residual,
+        report.force_error,
+    )
+
+
+def solve(
+    operator: Operator | ArrayLike,
+    gap: ArrayLike,
+    load: float | None = None,
+    *,
+    approach: float | None = None,
+    modes: ArrayLike | None = None,
+    resultant: ArrayLike | None = None,
+    motion: Mapping[int, float] | None = None,
+    gap_upper: ArrayLike | None = None,
+    excluded: ArrayLike | None = None,
+    method: Method | None = None,
+    pivot_rule: PivotRule | None = None,
+    max_iterations: int | None = None,
+    tolerance: float | None = None,
+    progress: Progress | None = None,
+) -> Contact:
+    """Solve one contact problem; :class:`Solver` is for several ones, and for derivatives.
+
+    Parameters
+    ----------
+    operator : Operator or array_like, shape (n, n)
+        How the bodies deform: an influence matrix (displacement per force, symmetric), or an operator.
+    gap : array_like, shape (n,) or that of the operator's grid, or float
+        Initial gaps; length.
+    load : float, optional
+        Sum of the contact forces, not negative.
+    approach : float, optional
+        In place of the load: by how much the bodies approach each other; length.
+    modes : array_like, shape (n, m), optional
+        In place of both: several rigid motions; see :meth:`Solver.set_modes`.
+    resultant : array_like, shape (m,), optional
+        Resultants of the modes.
+    motion : dict, optional
+        Prescribed motions, ``{mode: value}``.
+    gap_upper : array_like of the shape of gap, or float, optional
+        Play between two stops: infinity for one-sided contact, 0 for tied points; length.
+    excluded : array_like of bool, shape of gap, optional
+        Points that carry no force.
+    method, pivot_rule, max_iterations, tolerance, progress
+        As in :class:`Solver`.
+
+    Returns
+    -------
+    Contact
+        Forces, gaps, motions, and a report with the certificate.
+
+    Raises
+    ------
+    Error
+        As :meth:`Solver.solve`; :class:`InputError` also unless one of load, approach and modes is given.
+
+    Examples
+    --------
+    >>> contact = fuge.solve([[0.2, 0.1], [0.1, 0.2]], gap=[0.0, 1.0], load=2.0)
+    >>> contact.force, contact.gap, contact.approach
+    (array([2., 0.]), array([0. , 0.8]), 0.4)
+    """
+    if sum(value is not None for value in (load, approach, modes)) != 1:
+        raise error(Status.ERR_OPTION, "give one of load, approach and modes")
+    if modes is None and (resultant is not None or motion is not None):
+        raise error(Status.ERR_OPTION, "resultant and motion belong to modes, which are not given")
+    with Solver(
+        operator,
+        method=method,
+        pivot_rule=pivot_rule,
+        max_iterations=max_iterations,
+        tolerance=tolerance,
+        progress=progress,
+    ) as solver:
+        solver.set_gap(gap, gap_upper)
+        if excluded is not None:
+            solver.set_excluded(excluded)
+        if load is not None:
+            solver.set_load(load)
+        elif approach is not None:
+            solver.set_approach(approach)
+        elif modes is not None:
+            m = np.shape(modes)[-1] if np.ndim(modes) else 0
+            solver.set_modes(modes, np.zeros(m) if resultant is None else resultant)
+            for mode, value in (motion or {}).items():
+                solver.set_motion(mode, value)
+        contact: Contact = solver.solve()
+        return contact

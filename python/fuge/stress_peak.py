@@ -1,0 +1,114 @@
+"""The largest von Mises or Tresca stress under a contact, and where it is."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any, Literal, cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fuge import _arrays
+from fuge._calls import call
+from fuge._structs import StressPeakStruct
+from fuge.halfplane import PLANE_STATES, Element, PlaneState
+from fuge.stress import rectangles, rings, strips
+
+Measure = Literal["von_mises", "tresca"]
+Location = Literal["inside", "surface", "singular"]
+
+MEASURES = {"von_mises": 0, "tresca": 1}
+LOCATIONS = {"inside": 0, "surface": 1, "singular": 2}
+
+
+@dataclass(frozen=True, eq=False)
+class StressPeak:
+    """A largest stress.
+
+    Attributes
+    ----------
+    location : {'inside', 'surface', 'singular'}
+        Below the surface, at the surface, or infinite at an edge of the contact or in a tip.
+    value : float
+        Force per length^2; infinity if singular, 0 without forces.
+    place : ndarray, shape (3,)
+        x, y, z; length. y is 0 in a plane; about an axis: radius, 0, z.
+    tensor : ndarray, shape (6,)
+        xx, yy, zz, yz, xz, xy there; NaN if singular.
+    """
+
+    location: Location
+    value: float
+    place: NDArray[np.float64]
+    tensor: NDArray[np.float64]
+
+
+def find_peak(name: str, *arguments: Any) -> StressPeak:
+    """Call a function whose arguments are followed by the peak, message and len."""
+    peak = StressPeakStruct()
+    call(name, *arguments, ctypes.byref(peak))
+    words = {number: word for word, number in LOCATIONS.items()}
+    location = cast(Location, words[peak.location])
+    return StressPeak(location, peak.value, np.array(peak.place), np.array(peak.tensor))
+
+
+def measured(measure: Measure) -> int:
+    """The number of a measure."""
+    return _arrays.choice("measure", measure, MEASURES)
+
+
+def plane_body(plane_state: PlaneState, poisson: float) -> list[Any]:
+    """Arguments of a body in a plane."""
+    return [_arrays.choice("plane_state", plane_state, PLANE_STATES), _arrays.number("poisson", poisson)]
+
+
+def halfplane_peak(
+    x: ArrayLike,
+    width: ArrayLike,
+    force: ArrayLike,
+    element: Element,
+    poisson: float,
+    measure: Measure = "von_mises",
+    *,
+    plane_state: PlaneState = "strain",
+    symmetric: bool = False,
+) -> StressPeak:
+    """Under the forces of cells on a half-plane, which are those of :func:`halfplane_stress`.
+
+    Parameters
+    ----------
+    x, width, force, element, symmetric
+        As in :func:`halfplane_stress`.
+    poisson : float
+        Poisson's ratio of the body.
+    measure : {'von_mises', 'tresca'}
+    plane_state : {'strain', 'stress'}
+    """
+    name = "fuge_halfplane_symmetric_peak" if symmetric else "fuge_halfplane_peak"
+    return find_peak(name, *strips(x, width, force, element), *plane_body(plane_state, poisson), measured(measure))
+
+
+def halfspace_peak(
+    x: ArrayLike,
+    y: ArrayLike,
+    width_x: ArrayLike,
+    width_y: ArrayLike,
+    force: ArrayLike,
+    poisson: float,
+    measure: Measure = "von_mises",
+    *,
+    symmetric_x: bool = False,
+    symmetric_y: bool = False,
+) -> StressPeak:
+    """Under the forces of rectangles on a half-space, which are those of :func:`halfspace_stress`."""
+    arguments = [*rectangles(x, y, width_x, width_y, force), _arrays.number("poisson", poisson)]
+    if symmetric_x or symmetric_y:
+        sides = [int(bool(symmetric_x)), int(bool(symmetric_y))]
+        return find_peak("fuge_halfspace_symmetric_peak", *arguments, *sides, measured(measure))
+    return find_peak("fuge_halfspace_peak", *arguments, measured(measure))
+
+
+def ring_peak(radius: ArrayLike, force: ArrayLike, poisson: float, measure: Measure = "von_mises") -> StressPeak:
+    """Under the forces of rings, which are those of :func:`ring_stress`."""
+    return find_peak("fuge_ring_peak", *rings(radius, force), _arrays.number("poisson", poisson), measured(measure))

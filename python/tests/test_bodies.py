@@ -1,0 +1,174 @@
+"""Elastic bodies with meshes that do not match: the patch test, joined bodies, and meshes with their matrices."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import fuge
+import headers
+from fuge._library import has_sparse
+
+YOUNG, POISSON, PRESSURE = 2.0, 0.25, 0.01
+
+
+def element_stiffness(width):
+    """A bilinear rectangle, `width` wide and 1 high, in plane strain, by four Gauss points."""
+    shear = YOUNG / 2 / (1 + POISSON)
+    material = np.diag([2 * shear, 2 * shear, shear])
+    material[:2, :2] += YOUNG * POISSON / (1 + POISSON) / (1 - 2 * POISSON)
+    corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    stiffness = np.zeros((8, 8))
+    for r, s in corner / np.sqrt(3):
+        slope = corner * (1 + corner[:, ::-1] * [s, r]) / 4 * [2 / width, 2]
+        strain = np.zeros((3, 8))
+        strain[0, 0::2] = strain[2, 1::2] = slope[:, 0]
+        strain[1, 1::2] = strain[2, 0::2] = slope[:, 1]
+        stiffness += strain.T @ material @ strain * width / 4
+    return stiffness
+
+
+class Block:
+    """A block one wide and one high, of rectangles side by side."""
+
+    def __init__(self, elements, bottom):
+        n = elements + 1
+        self.node = np.array([[k % n / elements, bottom + k // n] for k in range(2 * n)])
+        self.stiffness = np.zeros((4 * n, 4 * n))
+        for e in range(elements):
+            dof = np.array([[2 * k, 2 * k + 1] for k in (e, e + 1, e + 1 + n, e + n)]).ravel()
+            self.stiffness[np.ix_(dof, dof)] += element_stiffness(1 / elements)
+        dof = np.arange(4 * n).reshape(-1, 2)
+        self.bottom = fuge.Surface(self.node, [[e, e + 1] for e in range(elements)], dof)
+        self.top = fuge.Surface(self.node, [[e + 1 + n, e + n] for e in range(elements)], dof)
+        self.load = np.zeros(4 * n)
+        self.load[2 * n + 1 :: 2] = -PRESSURE / elements
+        self.load[[2 * n + 1, -1]] /= 2
+
+
+class Patch(unittest.TestCase):
+    def setUp(self):
+        self.lower, self.upper = Block(2, 0.0), Block(3, 1.0)
+
+    def bodies(self, lower, upper):
+        bodies = fuge.ElasticBodies()
+        self.assertEqual([bodies.add(lower), bodies.add(upper)], [0, 1])
+        bodies.fix(0, [1, 3, 5, 0])
+        bodies.set_load(1, self.upper.load)
+        bodies.add_pair(1, self.upper.bottom, 0, self.lower.top)
+        return bodies
+
+    def check(self, contact):
+        np.testing.assert_allclose(contact.pressure, np.full(4, PRESSURE), rtol=1e-10)
+        np.testing.assert_allclose(contact.area, np.array([1, 2, 2, 1]) / 6, rtol=1e-13)
+        np.testing.assert_allclose(contact.force, contact.pressure * contact.area, rtol=1e-12)
+        np.testing.assert_array_equal(contact.node, np.arange(4))
+        np.testing.assert_allclose(contact.direction, [[0, -1]] * 4, atol=1e-14)
+        strain = -PRESSURE * (1 - POISSON**2) / YOUNG
+        for displacement, block in zip(contact.displacement, (self.lower, self.upper)):
+            np.testing.assert_allclose(displacement[1::2], strain * block.node[:, 1], atol=1e-12)
+        self.assertEqual(contact.info.contacts, 4)
+        self.assertEqual(contact.unpaired.shape, (0, 2))
+
+    def test_solve(self):
+        for sparse in (False, True) if has_sparse() else (False,):
+            bodies = self.bodies(self.lower.stiffness, self.upper.stiffness)
+            self.check(bodies.solve(sparse=sparse))
+            self.assertEqual(bodies.info.status, fuge.Status.DONE)
+
+    def test_join(self):
+        joined = self.bodies(self.lower.stiffness, self.upper.stiffness).join()
+        np.testing.assert_array_equal(joined.first, [0, 12, 28])
+        whole = np.zeros(joined.stiffness.shape)
+        column = np.repeat(np.arange(28), np.diff(joined.stiffness.column))
+        np.add.at(whole, (joined.stiffness.row, column), joined.stiffness.value)
+        np.testing.assert_allclose(np.triu(whole)[:12, :12], np.triu(self.lower.stiffness), atol=1e-14)
+        np.testing.assert_allclose(np.triu(whole)[12:, 12:], np.triu(self.upper.stiffness), atol=1e-14)
+        np.testing.assert_allclose(joined.gap, np.zeros(4), atol=1e-15)
+        body = fuge.Body(whole + whole.T - np.diag(np.diag(whole)))
+        body.fix([1, 3, 5, 0])
+        body.set_load(np.concatenate([np.zeros(12), self.upper.load]))
+        body.find_rigid_modes()
+        body.set_contact(joined.dof, joined.normal)
+        condensed = body.condense()
+        gap = joined.gap + condensed.displacement
+        contact = fuge.solve(condensed.influence, gap, modes=condensed.modes, resultant=condensed.resultant)
+        np.testing.assert_allclose(contact.force / joined.area, np.full(4, PRESSURE), rtol=1e-10)
+
+    def test_rigid_opposite(self):
+        bodies = fuge.ElasticBodies()
+        bodies.add(self.upper.stiffness)
+        bodies.set_load(0, self.upper.load)
+        ground = fuge.Surface([[-1.0, 1.0], [2.0, 1.0]], [[1, 0]])
+        bodies.add_pair(0, self.upper.bottom, None, ground)
+        np.testing.assert_allclose(bodies.solve(sparse=False).pressure, np.full(4, PRESSURE), rtol=1e-10)
+
+    def test_rigid_modes(self):
+        bodies = self.bodies(self.lower.stiffness, self.upper.stiffness)
+        bodies.set_rigid_modes(1, fuge.rigid_modes(self.upper.node))
+        self.check(bodies.solve(sparse=False))
+
+    def test_errors(self):
+        bodies = self.bodies(self.lower.stiffness, self.upper.stiffness)
+        with self.assertRaises(fuge.InputError) as caught:
+            bodies.set_load(2, self.upper.load)
+        self.assertEqual(caught.exception.status, fuge.Status.ERR_SIZE)
+        self.assertRaises(fuge.InputError, bodies.set_load, 0, self.upper.load)
+        self.assertRaises(fuge.InputError, bodies.add, self.lower.stiffness[:3])
+        self.assertRaises(fuge.InputError, fuge.ElasticBodies().solve, sparse=False)
+        bodies.add_pair(1, self.upper.top, 0, self.lower.top)
+        with self.assertRaises(fuge.InputError) as caught:
+            bodies.solve(sparse=False)
+        self.assertEqual(caught.exception.status, fuge.Status.ERR_MESH)
+        self.assertIn("pair 1", caught.exception.message)
+
+
+class MeshWithMatrix(unittest.TestCase):
+    def test_surface_and_set(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "m.inp"
+            path.write_text(
+                "*NODE\n10, 0., 0.\n20, 1., 0.\n30, 1., 1.\n40, 0., 1.\n"
+                "*ELEMENT, TYPE=CPE4, ELSET=ALL\n1, 10, 20, 30, 40\n"
+                "*NSET, NSET=BASE\n10, 20\n*SURFACE, NAME=TOP\nALL, S3\n"
+            )
+            mesh = fuge.read_mesh(path)
+        node, direction = np.repeat(np.array([10, 20, 30, 40], dtype=np.intc), 2), np.tile([1, 2], 4).astype(np.intc)
+        # The program has left out a support.
+        node, direction = node[1:], direction[1:]
+        identity = np.arange(8, dtype=np.intc)
+        stiffness = fuge.StiffnessFile((7, 7), identity, identity[:7], np.ones(7), node, direction)
+        surface = mesh.surface("top", stiffness, 2)
+        np.testing.assert_array_equal(surface.node, mesh.position[:, :2])
+        np.testing.assert_array_equal(np.sort(surface.face[0, :2]), [2, 3])
+        np.testing.assert_array_equal(surface.dof[2:], [[3, 4], [5, 6]])
+        np.testing.assert_array_equal(mesh.set_dof("base", 1, stiffness), [1])
+        np.testing.assert_array_equal(mesh.set_dof("base", 2, stiffness), [0, 2])
+        self.assertRaises(fuge.InputError, mesh.surface, "bottom", stiffness, 2)
+        self.assertRaises(fuge.InputError, mesh.surface, "top", stiffness, 4)
+
+    def test_blocks_in_files(self):
+        # Two blocks 6 wide whose meshes do not match, under 12: the job of the program fuge in this folder.
+        folder = headers.ROOT / "examples" / "data" / "blocks"
+        bodies, surfaces = fuge.ElasticBodies(), []
+        for name in ("lower", "upper"):
+            mesh, stiffness = fuge.read_mesh(folder / f"{name}.inp"), fuge.read_stiffness(folder / f"{name}.sti")
+            body = bodies.add(stiffness)
+            held = [mesh.set_dof("left", 1, stiffness)]
+            if name == "lower":
+                held.append(mesh.set_dof("bottom", 2, stiffness))
+            bodies.fix(body, np.concatenate(held))
+            surfaces.append(mesh.surface("face", stiffness, 2))
+        load = np.zeros(stiffness.shape[0])
+        for node, force in ((13, 1.5), (50, 3.0), (87, 3.0), (23, 3.0), (60, 1.5)):
+            load[(stiffness.node == node) & (stiffness.direction == 2)] = -force
+        bodies.set_load(1, load)
+        bodies.add_pair(1, surfaces[1], 0, surfaces[0])
+        contact = bodies.solve(sparse=False)
+        self.assertAlmostEqual(contact.force.sum(), 12.0, delta=1e-9)
+        np.testing.assert_allclose(contact.pressure, contact.pressure.mean(), rtol=1e-8)
+
+
+if __name__ == "__main__":
+    unittest.main()

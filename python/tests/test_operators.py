@@ -1,0 +1,197 @@
+"""Operators and influence matrices: products by FFT against matrices, callbacks, and Hertz."""
+
+import unittest
+
+import numpy as np
+
+import fuge
+
+
+class Halfplane(unittest.TestCase):
+    n, width, e_star = 64, 0.1, 2.0
+
+    def setUp(self):
+        self.x = self.width * (np.arange(self.n) - 0.5 * (self.n - 1))
+        self.gap = self.x**2 / 2
+
+    def test_fft_against_the_matrix(self):
+        for element in ("centre", "mean", "hat"):
+            alpha = fuge.halfplane_matrix(self.x, self.width, self.e_star, element)
+            self.assertTrue(alpha.flags.f_contiguous)
+            wanted = fuge.solve(alpha, self.gap, 3.0)
+            operator = fuge.HalfplaneOperator(self.n, self.width, self.e_star, element, threads=2)
+            found = fuge.solve(operator, self.gap, 3.0, tolerance=1e-12)
+            np.testing.assert_allclose(found.force, wanted.force, rtol=0, atol=1e-9)
+            self.assertAlmostEqual(found.approach, wanted.approach, delta=1e-9)
+
+    def test_periodic(self):
+        operator = fuge.HalfplaneOperator(self.n, self.width, self.e_star, "mean", "periodic")
+        contact = fuge.solve(operator, 0.0, 6.4)
+        np.testing.assert_allclose(contact.force, np.full(self.n, 0.1), rtol=1e-12)
+        self.assertRaises(fuge.UnsupportedError, fuge.load_path, operator, self.gap, 1.0)
+
+    def test_symmetric(self):
+        half = self.x[self.n // 2 :]
+        whole = fuge.solve(fuge.halfplane_matrix(self.x, self.width, self.e_star, "mean"), self.gap, 3.0)
+        alpha = fuge.halfplane_matrix(half, self.width, self.e_star, "mean", symmetric=True)
+        part = fuge.solve(alpha, half**2 / 2, 3.0)
+        np.testing.assert_allclose(part.force, 2 * whole.force[self.n // 2 :], rtol=0, atol=1e-12)
+
+    def test_edges(self):
+        contact = fuge.solve(fuge.halfplane_matrix(self.x, self.width, self.e_star, "hat"), self.gap, 3.0)
+        edges = fuge.contact_edges(self.x, self.width, contact.force, "hat")
+        half_width = np.sqrt(4 * 3.0 * 1.0 / (np.pi * self.e_star))
+        np.testing.assert_allclose([edges.left[0], edges.right[0]], [-half_width, half_width], rtol=1e-4)
+        self.assertEqual(edges.left.shape, (1,))
+        self.assertEqual(edges.left_kind[0], fuge.EdgeKind.REFINED)
+
+    def test_moduli(self):
+        self.assertAlmostEqual(fuge.plane_modulus(210e3, 0.3), 210e3 / 0.91, delta=1e-9)
+        self.assertEqual(fuge.plane_modulus(210e3, 0.3, "stress"), 210e3)
+        self.assertEqual(fuge.combined_modulus(2.0, np.inf), 2.0)
+        self.assertEqual(fuge.displacement_shares(1.0, 3.0), (0.75, 0.25))
+        with self.assertRaises(fuge.InputError) as caught:
+            fuge.plane_modulus(210e3, 0.6)
+        self.assertEqual(caught.exception.status, fuge.Status.ERR_MODULUS)
+
+
+class Halfspace(unittest.TestCase):
+    def test_ball(self):
+        n, spacing, e_star, radius, load = 40, 0.05, 1.0, 2.0, 0.3
+        x = spacing * (np.arange(n) - 0.5 * (n - 1))
+        gap = (x[None, :] ** 2 + x[:, None] ** 2) / (2 * radius)
+        hertz = fuge.hertz_ellipse(radius, radius, e_star, load)
+        operator = fuge.HalfspaceOperator(n, n, spacing, spacing, e_star, "mean")
+        contact = fuge.solve(operator, gap, load)
+        self.assertEqual(contact.force.shape, (n, n))
+        self.assertAlmostEqual(contact.approach / hertz.approach, 1.0, delta=5e-3)
+        self.assertAlmostEqual(contact.force.max() / spacing**2 / hertz.peak_pressure, 1.0, delta=2e-2)
+        self.assertEqual(hertz.semi_axis_x, hertz.semi_axis_y)
+        flat = fuge.solve(operator, gap.ravel(), load)
+        self.assertEqual(flat.force.shape, (n * n,))
+
+    def test_rows_and_columns(self):
+        # A grid that is not square: element [j, i] is at x[i], y[j].
+        nx, ny, spacing_x, spacing_y = 6, 4, 0.1, 0.3
+        x, y = np.meshgrid(spacing_x * np.arange(nx), spacing_y * np.arange(ny))
+        gap = 0.01 * (x - 0.2) ** 2 + 0.3 * y
+        alpha = fuge.halfspace_matrix(x.ravel(), y.ravel(), spacing_x, spacing_y, 1.0, "mean")
+        wanted = fuge.solve(alpha, gap.ravel(), 0.2)
+        operator = fuge.HalfspaceOperator(nx, ny, spacing_x, spacing_y, 1.0, "mean", threads=2)
+        found = fuge.solve(operator, gap, 0.2, excluded=np.zeros((ny, nx), dtype=bool), tolerance=1e-12)
+        np.testing.assert_allclose(found.force, wanted.force.reshape(ny, nx), rtol=0, atol=1e-9)
+        solver = fuge.Solver(operator)
+        solver.set_gap(gap)
+        solver.set_modes(np.dstack([np.ones((ny, nx)), x - 0.25]), [0.2, 0.0])
+        self.assertEqual(solver.solve().gap.shape, (ny, nx))
+        with self.assertRaisesRegex(fuge.InputError, r"gap has the shape \(6, 4\), but must have \(24,\) or \(4, 6\)"):
+            solver.set_gap(gap.T)
+
+    def test_boundaries(self):
+        for boundary in ("periodic", "periodic_x", "periodic_y"):
+            operator = fuge.HalfspaceOperator(8, 8, 1.0, 1.0, 1.0, "mean", boundary)
+            contact = fuge.solve(operator, 0.0, 64.0)
+            self.assertAlmostEqual(contact.load, 64.0, delta=1e-10)
+        np.testing.assert_allclose(
+            fuge.solve(fuge.HalfspaceOperator(8, 8, 1.0, 1.0, 1.0, "mean", "periodic"), 0.0, 64.0).force,
+            np.ones((8, 8)),
+        )
+
+    def test_symmetric(self):
+        x = np.array([-0.5, 0.5])
+        alpha = fuge.halfspace_matrix(x, [0.0, 0.0], 1.0, 1.0, 1.0, "mean")
+        half = fuge.halfspace_matrix([0.5], [0.0], 1.0, 1.0, 1.0, "mean", symmetric_x=True)
+        self.assertAlmostEqual(half[0, 0], alpha[0].mean(), delta=1e-15)
+
+    def test_rings(self):
+        # A flat round punch on a fine set of rings: approach load/(2 E* a).
+        radius = np.sin(np.linspace(0.0, np.pi / 2, 61))
+        contact = fuge.solve(fuge.ring_matrix(radius, 1.0), 0.0, 2.0)
+        self.assertAlmostEqual(contact.approach, 1.0, delta=1e-3)
+        places = np.array([[0.0, 0.5], [2.0, 100.0]])
+        surface = fuge.ring_displacement(radius, contact.force, 1.0, places)
+        self.assertEqual(surface.shape, (2, 2))
+        self.assertAlmostEqual(surface[0, 1], 1.0, delta=2e-3)
+        self.assertAlmostEqual(surface[1, 1] * np.pi * 100.0 / 2.0, 1.0, delta=1e-3)
+
+
+class Callback(unittest.TestCase):
+    def setUp(self):
+        self.n = 128
+        x = (np.arange(self.n) - 0.5 * (self.n - 1)) / 16
+        self.gap = x**2 / 2
+        self.alpha = fuge.halfplane_matrix(x, 1 / 16, 1.0, "mean")
+        self.wanted = fuge.solve(self.alpha, self.gap, 2.0)
+
+    def same(self, operator):
+        found = fuge.solve(operator, self.gap, 2.0)
+        np.testing.assert_allclose(found.force, self.wanted.force, rtol=0, atol=1e-8)
+        return found.info.products
+
+    def test_product(self):
+        self.same(fuge.CallbackOperator(self.n, lambda f: self.alpha @ f))
+
+    def test_fewer_products(self):
+        def apply(f):
+            return self.alpha @ f
+
+        plain = self.same(fuge.CallbackOperator(self.n, apply))
+        with self.subTest("diagonal"):
+            self.same(fuge.CallbackOperator(self.n, apply, diagonal=np.diag(self.alpha)))
+        with self.subTest("preconditioner"):
+            inverse = np.linalg.inv(self.alpha)
+            self.assertLess(
+                self.same(fuge.CallbackOperator(self.n, apply, preconditioner=lambda f: inverse @ f)), plain
+            )
+        with self.subTest("auxiliary"):
+            operator = fuge.CallbackOperator(self.n, apply)
+            operator.set_auxiliary(fuge.HalfplaneOperator(self.n, 1 / 16, 1.0, "mean"))
+            self.assertLess(self.same(operator), plain)
+        with self.subTest("coarser"):
+            operator = fuge.CallbackOperator(self.n, apply, diagonal=np.diag(self.alpha))
+            operator.set_grid(self.n)
+            operator.set_coarser(fuge.HalfplaneOperator(self.n // 2, 1 / 8, 1.0, "mean"))
+            self.same(operator)
+        with self.subTest("datum"):
+            operator = fuge.CallbackOperator(self.n, lambda f: self.alpha @ f - 3.0 * f.sum())
+            operator.set_coefficients(3.0, 1.0)
+            self.same(operator)
+
+    def test_exception(self):
+        def apply(f):
+            raise ZeroDivisionError("in the product")
+
+        with self.assertRaisesRegex(ZeroDivisionError, "in the product"):
+            fuge.solve(fuge.CallbackOperator(self.n, apply), self.gap, 2.0)
+
+    def test_wrong_results(self):
+        with self.assertRaisesRegex(fuge.InputError, "must have \\(128,\\)"):
+            fuge.solve(fuge.CallbackOperator(self.n, lambda f: f[:3]), self.gap, 2.0)
+        with self.assertRaises(fuge.CallbackError):
+            fuge.solve(fuge.CallbackOperator(self.n, lambda f: np.nan * f), self.gap, 2.0)
+        with self.assertRaises(TypeError):
+            fuge.solve(fuge.CallbackOperator(self.n, lambda f: None), self.gap, 2.0)
+
+    def test_arguments(self):
+        self.assertRaises(TypeError, fuge.CallbackOperator, 3, 4)
+        with self.assertRaises(fuge.InputError):
+            fuge.CallbackOperator(2, lambda f: f, diagonal=[1.0, 1.0], preconditioner=lambda f: f)
+        with self.assertRaises(fuge.InputError) as caught:
+            fuge.CallbackOperator(2, lambda f: f, diagonal=[1.0, 0.0])
+        self.assertEqual(caught.exception.status, fuge.Status.ERR_NOT_DEFINITE)
+        with self.assertRaises(fuge.CallOrderError):
+            fuge.CallbackOperator(2, lambda f: f).set_coarser(fuge.CallbackOperator(1, lambda f: f))
+
+    def test_forces_can_be_kept(self):
+        kept = []
+
+        def apply(f):
+            kept.append(f)
+            return self.alpha @ f
+
+        fuge.solve(fuge.CallbackOperator(self.n, apply), self.gap, 2.0)
+        self.assertTrue(all(np.isfinite(f).all() for f in kept))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,385 @@
+"""Problems and solvers: known answers, warm starts, derivatives, paths, and what refuses bad data."""
+
+import gc
+import signal
+import threading
+import unittest
+import warnings
+
+import numpy as np
+
+import fuge
+
+ALPHA = np.array([[0.2, 0.1], [0.1, 0.2]])
+GAP = np.array([0.0, 1.0])
+TOLERANCE = 1e-13
+
+
+def barrel(n=80, width=0.02, radius=50.0, e_star=115384.61538461538):
+    x = width * (np.arange(n) - 0.5 * (n - 1))
+    return x, width, x**2 / (2 * radius), e_star
+
+
+class OneCall(unittest.TestCase):
+    def test_two_nodes(self):
+        contact = fuge.solve(ALPHA, GAP, 2.0)
+        np.testing.assert_allclose(contact.force, [2, 0], atol=TOLERANCE)
+        np.testing.assert_allclose(contact.gap, [0, 0.8], atol=TOLERANCE)
+        self.assertAlmostEqual(contact.approach, 0.4, delta=TOLERANCE)
+        self.assertAlmostEqual(contact.load, 2.0, delta=TOLERANCE)
+        self.assertEqual(contact.info.status, fuge.Status.DONE)
+        self.assertEqual(contact.info.contacts, 1)
+        self.assertLess(contact.info.residual, 1e-14)
+
+    def test_approach(self):
+        contact = fuge.solve(ALPHA, GAP, approach=0.4)
+        self.assertAlmostEqual(contact.load, 2.0, delta=TOLERANCE)
+
+    def test_lists_integers_and_single_precision_are_taken(self):
+        for gap in ([0, 1], np.array([0, 1], dtype=np.float32), np.array([[0.0, 9.0], [1.0, 9.0]])[:, 0]):
+            np.testing.assert_allclose(fuge.solve(ALPHA.tolist(), gap, 2).force, [2, 0], atol=TOLERANCE)
+
+    def test_both_memory_orders(self):
+        wide = np.zeros((2, 5))
+        wide[:, :2] = ALPHA
+        for alpha in (np.asfortranarray(ALPHA), ALPHA.copy(), wide[:, :2], ALPHA[::-1, ::-1]):
+            contact = fuge.solve(alpha, GAP, 20.0)
+            np.testing.assert_allclose(contact.force, [15, 5], rtol=1e-13)
+
+    def test_excluded(self):
+        contact = fuge.solve(ALPHA, GAP, 2.0, excluded=[True, False])
+        np.testing.assert_allclose(contact.force, [0, 2], atol=TOLERANCE)
+        self.assertAlmostEqual(contact.gap[0], -1.2, delta=TOLERANCE)
+
+    def test_tied(self):
+        # The gap 0.1 of a tied point is closed by a force that pulls.
+        contact = fuge.solve([[0.5]], [0.1], modes=np.empty((1, 0)), resultant=[], gap_upper=0.0)
+        np.testing.assert_allclose(contact.force, [-0.2], rtol=1e-14)
+
+    def test_play(self):
+        contact = fuge.solve([[0.5]], [0.8], modes=np.empty((1, 0)), resultant=[], gap_upper=[0.3])
+        np.testing.assert_allclose(contact.gap, [0.3], rtol=1e-14)
+        np.testing.assert_allclose(contact.force, [-1.0], rtol=1e-14)
+
+    def test_modes(self):
+        n, half = 9, 1.0
+        x = np.linspace(-half, half, n)
+        modes = np.column_stack([np.ones(n), x])
+        contact = fuge.solve(np.eye(n), 0.0, modes=modes, resultant=[9.0, 0.6])
+        np.testing.assert_allclose(modes.T @ contact.force, [9.0, 0.6], rtol=1e-13)
+        np.testing.assert_allclose(contact.motion, [1.0, 0.6 / (x @ x)], rtol=1e-13)
+        self.assertRaises(fuge.InputError, lambda: contact.approach)
+        held = fuge.solve(np.eye(n), 0.0, modes=modes, resultant=[9.0, 0.6], motion={1: 0.0})
+        np.testing.assert_allclose(held.force, np.ones(n), rtol=1e-13)
+        self.assertAlmostEqual(held.resultant[1], 0.0, delta=1e-12)
+
+    def test_one_of_load_approach_and_modes(self):
+        for motions in ({}, {"load": 1.0, "approach": 1.0}, {"load": 1.0, "resultant": [1.0]}):
+            with self.assertRaises(fuge.InputError) as caught:
+                fuge.solve(ALPHA, GAP, **motions)
+            self.assertEqual(caught.exception.status, fuge.Status.ERR_OPTION)
+
+
+class Errors(unittest.TestCase):
+    def refused(self, kind, status, call, *words):
+        with self.assertRaises(kind) as caught:
+            call()
+        self.assertEqual(caught.exception.status, status)
+        for word in words:
+            self.assertIn(word, caught.exception.message)
+        self.assertEqual(str(caught.exception), caught.exception.message)
+
+    def test_negative_load(self):
+        self.refused(
+            fuge.EquilibriumError, fuge.Status.ERR_NO_EQUILIBRIUM, lambda: fuge.solve(ALPHA, GAP, -2.0), "-2.0"
+        )
+
+    def test_unsymmetric(self):
+        matrix = [[0.2, 0.1], [0.3, 0.2]]
+        self.refused(
+            fuge.MatrixError, fuge.Status.ERR_NOT_SYMMETRIC, lambda: fuge.solve(matrix, GAP, 2.0), "alpha(1,0)"
+        )
+
+    def test_not_definite(self):
+        matrix = [[-1.0, 0.0], [0.0, -1.0]]
+        self.refused(fuge.MatrixError, fuge.Status.ERR_NOT_DEFINITE, lambda: fuge.solve(matrix, GAP, 2.0))
+
+    def test_not_finite(self):
+        self.refused(fuge.InputError, fuge.Status.ERR_NOT_FINITE, lambda: fuge.solve(ALPHA, [0, np.nan], 2.0), "gap(1)")
+
+    def test_shapes(self):
+        size = fuge.Status.ERR_SIZE
+        self.refused(fuge.InputError, size, lambda: fuge.solve(ALPHA, [0, 1, 2], 2.0), "gap", "(3,)", "(2,)")
+        self.refused(fuge.InputError, size, lambda: fuge.solve(ALPHA[:1], GAP, 2.0), "alpha", "square")
+        self.refused(fuge.InputError, size, lambda: fuge.solve([1.0], GAP, 2.0), "alpha", "(1,)")
+        self.refused(fuge.InputError, size, lambda: fuge.solve(ALPHA, GAP, 2.0, excluded=[True]), "excluded")
+        self.refused(fuge.InputError, size, lambda: fuge.solve(np.empty((0, 0)), [], 2.0))
+        self.refused(
+            fuge.InputError, size, lambda: fuge.solve(ALPHA, GAP, modes=np.eye(2), resultant=[1.0]), "resultant"
+        )
+
+    def test_types(self):
+        for call, word in [
+            (lambda: fuge.solve(ALPHA * 1j, GAP, 2.0), "alpha"),
+            (lambda: fuge.solve(ALPHA, ["a", "b"], 2.0), "gap"),
+            (lambda: fuge.solve(ALPHA, GAP, "2"), "load"),
+            (lambda: fuge.solve(ALPHA, GAP, 2.0, excluded=[0.0, 1.0]), "excluded"),
+            (lambda: fuge.solve(ALPHA, GAP, 2.0, max_iterations=1.5), "max_iterations"),
+            (lambda: fuge.solve(ALPHA, GAP, 2.0, progress=1), "progress"),
+        ]:
+            with self.assertRaisesRegex(TypeError, word):
+                call()
+
+    def test_words(self):
+        self.refused(
+            fuge.InputError, fuge.Status.ERR_OPTION, lambda: fuge.solve(ALPHA, GAP, 2.0, method="fast"), "'active_set'"
+        )
+        self.refused(
+            fuge.InputError, fuge.Status.ERR_ELEMENT, lambda: fuge.halfplane_matrix([0.0], 1.0, 1.0, "middle"), "'hat'"
+        )
+
+    def test_kinds(self):
+        # Python's own kinds hold as well.
+        self.assertTrue(issubclass(fuge.InputError, ValueError))
+        self.assertTrue(issubclass(fuge.OutOfMemoryError, MemoryError))
+        self.assertTrue(issubclass(fuge.FileError, OSError))
+        for status in fuge.Status:
+            self.assertTrue(status.text)
+
+    def test_warning(self):
+        # A body without load: its tilt is any.
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            contact = fuge.solve(ALPHA, GAP, modes=np.array([[1.0, 0.0], [1.0, 1.0]]), resultant=[0.0, 0.0])
+        self.assertEqual(len(caught), 1)
+        self.assertIs(caught[0].category, fuge.NotUniqueWarning)
+        self.assertEqual(caught[0].message.status, fuge.Status.WARN_NOT_UNIQUE)
+        self.assertEqual(caught[0].filename, __file__)
+        self.assertEqual(contact.info.status, fuge.Status.WARN_NOT_UNIQUE)
+        self.assertEqual(contact.message, caught[0].message.message)
+
+
+class Solvers(unittest.TestCase):
+    def setUp(self):
+        x, width, self.gap, e_star = barrel()
+        self.alpha = fuge.halfplane_matrix(x, width, e_star, "hat")
+        self.solver = fuge.Solver(self.alpha)
+        self.solver.set_gap(self.gap)
+
+    def test_hertz(self):
+        self.solver.set_load(400.0)
+        contact = self.solver.solve()
+        peak = np.sqrt(400.0 * 115384.61538461538 / (np.pi * 50.0))
+        self.assertAlmostEqual(contact.force.max() / 0.02 / peak, 1.0, delta=2e-3)
+        self.assertAlmostEqual(contact.force.sum(), 400.0, delta=1e-10)
+
+    def test_warm_start(self):
+        self.solver.set_load(400.0)
+        cold = self.solver.solve()
+        self.solver.set_load(401.0)
+        warm = self.solver.solve()
+        self.solver.reset()
+        again = self.solver.solve()
+        self.assertLess(warm.info.products, again.info.products)
+        np.testing.assert_allclose(warm.force, again.force, rtol=0, atol=1e-10)
+        # Results belong to their own solve.
+        self.assertAlmostEqual(cold.force.sum(), 400.0, delta=1e-10)
+
+    def test_engines_agree(self):
+        self.solver.set_load(400.0)
+        wanted = self.solver.solve()
+        for method in ("tableau", "active_set", "iterative"):
+            found = fuge.solve(self.alpha, self.gap, 400.0, method=method)
+            np.testing.assert_allclose(found.force, wanted.force, rtol=0, atol=1e-7 * wanted.force.max())
+
+    def test_call_order(self):
+        self.assertRaises(fuge.CallOrderError, lambda: self.solver.info)
+        self.assertRaises(fuge.CallOrderError, self.solver.solve)
+        self.assertRaises(fuge.CallOrderError, self.solver.derivative)
+        self.assertEqual(self.solver.info.status, fuge.Status.ERR_CALL_ORDER)
+
+    def test_derivative(self):
+        self.solver.set_load(400.0)
+        before = self.solver.solve()
+        change = self.solver.derivative(load_change=1.0)
+        step = 1e-3
+        self.solver.set_load(400.0 + step)
+        after = self.solver.solve()
+        self.assertEqual(before.info.contacts, after.info.contacts)
+        np.testing.assert_allclose((after.force - before.force) / step, change.force, rtol=0, atol=1e-8)
+        self.assertAlmostEqual((after.approach - before.approach) / step / change.motion[0], 1.0, delta=1e-6)
+        self.assertAlmostEqual(change.force.sum(), 1.0, delta=1e-12)
+        self.assertRaises(fuge.InputError, lambda: self.solver.derivative(load_change=[1.0, 2.0]))
+
+    def test_derivative_by_a_gap(self):
+        self.solver.set_load(400.0)
+        self.solver.solve()
+        unit = np.zeros(80)
+        unit[40] = 1.0
+        change = self.solver.derivative(gap_change=unit)
+        self.assertLess(change.force[40], 0.0)
+        self.assertAlmostEqual(change.force.sum() / abs(change.force[40]), 0.0, delta=1e-10)
+
+    def test_history_of_the_paper(self):
+        solver = fuge.Solver(ALPHA, keep_history=True)
+        solver.set_gap(GAP)
+        solver.set_load(2.0)
+        solver.solve()
+        history = solver.history()
+        self.assertEqual(history.basis.shape[1], 3)
+        self.assertEqual(history.z.shape, (history.basis.shape[0],))
+        self.assertGreater(history.z[0], 0.0)
+        self.assertAlmostEqual(history.z[-1], 0.0, delta=1e-14)
+        np.testing.assert_array_equal(np.sort(history.basis[-1]), [1, 4, 5])
+
+    def test_load_path(self):
+        path = fuge.load_path(ALPHA, GAP, 20.0)
+        np.testing.assert_allclose(path.parameter, [0, 0, 10], atol=1e-13)
+        np.testing.assert_array_equal(path.point, [-1, 0, 1])
+        self.assertEqual(path.state[2], fuge.PointState.AT_LOWER_STOP)
+        np.testing.assert_allclose(path.rate[1:], [0.2, 0.15], rtol=1e-13)
+
+    def test_path_with_more_events_than_expected(self):
+        # One point goes from stop to stop; the arrays are enlarged where needed.
+        calls = []
+
+        def follow(capacity, *arrays):
+            calls.append(capacity)
+            arrays[-1][0] = 40
+            arrays[0][:] = 7.0
+
+        path = fuge.path.collect_path(4, 1, follow)
+        self.assertEqual(calls, [24, 40])
+        self.assertEqual(path.parameter.shape, (40,))
+
+    def test_follow_path(self):
+        solver = fuge.Solver(ALPHA)
+        solver.set_gap(GAP)
+        solver.set_load(0.0)
+        path = solver.follow_path(20.0)
+        self.assertEqual(path.motion.shape, (path.parameter.size, 1))
+        np.testing.assert_allclose(path.parameter[-1], 0.5, rtol=1e-13)
+        np.testing.assert_allclose(path.motion[-1], [2.0], rtol=1e-13)
+
+    def test_progress(self):
+        seen = []
+        self.solver.set_load(400.0)
+        self.solver.set_progress(lambda *report: seen.append(report))
+        self.solver.solve()
+        self.assertEqual([report[0] for report in seen], list(range(1, len(seen) + 1)))
+        self.solver.set_progress(lambda *report: True)
+        self.solver.reset()
+        self.assertRaises(fuge.CancelledError, self.solver.solve)
+        self.solver.set_progress(None)
+        self.solver.solve()
+
+    def test_exception_in_progress(self):
+        def progress(*report):
+            raise KeyError("mine")
+
+        self.solver.set_load(400.0)
+        self.solver.set_progress(progress)
+        with self.assertRaisesRegex(KeyError, "mine"):
+            self.solver.solve()
+        # The next call has nothing left of it.
+        self.solver.set_progress(None)
+        self.assertEqual(self.solver.solve().info.status, fuge.Status.DONE)
+
+    @unittest.skipUnless(hasattr(signal, "pthread_kill"), "no signals for threads")
+    def test_interrupt(self):
+        # Ctrl-C comes while the library works; the next iteration sees it. A job in the background ignores it at first.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        main = threading.get_ident()
+
+        def product(f):
+            if not sent:
+                sent.append(threading.Thread(target=signal.pthread_kill, args=(main, signal.SIGINT)))
+                sent[0].start()
+                sent[0].join()
+            return self.alpha @ f
+
+        for progress in (None, lambda *report: None):
+            sent = []
+            solver = fuge.Solver(fuge.CallbackOperator(80, product), progress=progress)
+            solver.set_gap(self.gap)
+            solver.set_load(400.0)
+            self.assertRaises(KeyboardInterrupt, solver.solve)
+            self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+            self.assertAlmostEqual(solver.solve().load, 400.0, delta=1e-7)
+
+    def test_calls_from_inside_are_refused(self):
+        for call in (self.solver.reset, self.solver.close, lambda: self.solver.set_load(1.0)):
+            self.solver.set_load(400.0)
+            self.solver.reset()
+            self.solver.set_progress(lambda *report: call())
+            self.assertRaises(fuge.CallOrderError, self.solver.solve)
+            self.solver.set_progress(None)
+
+    def test_close(self):
+        operator = fuge.DenseOperator(self.alpha)
+        solver = fuge.Solver(operator)
+        solver.set_gap(self.gap)
+        solver.set_load(400.0)
+        # The memory stays until the solver is closed, too.
+        operator.close()
+        self.assertAlmostEqual(solver.solve().load, 400.0, delta=1e-10)
+        self.assertRaises(fuge.CallOrderError, fuge.Solver, operator)
+        solver.close()
+        solver.close()
+        operator.close()
+        self.assertRaises(fuge.CallOrderError, solver.solve)
+
+    def test_context(self):
+        with fuge.DenseOperator(ALPHA) as operator, fuge.Solver(operator) as solver:
+            solver.set_gap(GAP)
+            solver.set_load(2.0)
+            solver.solve()
+        self.assertRaises(fuge.CallOrderError, solver.solve)
+
+    def test_cycles_are_collected(self):
+        freed = []
+        for _ in range(20):
+            solver = fuge.Solver(ALPHA.copy())
+            solver.set_progress(lambda *report, solver=solver: None)
+            handles = solver._handle, solver.operator._handle
+            freed.append([handle._pointer for handle in handles])
+            del solver, handles
+        gc.collect()
+        self.assertFalse(any(pointer for pair in freed for pointer in pair))
+
+    def test_the_matrix_is_kept(self):
+        operator = fuge.DenseOperator(ALPHA.copy())
+        gc.collect()
+        contact = fuge.solve(operator, GAP, 2.0)
+        np.testing.assert_allclose(contact.force, [2, 0], atol=TOLERANCE)
+
+    def test_no_copy(self):
+        for alpha in (ALPHA.copy(), np.asfortranarray(ALPHA)):
+            operator = fuge.DenseOperator(alpha)
+            self.assertTrue(np.shares_memory(operator._handle._kept[0], alpha))
+
+    def test_threads(self):
+        # Solvers side by side share the operator, and a solver that two threads have waits.
+        operator = fuge.DenseOperator(self.alpha)
+        wanted = fuge.solve(operator, self.gap, 400.0).force
+        shared = fuge.Solver(operator)
+        shared.set_gap(self.gap)
+        shared.set_load(400.0)
+        bad = []
+
+        def work():
+            for _ in range(10):
+                for contact in (fuge.solve(operator, self.gap, 400.0), shared.solve()):
+                    if not np.allclose(contact.force, wanted, rtol=0, atol=1e-9):
+                        bad.append(contact)
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(bad, [])
+
+
+if __name__ == "__main__":
+    unittest.main()

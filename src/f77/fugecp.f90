@@ -1,0 +1,45 @@
+!> FUGECP: contact points of two surfaces of finite elements whose nodes do not face each other. Arguments in
+!> doc/legacy.md.
+subroutine fugecp(ndim, nn, x, np, nf, iface, id, nno, xo, npo, nfo, ifaceo, ido, method, norm, nsmth, nkind, d, reach, &
+                  maxn, nw, n, nwmin, idof, dn, gap, nstop, play, area, node, nopp, msg, info)
+  use fuge_contact_pairs_search, only: fuge_find_pairs
+  use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options
+  use fuge_f77_pairs, only: check_room, check_surface_sizes, copy_points, copy_stops, set_pair_options, set_surface
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info
+  use fuge_surface_mesh_type, only: fuge_surface_mesh
+  implicit none
+  integer, intent(in) :: ndim, nn, np, nf, nno, npo, nfo, method, norm, nsmth, nkind, maxn, nw
+  integer, intent(in) :: iface(np, nf), id(ndim, nn), ifaceo(npo, nfo), ido(ndim, nno)
+  real(dp), intent(in) :: x(ndim, nn), xo(ndim, nno), d, reach
+  integer, intent(inout) :: n, nwmin, idof(nw, maxn), nstop(maxn), node(maxn), nopp(maxn)
+  real(dp), intent(inout) :: dn(nw, maxn), gap(maxn), play(maxn), area(maxn)
+  character(len=*), intent(inout) :: msg
+  integer, intent(out) :: info
+  type(fuge_surface_mesh) :: contact, opposite
+  type(fuge_pair_options) :: options
+  type(fuge_contact_pairs) :: pairs
+  type(fuge_info) :: outcome
+  logical :: asks
+
+  asks = maxn == 0
+  call check_surface_sizes(ndim, nn, np, nf, '', outcome)
+  call check_surface_sizes(ndim, nno, npo, nfo, 'O', outcome)
+  call set_pair_options(method, norm, nsmth, nkind, d, reach, options, outcome)
+  call set_surface(x, iface, id, contact, outcome)
+  call set_surface(xo, ifaceo, ido, opposite, outcome)
+  if (.not. outcome%failed()) call fuge_find_pairs(contact, opposite, options, pairs, outcome)
+  if (.not. asks) call check_room(pairs, maxn, nw, outcome)
+  info = outcome%status
+  msg = outcome%message
+  if (outcome%failed()) return
+  n = pairs%points()
+  nwmin = size(pairs%dof, 1)
+  if (asks) return
+  call copy_points(pairs, idof, dn)
+  call copy_stops(pairs, nstop, play)
+  gap(:n) = pairs%gap
+  area(:n) = pairs%area
+  node(:n) = pairs%node
+  nopp(:n) = pairs%face
+end subroutine fugecp

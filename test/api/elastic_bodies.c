@@ -1,0 +1,325 @@
+/* Sections "elastic bodies", "bodies as one" and "meshes with their matrices" of fuge_bodies.h. */
+#include "check.h"
+
+/* Two blocks one wide and one high, of unit squares cut into 2 and 3 elements side by side, in plane strain: Young's
+ * modulus 2, Poisson's ratio 0.25.  The upper one, body 1, floats upon the lower one under a pressure. */
+#define YOUNG 2.0
+#define POISSON 0.25
+#define PRESSURE 0.01
+enum { MOST = 4, DEGREES = 4 * (MOST + 1) };
+
+typedef struct block {
+  int elements, nodes, degrees;
+  double x[DEGREES];
+  int dof[DEGREES], bottom[2 * MOST], top[2 * MOST];
+  double matrix[DEGREES * DEGREES];
+  int column[DEGREES + 1], row[DEGREES * DEGREES];
+  double value[DEGREES * DEGREES];
+} block;
+
+/* Add the stiffness of an element h wide and 1 high, with nodes counter-clockwise, by 2 x 2 Gauss points. */
+static void add_element(block *b, const int node[4], double h) {
+  const double place = sqrt(1.0 / 3.0), shear = YOUNG / (2 * (1 + POISSON));
+  const double lame = YOUNG * POISSON / ((1 + POISSON) * (1 - 2 * POISSON));
+  const double sx[4] = {-1, 1, 1, -1}, sy[4] = {-1, -1, 1, 1};
+  for (int g = 0; g < 4; g++)
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) {
+        double d[2][2];
+        for (int s = 0; s < 2; s++) {
+          const int k = s == 0 ? i : j;
+          d[s][0] = sx[k] * (1 + sy[k] * sy[g] * place) / 4 * 2 / h;
+          d[s][1] = sy[k] * (1 + sx[k] * sx[g] * place) / 4 * 2;
+        }
+        for (int a = 0; a < 2; a++)
+          for (int c = 0; c < 2; c++) {
+            double k = lame * d[0][a] * d[1][c] + shear * d[0][c] * d[1][a];
+            if (a == c) k += shear * (d[0][0] * d[1][0] + d[0][1] * d[1][1]);
+            b->matrix[2 * node[i] + a + b->degrees * (2 * node[j] + c)] += k * h / 4;
+          }
+      }
+}
+
+static block make_block(int elements, double y) {
+  block b;
+  memset(&b, 0, sizeof b);
+  b.elements = elements;
+  b.nodes = 2 * (elements + 1);
+  b.degrees = 2 * b.nodes;
+  for (int k = 0; k < b.nodes; k++) {
+    b.x[2 * k] = (double)(k % (elements + 1)) / elements;
+    b.x[2 * k + 1] = y + k / (elements + 1);
+  }
+  for (int k = 0; k < b.degrees; k++) b.dof[k] = k;
+  for (int e = 0; e < elements; e++) {
+    const int node[4] = {e, e + 1, e + elements + 2, e + elements + 1};
+    add_element(&b, node, 1.0 / elements);
+    b.bottom[2 * e] = e;
+    b.bottom[2 * e + 1] = e + 1;
+    b.top[2 * e] = e + elements + 2;
+    b.top[2 * e + 1] = e + elements + 1;
+  }
+  int entries = 0;
+  for (int j = 0; j < b.degrees; j++) {
+    b.column[j] = entries;
+    for (int i = 0; i < b.degrees; i++) {
+      if (fabs(b.matrix[i + b.degrees * j]) < 1e-14) continue;
+      b.row[entries] = i;
+      b.value[entries++] = b.matrix[i + b.degrees * j];
+    }
+  }
+  b.column[b.degrees] = entries;
+  return b;
+}
+
+static fuge_bodies *two_blocks(const block *lower, const block *upper) {
+  const int fixed[4] = {1, 3, 5, 0};
+  double load[DEGREES] = {0};
+  fuge_bodies *bodies = NULL;
+  int number = -1;
+
+  for (int k = 0; k <= upper->elements; k++)
+    load[2 * (k + upper->elements + 1) + 1] = -PRESSURE / upper->elements * (k == 0 || k == upper->elements ? 0.5 : 1.0);
+  CHECK_STATUS(fuge_bodies_create(&bodies, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_add(bodies, lower->degrees, lower->column, lower->row, lower->value, &number), FUGE_DONE);
+  CHECK_INT(number, 0);
+  CHECK_STATUS(fuge_bodies_add(bodies, upper->degrees, upper->column, upper->row, upper->value, &number), FUGE_DONE);
+  CHECK_INT(number, 1);
+  CHECK_STATUS(fuge_bodies_fix(bodies, 0, 4, fixed, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_set_load(bodies, 1, load), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_set_contact(bodies, 1, 2, upper->nodes, upper->x, 2, upper->elements, upper->bottom,
+                                       upper->dof), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_set_opposite(bodies, 0, 2, lower->nodes, lower->x, 2, lower->elements, lower->top,
+                                        lower->dof), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1), FUGE_DONE);
+  return bodies;
+}
+
+static void check_solution(const fuge_bodies *bodies, const block *lower, const block *upper) {
+  const double strain = -PRESSURE * (1 - POISSON * POISSON) / YOUNG;
+  double force[MOST + 1], pressure[MOST + 1], gap[MOST + 1], area[MOST + 1], initial[MOST + 1], u[DEGREES],
+      direction[2 * MOST + 2];
+  int n = -1, unpaired = -1, number = -1, pair[MOST + 1], node[MOST + 1];
+  fuge_info info;
+
+  CHECK_STATUS(fuge_bodies_get_sizes(bodies, &n, &unpaired, &number), FUGE_DONE);
+  CHECK_INT(n, 4);
+  CHECK_INT(unpaired, 0);
+  CHECK_INT(number, 2);
+  CHECK_STATUS(fuge_bodies_get_unpaired(bodies, NULL, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_get_forces(bodies, force, pressure, gap), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_get_areas(bodies, area, initial), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_get_points(bodies, pair, node, NULL, NULL, direction), FUGE_DONE);
+  for (int i = 0; i < 4; i++) {
+    CHECK_NEAR(pressure[i], PRESSURE, 1e-14);
+    CHECK_NEAR(force[i], PRESSURE * area[i], 1e-15);
+    CHECK_NEAR(area[i], i == 0 || i == 3 ? 1.0 / 6.0 : 1.0 / 3.0, 1e-15);
+    CHECK_NEAR(gap[i], 0.0, 0.0);
+    CHECK_NEAR(initial[i], 0.0, 1e-16);
+    CHECK_NEAR(direction[2 * i + 1], -1.0, 1e-15);
+    CHECK_INT(pair[i], 0);
+    CHECK_INT(node[i], i);
+  }
+  CHECK_STATUS(fuge_bodies_get_displacement(bodies, 0, u), FUGE_DONE);
+  for (int k = 0; k < lower->nodes; k++) CHECK_NEAR(u[2 * k + 1], strain * (k / 3), 1e-14);
+  CHECK_STATUS(fuge_bodies_get_displacement(bodies, 1, u), FUGE_DONE);
+  for (int k = 0; k < upper->nodes; k++) CHECK_NEAR(u[2 * k + 1], strain * (1 + k / 4), 1e-14);
+  CHECK_STATUS(fuge_bodies_get_info(bodies, &info), FUGE_DONE);
+  CHECK_INT(info.status, FUGE_DONE);
+  CHECK_INT(info.contacts, 4);
+  CHECK(info.residual < 1e-12);
+}
+
+static void test_solve(void) {
+  const block lower = make_block(2, 0.0), upper = make_block(3, 1.0);
+  fuge_bodies *bodies = two_blocks(&lower, &upper);
+  fuge_options options;
+
+  CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_DONE);
+  check_solution(bodies, &lower, &upper);
+  fuge_default_options(&options);
+  options.method = 7;
+  CHECK_STATUS(fuge_bodies_solve(bodies, &options), FUGE_ERR_OPTION);
+  options.method = FUGE_TABLEAU;
+  CHECK_STATUS(fuge_bodies_solve(bodies, &options), FUGE_DONE);
+  check_solution(bodies, &lower, &upper);
+#ifdef HAVE_SPARSE
+  CHECK_STATUS(fuge_bodies_solve_sparse(bodies, NULL), FUGE_DONE);
+  check_solution(bodies, &lower, &upper);
+#endif
+  fuge_bodies_free(&bodies);
+  CHECK(bodies == NULL);
+  fuge_bodies_free(&bodies);
+  fuge_bodies_free(NULL);
+}
+
+/* The lower block alone on rigid ground, with its rigid modes known. */
+static void test_rigid_ground(void) {
+  const block b = make_block(2, 0.0);
+  const double ground[4] = {-1.0, 0.0, 2.0, 0.0};
+  const int face[2] = {1, 0};
+  double modes[3 * DEGREES], load[DEGREES] = {0}, pressure[MOST];
+  fuge_bodies *bodies = NULL;
+
+  CHECK_STATUS(fuge_rigid_modes(2, b.nodes, b.x, modes, NULL, 0), FUGE_DONE);
+  load[7] = load[11] = -0.25 * PRESSURE;
+  load[9] = -0.5 * PRESSURE;
+  CHECK_STATUS(fuge_bodies_create(&bodies, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_add(bodies, b.degrees, b.column, b.row, b.value, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_set_load(bodies, 0, load), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_set_rigid_modes(bodies, 0, 3, modes), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_set_contact(bodies, 0, 2, b.nodes, b.x, 2, 2, b.bottom, b.dof), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_set_opposite(bodies, -1, 2, 2, ground, 2, 1, face, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1), FUGE_DONE);
+  for (int known = 1; known >= 0; known--) {
+    if (!known) CHECK_STATUS(fuge_bodies_set_rigid_modes(bodies, 0, 0, NULL), FUGE_DONE);
+    CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_DONE);
+    CHECK_STATUS(fuge_bodies_get_forces(bodies, NULL, pressure, NULL), FUGE_DONE);
+    for (int i = 0; i < 3; i++) CHECK_NEAR(pressure[i], PRESSURE, 1e-14);
+  }
+  fuge_bodies_free(&bodies);
+}
+
+/* By hand, from the joined bodies, with twice the load at the end. */
+static void test_bodies_as_one(void) {
+  const block lower = make_block(2, 0.0), upper = make_block(3, 1.0);
+  fuge_bodies *bodies = two_blocks(&lower, &upper);
+  int degrees = -1, entries = -1, n = -1, width = -1, first[3], dof[64], column[2 * DEGREES + 1],
+      row[2 * DEGREES * DEGREES];
+  double value[2 * DEGREES * DEGREES], normal[64], gap[8], play[8], area[8];
+
+  CHECK_STATUS(fuge_bodies_get_joined_sizes(bodies, &degrees, NULL, NULL, NULL), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_bodies_join(bodies), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_get_joined_sizes(bodies, &degrees, &entries, &n, &width), FUGE_DONE);
+  CHECK_INT(degrees, lower.degrees + upper.degrees);
+  CHECK_INT(n, 4);
+  CHECK(width >= 3 && width <= 16);
+  CHECK(entries > degrees && entries < lower.column[lower.degrees] + upper.column[upper.degrees]);
+  CHECK_STATUS(fuge_bodies_get_matrix(bodies, column, row, value, first), FUGE_DONE);
+  CHECK_INT(first[0], 0);
+  CHECK_INT(first[1], lower.degrees);
+  CHECK_INT(first[2], degrees);
+  CHECK_INT(column[degrees], entries);
+  for (int j = 0; j < degrees; j++)
+    for (int p = column[j]; p < column[j + 1]; p++) {
+      const int k = j < first[1] ? 0 : 1;
+      const block *b = k == 0 ? &lower : &upper;
+      CHECK(row[p] <= j && row[p] >= first[k]);
+      CHECK_NEAR(value[p], b->matrix[row[p] - first[k] + b->degrees * (j - first[k])], 1e-15);
+    }
+  CHECK_STATUS(fuge_bodies_get_contact(bodies, dof, normal, gap, play, area), FUGE_DONE);
+  for (int i = 0; i < n; i++) {
+    double sum = 0.0;
+    for (int k = 0; k < width; k++)
+      if (dof[k + i * width] >= 0) sum += normal[k + i * width];
+    CHECK_NEAR(sum, 0.0, 1e-14);
+    CHECK(isinf(play[i]));
+    CHECK_NEAR(gap[i], 0.0, 1e-16);
+  }
+  /* Out of date after a change. */
+  CHECK_STATUS(fuge_bodies_fix(bodies, 0, 0, NULL, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_get_contact(bodies, dof, NULL, NULL, NULL, NULL), FUGE_ERR_CALL_ORDER);
+  fuge_bodies_free(&bodies);
+}
+
+static void test_refusals(void) {
+  const block lower = make_block(2, 0.0), upper = make_block(3, 1.0);
+  const int broken[2] = {0, 20};
+  const double displacement[2] = {0.0, 0.0};
+  double u[DEGREES] = {SENTINEL};
+  char message[256];
+  fuge_bodies *bodies = NULL;
+  fuge_info info;
+
+  CHECK_STATUS(fuge_bodies_create(NULL, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_bodies_solve(NULL, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_bodies_create(&bodies, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_get_info(bodies, &info), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_bodies_add(bodies, 0, lower.column, lower.row, lower.value, NULL), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_bodies_add(bodies, lower.degrees, NULL, lower.row, lower.value, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_bodies_fix(bodies, 0, 2, broken, displacement), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_bodies_message(bodies, message, sizeof message), FUGE_DONE);
+  CHECK_CONTAINS(message, "body = 0 is not one of the 0 bodies");
+  CHECK_STATUS(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1),
+               FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_bodies_set_contact(bodies, 0, 2, 0, lower.x, 2, 1, lower.top, NULL), FUGE_ERR_SIZE);
+  fuge_bodies_free(&bodies);
+
+  /* Bodies and degrees of freedom from 0 in messages. */
+  bodies = two_blocks(&lower, &upper);
+  CHECK_STATUS(fuge_bodies_fix(bodies, 1, 2, broken, displacement), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_get_forces(bodies, u, NULL, NULL), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_ERR_DOF);
+  CHECK_STATUS(fuge_bodies_message(bodies, message, sizeof message), FUGE_DONE);
+  CHECK_CONTAINS(message, "body 1: fixed(1) = 20 is not one of the 16 degrees of freedom");
+  CHECK_STATUS(fuge_bodies_get_info(bodies, &info), FUGE_DONE);
+  CHECK_INT(info.status, FUGE_ERR_DOF);
+  CHECK_STATUS(fuge_bodies_get_displacement(bodies, 0, u), FUGE_ERR_CALL_ORDER);
+  CHECK_UNTOUCHED(u, 1);
+  CHECK_STATUS(fuge_bodies_fix(bodies, 1, 0, NULL, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_get_displacement(bodies, 2, u), FUGE_ERR_SIZE);
+  CHECK_UNTOUCHED(u, 1);
+  /* The surfaces look the same way. */
+  CHECK_STATUS(fuge_bodies_set_contact(bodies, 1, 2, upper.nodes, upper.x, 2, 3, upper.bottom, upper.dof), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_set_opposite(bodies, 0, 2, lower.nodes, lower.x, 2, 2, lower.bottom, lower.dof), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_join(bodies), FUGE_ERR_MESH);
+  CHECK_STATUS(fuge_bodies_message(bodies, message, sizeof message), FUGE_DONE);
+  CHECK_CONTAINS(message, "pair 1, contact body 1, opposite body 0: ");
+  /* The last solution stays. */
+  CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_ERR_MESH);
+  CHECK_STATUS(fuge_bodies_get_displacement(bodies, 0, u), FUGE_DONE);
+  fuge_bodies_free(&bodies);
+}
+
+/* Two squares side by side; the matrix has no rows of node 10, which is held. */
+static void test_mesh_rows(void) {
+  const char *path = "api_elastic_bodies.inp";
+  const int node[9] = {20, 20, 30, 30, 40, 40, 50, 50, 60}, direction[9] = {1, 2, 1, 2, 1, 2, 1, 2, 2};
+  int dof[12], count = -1;
+  char message[256];
+  fuge_mesh *mesh = NULL;
+  FILE *file = fopen(path, "w");
+
+  if (file == NULL) {
+    CHECK(file != NULL);
+    return;
+  }
+  fputs("*NODE\n10,0,0\n20,1,0\n30,2,0\n40,0,1\n50,1,1\n60,2,1\n*ELEMENT, TYPE=CPE4, ELSET=ALL\n1,10,20,50,40\n"
+        "2,20,30,60,50\n*NSET, NSET=ENDS\n60,10,40\n*SURFACE, NAME=TOP\nALL, S3\n", file);
+  fclose(file);
+  CHECK_STATUS(fuge_read_mesh(path, &mesh, message, sizeof message), FUGE_DONE);
+  remove(path);
+  CHECK_STATUS(fuge_mesh_get_surface_dof(mesh, "top", 2, 9, node, direction, dof, message, sizeof message), FUGE_DONE);
+  const int expected[12] = {-1, -1, 0, 1, 2, 3, 4, 5, 6, 7, -1, 8};
+  for (int k = 0; k < 12; k++) CHECK_INT(dof[k], expected[k]);
+  CHECK_STATUS(fuge_mesh_get_set_dof(mesh, "ENDS", 2, 9, node, direction, 12, dof, &count, message, sizeof message),
+               FUGE_DONE);
+  CHECK_INT(count, 2);
+  CHECK_INT(dof[0], 8);
+  CHECK_INT(dof[1], 5);
+  CHECK_STATUS(fuge_mesh_get_set_dof(mesh, "ENDS", 1, 9, node, direction, 0, NULL, &count, message, sizeof message),
+               FUGE_DONE);
+  CHECK_INT(count, 1);
+  CHECK_STATUS(fuge_mesh_get_surface_dof(mesh, "TOP", 3, 9, node, direction, dof, message, sizeof message),
+               FUGE_ERR_ELEMENT);
+  CHECK_STATUS(fuge_mesh_get_surface_dof(mesh, "SIDE", 2, 9, node, direction, dof, message, sizeof message),
+               FUGE_ERR_OPTION);
+  CHECK_STATUS(fuge_mesh_get_set_dof(mesh, "ENDS", 7, 9, node, direction, 0, NULL, &count, message, sizeof message),
+               FUGE_ERR_OPTION);
+  CHECK_STATUS(fuge_mesh_get_set_dof(mesh, "ENDS", 1, 0, node, direction, 0, NULL, &count, message, sizeof message),
+               FUGE_ERR_SIZE);
+  CHECK_INT(count, 1);
+  fuge_mesh_free(&mesh);
+}
+
+int main(void) {
+  test_solve();
+  test_rigid_ground();
+  test_bodies_as_one();
+  test_refusals();
+  test_mesh_rows();
+  return check_summary();
+}
