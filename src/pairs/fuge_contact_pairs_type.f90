@@ -41,9 +41,12 @@ module fuge_contact_pairs_type
     !> Glue the surfaces where they are: along each axis, with a gap and a play of zero.
     logical :: tied = .false.
     !> Normals, gaps and areas are those of the smooth bodies that the meshes stand for, which on circles, spheres and
-    !> cylinders are exact; faces that meet at more than 40 degrees keep their edge, flat faces stay flat. False: those
+    !> cylinders are exact; faces that meet at more than `crease` keep their edge, flat faces stay flat. False: those
     !> of the faces as they are, whose chords on a round body are wrong by L**2/(8 R), often more than the gap itself.
     logical :: smooth = .true.
+    !> Angle between the normals of neighbouring faces, in degrees from 0 to 90, beyond which the body has an edge there:
+    !> greater than 360 over the number of elements round a full circle, less than the angle of any chamfer.
+    real(dp) :: crease = 25.0_dp
   end type fuge_pair_options
 
   !> Contact points, in the form in which `fuge_body` and `fuge_problem` take them; n contact points.
@@ -220,6 +223,8 @@ contains
                   //': they need to be numbers')
     else if (options%reach > huge(1.0_dp)) then
       call report(info, FUGE_ERR_NOT_FINITE, 'reach is infinite: 0 stands for as far as the surfaces extend')
+    else if (.not. (options%crease >= 0.0_dp .and. options%crease <= 90.0_dp)) then
+      call report(info, FUGE_ERR_OPTION, 'crease = '//text(options%crease)//' is no angle between 0 and 90 degrees')
     else if (options%play < 0.0_dp) then
       call report(info, FUGE_ERR_GAP, 'play = '//text(options%play)//' is negative: the upper stop would lie below ' &
                   //'the lower one')
