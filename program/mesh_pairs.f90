@@ -32,8 +32,8 @@ module mesh_pairs
     type(fuge_surface_pair) :: surfaces
     !> Circumference of the ring of each node of the contact surface; not allocated if no body is one of revolution.
     real(dp), allocatable :: circumference(:)
-    !> The axis of each degree of freedom of all bodies that belongs to the contact surface, 0 for the others; if that is
-    !> rigid, of the opposite surface, negative.
+    !> The axis of each degree of freedom of all bodies that belongs to the contact surface, 0 for the others; if that
+    !> is rigid, of the opposite surface, negative.
     integer, allocatable, private :: axis(:)
   contains
     procedure :: action
