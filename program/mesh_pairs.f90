@@ -32,8 +32,13 @@ module mesh_pairs
     type(fuge_surface_pair) :: surfaces
     !> Circumference of the ring of each node of the contact surface; not allocated if no body is one of revolution.
     real(dp), allocatable :: circumference(:)
+    !> The axis of each degree of freedom of all bodies that belongs to the contact surface, 0 for the others; if that
+    !> is rigid, of the opposite surface, negative.
+    integer, allocatable, private :: axis(:)
   contains
+    procedure :: action
     procedure :: area
+    procedure :: set_axes
   end type model_pair
 
 contains
@@ -200,6 +205,52 @@ contains
     if (pair%options%normals == FUGE_NORMALS_GIVEN) &
       pair%surfaces%options%normal = spread(pair%normal(:dimensions(1)), 2, size(pair%surfaces%contact%node, 2))
   end subroutine make_surfaces
+
+  !> Note the axes; `first`: degrees of freedom before those of each elastic body.
+  pure subroutine set_axes(self, first)
+    class(model_pair), intent(inout) :: self
+    integer, intent(in) :: first(:)
+
+    allocate (self%axis(first(size(first))), source=0)
+    if (allocated(self%surfaces%contact%dof)) then
+      call mark(self%surfaces%contact%dof, first(self%surfaces%contact_body), 1, self%axis)
+    else
+      call mark(self%surfaces%opposite%dof, first(self%surfaces%opposite_body), -1, self%axis)
+    end if
+  end subroutine set_axes
+
+  pure subroutine mark(dof, before, sign, axes)
+    integer, intent(in) :: dof(:, :), before, sign
+    integer, intent(inout) :: axes(:)
+    integer :: axis, i
+
+    do i = 1, size(dof, 2)
+      do axis = 1, size(dof, 1)
+        if (dof(axis, i) > 0) axes(before + dof(axis, i)) = sign*axis
+      end do
+    end do
+  end subroutine mark
+
+  !> The resultant on the contact body of a force of 1 at a contact point; on bent surfaces the force is spread along
+  !> several normals. Along an axis that the stiffness lacks it is that of the direction of the gap.
+  pure function action(self, pairs, i) result(resultant)
+    class(model_pair), intent(in) :: self
+    type(fuge_contact_pairs), intent(in) :: pairs
+    integer, intent(in) :: i
+    real(dp) :: resultant(3)
+    integer :: axis, k
+
+    resultant = 0.0_dp
+    do k = 1, size(pairs%dof, 1)
+      if (pairs%dof(k, i) == 0) cycle
+      axis = self%axis(pairs%dof(k, i))
+      if (axis /= 0) resultant(abs(axis)) = resultant(abs(axis)) + sign(1, axis)*pairs%normal(k, i)
+    end do
+    if (.not. allocated(self%surfaces%contact%dof)) return
+    do axis = 1, size(pairs%direction, 1)
+      if (self%surfaces%contact%dof(axis, pairs%node(i)) == 0) resultant(axis) = -pairs%direction(axis, i)
+    end do
+  end function action
 
   !> The area of a contact point of this pair: that of the plane, or of the ring.
   pure function area(self, pairs, i)

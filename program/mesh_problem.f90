@@ -70,7 +70,7 @@ contains
   !> All bodies as one, with the gaps of their pairs. The matrices of the bodies move away.
   subroutine join(bodies, pairs, joined, log, info)
     type(model_body), intent(inout) :: bodies(:)
-    type(model_pair), intent(in) :: pairs(:)
+    type(model_pair), intent(inout) :: pairs(:)
     type(fuge_joined_bodies), intent(inout) :: joined
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
@@ -90,6 +90,9 @@ contains
     if (info%failed()) return
     call log%say(number_text(joined%pairs%points())//' contact points, ' &
                  //number_text(size(joined%pairs%unpaired_node))//' nodes without an opposite')
+    do k = 1, size(pairs)
+      call pairs(k)%set_axes(joined%first)
+    end do
     do i = 1, joined%pairs%points()
       associate (pair => pairs(joined%pairs%pair(i)))
         if (.not. pair%options%tied) joined%pairs%gap(i) = joined%pairs%gap(i) + pair%clearance

@@ -59,7 +59,8 @@ contains
         info%message = self%place()//' cannot be read: '//trim(reason)
         return
       end if
-      if (self%number == 1 .and. index(self%line, BYTE_ORDER_MARK) == 1) self%line = self%line(len(BYTE_ORDER_MARK) + 1:)
+      if (self%number == 1 .and. index(self%line, BYTE_ORDER_MARK) == 1) &
+        self%line = self%line(len(BYTE_ORDER_MARK) + 1:)
       call clean(self%line)
       exists = len(self%line) > 0
     end do
