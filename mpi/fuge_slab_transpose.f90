@@ -62,8 +62,8 @@ module fuge_slab_transpose
 
 contains
 
-  !> How many real numbers each buffer of a transposition has to hold: `rows` by `columns` elements of `numbers` numbers,
-  !> in blocks (2) of rows and of columns. The first call starts FFTW's part for MPI.
+  !> How many real numbers each buffer of a transposition has to hold: `rows` by `columns` elements of `numbers`
+  !> numbers, in blocks (2) of rows and of columns. The first call starts FFTW's part for MPI.
   function local_numbers(group, rows, columns, numbers, blocks) result(count)
     type(rank_communicator), intent(in) :: group
     integer, intent(in) :: rows, columns, numbers, blocks(2)

@@ -3,10 +3,10 @@ module mesh_pairs
   use command_line, only: arguments, refuse
   use fuge, only: dp => fuge_dp, fuge_contact_pairs, fuge_info, fuge_mesh_faces, fuge_pair_options, fuge_surface_mesh, &
     fuge_surface_pair, FUGE_NODE_TO_FACE, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
-  use mesh_body, only: model_body
+  use mesh_body, only: model_body, refuse_memory
   use mesh_names, only: find_surface
   use mesh_rings, only: find_circumferences
-  use number_words, only: read_real
+  use number_words, only: number_text, read_real
   implicit none
   private
 
@@ -25,6 +25,8 @@ module mesh_pairs
     type(fuge_pair_options) :: options
     !> One normal for all nodes, if the options give it.
     real(dp) :: normal(3) = 0.0_dp
+    !> How many components it has.
+    integer :: components = 0
     !> Added to the gaps.
     real(dp) :: clearance = 0.0_dp
     type(fuge_surface_pair) :: surfaces
@@ -56,6 +58,7 @@ contains
         count = count + 1
         pairs(count)%options = common%options
         pairs(count)%normal = common%normal
+        pairs(count)%components = common%components
         pairs(count)%clearance = common%clearance
         call name_pair(given%settings(k)%value, given%settings(k)%place, bodies, pairs(count), info)
       else if (count == 0) then
@@ -159,6 +162,7 @@ contains
         if (.not. valid .or. begin > len(word)) exit
         length = index(word(begin:)//',', ',') - 1
         call read_real(word(begin:begin + length - 1), pair%normal(k), valid)
+        pair%components = k
         begin = begin + length + 1
       end do
       if (.not. valid .or. begin <= len(word) .or. .not. any(abs(pair%normal) > 0.0_dp)) &
@@ -181,6 +185,11 @@ contains
     if (info%failed()) return
     if (dimensions(1) /= dimensions(2)) then
       call refuse('--pair '//pair%name//': one surface is of solids, the other one of elements of a plane', info)
+      return
+    end if
+    if (pair%options%normals == FUGE_NORMALS_GIVEN .and. pair%components /= dimensions(1)) then
+      call refuse('--pair '//pair%name//': --normals needs one number for each axis, '//number_text(dimensions(1)) &
+                  //' in all', info)
       return
     end if
     associate (mesh => bodies(pair%body(1))%mesh)
@@ -212,7 +221,7 @@ contains
     integer, intent(out) :: dimensions
     type(fuge_info), intent(inout) :: info
     integer, allocatable :: faces(:, :)
-    integer :: at, i, k, nodes
+    integer :: at, i, k, nodes, status
 
     dimensions = 2
     associate (mesh => body%mesh)
@@ -226,8 +235,12 @@ contains
       if (info%failed()) return
       nodes = size(mesh%node)
       if (body%keeps_numbers) nodes = maxval(mesh%node)
-      allocate (surface%node(dimensions, nodes), source=0.0_dp)
-      if (body%elastic > 0) allocate (surface%dof(dimensions, nodes), source=0)
+      allocate (surface%node(dimensions, nodes), source=0.0_dp, stat=status)
+      if (status == 0 .and. body%elastic > 0) allocate (surface%dof(dimensions, nodes), source=0, stat=status)
+      if (status /= 0) then
+        call refuse_memory('the surfaces of --pair '//pair, info)
+        return
+      end if
       surface%face = faces(:maxval(count(faces > 0, 1)), :)
       do k = 1, size(surface%face, 2)
         do i = 1, size(surface%face, 1)

@@ -4,7 +4,7 @@ module mesh_problem
   use command_line, only: arguments, refuse
   use fuge, only: dp => fuge_dp, fuge_condense, fuge_condensed, fuge_elastic_body, fuge_info, fuge_join_bodies, &
     fuge_joined_bodies, fuge_problem, fuge_solution, fuge_surface_pair
-  use mesh_body, only: model_body, read_bodies
+  use mesh_body, only: model_body, read_bodies, refuse_memory
   use mesh_conditions, only: take_conditions
   use mesh_fields, only: check_fields, write_fields
   use mesh_messages, only: explain
@@ -34,6 +34,7 @@ contains
     type(fuge_solution) :: solution
     type(fuge_info) :: joining, condensation, recovery
     real(dp), allocatable :: displacement(:)
+    integer :: status
 
     call read_bodies(given, bodies, log, info)
     if (.not. info%failed()) call check_fields(given%file('field'), bodies, info)
@@ -47,7 +48,11 @@ contains
     if (.not. info%failed()) call take_excluded(given, bodies, pairs, joined, problem, info)
     if (.not. info%failed()) call solve(condensed%alpha, problem, solution, log, info)
     if (info%failed()) return
-    allocate (displacement(joined%first(size(joined%first))))
+    allocate (displacement(joined%first(size(joined%first))), stat=status)
+    if (status /= 0) then
+      call refuse_memory('the displacements', info)
+      return
+    end if
     call condensed%recover(solution, displacement, recovery)
     call condensed%clear()
     if (recovery%failed()) then

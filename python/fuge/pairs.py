@@ -134,7 +134,7 @@ class ContactPairs(Owner):
             Glue the surfaces where they are, along each axis.
         smooth : bool
             Normals, gaps and areas of the smooth bodies that the meshes stand for, exact on circles, spheres and
-            cylinders; faces that meet at more than 40 degrees keep their edge. If false, those of the faces as they
+            cylinders; faces that meet at more than 25 degrees keep their edge. If false, those of the faces as they
             are.
 
         Raises
