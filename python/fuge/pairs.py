@@ -89,7 +89,7 @@ class ContactPairs(Owner):
     place : ndarray, shape (n, dimensions - 1)
         Place in the opposite face.
     direction : ndarray, shape (n, dimensions)
-        Direction of the gap.
+        Direction of the gap: the force on the opposite body is force*direction.
     unpaired : ndarray of int, shape (count, 2)
         Pair and node of the nodes that have no opposite, and so are no contact points.
     """
