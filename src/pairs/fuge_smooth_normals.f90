@@ -43,6 +43,8 @@ module fuge_smooth_normals
     !> The two sides at the border of the surface, pointing away from each other: sum of their unit vectors, and of
     !> their tangents (`side_tangent`); zero inside.
     real(dp), allocatable :: border(:, :, :), tangents(:, :, :)
+    !> Least cosine of the angle between the normals of faces that continue each other smoothly.
+    real(dp) :: least_cosine = 1.0_dp
   end type corner_data
 
 contains
@@ -56,10 +58,9 @@ contains
     integer, intent(out) :: stat
     type(node_faces) :: around
     type(corner_data) :: data
-    real(dp) :: least_cosine
     integer :: f, k, stage
 
-    least_cosine = cos(crease*(acos(-1.0_dp)/180.0_dp)) - ROUNDING
+    data%least_cosine = cos(crease*(acos(-1.0_dp)/180.0_dp)) - ROUNDING
     call list_faces(surface, around, stat)
     associate (most => size(normal, 2), faces => size(normal, 3))
       if (stat == 0) allocate (data%own(3, most, faces), data%normal(3, most, faces), data%border(3, most, faces), &
@@ -69,7 +70,7 @@ contains
     call find_own(surface, data)
     do f = 1, size(surface%face, 2)
       do k = 1, corners_of(surface, f)
-        call average_corner(surface, around, f, k, least_cosine, data)
+        call average_corner(surface, around, f, k, data)
       end do
     end do
     normal = data%normal
@@ -170,13 +171,11 @@ contains
     end do
   end subroutine find_own
 
-  !> The normal at corner `k` of face `f`: the mean of the faces around that continue it smoothly, those whose normals
-  !> have an angle to its own with a cosine of at least `least_cosine`.
-  pure subroutine average_corner(surface, around, f, k, least_cosine, data)
+  !> The normal at corner `k` of face `f`: the mean of the faces around that continue it smoothly.
+  pure subroutine average_corner(surface, around, f, k, data)
     type(fuge_surface_mesh), intent(in) :: surface
     type(node_faces), intent(in) :: around
     integer, intent(in) :: f, k
-    real(dp), intent(in) :: least_cosine
     type(corner_data), intent(inout) :: data
     type(face_nodes) :: face
     real(dp) :: halves(3), normal(3), sides(3, 2)
@@ -187,7 +186,7 @@ contains
     quadratic = 0
     do p = around%begin(surface%face(k, f)), around%begin(surface%face(k, f) + 1) - 1
       associate (g => around%face(p), here => around%corner(p))
-        if (dot_product(unit(data%own(:, k, f)), unit(data%own(:, here, g))) < least_cosine) cycle
+        if (dot_product(unit(data%own(:, k, f)), unit(data%own(:, here, g))) < data%least_cosine) cycle
         normal = normal + data%own(:, here, g)
         face = get_face(surface, g)
         if (face%kind == EDGE_3) then
@@ -282,7 +281,7 @@ contains
     others = 0.0_dp
     do p = around%begin(surface%face(k, f)), around%begin(surface%face(k, f) + 1) - 1
       associate (here => around%corner(p), g => around%face(p))
-        if (dot_product(unit(data%own(:, k, f)), unit(data%own(:, here, g))) < least_cosine) cycle
+        if (dot_product(unit(data%own(:, k, f)), unit(data%own(:, here, g))) < data%least_cosine) cycle
         face = get_face(surface, g)
         corners = corner_count(face%kind)
         do turn = 1, corners - 1, max(corners - 2, 1)
