@@ -13,7 +13,7 @@ module mesh_pairs
   public :: find_pairs, mesh_node
 
   !> The options that belong to a pair.
-  character(len=12), parameter :: OF_PAIRS(7) = [character(len=12) :: 'clearance', 'faceted', 'node-to-face', &
+  character(len=12), parameter :: OF_PAIRS(8) = [character(len=12) :: 'clearance', 'crease', 'faceted', 'node-to-face', &
     'normals', 'play', 'reach', 'tied']
 
   !> A pair of surfaces: of which bodies, and what is between them.
@@ -126,6 +126,10 @@ contains
         call refuse(given%settings(k)%place//': a length above 0 is needed', info)
     case ('clearance')
       call given%number(k, pair%clearance, info)
+    case ('crease')
+      call given%number(k, pair%options%crease, info)
+      if (pair%options%crease < 0.0_dp .or. pair%options%crease > 90.0_dp) &
+        call refuse(given%settings(k)%place//': an angle from 0 to 90 degrees is needed', info)
     case ('normals')
       call take_normals(given%settings(k)%value, given%settings(k)%place, pair, info)
     end select

@@ -14,8 +14,8 @@ module option_checks
   !> What each of these options needs: one of the three.
   character(len=12), parameter :: ONLY_ALPHA(3) = [character(len=12) :: 'modes', 'motion', 'resultant']
   character(len=12), parameter :: ONLY_MATRICES(4) = [character(len=12) :: 'contact', 'external', 'fixed', 'floats']
-  character(len=12), parameter :: ONLY_MESHES(14) = [character(len=12) :: 'body', 'clearance', 'faceted', 'loads', &
-    'matrix', 'mesh', 'node-to-face', 'normals', 'pair', 'pressure', 'reach', 'support', 'supports', 'tied']
+  character(len=12), parameter :: ONLY_MESHES(15) = [character(len=12) :: 'body', 'clearance', 'crease', 'faceted', &
+    'loads', 'matrix', 'mesh', 'node-to-face', 'normals', 'pair', 'pressure', 'reach', 'support', 'supports', 'tied']
   character(len=12), parameter :: NOT_ALPHA(2) = [character(len=12) :: 'field', 'rows']
 
   !> Options whose value is a path.
