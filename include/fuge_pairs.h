@@ -68,7 +68,7 @@ int fuge_pairs_set_opposite(fuge_pairs *pairs, int dimensions, int nodes, const 
  *           but slide, INFINITY for one-sided contact
  *   tied    1: glue the surfaces where they are, along each axis; else 0
  *   smooth  1, as a rule: normals, gaps and areas of the smooth bodies that the meshes stand
- *           for, exact on circles, spheres and cylinders; faces that meet at more than 40
+ *           for, exact on circles, spheres and cylinders; faces that meet at more than 25
  *           degrees keep their edge, flat faces stay flat.  0: those of the faces as they are,
  *           whose chords on a round body are wrong by L^2/(8 R)
  * FUGE_WARN_PAIRS: a node is a contact point of two pairs; where it moves alike in both, it is

@@ -6,19 +6,19 @@ module option_table
   public :: may_repeat, option_number, print_help, takes_value
 
   !> The names of the options, after two hyphens.
-  character(len=12), parameter, public :: OPTION_NAMES(34) = [character(len=12) :: &
-    'alpha', 'approach', 'body', 'clearance', 'contact', 'exclude', 'external', 'faceted', 'field', 'fixed', 'floats', &
-    'gap', 'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
+  character(len=12), parameter, public :: OPTION_NAMES(35) = [character(len=12) :: &
+    'alpha', 'approach', 'body', 'clearance', 'contact', 'crease', 'exclude', 'external', 'faceted', 'field', 'fixed', &
+    'floats', 'gap', 'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
     'play', 'pressure', 'reach', 'resultant', 'rows', 'stiffness', 'support', 'supports', 'tied', 'verbose', 'version']
   !> Those without a value.
   character(len=12), parameter :: WITHOUT_VALUE(7) = [character(len=12) :: &
     'faceted', 'floats', 'help', 'node-to-face', 'tied', 'verbose', 'version']
   !> Those that may be given again: of another body or pair, or one more support.
-  character(len=12), parameter :: REPEATED(20) = [character(len=12) :: &
-    'body', 'clearance', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
+  character(len=12), parameter :: REPEATED(21) = [character(len=12) :: &
+    'body', 'clearance', 'crease', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
     'normals', 'pair', 'play', 'pressure', 'reach', 'rows', 'stiffness', 'support', 'supports', 'tied']
 
-  character(len=*), parameter :: HELP(64) = [character(len=96) :: &
+  character(len=*), parameter :: HELP(65) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
     '', &
     '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
@@ -45,6 +45,7 @@ module option_table
     '  --play D                a second stop, D above the first one; 0: sliding, not lifting off', &
     '  --clearance C           added to the gaps; an interference is negative', &
     '  --faceted               gaps of the faces as they are, not of the smooth bodies they stand for', &
+    '  --crease DEGREES        angle beyond which faces meet at an edge of such a body, else 25', &
     '  --node-to-face          instead of mortar; fails the patch test', &
     '  --normals WHICH         averaged (default), opposite, or a direction: 0,0,1', &
     '  --reach L               how far apart opposite points may be', &

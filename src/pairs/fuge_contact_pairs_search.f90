@@ -86,7 +86,7 @@ contains
 
     allocate (normal(3, size(contact%node, 2)), stat=stat)
     if (stat == 0) call start_draft(draft, size(contact%node, 2), stat)
-    if (stat == 0) call set_bends(contact, opposite, options%smooth .and. .not. options%tied, faces, stat)
+    if (stat == 0) call set_bends(contact, opposite, options, faces, stat)
     if (stat == 0) call set_normals(contact, options, faces, normal, stat, info)
     if (info%failed()) return
     if (stat == 0) call find_draft(contact, opposite, options, normal, faces, draft, stat)
@@ -175,17 +175,19 @@ contains
     end if
   end subroutine find_draft
 
-  !> The normals of the smooth surfaces that the meshes stand for, if `smooth`.
-  pure subroutine set_bends(contact, opposite, smooth, faces, stat)
+  !> The normals of the smooth surfaces that the meshes stand for; none if faces are taken as they are.
+  pure subroutine set_bends(contact, opposite, options, faces, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
-    logical, intent(in) :: smooth
+    type(fuge_pair_options), intent(in) :: options
     type(opposite_faces), intent(inout) :: faces
     integer, intent(out) :: stat
+    logical :: smooth
 
+    smooth = options%smooth .and. .not. options%tied
     allocate (faces%own_bend(3, size(contact%face, 1), merge(size(contact%face, 2), 0, smooth)), &
               faces%bend(3, size(opposite%face, 1), merge(size(opposite%face, 2), 0, smooth)), stat=stat)
-    if (stat == 0 .and. smooth) call find_smooth_normals(contact, faces%own_bend, stat)
-    if (stat == 0 .and. smooth) call find_smooth_normals(opposite, faces%bend, stat)
+    if (stat == 0 .and. smooth) call find_smooth_normals(contact, options%crease, faces%own_bend, stat)
+    if (stat == 0 .and. smooth) call find_smooth_normals(opposite, options%crease, faces%bend, stat)
   end subroutine set_bends
 
   !> Refuse surfaces none of whose points are opposite to each other.
