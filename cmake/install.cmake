@@ -87,6 +87,9 @@ if(TARGET fuge_mpi)
 endif()
 
 install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")
+if(TARGET fuge_mpi)
+  install(FILES mpi/include/fuge_mpi.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers})
+endif()
 # Only the public modules are for users. gfortran's files of these are complete in themselves; those of other
 # compilers (flang) refer to the files of the modules that they use.
 set(modules_dir "${PROJECT_BINARY_DIR}/modules")

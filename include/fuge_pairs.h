@@ -68,7 +68,7 @@ int fuge_pairs_set_opposite(fuge_pairs *pairs, int dimensions, int nodes, const 
  *           but slide, INFINITY for one-sided contact
  *   tied    1: glue the surfaces where they are, along each axis; else 0
  *   smooth  1, as a rule: normals, gaps and areas of the smooth bodies that the meshes stand
- *           for, exact on circles, spheres and cylinders; faces that meet at more than 40
+ *           for, exact on circles, spheres and cylinders; faces that meet at more than 25
  *           degrees keep their edge, flat faces stay flat.  0: those of the faces as they are,
  *           whose chords on a round body are wrong by L^2/(8 R)
  * FUGE_WARN_PAIRS: a node is a contact point of two pairs; where it moves alike in both, it is
@@ -93,7 +93,9 @@ int fuge_pairs_get_gaps(const fuge_pairs *pairs, double *gap, double *gap_upper,
 
 /* Where the contact points are: the pair and the node of its contact surface, the opposite
  * face (with FUGE_MORTAR that with the largest share), n each; the place in it,
- * (dimensions - 1) x n, and the direction of the gap, dimensions x n.  Pairs, nodes and
+ * (dimensions - 1) x n, and the direction of the gap, dimensions x n: the
+ * force on the opposite body is force*direction, where direction is a unit vector, but between
+ * smooth bodies the mean of those of the places that belong to the point.  Pairs, nodes and
  * faces count from 0. */
 int fuge_pairs_get_points(const fuge_pairs *pairs, int *pair, int *node, int *face, double *place,
                           double *direction);

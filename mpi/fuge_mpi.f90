@@ -2,6 +2,7 @@
 !>
 !> The ranks of a communicator share the rows of a grid; a `fuge_solver` on each of them solves as one process does.
 module fuge_mpi
+  use fuge_slab_files, only: fuge_mpi_read_rows, fuge_mpi_write_rows
   use fuge_slab_halfspace, only: fuge_mpi_halfspace_operator
   implicit none
   public

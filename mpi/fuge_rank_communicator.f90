@@ -44,8 +44,8 @@ contains
   subroutine check_mpi(info)
     type(fuge_info), intent(inout) :: info
 
-    if (.not. mpi_is_running()) call report(info, FUGE_ERR_CALL_ORDER, 'MPI is not running: call MPI_Init before, and ' &
-                                            //'MPI_Finalize after, the last use of an operator on several ranks')
+    if (.not. mpi_is_running()) call report(info, FUGE_ERR_CALL_ORDER, 'MPI is not running: call MPI_Init before ' &
+                                            //'an operator on several ranks, and MPI_Finalize after it is freed')
   end subroutine check_mpi
 
   !> A group of the ranks of `comm`; all of them call it.

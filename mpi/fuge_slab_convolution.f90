@@ -1,9 +1,9 @@
 !> Products with convolution matrices of grids whose rows ranks share.
 !>
 !> As in fuge_grid_convolution, a pair of rows is transformed as one line of complex numbers, and zeros of a circle that
-!> is twice as long are never transformed. Instead of a copy of a few columns at a time, FFTW transposes the transforms of
-!> all ranks: an element is one wave of a pair of rows, two complex numbers. Each line is computed as by one process, so
-!> that products do not depend on the number of ranks.
+!> is twice as long are never transformed. Instead of a copy of a few columns at a time, FFTW transposes the transforms
+!> of all ranks: an element is one wave of a pair of rows, two complex numbers. Each line is computed as by one process,
+!> so that products do not depend on the number of ranks.
 module fuge_slab_convolution
   use, intrinsic :: iso_c_binding, only: c_double, c_loc
   use fuge_grid_convolution, only: add_untwisted, convolve_line, opposite, twist_line
@@ -50,8 +50,8 @@ contains
     self%waves = min(block, self%all_waves - self%first)
   end subroutine place
 
-  !> Take the `spectrum` (0:my, 0:waves - 1) of this rank's waves and plan transpositions; after `place`. All ranks of the
-  !> plan's group call it. `planned` is false without memory.
+  !> Take the `spectrum` (0:my, 0:waves - 1) of this rank's waves and plan transpositions; after `place`. All ranks of
+  !> the plan's group call it. `planned` is false without memory.
   subroutine set(self, plan, measured, spectrum, planned)
     class(slab_kernel), intent(inout) :: self
     type(slab_plan), intent(inout) :: plan

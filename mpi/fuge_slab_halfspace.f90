@@ -61,6 +61,7 @@ module fuge_slab_halfspace
   contains
     procedure :: set
     procedure :: own_rows
+    procedure :: comm
     procedure :: free
     procedure :: points
     procedure :: apply
@@ -86,11 +87,12 @@ contains
   !> i + nx*(j - 1) of a rank is the cell in column i of its row j.
   !>
   !> `comm` is duplicated. `nx`, `ny`, `spacing_x`, `spacing_y`, `e_star`, `element`, `measured` as for
-  !> `fuge_halfspace_operator`, the same on all ranks; `boundary` FUGE_FREE (default) or FUGE_PERIODIC. A rank has pairs of
-  !> rows, one after the other; where there are few cells the last ranks have none.
-  !> The arguments are ten, because the last three are optional and named by the caller.
-  !> Errors, on all ranks, which leave the operator as it was: those of `fuge_halfspace_operator`, FUGE_ERR_OPTION if the
-  !> arguments differ, FUGE_ERR_UNSUPPORTED for another boundary, FUGE_ERR_CALL_ORDER, on this rank, if MPI is not running.
+  !> `fuge_halfspace_operator`, the same on all ranks; `boundary` FUGE_FREE (default) or FUGE_PERIODIC. A rank has pairs
+  !> of rows, one after the other; where there are few cells the last ranks have none.
+  !> The arguments are more than eight, because the last three are optional and named by the caller.
+  !> Errors, on all ranks, which leave the operator as it was: those of `fuge_halfspace_operator`, FUGE_ERR_OPTION if
+  !> the arguments differ, FUGE_ERR_UNSUPPORTED for another boundary, FUGE_ERR_CALL_ORDER, on this rank, if MPI is not
+  !> running.
   subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, comm, info, element, boundary, measured)
     class(fuge_mpi_halfspace_operator), intent(inout) :: self
     integer, intent(in) :: nx, ny
@@ -313,6 +315,14 @@ contains
       if (first(me + 1) > first(me)) rows = [first(me), first(me + 1) - 1]
     end associate
   end function own_rows
+
+  !> The communicator of the operator, a duplicate of that of `set`; only after `set`.
+  function comm(self)
+    class(fuge_mpi_halfspace_operator), intent(in) :: self
+    type(MPI_Comm) :: comm
+
+    comm = self%group%comm()
+  end function comm
 
   !> Number of points of this rank; 0 before `set`, and where it has no rows.
   pure function points(self) result(n)

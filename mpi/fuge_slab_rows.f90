@@ -6,8 +6,8 @@ module fuge_slab_rows
 
   public :: active_ranks, block_of_pairs, block_of_waves, first_rows
 
-  !> A rank has at least this many cells: coarser grids lie on fewer ranks, down to one, where messages would take longer
-  !> than the transforms.
+  !> A rank has at least this many cells: coarser grids lie on fewer ranks, down to one, where messages would take
+  !> longer than the transforms.
   integer, parameter :: FEWEST_CELLS = 16384
 
 contains
@@ -44,8 +44,8 @@ contains
     end do
   end function first_rows
 
-  !> Waves in each block but the last ones, of `waves` on `ranks` ranks: an even number, because tables are transformed in
-  !> pairs of lines.
+  !> Waves in each block but the last ones, of `waves` on `ranks` ranks: an even number, because tables are transformed
+  !> in pairs of lines.
   pure function block_of_waves(waves, ranks) result(block)
     integer, intent(in) :: waves, ranks
     integer :: block

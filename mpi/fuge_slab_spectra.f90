@@ -113,8 +113,8 @@ contains
     call plan%group%agree(info)
     ! Planned first, because that may use the buffers.
     planned = .true.
-    if (.not. info%failed()) call transpose%set(plan%group, extent(2) + 1, kernel%all_waves, 1, blocks, .false., by_rows, &
-                                                by_columns, planned)
+    if (.not. info%failed()) call transpose%set(plan%group, extent(2) + 1, kernel%all_waves, 1, blocks, .false., &
+                                                by_rows, by_columns, planned)
     if (rows > 0 .and. planned .and. .not. info%failed()) then
       table(0:extent(1), first:first + rows - 1) => by_rows(:(extent(1) + 1)*rows)
       call fill_rows(grid, closed, extent(2) + 1, first, table, status)

@@ -4,7 +4,7 @@
 !> The matrix has elements of several numbers each. A rank has a block of rows, and afterwards a block of columns.
 module fuge_slab_transpose
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int, c_int32_t, c_intptr_t, c_loc, c_null_ptr, c_ptr
-  use fuge_locks, only: lock, unlock, LOCK_PLANNER
+  use fuge_fft, only: begin_planning, end_planning
   use fuge_rank_communicator, only: mpi_is_running, rank_communicator
   use mpi_f08, only: MPI_Comm
   implicit none
@@ -62,8 +62,8 @@ module fuge_slab_transpose
 
 contains
 
-  !> How many real numbers each buffer of a transposition has to hold: `rows` by `columns` elements of `numbers` numbers,
-  !> in blocks (2) of rows and of columns. The first call starts FFTW's part for MPI.
+  !> How many real numbers each buffer of a transposition has to hold: `rows` by `columns` elements of `numbers`
+  !> numbers, in blocks (2) of rows and of columns. The first call starts FFTW's part for MPI.
   function local_numbers(group, rows, columns, numbers, blocks) result(count)
     type(rank_communicator), intent(in) :: group
     integer, intent(in) :: rows, columns, numbers, blocks(2)
@@ -72,12 +72,12 @@ contains
     type(MPI_Comm) :: comm
 
     comm = group%comm()
-    call lock(LOCK_PLANNER)
+    call begin_planning()
     call fftw_mpi_init()
     count = fftw_local_size(2_c_int, int([rows, columns], c_intptr_t), int(numbers, c_intptr_t), &
                             int(blocks(1), c_intptr_t), int(blocks(2), c_intptr_t), int(comm%MPI_VAL, c_int32_t), &
                             count0, start0, count1, start1)
-    call unlock(LOCK_PLANNER)
+    call end_planning()
     count = max(count, 1_c_intptr_t)
   end function local_numbers
 
@@ -99,13 +99,13 @@ contains
     b = int(blocks, c_intptr_t)
     flags = merge(FFTW_MEASURE, FFTW_ESTIMATE, measured) + FFTW_DESTROY_INPUT
     call self%free()
-    call lock(LOCK_PLANNER)
+    call begin_planning()
     call fftw_mpi_init()
     self%there = fftw_plan_transpose(n(1), n(2), int(numbers, c_intptr_t), b(1), b(2), c_loc(one), c_loc(other), &
                                      int(comm%MPI_VAL, c_int32_t), flags)
     self%back = fftw_plan_transpose(n(2), n(1), int(numbers, c_intptr_t), b(2), b(1), c_loc(other), c_loc(one), &
                                     int(comm%MPI_VAL, c_int32_t), flags)
-    call unlock(LOCK_PLANNER)
+    call end_planning()
     planned = c_associated(self%there) .and. c_associated(self%back)
   end subroutine set
 
@@ -130,10 +130,10 @@ contains
     class(slab_transpose), intent(inout) :: self
 
     if (mpi_is_running()) then
-      call lock(LOCK_PLANNER)
+      call begin_planning()
       if (c_associated(self%there)) call fftw_destroy_plan(self%there)
       if (c_associated(self%back)) call fftw_destroy_plan(self%back)
-      call unlock(LOCK_PLANNER)
+      call end_planning()
     end if
     self%there = c_null_ptr
     self%back = c_null_ptr

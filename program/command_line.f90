@@ -25,6 +25,8 @@ module command_line
     type(setting), allocatable :: settings(:)
     !> How many there are.
     integer :: count = 0
+    !> The job file; not allocated without one.
+    character(len=:), allocatable :: job
   contains
     procedure :: read => read_arguments
     procedure :: has
@@ -107,6 +109,9 @@ contains
     integer :: split
     logical :: exists
 
+    if (allocated(self%job)) call refuse('"'//self%job//'" and "'//path//'" are two job files', info)
+    if (info%failed()) return
+    self%job = path
     call file%open(path, info)
     do while (.not. info%failed())
       call file%next(exists, info)

@@ -1,14 +1,15 @@
 !> The bodies of a problem with meshes: what their files have.
 module mesh_body
   use command_line, only: arguments, refuse
-  use fuge, only: fuge_elastic_body, fuge_info, fuge_mesh, fuge_read_mesh, fuge_read_stiffness, FUGE_ERR_FILE
+  use fuge, only: fuge_elastic_body, fuge_info, fuge_mesh, fuge_read_mesh, fuge_read_stiffness, FUGE_ERR_FILE, &
+    FUGE_ERR_MEMORY
   use number_index, only: index_of_numbers
   use number_words, only: number_text
   use progress_log, only: progress
   implicit none
   private
 
-  public :: read_bodies
+  public :: read_bodies, refuse_memory
 
   !> Directions of a row: displacements and rotations.
   integer, parameter, public :: DIRECTIONS = 6
@@ -181,6 +182,7 @@ contains
     type(model_body), intent(inout) :: body
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
+    integer :: status
 
     call fuge_read_mesh(given%path(body%mesh_option), body%mesh, info)
     if (info%failed()) return
@@ -188,9 +190,21 @@ contains
                  //number_text(size(body%mesh%element))//' elements')
     call body%nodes%set(body%mesh%node)
     body%keeps_numbers = minval(body%mesh%node) > 0 .and. maxval(body%mesh%node) <= LARGEST_NUMBER
-    allocate (body%row(DIRECTIONS, size(body%mesh%node)), source=0)
-    if (body%elastic > 0) call read_matrix(given, body, log, info)
+    allocate (body%row(DIRECTIONS, size(body%mesh%node)), source=0, stat=status)
+    if (status /= 0) then
+      call refuse_memory('the nodes of '//body%name, info)
+    else if (body%elastic > 0) then
+      call read_matrix(given, body, log, info)
+    end if
   end subroutine read_body
+
+  pure subroutine refuse_memory(what, info)
+    character(len=*), intent(in) :: what
+    type(fuge_info), intent(inout) :: info
+
+    info%status = FUGE_ERR_MEMORY
+    info%message = 'no memory for '//what
+  end subroutine refuse_memory
 
   subroutine read_matrix(given, body, log, info)
     type(arguments), intent(in) :: given

@@ -91,7 +91,7 @@ contains
     real(dp), intent(in) :: displacement(:)
     type(fuge_mesh_field), intent(inout) :: fields(4)
     integer :: first(size(bodies) + 1)
-    integer :: axis, dimensions, i, k, node, row
+    integer :: axis, i, k, node, row
 
     first(1) = 0
     do k = 1, size(bodies)
@@ -111,12 +111,11 @@ contains
         end do
       end do
     end do
-    dimensions = size(joined%pairs%direction, 1)
     do i = 1, joined%pairs%points()
       k = pairs(joined%pairs%pair(i))%body(1)
       node = first(k) + mesh_node(bodies(k), joined%pairs%node(i))
-      fields(3)%value(:dimensions, node) = fields(3)%value(:dimensions, node) &
-        - solution%force(i)*joined%pairs%direction(:, i)
+      fields(3)%value(:, node) = fields(3)%value(:, node) &
+        + solution%force(i)*pairs(joined%pairs%pair(i))%action(joined%pairs, i)
       if (pairs(joined%pairs%pair(i))%options%tied) cycle
       fields(2)%value(1, node) = fields(2)%value(1, node) + solution%force(i) &
         /pairs(joined%pairs%pair(i))%area(joined%pairs, i)

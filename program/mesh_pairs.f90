@@ -3,10 +3,10 @@ module mesh_pairs
   use command_line, only: arguments, refuse
   use fuge, only: dp => fuge_dp, fuge_contact_pairs, fuge_info, fuge_mesh_faces, fuge_pair_options, fuge_surface_mesh, &
     fuge_surface_pair, FUGE_NODE_TO_FACE, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
-  use mesh_body, only: model_body
+  use mesh_body, only: model_body, refuse_memory
   use mesh_names, only: find_surface
   use mesh_rings, only: find_circumferences
-  use number_words, only: read_real
+  use number_words, only: number_text, read_real
   implicit none
   private
 
@@ -25,13 +25,20 @@ module mesh_pairs
     type(fuge_pair_options) :: options
     !> One normal for all nodes, if the options give it.
     real(dp) :: normal(3) = 0.0_dp
+    !> How many components it has.
+    integer :: components = 0
     !> Added to the gaps.
     real(dp) :: clearance = 0.0_dp
     type(fuge_surface_pair) :: surfaces
     !> Circumference of the ring of each node of the contact surface; not allocated if no body is one of revolution.
     real(dp), allocatable :: circumference(:)
+    !> The axis of each degree of freedom of all bodies that belongs to the contact surface, 0 for the others; if that
+    !> is rigid, of the opposite surface, negative.
+    integer, allocatable, private :: axis(:)
   contains
+    procedure :: action
     procedure :: area
+    procedure :: set_axes
   end type model_pair
 
 contains
@@ -56,6 +63,7 @@ contains
         count = count + 1
         pairs(count)%options = common%options
         pairs(count)%normal = common%normal
+        pairs(count)%components = common%components
         pairs(count)%clearance = common%clearance
         call name_pair(given%settings(k)%value, given%settings(k)%place, bodies, pairs(count), info)
       else if (count == 0) then
@@ -159,6 +167,7 @@ contains
         if (.not. valid .or. begin > len(word)) exit
         length = index(word(begin:)//',', ',') - 1
         call read_real(word(begin:begin + length - 1), pair%normal(k), valid)
+        pair%components = k
         begin = begin + length + 1
       end do
       if (.not. valid .or. begin <= len(word) .or. .not. any(abs(pair%normal) > 0.0_dp)) &
@@ -183,6 +192,11 @@ contains
       call refuse('--pair '//pair%name//': one surface is of solids, the other one of elements of a plane', info)
       return
     end if
+    if (pair%options%normals == FUGE_NORMALS_GIVEN .and. pair%components /= dimensions(1)) then
+      call refuse('--pair '//pair%name//': --normals needs one number for each axis, '//number_text(dimensions(1)) &
+                  //' in all', info)
+      return
+    end if
     associate (mesh => bodies(pair%body(1))%mesh)
       if (index(mesh%element_type(mesh%surface(pair%surface(1))%element(1)), 'CAX') == 1) &
         call find_circumferences(pair%surfaces%contact, pair%circumference)
@@ -191,6 +205,52 @@ contains
     if (pair%options%normals == FUGE_NORMALS_GIVEN) &
       pair%surfaces%options%normal = spread(pair%normal(:dimensions(1)), 2, size(pair%surfaces%contact%node, 2))
   end subroutine make_surfaces
+
+  !> Note the axes; `first`: degrees of freedom before those of each elastic body.
+  pure subroutine set_axes(self, first)
+    class(model_pair), intent(inout) :: self
+    integer, intent(in) :: first(:)
+
+    allocate (self%axis(first(size(first))), source=0)
+    if (allocated(self%surfaces%contact%dof)) then
+      call mark(self%surfaces%contact%dof, first(self%surfaces%contact_body), 1, self%axis)
+    else
+      call mark(self%surfaces%opposite%dof, first(self%surfaces%opposite_body), -1, self%axis)
+    end if
+  end subroutine set_axes
+
+  pure subroutine mark(dof, before, sign, axes)
+    integer, intent(in) :: dof(:, :), before, sign
+    integer, intent(inout) :: axes(:)
+    integer :: axis, i
+
+    do i = 1, size(dof, 2)
+      do axis = 1, size(dof, 1)
+        if (dof(axis, i) > 0) axes(before + dof(axis, i)) = sign*axis
+      end do
+    end do
+  end subroutine mark
+
+  !> The resultant on the contact body of a force of 1 at a contact point; on bent surfaces the force is spread along
+  !> several normals. Along an axis that the stiffness lacks it is that of the direction of the gap.
+  pure function action(self, pairs, i) result(resultant)
+    class(model_pair), intent(in) :: self
+    type(fuge_contact_pairs), intent(in) :: pairs
+    integer, intent(in) :: i
+    real(dp) :: resultant(3)
+    integer :: axis, k
+
+    resultant = 0.0_dp
+    do k = 1, size(pairs%dof, 1)
+      if (pairs%dof(k, i) == 0) cycle
+      axis = self%axis(pairs%dof(k, i))
+      if (axis /= 0) resultant(abs(axis)) = resultant(abs(axis)) + sign(1, axis)*pairs%normal(k, i)
+    end do
+    if (.not. allocated(self%surfaces%contact%dof)) return
+    do axis = 1, size(pairs%direction, 1)
+      if (self%surfaces%contact%dof(axis, pairs%node(i)) == 0) resultant(axis) = -pairs%direction(axis, i)
+    end do
+  end function action
 
   !> The area of a contact point of this pair: that of the plane, or of the ring.
   pure function area(self, pairs, i)
@@ -212,7 +272,7 @@ contains
     integer, intent(out) :: dimensions
     type(fuge_info), intent(inout) :: info
     integer, allocatable :: faces(:, :)
-    integer :: at, i, k, nodes
+    integer :: at, i, k, nodes, status
 
     dimensions = 2
     associate (mesh => body%mesh)
@@ -226,8 +286,12 @@ contains
       if (info%failed()) return
       nodes = size(mesh%node)
       if (body%keeps_numbers) nodes = maxval(mesh%node)
-      allocate (surface%node(dimensions, nodes), source=0.0_dp)
-      if (body%elastic > 0) allocate (surface%dof(dimensions, nodes), source=0)
+      allocate (surface%node(dimensions, nodes), source=0.0_dp, stat=status)
+      if (status == 0 .and. body%elastic > 0) allocate (surface%dof(dimensions, nodes), source=0, stat=status)
+      if (status /= 0) then
+        call refuse_memory('the surfaces of --pair '//pair, info)
+        return
+      end if
       surface%face = faces(:maxval(count(faces > 0, 1)), :)
       do k = 1, size(surface%face, 2)
         do i = 1, size(surface%face, 1)

@@ -4,7 +4,7 @@ module mesh_problem
   use command_line, only: arguments, refuse
   use fuge, only: dp => fuge_dp, fuge_condense, fuge_condensed, fuge_elastic_body, fuge_info, fuge_join_bodies, &
     fuge_joined_bodies, fuge_problem, fuge_solution, fuge_surface_pair
-  use mesh_body, only: model_body, read_bodies
+  use mesh_body, only: model_body, read_bodies, refuse_memory
   use mesh_conditions, only: take_conditions
   use mesh_fields, only: check_fields, write_fields
   use mesh_messages, only: explain
@@ -34,6 +34,7 @@ contains
     type(fuge_solution) :: solution
     type(fuge_info) :: joining, condensation, recovery
     real(dp), allocatable :: displacement(:)
+    integer :: status
 
     call read_bodies(given, bodies, log, info)
     if (.not. info%failed()) call check_fields(given%file('field'), bodies, info)
@@ -47,7 +48,11 @@ contains
     if (.not. info%failed()) call take_excluded(given, bodies, pairs, joined, problem, info)
     if (.not. info%failed()) call solve(condensed%alpha, problem, solution, log, info)
     if (info%failed()) return
-    allocate (displacement(joined%first(size(joined%first))))
+    allocate (displacement(joined%first(size(joined%first))), stat=status)
+    if (status /= 0) then
+      call refuse_memory('the displacements', info)
+      return
+    end if
     call condensed%recover(solution, displacement, recovery)
     call condensed%clear()
     if (recovery%failed()) then
@@ -65,7 +70,7 @@ contains
   !> All bodies as one, with the gaps of their pairs. The matrices of the bodies move away.
   subroutine join(bodies, pairs, joined, log, info)
     type(model_body), intent(inout) :: bodies(:)
-    type(model_pair), intent(in) :: pairs(:)
+    type(model_pair), intent(inout) :: pairs(:)
     type(fuge_joined_bodies), intent(inout) :: joined
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
@@ -85,6 +90,9 @@ contains
     if (info%failed()) return
     call log%say(number_text(joined%pairs%points())//' contact points, ' &
                  //number_text(size(joined%pairs%unpaired_node))//' nodes without an opposite')
+    do k = 1, size(pairs)
+      call pairs(k)%set_axes(joined%first)
+    end do
     do i = 1, joined%pairs%points()
       associate (pair => pairs(joined%pairs%pair(i)))
         if (.not. pair%options%tied) joined%pairs%gap(i) = joined%pairs%gap(i) + pair%clearance

@@ -57,9 +57,7 @@ contains
     force = 0.0_dp
     do i = 1, joined%pairs%points()
       if (joined%pairs%pair(i) /= k) cycle
-      associate (direction => joined%pairs%direction(:, i))
-        force(:size(direction)) = force(:size(direction)) - solution%force(i)*direction
-      end associate
+      force = force + solution%force(i)*pair%action(joined%pairs, i)
     end do
     write (values, '(3(es24.16e3,:,'',''))') force
     call csv%put('# pair '//number_text(k)//': '//pair%name//', force on '//bodies(pair%body(1))%name//': '//values)

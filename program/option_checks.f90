@@ -18,6 +18,10 @@ module option_checks
     'matrix', 'mesh', 'node-to-face', 'normals', 'pair', 'pressure', 'reach', 'support', 'supports', 'tied']
   character(len=12), parameter :: NOT_ALPHA(2) = [character(len=12) :: 'field', 'rows']
 
+  !> Options whose value is a path.
+  character(len=12), parameter :: WITH_FILES(15) = [character(len=12) :: 'alpha', 'contact', 'external', 'field', &
+    'fixed', 'gap', 'loads', 'mesh', 'modes', 'output', 'play', 'resultant', 'rows', 'stiffness', 'supports']
+
 contains
 
   !> Find out what is asked for, and refuse what does not go with it. Error: FUGE_ERR_OPTION.
@@ -40,6 +44,8 @@ contains
     if (kind /= WITH_MATRICES) call check_absent(given, ONLY_MATRICES, '--stiffness without --mesh', info)
     if (kind /= WITH_MESHES) call check_absent(given, ONLY_MESHES, NEEDED(WITH_MESHES), info)
     if (kind == WITH_ALPHA) call check_absent(given, NOT_ALPHA, NEEDED(WITH_MATRICES), info)
+    if (.not. info%failed()) call check_results(given, 'output', info)
+    if (.not. info%failed()) call check_results(given, 'field', info)
   end subroutine check_options
 
   subroutine check_matrices(given, kind, info)
@@ -80,6 +86,34 @@ contains
     end if
     call check_absent(given, [character(len=12) :: 'gap', 'approach'], '--alpha or --contact', info)
   end subroutine check_meshes
+
+  !> Refuse a result that would overwrite an input, or the other result.
+  subroutine check_results(given, name, info)
+    type(arguments), intent(in) :: given
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+    character(len=:), allocatable :: own, other
+    integer :: at, k
+
+    at = given%position(name)
+    if (at == 0) return
+    own = given%path(at)
+    if (allocated(given%job)) then
+      if (own == given%job) call refuse(given%settings(at)%place//': it is the job file', info)
+    end if
+    do k = 1, given%count
+      if (k == at .or. index(own, '/dev/') == 1) cycle
+      other = given%path(k)
+      if (any(given%settings(k)%name == [character(len=12) :: 'loads', 'supports'])) then
+        if (index(given%settings(k)%value, '=') > 0) &
+          other = given%settings(k)%folder//given%settings(k)%value(index(given%settings(k)%value, '=') + 1:)
+      end if
+      if (given%settings(k)%name == 'stiffness' .and. own == other(:max(len(other) - 4, 0))//'.dof') other = own
+      if (own /= other .or. all(given%settings(k)%name /= WITH_FILES)) cycle
+      call refuse(given%settings(at)%place//': the same file as of --'//trim(given%settings(k)%name), info)
+      return
+    end do
+  end subroutine check_results
 
   !> Refuse an option that is given again without meshes.
   subroutine check_single(given, name, info)

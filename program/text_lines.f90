@@ -6,6 +6,7 @@ module text_lines
   private
 
   character, parameter :: TAB = achar(9), CARRIAGE_RETURN = achar(13)
+  character(len=*), parameter :: BYTE_ORDER_MARK = char(239)//char(187)//char(191)
 
   type, public :: line_reader
     !> The present line without comment and blanks at its ends, tabs as blanks.
@@ -36,7 +37,9 @@ contains
     if (status == 0) return
     self%unit = -1
     info%status = FUGE_ERR_FILE
-    info%message = '"'//path//'" cannot be opened: '//trim(reason)
+    ! gfortran's message has the path again, in quotes.
+    info%message = '"'//path//'" cannot be opened: '//trim(reason(index(reason, ''': ', back=.true.) &
+      + merge(3, 1, index(reason, ''': ') > 0):))
   end subroutine open_lines
 
   !> The next line that is neither blank nor a comment. Error: FUGE_ERR_FILE.
@@ -56,6 +59,8 @@ contains
         info%message = self%place()//' cannot be read: '//trim(reason)
         return
       end if
+      if (self%number == 1 .and. index(self%line, BYTE_ORDER_MARK) == 1) &
+        self%line = self%line(len(BYTE_ORDER_MARK) + 1:)
       call clean(self%line)
       exists = len(self%line) > 0
     end do

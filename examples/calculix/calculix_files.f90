@@ -44,6 +44,8 @@ contains
     integer :: failed, status
 
     write (limit, '(a,i0,a)') 'timeout ', most, ' '
+    failed = 0
+    status = 0
     call execute_command_line('timeout 1 true', exitstat=status, cmdstat=failed)
     if (failed /= 0 .or. status /= 0) limit = ''
     call run_command('rm -f '//job//'.dat '//job//'.frd', trim(limit)//' "'//command//'"', job, solved)
@@ -55,6 +57,8 @@ contains
     logical, intent(out) :: ended
     integer :: failed, status
 
+    failed = 0
+    status = 0
     call execute_command_line(prepare//'; '//command//' -i '//job//' >'//job//'.log 2>&1; status=$?; times >'//job &
                               //'.times; exit $status', exitstat=status, cmdstat=failed)
     ended = failed == 0 .and. status == 0

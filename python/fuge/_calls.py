@@ -6,7 +6,7 @@ import ctypes
 import signal
 import threading
 from contextlib import contextmanager
-from typing import Any, Callable, Iterator
+from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,6 +59,7 @@ def _interrupted() -> bool:
 
 def _check_interrupt() -> None:
     if _interrupted():
+        _pending.interrupted = False
         raise KeyboardInterrupt
 
 
@@ -96,12 +97,14 @@ class Handle:
         self._kept: list[Any] = []
         self._users = 0
         self._closed = False
+        self._freed = False
         self._lock = threading.Lock()
         self._owner: int | None = None
 
     def need(self, other: Handle) -> None:
         """Keep `other` until this one has been freed."""
         with self._counting:
+            other._check_open()
             self._needs.append(other)
             other._users += 1
 
@@ -116,9 +119,12 @@ class Handle:
     @property
     def pointer(self) -> ctypes.c_void_p:
         """For calls that only read what threads may share."""
+        self._check_open()
+        return self._pointer
+
+    def _check_open(self) -> None:
         if self._closed:
             raise error(Status.ERR_CALL_ORDER, f"the {self.name} is closed")
-        return self._pointer
 
     @contextmanager
     def use(self) -> Iterator[ctypes.c_void_p]:
@@ -142,10 +148,10 @@ class Handle:
 
     def _release(self) -> None:
         with self._counting:
-            if self._closed and self._users == 0 and self._pointer:
+            if self._closed and self._users == 0 and not self._freed:
+                self._freed = True
                 self._free(ctypes.byref(self._pointer))
-                needs, self._needs = self._needs, []
-                for other in needs:
+                for other in self._needs:
                     other._users -= 1
                     other._release()
 
@@ -161,7 +167,10 @@ class Owner:
     _handle: Handle
 
     def close(self) -> None:
-        """Free the memory of the library now; otherwise that happens when the object is no longer used."""
+        """Free the memory of the library now; otherwise that happens when the object is no longer used.
+
+        Not while another thread is inside one of its functions.
+        """
         self._handle.close()
 
     def __enter__(self) -> Any:
@@ -184,11 +193,13 @@ class Owner:
         return message.value.decode(errors="replace")
 
 
-def new_handle(name: str, create: str, free: str, *arguments: Any) -> Handle:
+def new_handle(name: str, create: str, free: str, *arguments: Any, needs: Sequence[Handle] = ()) -> Handle:
     """Call `create`, whose arguments are followed by the place for the handle, message and len."""
-    pointer = ctypes.c_void_p()
-    call(create, *arguments, ctypes.byref(pointer))
-    return Handle(name, free, pointer)
+    handle = Handle(name, free, ctypes.c_void_p())
+    for other in needs:
+        handle.need(other)
+    call(create, *arguments, ctypes.byref(handle.pointer))
+    return handle
 
 
 def _keep(exception: BaseException) -> int:

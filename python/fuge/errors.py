@@ -128,6 +128,9 @@ class Warning(UserWarning):
         self.status = status
         self.message = message
 
+    def __reduce__(self) -> tuple[type[Warning], tuple[str, Status]]:
+        return type(self), (self.message, self.status)
+
 
 class ResidualWarning(Warning):
     """The residual, or an estimated error, is above the tolerance."""

@@ -263,8 +263,8 @@ class CallbackOperator(Operator):
     def _set_other(self, name: str, argument: str, other: Operator) -> None:
         if not isinstance(other, Operator):
             raise TypeError(f"{argument} must be an Operator, not {type(other).__name__}")
-        self._set(name, other._handle.pointer)
         self._handle.need(other._handle)
+        self._set(name, other._handle.pointer)
         if self.grid is None:
             self.grid = other.grid if other.n == self.n else None
 

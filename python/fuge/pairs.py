@@ -89,7 +89,7 @@ class ContactPairs(Owner):
     place : ndarray, shape (n, dimensions - 1)
         Place in the opposite face.
     direction : ndarray, shape (n, dimensions)
-        Direction of the gap.
+        Direction of the gap: the force on the opposite body is force*direction.
     unpaired : ndarray of int, shape (count, 2)
         Pair and node of the nodes that have no opposite, and so are no contact points.
     """
@@ -134,7 +134,7 @@ class ContactPairs(Owner):
             Glue the surfaces where they are, along each axis.
         smooth : bool
             Normals, gaps and areas of the smooth bodies that the meshes stand for, exact on circles, spheres and
-            cylinders; faces that meet at more than 40 degrees keep their edge. If false, those of the faces as they
+            cylinders; faces that meet at more than 25 degrees keep their edge. If false, those of the faces as they
             are.
 
         Raises

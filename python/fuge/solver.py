@@ -201,8 +201,8 @@ class Solver(Owner):
         self._shape: tuple[int, ...] = (self.n,)
         options = chosen_options(method, pivot_rule, max_iterations, keep_history, tolerance)
         read = self.operator._handle
-        self._handle = new_handle("solver", "fuge_solver_new", "fuge_solver_free", read.pointer, ctypes.byref(options))
-        self._handle.need(read)
+        arguments = [read.pointer, ctypes.byref(options)]
+        self._handle = new_handle("solver", "fuge_solver_new", "fuge_solver_free", *arguments, needs=[read])
         self.set_progress(progress)
 
     @property

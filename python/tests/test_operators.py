@@ -87,6 +87,12 @@ class Halfspace(unittest.TestCase):
         with self.assertRaisesRegex(fuge.InputError, r"gap has the shape \(6, 4\), but must have \(24,\) or \(4, 6\)"):
             solver.set_gap(gap.T)
 
+    def test_a_grid_that_is_too_small(self):
+        # The contact reaches the rim: a remark, but no warning, because the bodies may end there.
+        contact = fuge.solve(fuge.HalfspaceOperator(8, 8, 1.0, 1.0, 1.0, "mean"), 0.0, 1.0)
+        self.assertEqual(contact.info.status, fuge.Status.DONE)
+        self.assertIn("rim", contact.message)
+
     def test_boundaries(self):
         for boundary in ("periodic", "periodic_x", "periodic_y"):
             operator = fuge.HalfspaceOperator(8, 8, 1.0, 1.0, 1.0, "mean", boundary)

@@ -1,6 +1,7 @@
 """Smooth and round punches against Hertz and closed forms."""
 
 import unittest
+import warnings
 
 import numpy as np
 
@@ -53,6 +54,14 @@ class Smooth(unittest.TestCase):
         self.assertRaises(TypeError, fuge.solve_smooth_punch, lambda x: x, -1.0, 1.0, 1.0, 1.0)
         self.assertRaises(ValueError, fuge.solve_smooth_punch, lambda x: (x[:-1], x), -1.0, 1.0, 1.0, 1.0)
         self.assertRaises(fuge.CallbackError, fuge.solve_smooth_punch, lambda x: (x * np.nan, x), -1.0, 1.0, 1.0, 1.0)
+
+    def test_warnings_that_are_errors(self):
+        # A tilt that is free and has no force to resist: with the filter "error" nothing is left behind.
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaises(fuge.NotUniqueWarning) as caught:
+                fuge.solve_smooth_punch(lambda x: (x**2 / 2, x), -3.0, 3.0, 1.0, 0.0, moment=0.0)
+        self.assertEqual(caught.exception.status, fuge.Status.WARN_NOT_UNIQUE)
 
     def test_closed(self):
         contact = self.solve()

@@ -3,7 +3,7 @@
 module fuge_bodies_solution
   use fuge_body_joining, only: fuge_join_bodies, fuge_joined_bodies
   use fuge_condensation, only: fuge_condense, fuge_condensed
-  use fuge_contact_pairs_type, only: fuge_contact_pairs
+  use fuge_contact_pairs_type, only: fuge_contact_pairs, move_pairs
   use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair
   use fuge_joined_names, only: name_bodies, name_motions, names_motion
   use fuge_kinds, only: dp
@@ -23,8 +23,8 @@ module fuge_bodies_solution
   type, public :: fuge_bodies_contact
     !> Where the contact points are: pair, node, opposite face, direction, area, initial gap.
     type(fuge_contact_pairs) :: pairs
-    !> Contact forces, (n), force; negative only at an upper stop and at tied points, where they are the components along
-    !> the axes of the force of the contact surface on the opposite one.
+    !> Contact forces, (n), force; negative only at an upper stop and at tied points, where they are the components
+    !> along the axes of the force of the contact surface on the opposite one.
     real(dp), allocatable :: force(:)
     !> Gaps under load, (n), length.
     real(dp), allocatable :: gap(:)
@@ -68,7 +68,8 @@ contains
     type(fuge_condensed), target :: condensed
     type(fuge_solution) :: solution
     type(fuge_info) :: condensation, recovery, pairing
-    real(dp), allocatable :: displacement(:)
+    real(dp), allocatable :: displacement(:), pressure(:)
+    logical, allocatable :: touching(:)
     integer :: stat
 
     if (present(options)) chosen = options
@@ -76,7 +77,8 @@ contains
     pairing = info
     if (.not. info%failed()) call stiffness%set_columns(joined%column, joined%row, joined%value, info)
     if (info%failed()) return
-    allocate (displacement(joined%first(size(joined%first))), stat=stat)
+    allocate (displacement(joined%first(size(joined%first))), pressure(joined%pairs%points()), &
+              touching(joined%pairs%points()), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(joined%first(size(joined%first)))//' displacements')
       return
@@ -99,8 +101,12 @@ contains
     call take_warning(recovery, info)
     call name_bodies(joined%first, info)
     call take_warning(pairing, info)
+    pressure = solution%force/joined%pairs%area
+    touching = abs(solution%force) > 0.0_dp
     call move_alloc(displacement, contact%displacement)
-    call set_contact(joined, solution, contact)
+    call move_alloc(pressure, contact%pressure)
+    call move_alloc(touching, contact%touching)
+    call move_contact(joined, solution, contact)
   end subroutine fuge_solve_bodies
 
   !> Solve the contact problem of the condensed bodies.
@@ -156,22 +162,21 @@ contains
     type(fuge_info), intent(in) :: other
     type(fuge_info), intent(inout) :: info
 
-    if (info%status == FUGE_DONE .and. other%status /= FUGE_DONE) call report(info, other%status, composed_message(other))
+    if (info%status /= FUGE_DONE .or. other%status == FUGE_DONE) return
+    call report(info, other%status, composed_message(other))
   end subroutine take_warning
 
-  !> Fill the results, without a copy of what is large.
-  pure subroutine set_contact(joined, solution, contact)
+  !> Move what joining and the solver have found to the results.
+  pure subroutine move_contact(joined, solution, contact)
     type(fuge_joined_bodies), intent(inout) :: joined
     type(fuge_solution), intent(inout) :: solution
     type(fuge_bodies_contact), intent(inout) :: contact
 
-    contact%pairs = joined%pairs
-    contact%pressure = solution%force/joined%pairs%area
-    contact%touching = abs(solution%force) > 0.0_dp
+    call move_pairs(joined%pairs, contact%pairs)
     call move_alloc(solution%force, contact%force)
     call move_alloc(solution%gap, contact%gap)
     call move_alloc(solution%motion, contact%motion)
     call move_alloc(joined%first, contact%first)
-  end subroutine set_contact
+  end subroutine move_contact
 
 end module fuge_bodies_solution

@@ -9,7 +9,7 @@ module fuge_body_joining
   use fuge_body_surfaces, only: greatest_extent, pair_surfaces
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
-  use fuge_contact_pairs_type, only: fuge_contact_pairs
+  use fuge_contact_pairs_type, only: fuge_contact_pairs, move_pairs
   use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair, take_body
   use fuge_held_points, only: leave_out_held
   use fuge_kinds, only: dp
@@ -152,7 +152,8 @@ contains
     end do
     stat = 1
     if (entries < int(huge(1), int64)) &
-      allocate (joined%column(joined%first(size(joined%first)) + 1), joined%row(entries), joined%value(entries), stat=stat)
+      allocate (joined%column(joined%first(size(joined%first)) + 1), joined%row(entries), joined%value(entries), &
+                stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the stiffness matrix of all bodies')
       return
@@ -238,7 +239,7 @@ contains
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact points')
   end subroutine set_points
 
-  !> Move all components without a copy of the large ones.
+  !> Move all components without a copy.
   pure subroutine move_joined(source, destination)
     type(fuge_joined_bodies), intent(inout) :: source, destination
 
@@ -246,8 +247,14 @@ contains
     call move_alloc(source%row, destination%row)
     call move_alloc(source%value, destination%value)
     call move_alloc(source%first, destination%first)
-    destination%body = source%body
-    destination%pairs = source%pairs
+    call move_alloc(source%body%fixed, destination%body%fixed)
+    call move_alloc(source%body%displacement, destination%body%displacement)
+    call move_alloc(source%body%load, destination%body%load)
+    call move_alloc(source%body%rigid_modes, destination%body%rigid_modes)
+    call move_alloc(source%body%dof, destination%body%dof)
+    call move_alloc(source%body%normal, destination%body%normal)
+    destination%body%floats = source%body%floats
+    call move_pairs(source%pairs, destination%pairs)
   end subroutine move_joined
 
 end module fuge_body_joining

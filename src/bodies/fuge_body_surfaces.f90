@@ -38,7 +38,8 @@ contains
       end if
       call put_before('pair '//index_text(k)//', contact '//trim(body_name(surface_pairs(k)%contact_body)) &
                       //', opposite '//trim(body_name(surface_pairs(k)%opposite_body))//': ', own_info)
-      if (own_info%failed() .or. info%status == FUGE_DONE) call report(info, own_info%status, composed_message(own_info))
+      if (own_info%failed() .or. info%status == FUGE_DONE) &
+        call report(info, own_info%status, composed_message(own_info))
       if (info%failed()) return
     end do
   end subroutine pair_surfaces

@@ -17,8 +17,8 @@ module fuge_elastic_body_type
   !> An elastic body: its stiffness matrix, supports and load. Degrees of freedom count from 1 in each body. Set
   !> components by name, since later versions may add some.
   type, public :: fuge_elastic_body
-    !> Stiffness matrix in compressed columns, as fuge_read_stiffness returns it: column j holds the entries column(j) ..
-    !> column(j + 1) - 1 of `row` and `value`. Repeated entries are added; both triangles, or one of them.
+    !> Stiffness matrix in compressed columns, as fuge_read_stiffness returns it: column j holds the entries
+    !> column(j) .. column(j + 1) - 1 of `row` and `value`. Repeated entries are added; both triangles, or one of them.
     integer, allocatable :: column(:), row(:)
     !> The entries, force per displacement.
     real(dp), allocatable :: value(:)
@@ -66,22 +66,32 @@ contains
     else
       call matrix%set(body%column, body%row, body%value, info)
     end if
-    if (.not. info%failed()) then
-      if (allocated(body%fixed)) own%fixed = body%fixed
-      if (allocated(body%displacement)) own%displacement = body%displacement
-      if (allocated(body%load)) own%load = body%load
-      call check_supports(own, matrix%degrees(), info)
-    end if
+    if (.not. info%failed()) call copy_data(body, own, info)
+    if (.not. info%failed()) call check_supports(own, matrix%degrees(), info)
     if (allocated(own%load) .and. .not. info%failed()) call check_load_field(own%load, matrix%degrees(), info)
     if (.not. info%failed()) call check_diagonal(matrix, own, info)
-    if (allocated(body%rigid_modes) .and. .not. info%failed()) then
-      own%rigid_modes = body%rigid_modes
+    if (allocated(own%rigid_modes) .and. .not. info%failed()) then
       if (size(own%rigid_modes, 1) /= matrix%degrees()) call report(info, FUGE_ERR_SIZE, 'rigid_modes has ' &
         //text(size(own%rigid_modes, 1))//' rows: it needs one for each of '//text(matrix%degrees()) &
         //' degrees of freedom')
     end if
     call put_before('body '//index_text(k)//': ', info)
   end subroutine take_body
+
+  !> Copy supports, load and rigid modes of a body.
+  pure subroutine copy_data(body, own, info)
+    type(fuge_elastic_body), intent(in) :: body
+    type(fuge_body), intent(inout) :: own
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    stat = 0
+    if (allocated(body%fixed)) allocate (own%fixed, source=body%fixed, stat=stat)
+    if (allocated(body%displacement) .and. stat == 0) allocate (own%displacement, source=body%displacement, stat=stat)
+    if (allocated(body%load) .and. stat == 0) allocate (own%load, source=body%load, stat=stat)
+    if (allocated(body%rigid_modes) .and. stat == 0) allocate (own%rigid_modes, source=body%rigid_modes, stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for copies of supports, load and rigid modes')
+  end subroutine copy_data
 
   !> Refuse a free degree of freedom without stiffness.
   pure subroutine check_diagonal(matrix, own, info)

@@ -18,8 +18,8 @@ contains
 
   !> Leave out the contact points that cannot move: their gap is what positions and supports make it.
   !>
-  !> `degrees`: of all bodies; of `body` the supports are used. `extent`: greatest coordinate of the surfaces, which measures
-  !> rounding.
+  !> `degrees`: of all bodies; of `body` the supports are used. `extent`: greatest coordinate of the surfaces, which
+  !> measures rounding.
   !> Errors: FUGE_ERR_GAP if such a point violates a stop, FUGE_ERR_MESH if no point is left, FUGE_ERR_MEMORY.
   pure subroutine leave_out_held(body, degrees, extent, pairs, info)
     type(fuge_body), intent(in) :: body

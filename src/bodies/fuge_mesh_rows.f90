@@ -24,8 +24,8 @@ contains
 
   !> A surface of a mesh with the degrees of freedom that its nodes have in a stiffness matrix.
   !>
-  !> `name`: of the surface, in upper or lower case. `dimensions`: 2 for elements of a plane, whose x and y are taken, or
-  !> 3. `node` and `direction` (rows of the matrix): the names of the rows, as fuge_read_stiffness returns them.
+  !> `name`: of the surface, in upper or lower case. `dimensions`: 2 for elements of a plane, whose x and y are taken,
+  !> or 3. `node` and `direction` (rows of the matrix): the names of the rows, as fuge_read_stiffness returns them.
   !> `surface` is that of `fuge_find_pairs` and `fuge_join_bodies`, and has all nodes of the mesh, so that node i of it
   !> is node mesh%node(i) of the file; degrees of freedom that the matrix does not have are 0, since programs leave out
   !> those of supports.
@@ -40,7 +40,7 @@ contains
     type(fuge_surface_mesh), intent(inout) :: surface
     type(fuge_info), intent(out) :: info
     type(fuge_surface_mesh) :: found
-    integer, allocatable :: rows(:, :)
+    integer, allocatable :: member(:), rows(:, :)
     integer :: stat, strange
 
     if (dimensions < 2 .or. dimensions > 3) then
@@ -50,10 +50,10 @@ contains
     call fuge_mesh_faces(mesh, name, found%face, info)
     if (.not. info%failed()) call check_dimensions(mesh, name, dimensions, info)
     if (.not. info%failed()) call find_rows(mesh, node, direction, rows, strange, info)
-    if (.not. info%failed()) call check_nodes(mesh, 'surface '//quoted(name), members(found%face), node, rows, strange, &
-                                              info)
+    if (.not. info%failed()) call list_members(found%face, member, info)
+    if (.not. info%failed()) call check_nodes(mesh, 'surface '//quoted(name), member, node, rows, strange, info)
     if (info%failed()) return
-    if (.not. any(rows(:dimensions, members(found%face)) > 0)) then
+    if (.not. have_rows(rows(:dimensions, :), member)) then
       call report(info, FUGE_ERR_DOF, 'surface '//quoted(name)//': the stiffness matrix has no row of its nodes, so ' &
                   //'none of them moves: leave dof of a surface that is rigid out')
       return
@@ -74,8 +74,8 @@ contains
   !> loads.
   !>
   !> `name`: of the set of nodes, in upper or lower case. `along`: 1 to 3 for x, y, z, 4 to 6 for rotations. `node` and
-  !> `direction` as in `fuge_mesh_contact_surface`. `dof`, allocated afresh: in the order of the set, without nodes whose
-  !> degree of freedom the matrix does not have, since programs leave out those of supports.
+  !> `direction` as in `fuge_mesh_contact_surface`. `dof`, allocated afresh: in the order of the set, without nodes
+  !> whose degree of freedom the matrix does not have, since programs leave out those of supports.
   !> Errors, `dof` unchanged: FUGE_ERR_OPTION if the mesh has no such set, or for another direction; FUGE_ERR_SIZE;
   !> FUGE_ERR_DOF for a matrix without names, a row named twice and a matrix of another mesh, as in
   !> `fuge_mesh_contact_surface`; FUGE_ERR_MEMORY.
@@ -85,8 +85,8 @@ contains
     integer, intent(in) :: along, node(:), direction(:)
     integer, allocatable, intent(inout) :: dof(:)
     type(fuge_info), intent(out) :: info
-    integer, allocatable :: member(:), rows(:, :)
-    integer :: strange
+    integer, allocatable :: found(:), member(:), rows(:, :)
+    integer :: count, k, stat, strange
 
     call fuge_mesh_node_set(mesh, name, member, info)
     if (info%failed()) return
@@ -95,7 +95,22 @@ contains
     if (.not. info%failed()) call find_rows(mesh, node, direction, rows, strange, info)
     if (.not. info%failed()) call check_nodes(mesh, 'set '//quoted(name), member, node, rows, strange, info)
     if (info%failed()) return
-    dof = pack(rows(along, member), rows(along, member) > 0)
+    count = 0
+    do k = 1, size(member)
+      if (rows(along, member(k)) > 0) count = count + 1
+    end do
+    allocate (found(count), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(count)//' degrees of freedom')
+      return
+    end if
+    count = 0
+    do k = 1, size(member)
+      if (rows(along, member(k)) == 0) cycle
+      count = count + 1
+      found(count) = rows(along, member(k))
+    end do
+    call move_alloc(found, dof)
   end subroutine fuge_mesh_degrees
 
   !> Refuse faces of elements that do not have as many dimensions.
@@ -137,8 +152,8 @@ contains
                   //' directions of rows: both are needed for each row')
       return
     else if (.not. any(node /= 0 .and. direction /= 0)) then
-      call report(info, FUGE_ERR_DOF, 'the rows of the stiffness matrix have no names: read it from a file that names ' &
-                  //'node and direction, or with a file of names (names_path)')
+      call report(info, FUGE_ERR_DOF, 'the rows of the stiffness matrix have no names: read it from a file that ' &
+                  //'names node and direction, or with a file of names (names_path)')
       return
     end if
     allocate (rows(DIRECTIONS, size(mesh%node)), stat=stat)
@@ -181,17 +196,44 @@ contains
       call report(info, FUGE_ERR_DOF, 'the stiffness matrix has no row of any node of the mesh, such as ' &
                   //text(missing)//': are mesh and matrix of one model?')
     else if (strange > 0) then
-      call report(info, FUGE_ERR_DOF, name//': node '//text(missing)//' has no row in the stiffness matrix, which has ' &
-                  //'rows of node '//text(node(strange))//', unknown to the mesh: are mesh and matrix of one model?')
+      call report(info, FUGE_ERR_DOF, name//': node '//text(missing)//' has no row in the stiffness matrix, which ' &
+                  //'has rows of node '//text(node(strange))//', unknown to the mesh: are both of one model?')
     end if
   end subroutine check_nodes
 
-  !> The nodes of all faces, repeated where faces meet.
-  pure function members(faces) result(nodes)
-    integer, intent(in) :: faces(:, :)
-    integer, allocatable :: nodes(:)
+  !> Has any of these nodes a row? Those that several faces share may be named more than once.
+  pure function have_rows(rows, member) result(any_row)
+    integer, intent(in) :: rows(:, :), member(:)
+    logical :: any_row
+    integer :: k
 
-    nodes = pack(faces, faces > 0)
-  end function members
+    any_row = .false.
+    do k = 1, size(member)
+      any_row = any(rows(:, member(k)) > 0)
+      if (any_row) return
+    end do
+  end function have_rows
+
+  !> The nodes of all faces, repeated where faces meet. Error: FUGE_ERR_MEMORY.
+  pure subroutine list_members(faces, member, info)
+    integer, intent(in) :: faces(:, :)
+    integer, allocatable, intent(out) :: member(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: f, k, n, stat
+
+    allocate (member(count(faces > 0)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the nodes of '//text(size(faces, 2))//' faces')
+      return
+    end if
+    n = 0
+    do f = 1, size(faces, 2)
+      do k = 1, size(faces, 1)
+        if (faces(k, f) == 0) cycle
+        n = n + 1
+        member(n) = faces(k, f)
+      end do
+    end do
+  end subroutine list_members
 
 end module fuge_mesh_rows

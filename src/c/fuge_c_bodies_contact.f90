@@ -275,8 +275,8 @@ contains
 
     call find_bodies(address, handle, info)
     if (info%failed()) return
-    if (.not. allocated(handle%joined)) call report(info, FUGE_ERR_CALL_ORDER, 'the bodies have not been joined since ' &
-                                                    //'their data were set: call fuge_bodies_join first')
+    if (.not. allocated(handle%joined)) call report(info, FUGE_ERR_CALL_ORDER, 'the bodies have not been joined ' &
+                                                    //'since their data were set: call fuge_bodies_join first')
   end subroutine find_joined
 
   !> The status of a getter, which leaves the message alone on success.

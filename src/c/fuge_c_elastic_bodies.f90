@@ -233,8 +233,8 @@ contains
 
     call find_bodies(bodies, handle, info)
     call check_sizes([dimensions, nodes, most, faces], node, face, info)
-    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, handle%next%opposite, &
-                                               info)
+    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, &
+                                               handle%next%opposite, info)
     if (.not. info%failed()) handle%next%opposite_body = from_zero(body)
     status = report_to_bodies(info, handle)
   end function c_bodies_set_opposite
@@ -248,6 +248,7 @@ contains
     type(bodies_handle), pointer :: handle
     type(fuge_pair_options) :: options
     type(fuge_surface_pair), allocatable :: more(:)
+    type(fuge_surface_pair) :: blank
     real(c_double), pointer :: values(:, :)
     type(fuge_info) :: info
     integer :: n, stat
@@ -278,7 +279,7 @@ contains
         more(n + 1) = handle%next
         more(n + 1)%options = options
         call move_alloc(more, handle%pair)
-        handle%next = fuge_surface_pair()
+        handle%next = blank
       end if
     end if
     status = report_change(info, handle)

@@ -44,8 +44,8 @@ contains
     call find_arguments(handle, name, rows, node, direction, mesh, nodes, directions, info)
     call require_pointer(number, 'count', info)
     call require_count(capacity, 0, 'capacity', 'elements that fit into dof', info)
-    if (.not. info%failed()) call fuge_mesh_degrees(mesh, from_c_string(name), int(along), int(nodes), int(directions), &
-                                                    found, info)
+    if (.not. info%failed()) call fuge_mesh_degrees(mesh, from_c_string(name), int(along), int(nodes), &
+                                                    int(directions), found, info)
     if (.not. info%failed()) then
       call copy_integers(found(:min(int(capacity), size(found))) - 1, dof)
       call copy_integers([size(found)], number)

@@ -8,6 +8,7 @@ module fuge_c_results
   use fuge_c_types, only: c_info, solver_handle, to_c, copy_integers, copy_reals, copy_string, require_pointer
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
+  use fuge_ranks, only: shared_ranks
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
@@ -47,14 +48,16 @@ contains
     type(c_ptr), intent(in), value :: solver, resultant
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
+    type(shared_ranks) :: ranks
 
     status = find_solution(solver, resultant, 'resultant', handle)
     if (status /= FUGE_DONE) return
+    ranks = handle%operator%operator%ranks()
     associate (problem => handle%problem, force => handle%solution%force)
       if (allocated(problem%modes)) then
         call copy_reals(matmul(force, problem%modes), resultant)
       else
-        call copy_reals([sum(force)], resultant)
+        call copy_reals([ranks%total(sum(force))], resultant)
       end if
     end associate
   end function c_get_resultant

@@ -16,8 +16,8 @@
 module fuge_condensation
   use fuge_body_type, only: check_body, check_load_field, fuge_body
   use fuge_condensed_influence, only: find_influence, touched_degrees
-  use fuge_contact_modes, only: check_unresisted, find_contact_modes, load_resultant, remove_motions, split_rigid_modes, &
-    ROUNDING_ERROR
+  use fuge_contact_modes, only: check_unresisted, find_contact_modes, load_resultant, remove_motions, &
+    split_rigid_modes, ROUNDING_ERROR
   use fuge_contact_normals, only: add_contact_forces, check_free_points, displacement_scale, &
     pin_scale, point_displacement
   use fuge_floating_factor, only: factorise_floating

@@ -83,7 +83,7 @@ contains
     self%band => checked%band
     self%width = checked%width
     self%upper = upper
-    self%entries = symmetric_columns()
+    call self%entries%clear()
   end subroutine set
 
   !> Copy a stiffness matrix in compressed columns, of which the entry farthest from the diagonal sets the width;

@@ -60,7 +60,7 @@ contains
     if (info%failed()) return
     ! Through an address, because only `set` knows that the matrix is contiguous.
     call c_f_pointer(c_loc(matrix(1, 1)), self%matrix, shape(matrix))
-    self%entries = symmetric_columns()
+    call self%entries%clear()
   end subroutine set
 
   !> Copy a stiffness matrix in compressed columns; arguments as in `fuge_stiffness_type`.

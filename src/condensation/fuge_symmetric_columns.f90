@@ -15,6 +15,7 @@ module fuge_symmetric_columns
     type(compressed_columns) :: upper
   contains
     procedure :: set
+    procedure :: clear
     procedure :: degrees
     procedure :: diagonal
     procedure :: multiply
@@ -51,6 +52,15 @@ contains
       if (.not. info%failed()) call move_columns(upper, self%upper)
     end if
   end subroutine set
+
+  !> Forget the matrix.
+  pure subroutine clear(self)
+    class(symmetric_columns), intent(inout) :: self
+
+    if (allocated(self%upper%column)) deallocate (self%upper%column)
+    if (allocated(self%upper%row)) deallocate (self%upper%row)
+    if (allocated(self%upper%value)) deallocate (self%upper%value)
+  end subroutine clear
 
   !> Move a matrix without a copy.
   pure subroutine move_columns(source, destination)

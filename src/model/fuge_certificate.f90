@@ -295,7 +295,8 @@ contains
         largest = ROUNDINGS*epsilon(largest)*maxval(abs(mode))*largest
         imbalance = max(abs(sum(mode*force) - resultant) - largest, 0.0_dp)
         if (abs(resultant) > 0.0_dp) own = 0.0_dp
-        violation = max(violation, relative(imbalance, max(sum(abs(mode*force)), abs(resultant), maxval(abs(mode))*own)))
+        violation = max(violation, relative(imbalance, max(sum(abs(mode*force)), abs(resultant), &
+                                                           maxval(abs(mode))*own)))
       end associate
     end do
   end function imbalance_in_modes

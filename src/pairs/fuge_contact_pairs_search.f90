@@ -86,7 +86,7 @@ contains
 
     allocate (normal(3, size(contact%node, 2)), stat=stat)
     if (stat == 0) call start_draft(draft, size(contact%node, 2), stat)
-    if (stat == 0) call set_bends(contact, opposite, options%smooth .and. .not. options%tied, faces, stat)
+    if (stat == 0) call set_bends(contact, opposite, options, faces, stat)
     if (stat == 0) call set_normals(contact, options, faces, normal, stat, info)
     if (info%failed()) return
     if (stat == 0) call find_draft(contact, opposite, options, normal, faces, draft, stat)
@@ -175,17 +175,19 @@ contains
     end if
   end subroutine find_draft
 
-  !> The normals of the smooth surfaces that the meshes stand for, if `smooth`.
-  pure subroutine set_bends(contact, opposite, smooth, faces, stat)
+  !> The normals of the smooth surfaces that the meshes stand for; none if faces are taken as they are.
+  pure subroutine set_bends(contact, opposite, options, faces, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
-    logical, intent(in) :: smooth
+    type(fuge_pair_options), intent(in) :: options
     type(opposite_faces), intent(inout) :: faces
     integer, intent(out) :: stat
+    logical :: smooth
 
+    smooth = options%smooth .and. .not. options%tied
     allocate (faces%own_bend(3, size(contact%face, 1), merge(size(contact%face, 2), 0, smooth)), &
               faces%bend(3, size(opposite%face, 1), merge(size(opposite%face, 2), 0, smooth)), stat=stat)
-    if (stat == 0 .and. smooth) call find_smooth_normals(contact, faces%own_bend, stat)
-    if (stat == 0 .and. smooth) call find_smooth_normals(opposite, faces%bend, stat)
+    if (stat == 0 .and. smooth) call find_smooth_normals(contact, options%crease, faces%own_bend, stat)
+    if (stat == 0 .and. smooth) call find_smooth_normals(opposite, options%crease, faces%bend, stat)
   end subroutine set_bends
 
   !> Refuse surfaces none of whose points are opposite to each other.
@@ -238,7 +240,8 @@ contains
         if (options%normals == FUGE_NORMALS_OPPOSITE) direction = -unit(draft%normal(:, i))
         if (options%tied) direction = merge(1.0_dp, 0.0_dp, [1, 2, 3] == axis)
         call fill_point(options, draft, i, direction, n, found)
-        call fill_row(contact, opposite, draft, i, direction(:dimensions), place, found%dof(:, n), found%normal(:, n))
+        call fill_row(contact, opposite, draft, i, direction(:dimensions), place, found%dof(:, n), found%normal(:, n), &
+                      found%direction(:, n))
       end do
     end do
     call list_unpaired(contact, draft, found, stat)
@@ -257,7 +260,7 @@ contains
               found%place(dimensions - 1, n), stat=stat)
   end subroutine make_room
 
-  !> Everything about contact point `n`, of node `i`, except its row.
+  !> Everything about contact point `n`, of node `i`, except its row and direction.
   pure subroutine fill_point(options, draft, i, direction, n, found)
     type(fuge_pair_options), intent(in) :: options
     type(pair_draft), intent(in) :: draft
@@ -267,7 +270,6 @@ contains
 
     found%pair(n) = found%pairs
     found%node(n) = i
-    found%direction(:, n) = direction(:size(found%direction, 1))
     found%area(n) = draft%area(i)
     found%face(n) = draft%face(i)
     found%place(:, n) = draft%place(:size(found%place, 1), i)/draft%share(i)
@@ -280,14 +282,15 @@ contains
   end subroutine fill_point
 
   !> How the gap of node `i` along `direction` depends on the degrees of freedom. `place`, zeros, is left as it was.
-  pure subroutine fill_row(contact, opposite, draft, i, direction, place, dof, normal)
+  !> `resultant`: how it depends on a translation of the opposite surface, `direction` but for smooth bodies.
+  pure subroutine fill_row(contact, opposite, draft, i, direction, place, dof, normal, resultant)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(pair_draft), intent(in) :: draft
     integer, intent(in) :: i
     real(dp), intent(in) :: direction(:)
     integer, intent(inout) :: place(:)
     integer, intent(out) :: dof(:)
-    real(dp), intent(out) :: normal(:)
+    real(dp), intent(out) :: normal(:), resultant(:)
     integer :: nodes(size(dof)), used
     real(dp) :: axes(3, size(dof)), weight(size(dof))
 
@@ -300,6 +303,11 @@ contains
     call copy_row(draft%other, i, nodes, weight, axes)
     call add_terms(opposite, nodes(:row_length(draft%other, i)), weight/draft%weight(i), axes/draft%weight(i), &
                    direction, place, used, dof, normal)
+    resultant = direction
+    associate (n => row_length(draft%other, i), d => size(direction))
+      if (any(abs(axes(:, :n)) > 0.0_dp)) &
+        resultant = (direction*sum(weight(:n)) + sum(axes(:d, :n), 2))/draft%weight(i)
+    end associate
     place(dof(:used)) = 0
   end subroutine fill_row
 

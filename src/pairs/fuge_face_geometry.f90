@@ -19,6 +19,9 @@ module fuge_face_geometry
     real(dp) :: x(3, MOST_NODES) = 0.0_dp
     !> Unit normals of the smooth surface that the face stands for, at its nodes, where known, (3, count); else 0.
     real(dp) :: normal(3, MOST_NODES) = 0.0_dp
+    !> How far the normals at the ends of each side lean along it to the same end, times its length; zero on an arc of a
+    !> circle. Of an edge of three nodes the sum of both halves.
+    real(dp) :: lean(4) = 0.0_dp
     !> Is that surface another one than the face itself?
     logical :: bent = .false.
   end type face_nodes
@@ -65,7 +68,23 @@ contains
         face%bent = face%bent .or. abs(dot_product(own, face%normal(:, k))) > FLAT*norm2(own)
       end do
     end do
+    if (face%kind == EDGE_3) then
+      face%lean(1) = lean_along(face, 1, 3) + lean_along(face, 3, 2)
+    else if (face%count == corner_count(face%kind)) then
+      do k = 1, merge(1, face%count, face%kind == EDGE_2)
+        face%lean(k) = lean_along(face, k, modulo(k, face%count) + 1)
+      end do
+    end if
   end subroutine bend
+
+  !> How far the normals at two nodes lean to the same end of the way from one to the other, times its length.
+  pure function lean_along(face, i, j) result(lean)
+    type(face_nodes), intent(in) :: face
+    integer, intent(in) :: i, j
+    real(dp) :: lean
+
+    lean = dot_product(face%x(:, j) - face%x(:, i), face%normal(:, i) + face%normal(:, j))
+  end function lean_along
 
   !> The normal at a place, outwards; its length is the area, or length, per area of the places.
   pure function face_normal(face, place) result(normal)

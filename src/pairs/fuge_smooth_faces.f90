@@ -100,7 +100,8 @@ contains
       if (.not. regular) return
       next = next + step
       if (maxval(abs(next - place)) > FAR) return
-      if (maxval(abs(step)) <= 4.0_dp*epsilon(1.0_dp)) exit
+      ! The next step would be as small as its square.
+      if (maxval(abs(step)) <= 1.0e-8_dp) exit
     end do
     place = next
   end subroutine find_opposite
@@ -133,15 +134,14 @@ contains
     type(face_nodes), intent(in) :: face
     real(dp), intent(in) :: values(MOST_NODES)
     real(dp) :: turn
-    integer :: i, j, k
+    integer :: j, k
 
     turn = 0.0_dp
-    if (face%kind == EDGE_3) turn = -0.25_dp*values(3)*(values(2) - values(1))*(lean(face, 1, 3) + lean(face, 3, 2))
+    if (face%kind == EDGE_3) turn = -0.25_dp*values(3)*(values(2) - values(1))*face%lean(1)
     if (face%count > corner_count(face%kind)) return
     do k = 1, merge(1, face%count, face%kind <= EDGE_3)
-      i = k
       j = modulo(k, face%count) + 1
-      turn = turn - 0.5_dp*values(i)*values(j)*(values(i) - values(j))*lean(face, i, j)
+      turn = turn - 0.5_dp*values(k)*values(j)*(values(k) - values(j))*face%lean(k)
     end do
   end function turn
 
@@ -150,30 +150,19 @@ contains
     type(face_nodes), intent(in) :: face
     real(dp), intent(in) :: values(MOST_NODES), slopes(MOST_NODES)
     real(dp) :: slope
-    integer :: i, j, k
+    integer :: j, k
 
     slope = 0.0_dp
-    if (face%kind == EDGE_3) slope = -0.25_dp*(slopes(3)*(values(2) - values(1)) + values(3)*(slopes(2) - slopes(1))) &
-      *(lean(face, 1, 3) + lean(face, 3, 2))
+    if (face%kind == EDGE_3) slope = -0.25_dp*face%lean(1)*(slopes(3)*(values(2) - values(1)) &
+                                                            + values(3)*(slopes(2) - slopes(1)))
     if (face%count > corner_count(face%kind)) return
     do k = 1, merge(1, face%count, face%kind <= EDGE_3)
-      i = k
       j = modulo(k, face%count) + 1
-      associate (u => values(i), v => values(j))
-        slope = slope - 0.5_dp*((2.0_dp*u - v)*v*slopes(i) + (u - 2.0_dp*v)*u*slopes(j))*lean(face, i, j)
+      associate (u => values(k), v => values(j))
+        slope = slope - 0.5_dp*((2.0_dp*u - v)*v*slopes(k) + (u - 2.0_dp*v)*u*slopes(j))*face%lean(k)
       end associate
     end do
   end function turn_slope
-
-  !> How far the normals at the ends of a side lean along it to the same end, times its length; zero on an arc of a
-  !> circle.
-  pure function lean(face, i, j)
-    type(face_nodes), intent(in) :: face
-    integer, intent(in) :: i, j
-    real(dp) :: lean
-
-    lean = dot_product(face%x(:, j) - face%x(:, i), face%normal(:, i) + face%normal(:, j))
-  end function lean
 
   !> The gap between two smooth surfaces from a point on each, `way` apart, and the unit normals there: the mean of the
   !> ways to the tangents along the bisector of the normals.

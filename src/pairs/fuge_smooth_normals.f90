@@ -1,6 +1,6 @@
 !> Normals of the smooth surface that a mesh stands for, at the nodes of each face.
 !>
-!> Each face has normals of its own: at an edge of the body, where faces meet at more than `CREASE`, they differ from
+!> Each face has normals of its own: at an edge of the body, where faces meet at more than a crease angle, they differ from
 !> those of its neighbour, so that the edge stays sharp.
 module fuge_smooth_normals
   use fuge_corner_normals, only: corner_normal, half_edge_normal, middle_edge_normal, reflected, side_tangent
@@ -13,8 +13,8 @@ module fuge_smooth_normals
 
   public :: find_smooth_normals, mean_of_faces
 
-  !> Cosine of the angle, 40 degrees, beyond which faces meet at an edge of the body.
-  real(dp), parameter :: CREASE = 0.766_dp
+  !> Rounding of the cosine of an angle between faces.
+  real(dp), parameter :: ROUNDING = 16.0_dp*epsilon(1.0_dp)
   !> A side leads away from the border of the surface if this part of it is across the border.
   real(dp), parameter :: AWAY = 0.3_dp
   !> The sum of two unit vectors along the border, away from each other, beyond which it is no corner: 120 degrees.
@@ -43,19 +43,24 @@ module fuge_smooth_normals
     !> The two sides at the border of the surface, pointing away from each other: sum of their unit vectors, and of
     !> their tangents (`side_tangent`); zero inside.
     real(dp), allocatable :: border(:, :, :), tangents(:, :, :)
+    !> Least cosine of the angle between the normals of faces that continue each other smoothly.
+    real(dp) :: least_cosine = 1.0_dp
   end type corner_data
 
 contains
 
-  !> Unit normals, (3, most nodes of a face, faces). `stat` is not zero without memory.
-  pure subroutine find_smooth_normals(surface, normal, stat)
+  !> Unit normals, (3, most nodes of a face, faces). `crease`: angle in degrees beyond which faces meet at an edge of the
+  !> body. `stat` is not zero without memory.
+  pure subroutine find_smooth_normals(surface, crease, normal, stat)
     type(fuge_surface_mesh), intent(in) :: surface
+    real(dp), intent(in) :: crease
     real(dp), intent(out) :: normal(:, :, :)
     integer, intent(out) :: stat
     type(node_faces) :: around
     type(corner_data) :: data
     integer :: f, k, stage
 
+    data%least_cosine = cos(crease*(acos(-1.0_dp)/180.0_dp)) - ROUNDING
     call list_faces(surface, around, stat)
     associate (most => size(normal, 2), faces => size(normal, 3))
       if (stat == 0) allocate (data%own(3, most, faces), data%normal(3, most, faces), data%border(3, most, faces), &
@@ -181,7 +186,7 @@ contains
     quadratic = 0
     do p = around%begin(surface%face(k, f)), around%begin(surface%face(k, f) + 1) - 1
       associate (g => around%face(p), here => around%corner(p))
-        if (.not. continues(data%own(:, k, f), data%own(:, here, g))) cycle
+        if (dot_product(unit(data%own(:, k, f)), unit(data%own(:, here, g))) < data%least_cosine) cycle
         normal = normal + data%own(:, here, g)
         face = get_face(surface, g)
         if (face%kind == EDGE_3) then
@@ -200,14 +205,6 @@ contains
     ! corner have opposite signs, and the former are twice as large.
     if (quadratic == 2) data%normal(:, k, f) = unit(unit(normal) + 2.0_dp*unit(halves))
   end subroutine average_corner
-
-  !> Do two faces with these normals at a common node belong to one smooth surface?
-  pure function continues(normal, other)
-    real(dp), intent(in) :: normal(3), other(3)
-    logical :: continues
-
-    continues = dot_product(unit(normal), unit(other)) >= CREASE
-  end function continues
 
   !> Tangents of the sides from corner `k` to the next one and to the one before, divided by their lengths. In the plane
   !> the second one is, and so is the difference of the two, across the plane where there is an edge on one side only.
@@ -284,7 +281,7 @@ contains
     others = 0.0_dp
     do p = around%begin(surface%face(k, f)), around%begin(surface%face(k, f) + 1) - 1
       associate (here => around%corner(p), g => around%face(p))
-        if (.not. continues(data%own(:, k, f), data%own(:, here, g))) cycle
+        if (dot_product(unit(data%own(:, k, f)), unit(data%own(:, here, g))) < data%least_cosine) cycle
         face = get_face(surface, g)
         corners = corner_count(face%kind)
         do turn = 1, corners - 1, max(corners - 2, 1)

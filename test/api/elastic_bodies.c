@@ -79,7 +79,8 @@ static fuge_bodies *two_blocks(const block *lower, const block *upper) {
   int number = -1;
 
   for (int k = 0; k <= upper->elements; k++)
-    load[2 * (k + upper->elements + 1) + 1] = -PRESSURE / upper->elements * (k == 0 || k == upper->elements ? 0.5 : 1.0);
+    load[2 * (k + upper->elements + 1) + 1] =
+        -PRESSURE / upper->elements * (k == 0 || k == upper->elements ? 0.5 : 1.0);
   CHECK_STATUS(fuge_bodies_create(&bodies, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_bodies_add(bodies, lower->degrees, lower->column, lower->row, lower->value, &number), FUGE_DONE);
   CHECK_INT(number, 0);

@@ -70,7 +70,8 @@ contains
       rows = rows + 1
       i = findloc(upper%number(contact%pairs%node) == node .and. matmul(values(4:3 + dimensions), &
                   contact%pairs%direction) > 1.0_dp - TOLERANCE, .true., dim=1)
-      if (i == 0 .or. pair /= 1 .or. all(body /= [character(len=5) :: 'upper', 'ring', 'both'])) error stop 'another point'
+      if (i == 0 .or. pair /= 1) error stop 'another point'
+      if (all(body /= [character(len=5) :: 'upper', 'ring', 'both'])) error stop 'another body'
       if (norm2(values(:dimensions) - upper%position(:, contact%pairs%node(i))) > TOLERANCE) error stop 'another place'
       if (scene == 'ring') then
         call check_ring(values(1), area)

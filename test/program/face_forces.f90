@@ -5,7 +5,8 @@ program face_forces
   implicit none
 
   real(dp), parameter :: PI = acos(-1.0_dp)
-  !> A square of side 2 and a triangle of area 1/2, in the plane z = 1, seen from above; then the middles of their sides.
+  !> A square of side 2 and a triangle of area 1/2, in the plane z = 1, seen from above; then the middles of their
+  !> sides.
   real(dp), parameter :: SQUARE(3, 8) = reshape(real([ &
     0, 0, 1, 2, 0, 1, 2, 2, 1, 0, 2, 1, 1, 0, 1, 2, 1, 1, 1, 2, 1, 0, 1, 1], dp), [3, 8])
   real(dp), parameter :: TRIANGLE(3, 6) = 0.5_dp*reshape(real([ &

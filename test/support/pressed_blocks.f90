@@ -33,8 +33,8 @@ contains
     integer :: d, k
 
     d = size(turn, 1)
-    call make_block(lower_kind, [lower_count, 1], length*[0.0_dp*WIDE(:d - 1), -0.5_dp], length*[WIDE(:d - 1), 0.0_dp], &
-                    skew, turn, 0, scene%block(1))
+    call make_block(lower_kind, [lower_count, 1], length*[0.0_dp*WIDE(:d - 1), -0.5_dp], &
+                    length*[WIDE(:d - 1), 0.0_dp], skew, turn, 0, scene%block(1))
     call make_block(upper_kind, [upper_count, 1], length*[0.0_dp*WIDE(:d - 1), 0.0_dp], length*[WIDE(:d - 1), 0.4_dp], &
                     skew, turn, 0, scene%block(2))
     scene%block%young = [1.0_dp, 2.5_dp]*unit_of_stress(d, length, force)

@@ -1,0 +1,15 @@
+/* Communicators of C as Fortran knows them. */
+#include "fuge_mpi.h"
+
+int fuge_operator_halfspace_comm(int nx, int ny, double spacing_x, double spacing_y, double e_star, int element,
+                                 int boundary, int comm, fuge_operator **op, char *message, size_t len);
+
+/* Visible in a shared library, unlike what else is written in C. */
+#if defined(__GNUC__)
+__attribute__((visibility("default")))
+#endif
+int fuge_operator_halfspace_mpi(int nx, int ny, double spacing_x, double spacing_y, double e_star, int element,
+                                int boundary, MPI_Comm comm, fuge_operator **op, char *message, size_t len) {
+  return fuge_operator_halfspace_comm(nx, ny, spacing_x, spacing_y, e_star, element, boundary, (int)MPI_Comm_c2f(comm),
+                                      op, message, len);
+}

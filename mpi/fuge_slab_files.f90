@@ -1,0 +1,220 @@
+!> Values of a grid in files that all ranks read and write together, each its own rows.
+!>
+!> The format is that of numpy, .npy: a header with the shape, and the numbers one after the other. The array has ny
+!> rows of nx numbers, in the order of a grid's points, so that numpy.load(path)[j, i] is the cell i of row j, from 0.
+module fuge_slab_files
+  use, intrinsic :: iso_fortran_env, only: int8
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_ranks, only: shared_ranks
+  use fuge_slab_halfspace, only: fuge_mpi_halfspace_operator
+  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use mpi_f08, only: MPI_Bcast, MPI_File, MPI_File_close, MPI_File_open, MPI_File_read_at, MPI_File_read_at_all, &
+    MPI_File_set_size, MPI_File_set_view, MPI_File_write_at, MPI_File_write_at_all, MPI_Get_count, MPI_Status, &
+    MPI_CHARACTER, MPI_DOUBLE_PRECISION, MPI_INFO_NULL, MPI_INTEGER, MPI_MODE_CREATE, MPI_MODE_RDONLY, &
+    MPI_MODE_WRONLY, MPI_OFFSET_KIND, MPI_STATUS_IGNORE, MPI_SUCCESS
+  implicit none
+  private
+
+  public :: fuge_mpi_read_rows, fuge_mpi_write_rows
+
+  !> Bytes of the header that is written.
+  integer, parameter :: HEADER = 128
+  !> Bytes of a header that is read, at most.
+  integer, parameter :: LONGEST_HEADER = 1024
+  !> The first bytes of a file: 147 and the name, then the version and the length of the text.
+  integer, parameter :: FIRST_BYTE = 147
+  character(len=*), parameter :: NAME = 'NUMPY'
+  integer, parameter :: LENGTH_BYTES = 10
+
+contains
+
+  !> Read the rows of this rank, `values` (points of this rank), from the numpy file `path`, an array (ny, nx) of real
+  !> numbers of 8 bytes. All ranks call it.
+  !>
+  !> Errors, on all ranks, which leave `values` as they were: FUGE_ERR_CALL_ORDER before the operator is set,
+  !> FUGE_ERR_FILE, FUGE_ERR_SIZE for another shape, FUGE_ERR_MEMORY.
+  subroutine fuge_mpi_read_rows(path, operator, values, info)
+    character(len=*), intent(in) :: path
+    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    real(dp), allocatable, intent(inout) :: values(:)
+    type(fuge_info), intent(out) :: info
+    real(dp), allocatable :: rows(:)
+    type(shared_ranks) :: ranks
+    type(MPI_File) :: file
+    type(MPI_Status) :: status
+    integer :: begin, count, error, stat
+
+    call require_grid(operator, info)
+    if (info%failed()) return
+    ranks = operator%ranks()
+    allocate (rows(operator%points()), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(operator%points())//' values')
+    call ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    call MPI_File_open(operator%comm(), path, MPI_MODE_RDONLY, MPI_INFO_NULL, file, error)
+    if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be opened')
+    call ranks%agree(info)
+    if (info%failed()) return
+    call read_header(path, file, operator, begin, info)
+    call ranks%agree(info)
+    if (.not. info%failed()) then
+      call MPI_File_read_at_all(file, place_of(operator, begin), rows, size(rows), MPI_DOUBLE_PRECISION, status, error)
+      count = -1
+      if (error == MPI_SUCCESS) call MPI_Get_count(status, MPI_DOUBLE_PRECISION, count)
+      if (count /= size(rows)) call report(info, FUGE_ERR_FILE, path//' ends too early')
+      call ranks%agree(info)
+    end if
+    call MPI_File_close(file, error)
+    if (.not. info%failed()) call move_alloc(rows, values)
+  end subroutine fuge_mpi_read_rows
+
+  !> Write `values` (points of this rank) to the numpy file `path`, which is replaced. All ranks call it. Errors, on all
+  !> ranks: FUGE_ERR_CALL_ORDER before the operator is set, FUGE_ERR_SIZE, FUGE_ERR_FILE.
+  subroutine fuge_mpi_write_rows(path, operator, values, info)
+    character(len=*), intent(in) :: path
+    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    real(dp), intent(in), contiguous :: values(:)
+    type(fuge_info), intent(out) :: info
+    type(shared_ranks) :: ranks
+    type(MPI_File) :: file
+    integer :: closed, error, cells(2)
+
+    call require_grid(operator, info)
+    if (info%failed()) return
+    ranks = operator%ranks()
+    if (size(values) /= operator%points()) call report(info, FUGE_ERR_SIZE, text(size(values))//' value(s): the rows ' &
+                                                       //'of this rank have '//text(operator%points()))
+    call ranks%agree(info)
+    if (info%failed()) return
+    call MPI_File_open(operator%comm(), path, ior(MPI_MODE_CREATE, MPI_MODE_WRONLY), MPI_INFO_NULL, file, error)
+    if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be opened for writing')
+    call ranks%agree(info)
+    if (info%failed()) return
+    cells = operator%grid()
+    call MPI_File_set_size(file, HEADER + 8_MPI_OFFSET_KIND*cells(1)*cells(2), error)
+    if (error == MPI_SUCCESS .and. ranks%number() == 0) then
+      call MPI_File_write_at(file, 0_MPI_OFFSET_KIND, header_of(cells), HEADER, MPI_CHARACTER, MPI_STATUS_IGNORE, error)
+    end if
+    if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be written')
+    call ranks%agree(info)
+    if (.not. info%failed()) then
+      call MPI_File_write_at_all(file, place_of(operator, HEADER), values, size(values), MPI_DOUBLE_PRECISION, &
+                                 MPI_STATUS_IGNORE, error)
+      if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be written: is the disk full?')
+      call ranks%agree(info)
+    end if
+    call MPI_File_close(file, closed)
+    if (closed /= MPI_SUCCESS .and. .not. info%failed()) then
+      call report(info, FUGE_ERR_FILE, path//' cannot be closed: is the disk full?')
+    end if
+    call ranks%agree(info)
+  end subroutine fuge_mpi_write_rows
+
+  subroutine require_grid(operator, info)
+    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    type(fuge_info), intent(inout) :: info
+
+    if (any(operator%grid() < 1)) call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it first')
+  end subroutine require_grid
+
+  !> Where the rows of this rank begin in a file whose numbers begin at byte `begin`.
+  function place_of(operator, begin) result(place)
+    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    integer, intent(in) :: begin
+    integer(MPI_OFFSET_KIND) :: place
+    integer :: cells(2), rows(2)
+
+    cells = operator%grid()
+    rows = operator%own_rows()
+    place = begin + 8_MPI_OFFSET_KIND*cells(1)*(rows(1) - 1)
+  end function place_of
+
+  !> How numpy calls the real numbers of this machine.
+  pure function number_type() result(name)
+    character(len=3) :: name
+    integer(int8) :: bytes(storage_size(1)/8)
+
+    bytes = transfer(1, bytes)
+    name = merge('<f8', '>f8', bytes(1) == 1_int8)
+  end function number_type
+
+  !> The header of an array (ny, nx): version 1.0, and a dictionary that ends with a newline.
+  pure function header_of(cells) result(bytes)
+    integer, intent(in) :: cells(2)
+    character(len=HEADER) :: bytes
+
+    bytes = achar(0)
+    bytes(1:1) = transfer(int(FIRST_BYTE - 256, int8), 'a')
+    bytes(2:) = NAME//achar(1)//achar(0)//achar(HEADER - LENGTH_BYTES)//achar(0)//'{''descr'': '''//number_type() &
+                //''', ''fortran_order'': False, ''shape'': ('//text(cells(2))//', '//text(cells(1))//'), }'
+    bytes(HEADER:) = new_line('a')
+  end function header_of
+
+  !> Read the header on rank 0: `begin`, the byte at which the numbers begin, on all ranks. Errors, on rank 0:
+  !> FUGE_ERR_FILE, FUGE_ERR_SIZE.
+  subroutine read_header(path, file, operator, begin, info)
+    character(len=*), intent(in) :: path
+    type(MPI_File), intent(in) :: file
+    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    integer, intent(out) :: begin
+    type(fuge_info), intent(inout) :: info
+    character(len=LONGEST_HEADER) :: bytes
+    type(shared_ranks) :: ranks
+    integer :: error
+
+    ranks = operator%ranks()
+    begin = 0
+    if (ranks%number() == 0) then
+      bytes = ' '
+      call MPI_File_read_at(file, 0_MPI_OFFSET_KIND, bytes, len(bytes), MPI_CHARACTER, MPI_STATUS_IGNORE, error)
+      if (error /= MPI_SUCCESS) then
+        call report(info, FUGE_ERR_FILE, path//' cannot be read')
+      else
+        call parse_header(path, bytes, operator%grid(), begin, info)
+      end if
+    end if
+    call MPI_Bcast(begin, 1, MPI_INTEGER, 0, operator%comm())
+  end subroutine read_header
+
+  !> Where the numbers begin, if the header is that of `cells`.
+  pure subroutine parse_header(path, bytes, cells, begin, info)
+    character(len=*), intent(in) :: path, bytes
+    integer, intent(in) :: cells(2)
+    integer, intent(out) :: begin
+    type(fuge_info), intent(inout) :: info
+    integer :: first, last, shape(2), stat
+
+    begin = 0
+    if (bytes(2:6) /= NAME .or. iachar(bytes(7:7)) < 1 .or. iachar(bytes(7:7)) > 3) then
+      call report(info, FUGE_ERR_FILE, path//' is no file of numpy: write it with numpy.save')
+      return
+    end if
+    ! The length has two bytes in version 1, else four.
+    first = merge(LENGTH_BYTES, LENGTH_BYTES + 2, iachar(bytes(7:7)) == 1) + 1
+    begin = first - 1 + byte(bytes(9:9)) + 256*byte(bytes(10:10))
+    if (index(bytes, number_type()) == 0 .or. index(bytes, '''fortran_order'': False') == 0) then
+      call report(info, FUGE_ERR_FILE, path//' has no real numbers of 8 bytes row by row: save ' &
+                  //'numpy.ascontiguousarray(heights, dtype=float)')
+      return
+    end if
+    first = index(bytes, '''shape'': (') + len('''shape'': (')
+    last = first + index(bytes(first:), ')') - 2
+    shape = 0
+    stat = 1
+    if (first > len('''shape'': (') .and. last >= first) read (bytes(first:last), *, iostat=stat) shape
+    if (stat /= 0 .or. any(shape /= cells(2:1:-1))) then
+      call report(info, FUGE_ERR_SIZE, path//' has the shape ('//bytes(first:min(last, first + 40)) &
+                  //'): the grid needs ('//text(cells(2))//', '//text(cells(1))//')')
+    end if
+  end subroutine parse_header
+
+  !> A byte as a number from 0 to 255.
+  pure function byte(character) result(value)
+    character, intent(in) :: character
+    integer :: value
+
+    value = modulo(int(transfer(character, 0_int8)), 256)
+  end function byte
+
+end module fuge_slab_files

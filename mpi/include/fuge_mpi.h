@@ -1,0 +1,45 @@
+/* Surfaces over MPI: the library fuge_mpi, beside fuge.  Every rank of a communicator has some rows of a grid, all
+ * ranks make the same calls in the same order, with the same arguments but for arrays of points, whose n is the number
+ * of points of the rank.  A solver of fuge.h solves on an operator of this header as on any other: fuge_solver_new,
+ * fuge_set_gap, fuge_set_load or fuge_set_approach, fuge_solve, and the results, where fuge_get_resultant sums over the
+ * ranks.  The solution is that of one process.  Modes, play, excluded points and derivatives are FUGE_ERR_UNSUPPORTED.
+ *
+ * An error on one rank ends fuge_solve on all of them with the same status, and the message names the rank.  A call
+ * that concerns one rank only, such as fuge_set_gap, may fail on that rank alone: let the ranks agree (MPI_Allreduce of
+ * the status) before they go on.  Arrays of a rank without points may be any pointer but NULL.  The library calls neither
+ * MPI_Init nor MPI_Abort; free solvers and operators on all ranks before MPI_Finalize. */
+#ifndef FUGE_MPI_H
+#define FUGE_MPI_H
+
+#include <fuge.h>
+#include <mpi.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* An elastic half-space of nx x ny equal rectangles, as fuge_operator_halfspace, whose rows the ranks of comm share.
+ *   nx, ny     in   of the whole grid; spacings, e_star and element as in fuge_operator_halfspace
+ *   boundary   in   FUGE_FREE or FUGE_PERIODIC
+ *   comm       in   is duplicated
+ *   op         out  set on success only, on all ranks
+ * Errors are those of fuge_operator_halfspace, on all ranks; FUGE_ERR_OPTION if the arguments differ between the ranks,
+ * FUGE_ERR_UNSUPPORTED for another boundary, FUGE_ERR_CALL_ORDER if MPI is not running. */
+int fuge_operator_halfspace_mpi(int nx, int ny, double spacing_x, double spacing_y, double e_star, int element,
+                                int boundary, MPI_Comm comm, fuge_operator **op, char *message, size_t len);
+
+/* The rows of this rank: first, from 0, and their number, 0 where there are fewer rows than ranks.  Its points are
+ * nx*rows; point i + nx*j is the cell i of row first + j.  FUGE_ERR_UNSUPPORTED for another operator. */
+int fuge_operator_rows(const fuge_operator *op, int *first, int *rows, char *message, size_t len);
+
+/* Read values (nx*rows of this rank) from a file of numpy, .npy, an array (ny, nx) of doubles, or write one: all ranks
+ * together, each its own rows.  FUGE_ERR_FILE, FUGE_ERR_SIZE for another shape, FUGE_ERR_UNSUPPORTED for another
+ * operator; on all ranks, values unchanged. */
+int fuge_mpi_read_rows(const char *path, const fuge_operator *op, double *values, char *message, size_t len);
+int fuge_mpi_write_rows(const char *path, const fuge_operator *op, const double *values, char *message, size_t len);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

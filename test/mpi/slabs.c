@@ -1,0 +1,117 @@
+/* A surface over MPI from C: heights from a file of numpy, pressures to another one, and what is refused. */
+#include <fuge_mpi.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NX = 150, NY = 131 };
+
+static int failures, rank;
+
+static void expect(int true, const char *what, const char *message) {
+  if (true) return;
+  failures++;
+  printf("rank %d, not as expected: %s: %s\n", rank, what, message);
+}
+
+int main(int argc, char **argv) {
+  char message[FUGE_MESSAGE_LENGTH + 1] = "", first_bytes[200];
+  const char *path = "slabs_heights.npy", *forces = "slabs_forces.npy";
+  double *gap, *read, *force, load = 0, motion;
+  int all, first = -1, i, j, rows = -1, status;
+  fuge_info info;
+  fuge_operator *op = NULL, *dense = NULL;
+  fuge_solver *solver = NULL;
+  FILE *file;
+
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  status = fuge_operator_halfspace_mpi(NX, NY, 1.0, 1.0, -1.0, FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message,
+                                       sizeof message);
+  expect(status == FUGE_ERR_MODULUS && !op, "a modulus", message);
+  status = fuge_operator_halfspace_mpi(NX, NY, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message,
+                                       sizeof message);
+  expect(status == FUGE_DONE && op, "the operator", message);
+  status = fuge_operator_rows(op, &first, &rows, message, sizeof message);
+  expect(status == FUGE_DONE && first >= 0 && rows >= 0, "rows", message);
+  MPI_Allreduce(&rows, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  expect(all == NY, "all rows", message);
+  gap = malloc(sizeof *gap * (size_t)(NX * rows + 1));
+  read = malloc(sizeof *read * (size_t)(NX * rows + 1));
+  force = malloc(sizeof *force * (size_t)(NX * rows + 1));
+  for (j = 0; j < rows; j++)
+    for (i = 0; i < NX; i++)
+      gap[i + NX * j] = 1e-4 * (pow(2 * i + 1 - NX, 2) + pow(2 * (first + j) + 1 - NY, 2));
+
+  status = fuge_mpi_write_rows(path, op, gap, message, sizeof message);
+  expect(status == FUGE_DONE, "write", message);
+  if (rank == 0) {
+    file = fopen(path, "rb");
+    memset(first_bytes, 0, sizeof first_bytes);
+    expect(file && fread(first_bytes, 1, 128, file) == 128, "the header", path);
+    expect(memcmp(first_bytes, "\223NUMPY\1\0\166\0", 10) == 0 && first_bytes[127] == '\n', "magic", first_bytes + 1);
+    expect(strstr(first_bytes + 10, "'fortran_order': False, 'shape': (131, 150), }") != NULL, "shape", first_bytes + 10);
+    if (file) {
+      fseek(file, 0, SEEK_END);
+      expect(ftell(file) == 128 + 8L * NX * NY, "the length", path);
+      fclose(file);
+    }
+  }
+  status = fuge_mpi_read_rows(path, op, read, message, sizeof message);
+  expect(status == FUGE_DONE && memcmp(read, gap, sizeof *gap * (size_t)(NX * rows)) == 0, "read", message);
+  status = fuge_mpi_read_rows("no/such/file.npy", op, read, message, sizeof message);
+  expect(status == FUGE_ERR_FILE, "no file", message);
+
+  status = fuge_solver_new(op, NULL, &solver, message, sizeof message);
+  expect(status == FUGE_DONE, "the solver", message);
+  status = fuge_solve(solver);
+  expect(status == FUGE_ERR_CALL_ORDER, "no gaps", "");
+  if (rank != 1) fuge_set_gap(solver, read, NULL);
+  fuge_set_load(solver, 2.0);
+  MPI_Comm_size(MPI_COMM_WORLD, &all);
+  if (all > 1) {
+    status = fuge_solve(solver);
+    fuge_solver_message(solver, message, sizeof message);
+    expect(status == FUGE_ERR_CALL_ORDER && strncmp(message, "rank 1: ", 8) == 0, "no gaps on one rank", message);
+  }
+  status = fuge_set_gap(solver, read, NULL);
+  if (status == FUGE_DONE) status = fuge_solve(solver);
+  fuge_solver_message(solver, message, sizeof message);
+  expect(status == FUGE_DONE, "solve", message);
+  fuge_get_force(solver, force);
+  fuge_get_motion(solver, &motion);
+  fuge_get_resultant(solver, &load);
+  fuge_get_info(solver, &info);
+  expect(fabs(load - 2.0) < 1e-12 && info.contacts > 0 && motion > 0, "the load", message);
+  status = fuge_mpi_write_rows(forces, op, force, message, sizeof message);
+  expect(status == FUGE_DONE, "write forces", message);
+  if (rank == 0) printf("contacts %d products %d approach %.12g\n", info.contacts, info.products, motion);
+  fuge_solver_free(&solver);
+  fuge_operator_free(&op);
+
+  status = fuge_operator_halfspace(2, 2, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &dense, message, sizeof message);
+  if (status == FUGE_DONE) status = fuge_operator_rows(dense, &first, &rows, message, sizeof message);
+  expect(status == FUGE_ERR_UNSUPPORTED, "another operator", message);
+  fuge_operator_free(&dense);
+
+  /* Another shape than that of the file. */
+  fuge_operator_halfspace_mpi(NY, NX, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message, sizeof message);
+  fuge_operator_rows(op, &first, &rows, message, sizeof message);
+  read = realloc(read, sizeof *read * (size_t)(NY * rows + 1));
+  status = fuge_mpi_read_rows(path, op, read, message, sizeof message);
+  expect(status == FUGE_ERR_SIZE && strstr(message, "(131, 150)") != NULL, "another shape", message);
+  fuge_operator_free(&op);
+
+  free(gap);
+  free(read);
+  free(force);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank == 0) {
+    remove(path);
+    remove(forces);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &failures, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Finalize();
+  return failures > 0;
+}
