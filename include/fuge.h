@@ -41,8 +41,9 @@
  *
  * MESSAGES.  A message says what is wrong, where, and how to mend it; it is empty when all
  * is well, but for a remark of a solve with status 0 whose contact reaches the rim of a free
- * grid of fuge_operator_halfspace: the grid is too small unless the bodies end there.  A call on a solver or a body leaves its message there, for fuge_solver_message
- * and fuge_body_message.  Every other call that can refuse its data has `message` and `len`
+ * grid of fuge_operator_halfspace: the grid is too small unless the bodies end there.  A call
+ * on a solver or a body leaves its message there, for fuge_solver_message and
+ * fuge_body_message.  Every other call that can refuse its data has `message` and `len`
  * as its last arguments: at most len bytes are written, always ended by NUL.  A buffer of
  * FUGE_MESSAGE_LENGTH + 1 bytes holds every message.  NULL, or len = 0, if no message is
  * wanted.
@@ -406,9 +407,10 @@ enum {                          /* boundary: what lies beyond the cells */
 int fuge_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
                             fuge_operator **op, char *message, size_t len);
 
-/* Let threads >= 1 threads share each transform of a half-plane operator, or each product of one of
- * fuge_operator_halfspace, which has one when it is created.  Worth while from about 10^5 cells on; not during a solve.  Results change by
- * rounding only.  FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED for another operator, FUGE_ERR_MEMORY. */
+/* Let threads >= 1 threads share each transform of a half-plane operator, or each product of
+ * one of fuge_operator_halfspace, which has one when it is created.  Worth while from about
+ * 10^5 cells on; not during a solve.  Results change by rounding only.  FUGE_ERR_OPTION,
+ * FUGE_ERR_UNSUPPORTED for another operator, FUGE_ERR_MEMORY. */
 int fuge_operator_set_threads(fuge_operator *op, int threads, char *message, size_t len);
 
 /* Free and set *op to NULL; NULL and *op == NULL are fine.  Free its solvers first. */

@@ -14,12 +14,15 @@ module mesh_rings
 contains
 
   !> The mean circumference of the part of a surface that belongs to each of its nodes, 2 pi times the mean of the
-  !> radius x, weighted by the shape function of the node; 0 for a node that no face has. Edges have two or three nodes.
+  !> radius x; 0 for a node that no face has. Edges have two or three nodes.
+  !>
+  !> The weights are those of the areas of contact points: of three nodes the shape functions of the ends with a quarter
+  !> of that of the middle node, nowhere negative. By the shape function alone a node on the axis would have no area.
   pure subroutine find_circumferences(surface, circumference)
     type(fuge_surface_mesh), intent(in) :: surface
     real(dp), allocatable, intent(out) :: circumference(:)
     real(dp), allocatable :: length(:)
-    real(dp) :: share, shape(3), slope(3)
+    real(dp) :: around, share, shape(3), slope(3)
     integer :: f, k, nodes, q
 
     allocate (circumference(size(surface%node, 2)), source=0.0_dp)
@@ -30,10 +33,11 @@ contains
         call find_shapes(nodes, POINTS(q), shape, slope)
         associate (node => surface%face(:nodes, f))
           share = WEIGHTS(q)*norm2(matmul(surface%node(:, node), slope(:nodes)))
+          around = 2.0_dp*PI*dot_product(surface%node(1, node), shape(:nodes))
+          shape = [shape(:2) + 0.25_dp*shape(3), 0.5_dp*shape(3)]
           do k = 1, nodes
             length(node(k)) = length(node(k)) + share*shape(k)
-            circumference(node(k)) = circumference(node(k)) + share*shape(k)*2.0_dp*PI &
-              *dot_product(surface%node(1, node), shape(:nodes))
+            circumference(node(k)) = circumference(node(k)) + share*shape(k)*around
           end do
         end associate
       end do

@@ -4,8 +4,8 @@
 !>
 !> `cells` x `cells` on a square of the side 1, 512 unless given. Without a file the surface is a ball of radius 1,
 !> whose contact has the radius 0.3 by Hertz; with heights.npy, which numpy.save wrote as an array (cells, cells), the
-!> heights count upwards in units of the side, and the load is the same. No rank holds the whole surface: each makes, or reads,
-!> its own rows, and writes them to pressures.npy, in units of E*.
+!> heights count upwards in units of the side, and the load is the same. No rank holds the whole surface: each makes, or
+!> reads, its own rows, and writes them to pressures.npy, in units of E*.
 program surface_mpi
   use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver
   use fuge_mpi, only: fuge_mpi_halfspace_operator, fuge_mpi_read_rows, fuge_mpi_write_rows

@@ -6,8 +6,8 @@
  *
  * An error on one rank ends fuge_solve on all of them with the same status, and the message names the rank.  A call
  * that concerns one rank only, such as fuge_set_gap, may fail on that rank alone: let the ranks agree (MPI_Allreduce of
- * the status) before they go on.  Arrays of a rank without points may be any pointer but NULL.  The library calls neither
- * MPI_Init nor MPI_Abort; free solvers and operators on all ranks before MPI_Finalize. */
+ * the status) before they go on.  Arrays of a rank without points may be any pointer but NULL.  The library calls
+ * neither MPI_Init nor MPI_Abort; free solvers and operators on all ranks before MPI_Finalize. */
 #ifndef FUGE_MPI_H
 #define FUGE_MPI_H
 

@@ -1,7 +1,8 @@
 !> C bindings, section "mesh files": meshes made of arrays, joined, and written.
 module fuge_c_mesh_writer
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
-  use fuge_c_types, only: from_c_string, from_zero, report_to_c, require_count, require_path, require_pointer, set_handle
+  use fuge_c_types, only: from_c_string, from_zero, report_to_c, require_count, require_path, require_pointer, &
+    set_handle
   use fuge_mesh_making, only: append_mesh, fuge_make_mesh
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_field, move_mesh, TYPE_LENGTH
   use fuge_mesh_writer, only: fuge_write_mesh

@@ -148,8 +148,8 @@ contains
     end if
     if (.not. (found .or. info%failed())) call factorise(result, pins, info)
     warning = info
-    if (with_alpha .and. .not. info%failed()) call find_influence(body, result%constrained, result%factor, result%alpha, &
-                                                                  info)
+    if (with_alpha .and. .not. info%failed()) &
+      call find_influence(body, result%constrained, result%factor, result%alpha, info)
     if (.not. info%failed()) call keep_resisted_modes(result, info)
     if (.not. info%failed()) call apply_load(result, info)
     if (.not. info%failed()) then

@@ -1,7 +1,7 @@
 !> FUGECP: contact points of two surfaces of finite elements whose nodes do not face each other. Arguments in
 !> doc/legacy.md.
-subroutine fugecp(ndim, nn, x, np, nf, iface, id, nno, xo, npo, nfo, ifaceo, ido, method, norm, nsmth, nkind, d, reach, &
-                  maxn, nw, n, nwmin, idof, dn, gap, nstop, play, area, node, nopp, msg, info)
+subroutine fugecp(ndim, nn, x, np, nf, iface, id, nno, xo, npo, nfo, ifaceo, ido, method, norm, nsmth, nkind, d, &
+                  reach, maxn, nw, n, nwmin, idof, dn, gap, nstop, play, area, node, nopp, msg, info)
   use fuge_contact_pairs_search, only: fuge_find_pairs
   use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options
   use fuge_f77_pairs, only: check_room, check_surface_sizes, copy_points, copy_stops, set_pair_options, set_surface

@@ -404,8 +404,8 @@ contains
   !> Convolve the complex numbers `f`, of which the first `count` are given and wanted, with the kernel that has the
   !> `spectrum`; the result has real and imaginary parts exchanged.
   !>
-  !> `plan` and `twist` (2, N) of a circle of N, or of 2N if it is `padded`; `f`, `t` and `u` N complex numbers each, the
-  !> last two for work.
+  !> `plan` and `twist` (2, N) of a circle of N, or of 2N if it is `padded`; `f`, `t` and `u` N complex numbers each,
+  !> the last two for work.
   subroutine convolve_line(plan, twist, count, padded, spectrum, f, t, u)
     type(fft_plan), intent(in) :: plan
     real(dp), intent(in), contiguous :: twist(:, :), spectrum(:)

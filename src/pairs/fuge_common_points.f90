@@ -17,8 +17,9 @@ module fuge_common_points
   real(dp), parameter :: GAP_ROUNDING = 1.0e-12_dp
   !> Rows that differ by less than this are the same.
   real(dp), parameter :: SAME = 1.0e-10_dp
-  !> A degree of freedom with a factor below this part of the largest one does not count when rows are looked up.
-  real(dp), parameter :: FEW = 1.0e-3_dp
+  !> A degree of freedom with a factor below this part of the largest one does not count when rows are looked up. Near
+  !> 1, so that what is across from a large face is not all found under one of its nodes; not a ratio that meshes have.
+  real(dp), parameter :: LARGE = 0.917_dp
 
 contains
 
@@ -108,7 +109,7 @@ contains
     end do
   end subroutine merge_common
 
-  !> The smallest degree of freedom that moves a point much; 0 if none does.
+  !> The smallest degree of freedom among those that move a point most; 0 if none does.
   pure function first_dof(pairs, i) result(dof)
     type(fuge_contact_pairs), intent(in) :: pairs
     integer, intent(in) :: i
@@ -116,7 +117,7 @@ contains
 
     dof = 0
     associate (mine => pairs%dof(:, i), factor => abs(pairs%normal(:, i)))
-      if (any(mine > 0)) dof = minval(mine, mask=mine > 0 .and. factor >= FEW*maxval(factor))
+      if (any(mine > 0)) dof = minval(mine, mask=mine > 0 .and. factor >= LARGE*maxval(factor))
     end associate
   end function first_dof
 

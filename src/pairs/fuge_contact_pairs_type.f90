@@ -44,8 +44,8 @@ module fuge_contact_pairs_type
     !> cylinders are exact; faces that meet at more than `crease` keep their edge, flat faces stay flat. False: those
     !> of the faces as they are, whose chords on a round body are wrong by L**2/(8 R), often more than the gap itself.
     logical :: smooth = .true.
-    !> Angle between the normals of neighbouring faces, in degrees from 0 to 90, beyond which the body has an edge there:
-    !> greater than 360 over the number of elements round a full circle, less than the angle of any chamfer.
+    !> Angle between the normals of neighbouring faces, in degrees from 0 to 90, beyond which the body has an edge
+    !> there: greater than 360 over the number of elements round a full circle, less than the angle of any chamfer.
     real(dp) :: crease = 25.0_dp
   end type fuge_pair_options
 

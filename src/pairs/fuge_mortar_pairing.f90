@@ -327,20 +327,28 @@ contains
     end do
   end function combined
 
-  !> Order a few numbers, so that no sum depends on the shape of the tree.
+  !> Order numbers, so that no sum depends on the shape of the tree: by insertion over ever smaller distances (D. L.
+  !> Shell: A high-speed sorting procedure, Communications of the ACM 2, 1959), since a large face has many.
   pure subroutine sort_upwards(list)
     integer, intent(inout) :: list(:)
-    integer :: i, k, moved
+    integer :: i, k, distance, moved
 
-    do k = 2, size(list)
-      moved = list(k)
-      i = k - 1
-      do while (i > 0)
-        if (list(i) <= moved) exit
-        list(i + 1) = list(i)
-        i = i - 1
+    distance = 1
+    do while (distance < size(list)/3)
+      distance = 3*distance + 1
+    end do
+    do while (distance > 0)
+      do k = 1 + distance, size(list)
+        moved = list(k)
+        i = k - distance
+        do while (i > 0)
+          if (list(i) <= moved) exit
+          list(i + distance) = list(i)
+          i = i - distance
+        end do
+        list(i + distance) = moved
       end do
-      list(i + 1) = moved
+      distance = distance/3
     end do
   end subroutine sort_upwards
 

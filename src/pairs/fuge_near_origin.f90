@@ -11,8 +11,8 @@ contains
 
   !> The way by which two surfaces are moved to the origin, (dimensions); zero where they are near it.
   !>
-  !> A multiple of a power of two that is not smaller than the extent of the surfaces, so that the sum of a position and
-  !> the way is exact.
+  !> A multiple of a power of two that is not smaller than the extent of the surfaces: the sum of a position and the way
+  !> is exact but for digits below the rounding error of that extent.
   pure function way_to_origin(contact, opposite) result(way)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     real(dp) :: way(size(contact%node, 1)), lower(size(way)), upper(size(way)), step

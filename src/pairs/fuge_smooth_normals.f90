@@ -1,7 +1,7 @@
 !> Normals of the smooth surface that a mesh stands for, at the nodes of each face.
 !>
-!> Each face has normals of its own: at an edge of the body, where faces meet at more than a crease angle, they differ from
-!> those of its neighbour, so that the edge stays sharp.
+!> Each face has normals of its own: at an edge of the body, where faces meet at more than a crease angle, they differ
+!> from those of its neighbour, so that the edge stays sharp.
 module fuge_smooth_normals
   use fuge_corner_normals, only: corner_normal, half_edge_normal, middle_edge_normal, reflected, side_tangent
   use fuge_face_geometry, only: cross, face_nodes, face_normal, frame_across, unit
@@ -49,8 +49,8 @@ module fuge_smooth_normals
 
 contains
 
-  !> Unit normals, (3, most nodes of a face, faces). `crease`: angle in degrees beyond which faces meet at an edge of the
-  !> body. `stat` is not zero without memory.
+  !> Unit normals, (3, most nodes of a face, faces). `crease`: angle in degrees beyond which faces meet at an edge of
+  !> the body. `stat` is not zero without memory.
   pure subroutine find_smooth_normals(surface, crease, normal, stat)
     type(fuge_surface_mesh), intent(in) :: surface
     real(dp), intent(in) :: crease

@@ -1,11 +1,15 @@
 !> Rows of weights that grow as they are added to: a sparse matrix under construction. Each entry has a weight along the
-!> direction of its row, which is not known yet, and one along each axis.
+!> direction of its row, which is not known yet, and one along each axis. In a long row a column may have several
+!> entries, which are to be summed: adding takes no longer there than in others.
 module fuge_weight_rows
   use fuge_kinds, only: dp
   implicit none
   private
 
   public :: add_weight, copy_row, row_length, start_rows
+
+  !> Entries of a row, the newest ones, among which a column is looked for.
+  integer, parameter :: LOOKED_AT = 256
 
   type, public :: weight_rows
     !> First entry of each row and the entry after each one, 0 at the end.
@@ -28,16 +32,17 @@ contains
     if (stat == 0) rows%first = 0
   end subroutine start_rows
 
-  !> Add to the weights of one entry. `stat` is left alone on success.
+  !> Add to the weights of a column. `stat` is left alone on success.
   pure subroutine add_weight(rows, row, column, weight, axes, stat)
     type(weight_rows), intent(inout) :: rows
     integer, intent(in) :: row, column
     real(dp), intent(in) :: weight, axes(3)
     integer, intent(inout) :: stat
-    integer :: p
+    integer :: k, p
 
     p = rows%first(row)
-    do while (p > 0)
+    do k = 1, LOOKED_AT
+      if (p == 0) exit
       if (rows%column(p) == column) then
         rows%weight(p) = rows%weight(p) + weight
         rows%axes(:, p) = rows%axes(:, p) + axes

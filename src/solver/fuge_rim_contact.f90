@@ -36,7 +36,8 @@ contains
     if (first == 0) first = huge(first)
     first = int(ranks%least(real(first, dp)))
     call report(info, info%status, 'the contact reaches the rim of the grid at '//text(count) &
-                //' point(s), the first is '//index_text(first)//': if the bodies do not end there, the grid is too small')
+                //' point(s), the first is '//index_text(first) &
+                //': if the bodies do not end there, the grid is too small')
   end subroutine remark_contact_at_rim
 
   !> How many points at the rims of the directions `free` carry force, and the first one; `force` those of the rows

@@ -150,7 +150,8 @@ static void test_write(void) {
   CHECK(node[4] == 5 && node[5] == 1);
   CHECK_STATUS(fuge_mesh_get_elements(joined, NULL, first, connection), FUGE_DONE);
   CHECK(first[2] == 7 && first[4] == 14 && connection[7] == 5 && connection[12] == 9);
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields,
+               message, sizeof message), FUGE_DONE);
   bytes = read_back(content, sizeof content);
   CHECK(bytes > 0 && bytes < sizeof content);
   CHECK_NEAR(number_at(content, bytes, 8), 0.25, 0.0);
@@ -165,7 +166,8 @@ static void test_write(void) {
   CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, same, components, elements, fields, message, sizeof message),
                FUGE_ERR_OPTION);
   CHECK_CONTAINS(message, "fields 0 and 1 have the same name");
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, elements, elements, fields, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, elements, elements, fields,
+               message, sizeof message), FUGE_ERR_SIZE);
   CHECK_CONTAINS(message, "components[0] = 0");
   CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, missing, message, sizeof message),
                FUGE_ERR_POINTER);
@@ -182,7 +184,8 @@ static void test_write(void) {
   CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, types, &none, message, sizeof message),
                FUGE_ERR_ELEMENT);
   CHECK_STRING(message, "element 1 of type CPS4 has 3 nodes instead of 4");
-  CHECK_STATUS(fuge_mesh_create(2, 4, position, 4, 2, element, 2, types, &none, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_mesh_create(2, 4, position, 4, 2, element, 2, types, &none,
+               message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STRING(message, "element 1 names node 4: there are 4");
   CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, &long_type, &none, message, sizeof message),
                FUGE_ERR_OPTION);

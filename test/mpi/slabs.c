@@ -51,7 +51,8 @@ int main(int argc, char **argv) {
     memset(first_bytes, 0, sizeof first_bytes);
     expect(file && fread(first_bytes, 1, 128, file) == 128, "the header", path);
     expect(memcmp(first_bytes, "\223NUMPY\1\0\166\0", 10) == 0 && first_bytes[127] == '\n', "magic", first_bytes + 1);
-    expect(strstr(first_bytes + 10, "'fortran_order': False, 'shape': (131, 150), }") != NULL, "shape", first_bytes + 10);
+    expect(strstr(first_bytes + 10, "'fortran_order': False, 'shape': (131, 150), }") != NULL, "shape",
+           first_bytes + 10);
     if (file) {
       fseek(file, 0, SEEK_END);
       expect(ftell(file) == 128 + 8L * NX * NY, "the length", path);
@@ -96,7 +97,8 @@ int main(int argc, char **argv) {
   fuge_operator_free(&dense);
 
   /* Another shape than that of the file. */
-  fuge_operator_halfspace_mpi(NY, NX, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message, sizeof message);
+  fuge_operator_halfspace_mpi(NY, NX, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message,
+                              sizeof message);
   fuge_operator_rows(op, &first, &rows, message, sizeof message);
   read = realloc(read, sizeof *read * (size_t)(NY * rows + 1));
   status = fuge_mpi_read_rows(path, op, read, message, sizeof message);

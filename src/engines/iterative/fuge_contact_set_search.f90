@@ -56,8 +56,8 @@ contains
 
   !> Find the contact set of one grid and its forces.
   !>
-  !> `iterate` in: forces to start from; out: forces, displacements, contact set and motion. Counts contact sets, products
-  !> and preconditionings in `info`. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
+  !> `iterate` in: forces to start from; out: forces, displacements, contact set and motion. Counts contact sets,
+  !> products and preconditionings in `info`. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
   subroutine find_contact_set(operator, settings, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator

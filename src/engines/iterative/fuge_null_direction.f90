@@ -27,8 +27,8 @@ contains
 
   !> Note the largest displacement by forces of size 1, iterate%softness; iterate%work is the displacement by the search
   !> direction. The first direction may be one that displaces nothing: then from the terms of its displacement, which
-  !> the operator of a grid knows, or for other operators from a product with one force. Errors: FUGE_ERR_MEMORY, those of
-  !> the operator.
+  !> the operator of a grid knows, or for other operators from a product with one force. Errors: FUGE_ERR_MEMORY, those
+  !> of the operator.
   subroutine find_softness(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene

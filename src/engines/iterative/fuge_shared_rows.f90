@@ -69,7 +69,8 @@ contains
     if (.not. self%is_alone()) n = product(self%cells)
   end function points
 
-  !> `part`: the rows first(r) .. last(r) to each rank r, both (0:ranks - 1) and the same on all ranks; they may overlap.
+  !> `part`: the rows first(r) .. last(r) to each rank r, both (0:ranks - 1) and the same on all ranks; they may
+  !> overlap.
   !>
   !> `values`: the rows of this rank, `length` values each. Error: FUGE_ERR_MEMORY.
   subroutine fetch(self, length, values, first, last, part, info)
@@ -101,7 +102,8 @@ contains
 
   !> `values`: to the rows of this rank, `length` values each, the sums of what all ranks have for them.
   !>
-  !> `part`: the rows first(r) .. last(r) of this rank r, both (0:ranks - 1) and the same on all ranks; they may overlap.
+  !> `part`: the rows first(r) .. last(r) of this rank r, both (0:ranks - 1) and the same on all ranks; they may
+  !> overlap.
   !> Error: FUGE_ERR_MEMORY.
   subroutine collect(self, length, part, first, last, values, info)
     class(shared_rows), intent(in) :: self

@@ -90,7 +90,8 @@ contains
     me = fine%ranks%number()
     n = coarser%cells(1)
     allocate (sums(n*(last(me) - first(me) + 1)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(product(coarser%cells))//' cells')
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(product(coarser%cells)) &
+                               //' cells')
     call fine%ranks%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call sum_cells(cells(1), fine%own(), n, level, first(me), last(me), values, sums)
@@ -132,7 +133,8 @@ contains
     width = 2**level
     do j = rows(1), rows(2)
       do i = 1, coarser
-        sums(i, j) = sums(i, j)/real((min(i*width, cells(1)) - (i - 1)*width)*(min(j*width, cells(2)) - (j - 1)*width), dp)
+        sums(i, j) = sums(i, j) &
+                     /real((min(i*width, cells(1)) - (i - 1)*width)*(min(j*width, cells(2)) - (j - 1)*width), dp)
       end do
     end do
   end subroutine divide_by_cells
