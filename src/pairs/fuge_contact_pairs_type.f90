@@ -47,6 +47,9 @@ module fuge_contact_pairs_type
     !> Angle between the normals of neighbouring faces, in degrees from 0 to 90, beyond which the body has an edge
     !> there: greater than 360 over the number of elements round a full circle, less than the angle of any chamfer.
     real(dp) :: crease = 25.0_dp
+    !> In the plane: the surfaces are those of bodies of revolution, with the radius along the first axis, so that areas
+    !> are those of rings, and forces those of whole rings.
+    logical :: revolution = .false.
   end type fuge_pair_options
 
   !> Contact points, in the form in which `fuge_body` and `fuge_problem` take them; n contact points.
