@@ -16,7 +16,7 @@ module fuge_contact_pairs_search
   use fuge_pair_draft_type, only: pair_draft, start_draft
   use fuge_smooth_normals, only: find_smooth_normals, mean_of_faces
   use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE
-  use fuge_surface_checks, only: check_surface
+  use fuge_surface_checks, only: check_radii, check_surface
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_weight_rows, only: copy_row, row_length
   implicit none
@@ -46,7 +46,8 @@ contains
   !> in the first one, with the area of both. Errors, `pairs` unchanged, name the face or the node: FUGE_ERR_SIZE,
   !> FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP, FUGE_ERR_OPTION,
   !> FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is folded over, has no area or looks the wrong way, for a given
-  !> normal that does, and for surfaces that do not face each other.
+  !> normal that does, for a body of revolution that reaches beyond its axis, and for surfaces that do not face each
+  !> other.
   subroutine fuge_find_pairs(contact, opposite, options, pairs, info)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
@@ -59,6 +60,7 @@ contains
     call check_pair(contact, opposite, options, pairs, info)
     if (info%failed()) return
     way = way_to_origin(contact, opposite)
+    if (options%revolution) way(1) = 0.0_dp
     if (.not. any(abs(way) > 0.0_dp)) then
       call find_near_pairs(contact, opposite, options, pairs, info)
       return
@@ -118,6 +120,8 @@ contains
       if (size(pairs%direction, 1) /= size(contact%node, 1)) call report(info, FUGE_ERR_SIZE, 'these surfaces have ' &
         //text(size(contact%node, 1))//' dimensions, the pairs before '//text(size(pairs%direction, 1)))
     end if
+    if (options%revolution .and. .not. info%failed()) call check_radii(contact, CONTACT_NAME, info)
+    if (options%revolution .and. .not. info%failed()) call check_radii(opposite, OPPOSITE_NAME, info)
     if (info%failed()) return
     if (.not. (moves(contact) .or. moves(opposite))) call report(info, FUGE_ERR_DOF, 'neither surface has degrees of ' &
       //'freedom: set dof of at least one of them')
@@ -164,7 +168,8 @@ contains
     if (stat == 0) call prepare_opposite(contact, opposite, options%reach, faces, stat)
     if (stat /= 0) return
     faces%turning = options%normals == FUGE_NORMALS_AVERAGED
-    call find_nodal_areas(contact, faces%own_bend, whole)
+    faces%revolution = options%revolution
+    call find_nodal_areas(contact, faces%own_bend, faces%revolution, whole)
     if (options%method == FUGE_MORTAR) then
       call pair_faces(contact, opposite, faces, draft, stat)
       where (draft%weight < SMALLEST_PART*whole) draft%weight = 0.0_dp

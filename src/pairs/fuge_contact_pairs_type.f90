@@ -62,7 +62,8 @@ module fuge_contact_pairs_type
     real(dp), allocatable :: gap(:)
     !> `gap_upper` of fuge_problem: the play, (n); infinity for one-sided contact.
     real(dp), allocatable :: gap_upper(:)
-    !> Area of each contact point, (n), in the plane length: pressure = force/area.
+    !> Area of each contact point, (n), in the plane length, of bodies of revolution that of the ring: pressure =
+    !> force/area.
     real(dp), allocatable :: area(:)
     !> The pair, numbered as they were added, and the node of its contact surface, (n).
     integer, allocatable :: pair(:), node(:)
@@ -228,6 +229,9 @@ contains
       call report(info, FUGE_ERR_NOT_FINITE, 'reach is infinite: 0 stands for as far as the surfaces extend')
     else if (.not. (options%crease >= 0.0_dp .and. options%crease <= 90.0_dp)) then
       call report(info, FUGE_ERR_OPTION, 'crease = '//text(options%crease)//' is no angle between 0 and 90 degrees')
+    else if (options%revolution .and. size(contact%node, 1) /= 2) then
+      call report(info, FUGE_ERR_OPTION, 'revolution is for surfaces in the plane, sections of bodies of revolution; ' &
+                  //'these are in space')
     else if (options%play < 0.0_dp) then
       call report(info, FUGE_ERR_GAP, 'play = '//text(options%play)//' is negative: the upper stop would lie below ' &
                   //'the lower one')

@@ -8,7 +8,7 @@ module fuge_face_geometry
   implicit none
   private
 
-  public :: across, bend, cross, face_normal, face_position, find_across, frame_across, is_affine, &
+  public :: across, bend, circumference, cross, face_normal, face_position, find_across, frame_across, is_affine, &
       is_straight, solve_step, unit
 
   !> The nodes of a face.
@@ -24,6 +24,8 @@ module fuge_face_geometry
     real(dp) :: lean(4) = 0.0_dp
     !> Is that surface another one than the face itself?
     logical :: bent = .false.
+    !> Is it the section of a ring, with the radius along the first axis?
+    logical :: revolution = .false.
   end type face_nodes
 
   !> Steps of Newton's iteration; on a face that is not folded five are enough.
@@ -34,6 +36,18 @@ module fuge_face_geometry
   real(dp), parameter :: FLAT = 1.0e-12_dp
 
 contains
+
+  !> The circumference of the ring through a position on the face, by which a length becomes an area; 1 if it is no
+  !> ring. Not negative where rounding, or a curved side, crosses the axis.
+  pure function circumference(face, position) result(around)
+    type(face_nodes), intent(in) :: face
+    real(dp), intent(in) :: position(3)
+    real(dp) :: around
+    real(dp), parameter :: PI = acos(-1.0_dp)
+
+    around = 1.0_dp
+    if (face%revolution) around = 2.0_dp*PI*max(position(1), 0.0_dp)
+  end function circumference
 
   !> The position of a place.
   pure function face_position(face, place) result(x)

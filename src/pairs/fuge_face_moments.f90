@@ -1,6 +1,6 @@
 !> Integrals over the common part of two faces, by which a mortar method weighs.
 module fuge_face_moments
-  use fuge_face_geometry, only: across, face_nodes, face_normal, face_position, is_affine, unit
+  use fuge_face_geometry, only: across, circumference, face_nodes, face_normal, face_position, is_affine, unit
   use fuge_face_segments, only: convex_polygon
   use fuge_face_shapes, only: corner_count, middle_share, shape_values, side_ends, EDGE_2, EDGE_3, MOST_NODES, &
     QUADRANGLE_4, QUADRANGLE_8, TRIANGLE_3, TRIANGLE_6
@@ -13,7 +13,8 @@ module fuge_face_moments
   public :: add_moments, mixed_values, nowhere_negative, unmixed
 
   !> Integrals over a part of a face of the contact surface. Its shape functions N' are those with positive
-  !> integrals (`middle_share`); those of the opposite face are N.
+  !> integrals (`middle_share`); those of the opposite face are N. Of bodies of revolution the integrals
+  !> are those over rings.
   type, public :: face_moments
     !> Integrals of N'_A, (A).
     real(dp) :: area(MOST_NODES) = 0.0_dp
@@ -169,6 +170,7 @@ contains
     integer :: points, degree
 
     degree = shape_degree(face%kind) + max(shape_degree(face%kind), shape_degree(opposite%kind))
+    if (face%revolution) degree = degree + 1
     ! A triangle's corner adds one degree; n points are exact up to 2 n - 1.
     points = degree/2 + 1
     if (smooth) points = max(points, SMOOTH_POINTS(merge(1, 2, face%kind <= EDGE_3)))
@@ -189,7 +191,7 @@ contains
     end select
   end function shape_degree
 
-  !> Add one point of the quadrature; `area` is that of the face as it is.
+  !> Add one point of the quadrature; `area` is that of the face as it is, of a ring the length across.
   pure subroutine add_point(face, opposite, smooth, place, facing, area, moments)
     type(face_nodes), intent(in) :: face, opposite
     logical, intent(in) :: smooth
@@ -199,10 +201,10 @@ contains
     integer :: k
 
     mixed = mixed_values(face%kind, shape_values(face%kind, place))
-    weight = area
     if (smooth) then
       call add_smooth_point(face, opposite, place, facing, area, mixed, moments, normal, weight)
     else
+      weight = area*circumference(face, face_position(face, place))
       way = face_position(opposite, facing) - face_position(face, place)
       normal = unit(face_normal(opposite, facing))
       do k = 1, face%count
@@ -234,7 +236,7 @@ contains
     integer :: k
 
     call smooth_point(face, place, here, own)
-    weight = area*(norm2(own)/norm2(face_normal(face, place)))
+    weight = area*(norm2(own)/norm2(face_normal(face, place)))*circumference(face, here)
     own = unit(own)
     across = facing
     call find_opposite(opposite, here, own, across)

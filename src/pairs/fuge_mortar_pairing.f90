@@ -193,6 +193,7 @@ contains
     allocate (moments(size(parts)), stat=stat)
     if (stat /= 0) return
     face = get_face(contact, f, faces%own_bend)
+    face%revolution = faces%revolution
     smooth = face%bent .or. any_bent(opposite, parts%face, faces%bend)
     direction = unit(face_normal(face, middle_place(face%kind)))
     frame = frame_across(direction)

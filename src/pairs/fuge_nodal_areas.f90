@@ -1,6 +1,6 @@
 !> Areas that belong to the nodes of a surface.
 module fuge_nodal_areas
-  use fuge_face_geometry, only: face_nodes, face_normal
+  use fuge_face_geometry, only: circumference, face_nodes, face_normal, face_position
   use fuge_face_moments, only: mixed_values
   use fuge_face_shapes, only: shape_values, EDGE_3, MOST_NODES, TRIANGLE_3, TRIANGLE_6
   use fuge_gauss_legendre, only: gauss_rule
@@ -19,16 +19,20 @@ contains
 
   !> The area, in the plane the length, of each node, (nodes): the integral of its shape function
   !> mixed with its neighbours' (`middle_share`). Their sum is the area of the surface; zero at nodes that no face
-  !> names. `normals` as in `get_face`: the area is that of the smooth surface.
-  pure subroutine find_nodal_areas(surface, normals, area)
+  !> names. `normals` as in `get_face`: the area is that of the smooth surface. `revolution`: that of rings.
+  pure subroutine find_nodal_areas(surface, normals, revolution, area)
     type(fuge_surface_mesh), intent(in) :: surface
     real(dp), intent(in) :: normals(:, :, :)
+    logical, intent(in) :: revolution
     real(dp), intent(out) :: area(:)
+    type(face_nodes) :: face
     integer :: f
 
     area = 0.0_dp
     do f = 1, size(surface%face, 2)
-      call add_areas(get_face(surface, f, normals), surface%face(:, f), area)
+      face = get_face(surface, f, normals)
+      face%revolution = revolution
+      call add_areas(face, surface%face(:, f), area)
     end do
   end subroutine find_nodal_areas
 
@@ -69,8 +73,9 @@ contains
       call smooth_point(face, place, position, normal)
     else
       normal = face_normal(face, place)
+      position = face_position(face, place)
     end if
-    area = norm2(normal)
+    area = norm2(normal)*circumference(face, position)
   end function area_at
 
 end module fuge_nodal_areas

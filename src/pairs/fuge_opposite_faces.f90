@@ -22,6 +22,8 @@ module fuge_opposite_faces
     real(dp), allocatable :: own_bend(:, :, :), bend(:, :, :)
     !> Do gaps between smooth surfaces follow the normal from place to place, or one direction for each node?
     logical :: turning = .false.
+    !> Are the faces of both surfaces sections of rings?
+    logical :: revolution = .false.
     !> How far an opposite may be, on both sides.
     real(dp) :: reach = 0.0_dp
   end type opposite_faces

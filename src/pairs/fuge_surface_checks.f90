@@ -12,10 +12,12 @@ module fuge_surface_checks
   implicit none
   private
 
-  public :: check_surface
+  public :: check_radii, check_surface
 
   !> An area below this, relative to the square of the greatest distance in the face, counts as zero.
   real(dp), parameter :: NO_AREA = 1.0e-10_dp
+  !> A radius below this, relative to the length of the face, counts as zero.
+  real(dp), parameter :: NO_RADIUS = 1.0e-10_dp
 
 contains
 
@@ -40,6 +42,30 @@ contains
     call check_neighbours(surface, name, info)
     if (allocated(surface%dof) .and. .not. info%failed()) call check_degrees(surface, name, info)
   end subroutine check_surface
+
+  !> Refuse a checked surface in the plane that is no section of a body of revolution: with FUGE_ERR_MESH a node on the
+  !> other side of the axis, or a face that lies on it.
+  pure subroutine check_radii(surface, name, info)
+    type(fuge_surface_mesh), intent(in) :: surface
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: least
+    integer :: f, k
+
+    do f = 1, size(surface%face, 2)
+      associate (nodes => surface%face(:face_size(surface, f), f))
+        least = NO_RADIUS*maxval(maxval(surface%node(:, nodes), 2) - minval(surface%node(:, nodes), 2))
+        k = minloc(surface%node(1, nodes), 1)
+        if (surface%node(1, nodes(k)) < -least) then
+          call report(info, FUGE_ERR_MESH, name//': node '//index_text(nodes(k))//' has the radius ' &
+                      //text(surface%node(1, nodes(k)))//': the section of a body of revolution lies at x >= 0')
+        else if (maxval(surface%node(1, nodes)) <= least) then
+          call report(info, FUGE_ERR_MESH, name//': face '//index_text(f)//' lies on the axis of revolution: remove it')
+        end if
+      end associate
+      if (info%failed()) return
+    end do
+  end subroutine check_radii
 
   !> Refuse arrays of impossible sizes.
   pure subroutine check_sizes(surface, name, info)
