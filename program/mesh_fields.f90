@@ -117,8 +117,7 @@ contains
       fields(3)%value(:, node) = fields(3)%value(:, node) &
         + solution%force(i)*pairs(joined%pairs%pair(i))%action(joined%pairs, i)
       if (pairs(joined%pairs%pair(i))%options%tied) cycle
-      fields(2)%value(1, node) = fields(2)%value(1, node) + solution%force(i) &
-        /pairs(joined%pairs%pair(i))%area(joined%pairs, i)
+      fields(2)%value(1, node) = fields(2)%value(1, node) + solution%force(i)/joined%pairs%area(i)
     end do
   end subroutine fill_fields
 

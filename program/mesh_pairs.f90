@@ -5,7 +5,6 @@ module mesh_pairs
     fuge_surface_pair, FUGE_NODE_TO_FACE, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
   use mesh_body, only: model_body, refuse_memory
   use mesh_names, only: find_surface
-  use mesh_rings, only: find_circumferences
   use number_words, only: number_text, read_real
   implicit none
   private
@@ -13,8 +12,8 @@ module mesh_pairs
   public :: find_pairs, mesh_node
 
   !> The options that belong to a pair.
-  character(len=12), parameter :: OF_PAIRS(8) = [character(len=12) :: 'clearance', 'crease', 'faceted', 'node-to-face', &
-    'normals', 'play', 'reach', 'tied']
+  character(len=12), parameter :: OF_PAIRS(8) = [character(len=12) :: 'clearance', 'crease', 'faceted', &
+    'node-to-face', 'normals', 'play', 'reach', 'tied']
 
   !> A pair of surfaces: of which bodies, and what is between them.
   type, public :: model_pair
@@ -30,14 +29,11 @@ module mesh_pairs
     !> Added to the gaps.
     real(dp) :: clearance = 0.0_dp
     type(fuge_surface_pair) :: surfaces
-    !> Circumference of the ring of each node of the contact surface; not allocated if no body is one of revolution.
-    real(dp), allocatable :: circumference(:)
     !> The axis of each degree of freedom of all bodies that belongs to the contact surface, 0 for the others; if that
     !> is rigid, of the opposite surface, negative.
     integer, allocatable, private :: axis(:)
   contains
     procedure :: action
-    procedure :: area
     procedure :: set_axes
   end type model_pair
 
@@ -201,14 +197,21 @@ contains
                   //' in all', info)
       return
     end if
-    associate (mesh => bodies(pair%body(1))%mesh)
-      if (index(mesh%element_type(mesh%surface(pair%surface(1))%element(1)), 'CAX') == 1) &
-        call find_circumferences(pair%surfaces%contact, pair%circumference)
-    end associate
+    pair%options%revolution = is_ring(bodies(pair%body(1)), pair%surface(1)) &
+                              .or. is_ring(bodies(pair%body(2)), pair%surface(2))
     pair%surfaces%options = pair%options
     if (pair%options%normals == FUGE_NORMALS_GIVEN) &
       pair%surfaces%options%normal = spread(pair%normal(:dimensions(1)), 2, size(pair%surfaces%contact%node, 2))
   end subroutine make_surfaces
+
+  !> Is a surface that of a body of revolution?
+  pure function is_ring(body, which)
+    type(model_body), intent(in) :: body
+    integer, intent(in) :: which
+    logical :: is_ring
+
+    is_ring = index(body%mesh%element_type(body%mesh%surface(which)%element(1)), 'CAX') == 1
+  end function is_ring
 
   !> Note the axes; `first`: degrees of freedom before those of each elastic body.
   pure subroutine set_axes(self, first)
@@ -255,17 +258,6 @@ contains
       if (self%surfaces%contact%dof(axis, pairs%node(i)) == 0) resultant(axis) = -pairs%direction(axis, i)
     end do
   end function action
-
-  !> The area of a contact point of this pair: that of the plane, or of the ring.
-  pure function area(self, pairs, i)
-    class(model_pair), intent(in) :: self
-    type(fuge_contact_pairs), intent(in) :: pairs
-    integer, intent(in) :: i
-    real(dp) :: area
-
-    area = pairs%area(i)
-    if (allocated(self%circumference)) area = area*self%circumference(pairs%node(i))
-  end function area
 
   !> One surface: faces, positions and rows of its nodes. `pair` is what messages call the pair.
   subroutine make_surface(body, which, pair, surface, dimensions, info)

@@ -93,16 +93,15 @@ contains
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     character(len=320) :: values
-    real(dp) :: area, direction(3)
+    real(dp) :: direction(3)
     integer :: node
 
     associate (found => joined%pairs, body => bodies(pairs(joined%pairs%pair(i))%body(1)))
       node = mesh_node(body, found%node(i))
-      area = pairs(found%pair(i))%area(found, i)
       direction = 0.0_dp
       direction(:size(found%direction, 1)) = found%direction(:, i)
-      write (values, '(10(es24.16e3,'',''))') body%mesh%position(:, node), direction, area, &
-        solution%force(i), solution%force(i)/area, solution%gap(i)
+      write (values, '(10(es24.16e3,'',''))') body%mesh%position(:, node), direction, found%area(i), &
+        solution%force(i), solution%force(i)/found%area(i), solution%gap(i)
       call csv%put(number_text(found%pair(i))//','//body%name//','//number_text(body%mesh%node(node))//',' &
                    //trim(values)//trim(state(i, problem, solution)))
     end associate

@@ -148,6 +148,8 @@ contains
       options%normal(dimensions, :) = -1.0_dp
     case ('play')
       options%play = 0.2_dp
+    case ('ring')
+      options%revolution = .true.
     case ('tied')
       options%tied = .true.
     case ('faceted')
