@@ -132,12 +132,11 @@ contains
     call make_bodies(mesh, revolution, bodies, pair(1))
     pair(1)%options%smooth = mesh%smooth
     pair(1)%options%method = mesh%method
+    pair(1)%options%revolution = revolution
     call fuge_solve_bodies(stiffness, bodies, pair, contact, info)
     if (info%failed()) error stop 'the contact was not solved'
-    associate (area => contact%pairs%area*merge(2.0_dp*PI*RADIUS, 1.0_dp, revolution))
-      found = contact%force/area/PRESSURE - 1.0_dp
-      error(1) = sum(contact%force)/sum(area)/PRESSURE - 1.0_dp
-    end associate
+    found = contact%pressure/PRESSURE - 1.0_dp
+    error(1) = sum(contact%force)/sum(contact%pairs%area)/PRESSURE - 1.0_dp
     error(2) = found(maxloc(abs(found), 1))
     print '(a,i10,f11.3,a,f10.3,a,es11.1)', mesh%name, size(found), 100.0_dp*error(1), ' %', 100.0_dp*error(2), ' %', &
       maxval(found) - minval(found)
