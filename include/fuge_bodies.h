@@ -58,6 +58,9 @@ int fuge_bodies_set_contact(fuge_bodies *bodies, int body, int dimensions, int n
 int fuge_bodies_set_opposite(fuge_bodies *bodies, int body, int dimensions, int nodes, const double *node, int most,
                              int faces, const int *face, const int *dof);
 
+/* As fuge_pairs_set_geometry, for the pairs that are added from now on. */
+int fuge_bodies_set_geometry(fuge_bodies *bodies, double crease, int revolution);
+
 /* Add a pair of these surfaces; arguments as fuge_pairs_find, which are checked, with the
  * surfaces, by fuge_bodies_join and fuge_bodies_solve.  FUGE_ERR_CALL_ORDER without both
  * surfaces, FUGE_ERR_MEMORY. */

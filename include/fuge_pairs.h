@@ -59,6 +59,16 @@ int fuge_pairs_set_contact(fuge_pairs *pairs, int dimensions, int nodes, const d
 int fuge_pairs_set_opposite(fuge_pairs *pairs, int dimensions, int nodes, const double *node, int most, int faces,
                             const int *face, const int *dof);
 
+/* How surfaces are understood from the next fuge_pairs_find on.
+ *   crease      angle between the normals of neighbouring faces, in degrees from 0 to 90,
+ *               beyond which a smooth body has an edge there, 25 at first: more than 360 over
+ *               the number of elements round a full circle, less than the angle of any chamfer
+ *   revolution  1: surfaces in the plane are those of bodies of revolution with the radius
+ *               along x, areas are those of rings, and forces those of whole rings; 0, as at
+ *               first
+ * Both are checked by fuge_pairs_find. */
+int fuge_pairs_set_geometry(fuge_pairs *pairs, double crease, int revolution);
+
 /* Find the contact points of both surfaces and add them to those found before.
  *   normal  for FUGE_NORMALS_GIVEN: outwards from the contact surface at its nodes,
  *           dimensions x nodes, of any length; else NULL
@@ -69,8 +79,9 @@ int fuge_pairs_set_opposite(fuge_pairs *pairs, int dimensions, int nodes, const 
  *   tied    1: glue the surfaces where they are, along each axis; else 0
  *   smooth  1, as a rule: normals, gaps and areas of the smooth bodies that the meshes stand
  *           for, exact on circles, spheres and cylinders; faces that meet at more than 25
- *           degrees keep their edge, flat faces stay flat.  0: those of the faces as they are,
- *           whose chords on a round body are wrong by L^2/(8 R)
+ *           degrees (or what fuge_pairs_set_geometry has set) keep their edge, flat faces stay
+ *           flat.  0: those of the faces as they are, whose chords on a round body are wrong
+ *           by L^2/(8 R)
  * FUGE_WARN_PAIRS: a node is a contact point of two pairs; where it moves alike in both, it is
  * listed once, with the area of both.  Errors, nothing is added: FUGE_ERR_SIZE,
  * FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP,

@@ -118,7 +118,7 @@ contains
     if (solution%force(i) > 0.0_dp) state = 'contact'
     if (solution%force(i) < 0.0_dp) state = 'upper'
     if (allocated(problem%gap_upper)) then
-      if (.not. problem%gap_upper(i) > 0.0_dp) state = 'tied'
+      if (.not. problem%gap_upper(i) > 0.0_dp) state = 'held'
     end if
     if (allocated(problem%excluded)) then
       if (problem%excluded(i)) state = 'excluded'

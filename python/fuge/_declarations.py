@@ -69,6 +69,7 @@ fuge_bodies_set_load: int fuge_bodies int doubles
 fuge_bodies_set_rigid_modes: int fuge_bodies int int doubles
 fuge_bodies_set_contact: int fuge_bodies int int int doubles int int ints ints
 fuge_bodies_set_opposite: int fuge_bodies int int int doubles int int ints ints
+fuge_bodies_set_geometry: int fuge_bodies double int
 fuge_bodies_add_pair: int fuge_bodies int int doubles double double int int
 fuge_bodies_solve: int fuge_bodies fuge_options
 fuge_bodies_solve_sparse: int fuge_bodies fuge_options
@@ -128,6 +129,7 @@ fuge_pairs_create: int fuge_pairs* buffer size_t
 fuge_pairs_free: void fuge_pairs*
 fuge_pairs_set_contact: int fuge_pairs int int doubles int int ints ints
 fuge_pairs_set_opposite: int fuge_pairs int int doubles int int ints ints
+fuge_pairs_set_geometry: int fuge_pairs double int
 fuge_pairs_find: int fuge_pairs int int doubles double double int int
 fuge_pairs_get_sizes: int fuge_pairs ints ints ints
 fuge_pairs_get_contact: int fuge_pairs ints doubles

@@ -158,6 +158,8 @@ class ElasticBodies(Owner):
         play: float = np.inf,
         tied: bool = False,
         smooth: bool = True,
+        crease: float = 25.0,
+        revolution: bool = False,
     ) -> None:
         """Add a pair of surfaces, each with degrees of freedom of its own body.
 
@@ -165,13 +167,14 @@ class ElasticBodies(Owner):
         ----------
         contact_body, opposite_body : int or None
             Both may be the same; None: the surface is rigid and held in space.
-        contact, opposite, method, normals, normal, reach, play, tied, smooth
+        contact, opposite, method, normals, normal, reach, play, tied, smooth, crease, revolution
             As in :meth:`ContactPairs.find`.
         """
         options = pair_options(contact, method, normals, normal, reach, play, tied, smooth)
         arguments = surface_arguments("contact", contact)
         self._call("fuge_bodies_set_contact", self._owner(contact_body), *arguments)
         self._call("fuge_bodies_set_opposite", self._owner(opposite_body), *surface_arguments("opposite", opposite))
+        self._call("fuge_bodies_set_geometry", _arrays.number("crease", crease), int(bool(revolution)))
         self._call("fuge_bodies_add_pair", *options)
         self._dimensions = int(arguments[0])
 

@@ -112,13 +112,16 @@ class ContactPairs(Owner):
         play: float = np.inf,
         tied: bool = False,
         smooth: bool = True,
+        crease: float = 25.0,
+        revolution: bool = False,
     ) -> None:
         """Find the contact points of two surfaces and add them to those found before.
 
         Parameters
         ----------
         contact, opposite : Surface
-            The surface whose nodes become contact points (the finer one, or that of the softer body), and the other.
+            The surface whose nodes become contact points (with linear faces the coarser
+            one, whose pressures are smooth, with quadratic faces the finer one), and the other.
         method : {'mortar', 'node_to_face'}
             Weighted gaps of the dual mortar method; or each node against the face across from it, which does not
             reproduce a uniform pressure on meshes that do not match.
@@ -134,8 +137,13 @@ class ContactPairs(Owner):
             Glue the surfaces where they are, along each axis.
         smooth : bool
             Normals, gaps and areas of the smooth bodies that the meshes stand for, exact on circles, spheres and
-            cylinders; faces that meet at more than 25 degrees keep their edge. If false, those of the faces as they
-            are.
+            cylinders. If false, those of the faces as they are.
+        crease : float
+            Angle between the normals of neighbouring faces, in degrees from 0 to 90, beyond which a smooth body has an
+            edge there.
+        revolution : bool
+            Surfaces in the plane are those of bodies of revolution with the radius along x: areas are those of rings,
+            and forces those of whole rings.
 
         Raises
         ------
@@ -151,6 +159,7 @@ class ContactPairs(Owner):
         contact_arguments = surface_arguments("contact", contact)
         self._call("fuge_pairs_set_contact", *contact_arguments)
         self._call("fuge_pairs_set_opposite", *surface_arguments("opposite", opposite))
+        self._call("fuge_pairs_set_geometry", _arrays.number("crease", crease), int(bool(revolution)))
         dimensions = int(contact_arguments[0])
         try:
             self._call("fuge_pairs_find", *options)

@@ -21,6 +21,8 @@ module fuge_c_elastic_bodies
     type(fuge_surface_pair), allocatable :: pair(:)
     !> The surfaces of the next pair.
     type(fuge_surface_pair) :: next
+    !> Options of pairs that hold until they are set again.
+    type(fuge_pair_options) :: options
     !> All bodies as one, for the present data if allocated.
     type(fuge_joined_bodies), allocatable :: joined
     !> The last solution, and the report of the last solve.
@@ -239,6 +241,22 @@ contains
     status = report_to_bodies(info, handle)
   end function c_bodies_set_opposite
 
+  function c_bodies_set_geometry(bodies, crease, revolution) bind(c, name='fuge_bodies_set_geometry') result(status)
+    type(c_ptr), intent(in), value :: bodies
+    real(c_double), intent(in), value :: crease
+    integer(c_int), intent(in), value :: revolution
+    integer(c_int) :: status
+    type(bodies_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call find_bodies(bodies, handle, info)
+    if (.not. info%failed()) then
+      handle%options%crease = crease
+      handle%options%revolution = revolution /= 0
+    end if
+    status = report_to_bodies(info, handle)
+  end function c_bodies_set_geometry
+
   function c_bodies_add_pair(bodies, method, normals, normal, reach, play, tied, smooth) &
     bind(c, name='fuge_bodies_add_pair') result(status)
     type(c_ptr), intent(in), value :: bodies, normal
@@ -260,6 +278,7 @@ contains
     end if
     if (normals == FUGE_NORMALS_GIVEN) call require_pointer(normal, 'normal', info)
     if (.not. info%failed()) then
+      options = handle%options
       options%method = int(method)
       options%normals = int(normals)
       options%reach = reach

@@ -17,6 +17,8 @@ module fuge_c_pairs
   type :: pairs_handle
     type(fuge_surface_mesh) :: contact, opposite
     type(fuge_contact_pairs) :: pairs
+    !> Options that hold until they are set again.
+    type(fuge_pair_options) :: options
     !> Message of the last call that set, found or failed.
     character(len=FUGE_MESSAGE_LENGTH) :: message = ''
   end type pairs_handle
@@ -139,6 +141,22 @@ contains
     surface = copy
   end subroutine copy_surface
 
+  function c_pairs_set_geometry(pairs, crease, revolution) bind(c, name='fuge_pairs_set_geometry') result(status)
+    type(c_ptr), intent(in), value :: pairs
+    real(c_double), intent(in), value :: crease
+    integer(c_int), intent(in), value :: revolution
+    integer(c_int) :: status
+    type(pairs_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call find_pairs(pairs, handle, info)
+    if (.not. info%failed()) then
+      handle%options%crease = crease
+      handle%options%revolution = revolution /= 0
+    end if
+    status = report_to_pairs(info, handle)
+  end function c_pairs_set_geometry
+
   function c_pairs_find(pairs, method, normals, normal, reach, play, tied, smooth) &
     bind(c, name='fuge_pairs_find') result(status)
     type(c_ptr), intent(in), value :: pairs, normal
@@ -157,6 +175,7 @@ contains
     end if
     if (normals == FUGE_NORMALS_GIVEN) call require_pointer(normal, 'normal', info)
     if (.not. info%failed()) then
+      options = handle%options
       options%method = int(method)
       options%normals = int(normals)
       options%reach = reach

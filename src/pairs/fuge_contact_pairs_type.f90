@@ -273,48 +273,60 @@ contains
     end do
   end subroutine check_normals
 
-  !> Append the contact points of one pair. `stat` is not zero, and `pairs` as before, without memory.
+  !> Append the contact points of one pair, which are moved or copied. `stat` is not zero, and `pairs` as before, without
+  !> memory.
   pure subroutine append_pairs(pairs, more, stat)
     type(fuge_contact_pairs), intent(inout) :: pairs
     type(fuge_contact_pairs), intent(inout) :: more
     integer, intent(out) :: stat
     type(fuge_contact_pairs) :: all
-    integer :: dimensions, n, width
+    integer :: n, unpaired
 
     stat = 0
     if (pairs%pairs == 0) then
-      pairs = more
+      call move_pairs(more, pairs)
       return
     end if
     n = pairs%points() + more%points()
-    width = max(size(pairs%dof, 1), size(more%dof, 1))
-    dimensions = size(more%direction, 1)
-    allocate (all%dof(width, n), all%normal(width, n), all%direction(dimensions, n), all%place(dimensions - 1, n), &
-              stat=stat)
+    unpaired = size(pairs%unpaired_node) + size(more%unpaired_node)
+    associate (width => max(size(pairs%dof, 1), size(more%dof, 1)), dimensions => size(more%direction, 1))
+      allocate (all%dof(width, n), all%normal(width, n), all%direction(dimensions, n), all%place(dimensions - 1, n), &
+                all%gap(n), all%gap_upper(n), all%area(n), all%pair(n), all%node(n), all%face(n), all%owned(n), &
+                all%unpaired_pair(unpaired), all%unpaired_node(unpaired), stat=stat)
+    end associate
     if (stat /= 0) return
     all%dof = 0
     all%normal = 0.0_dp
-    associate (old => pairs%points())
-      all%dof(:size(pairs%dof, 1), :old) = pairs%dof
-      all%dof(:size(more%dof, 1), old + 1:) = more%dof
-      all%normal(:size(pairs%dof, 1), :old) = pairs%normal
-      all%normal(:size(more%dof, 1), old + 1:) = more%normal
-      all%direction(:, :old) = pairs%direction
-      all%direction(:, old + 1:) = more%direction
-      all%place(:, :old) = pairs%place
-      all%place(:, old + 1:) = more%place
-    end associate
-    all%gap = [pairs%gap, more%gap]
-    all%gap_upper = [pairs%gap_upper, more%gap_upper]
-    all%area = [pairs%area, more%area]
-    all%pair = [pairs%pair, more%pair]
-    all%node = [pairs%node, more%node]
-    all%face = [pairs%face, more%face]
-    all%owned = [pairs%owned, more%owned]
-    all%unpaired_pair = [pairs%unpaired_pair, more%unpaired_pair]
-    all%unpaired_node = [pairs%unpaired_node, more%unpaired_node]
+    call copy_points(pairs, 0, 0, all)
+    call copy_points(more, pairs%points(), size(pairs%unpaired_node), all)
     all%pairs = more%pairs
-    pairs = all
+    call move_pairs(all, pairs)
   end subroutine append_pairs
+
+  !> Copy contact points, and nodes that have no opposite, behind the first `points` and `unpaired` ones of `all`, which
+  !> has room.
+  pure subroutine copy_points(pairs, points, unpaired, all)
+    type(fuge_contact_pairs), intent(in) :: pairs
+    integer, intent(in) :: points, unpaired
+    type(fuge_contact_pairs), intent(inout) :: all
+
+    associate (width => size(pairs%dof, 1), first => points + 1, last => points + pairs%points())
+      all%dof(:width, first:last) = pairs%dof
+      all%normal(:width, first:last) = pairs%normal
+      all%direction(:, first:last) = pairs%direction
+      all%place(:, first:last) = pairs%place
+      all%gap(first:last) = pairs%gap
+      all%gap_upper(first:last) = pairs%gap_upper
+      all%area(first:last) = pairs%area
+      all%pair(first:last) = pairs%pair
+      all%node(first:last) = pairs%node
+      all%face(first:last) = pairs%face
+      all%owned(first:last) = pairs%owned
+    end associate
+    associate (first => unpaired + 1, last => unpaired + size(pairs%unpaired_node))
+      all%unpaired_pair(first:last) = pairs%unpaired_pair
+      all%unpaired_node(first:last) = pairs%unpaired_node
+    end associate
+  end subroutine copy_points
 
 end module fuge_contact_pairs_type

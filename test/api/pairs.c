@@ -80,6 +80,35 @@ static void test_nodes(void) {
   fuge_pairs_free(&pairs);
 }
 
+/* Two edges that meet at 30 degrees over a plane one: round above that angle, sharp below. */
+static void test_geometry(void) {
+  const double bent[6] = {0.0, 0.25, 1.0, 0.0, 1.8660254037844386, 0.5}, wide[4] = {-1.0, -1.0, 3.0, -1.0};
+  const int faces[4] = {0, 1, 1, 2}, dof[6] = {0, 1, 2, 3, 4, 5}, face[2] = {1, 0};
+  const double crease[3] = {29.0, 60.0, 91.0};
+  double gap[2][3];
+  fuge_pairs *pairs = NULL;
+  char message[256];
+
+  for (int k = 0; k < 3; k++) {
+    CHECK_STATUS(fuge_pairs_create(&pairs, NULL, 0), FUGE_DONE);
+    CHECK_STATUS(fuge_pairs_set_contact(pairs, 2, 3, bent, 2, 2, faces, dof), FUGE_DONE);
+    CHECK_STATUS(fuge_pairs_set_opposite(pairs, 2, 2, wide, 2, 1, face, NULL), FUGE_DONE);
+    CHECK_STATUS(fuge_pairs_set_geometry(pairs, crease[k], 0), FUGE_DONE);
+    if (k < 2) {
+      CHECK_STATUS(fuge_pairs_find(pairs, FUGE_MORTAR, FUGE_NORMALS_OPPOSITE, NULL, 0.0, INFINITY, 0, 1), FUGE_DONE);
+      CHECK_STATUS(fuge_pairs_get_gaps(pairs, gap[k], NULL, NULL), FUGE_DONE);
+    } else {
+      CHECK_STATUS(fuge_pairs_find(pairs, FUGE_MORTAR, FUGE_NORMALS_OPPOSITE, NULL, 0.0, INFINITY, 0, 1),
+                   FUGE_ERR_OPTION);
+      CHECK_STATUS(fuge_pairs_message(pairs, message, sizeof message), FUGE_DONE);
+      CHECK_CONTAINS(message, "crease = 91.0");
+    }
+    fuge_pairs_free(&pairs);
+  }
+  CHECK(gap[1][0] < gap[0][0] - 0.01);
+  CHECK_STATUS(fuge_pairs_set_geometry(NULL, 25.0, 0), FUGE_ERR_POINTER);
+}
+
 static void test_bad_calls(void) {
   fuge_pairs *pairs = NULL;
   char message[256];
@@ -114,6 +143,7 @@ static void test_bad_calls(void) {
 int main(void) {
   test_mortar();
   test_nodes();
+  test_geometry();
   test_bad_calls();
   return check_summary();
 }
