@@ -51,6 +51,8 @@ contains
     type(fuge_info) :: info
 
     options%smooth = smooth
+    ! Coarse circles are circles too.
+    options%crease = 60.0_dp
     call fuge_find_pairs(contact, opposite, options, pairs, info)
     if (info%failed()) error stop 'the surfaces were not paired'
     error = maxval(abs(pairs%gap - GAP))

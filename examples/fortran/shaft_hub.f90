@@ -131,6 +131,8 @@ contains
 
     call make_bodies(mesh, revolution, bodies, pair(1))
     pair(1)%options%smooth = mesh%smooth
+    ! Twelve elements around are still a circle.
+    pair(1)%options%crease = 40.0_dp
     pair(1)%options%method = mesh%method
     pair(1)%options%revolution = revolution
     call fuge_solve_bodies(stiffness, bodies, pair, contact, info)
