@@ -18,6 +18,8 @@ module fuge_certificate
 
   !> A resultant may differ by the rounding of the largest force: so many units in its last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
+  !> Forces below this part of the largest one of their body are judged beside that one where no load acts.
+  real(dp), parameter :: BESIDE = 1.0e-2_dp
   !> Forces dwarf the data if the terms of their displacements exceed the lengths of the data by one over this factor.
   real(dp), parameter :: DWARFED = 1.0e-6_dp
   !> Lengths left open count as resolved up to this fraction of the data.
@@ -273,8 +275,8 @@ contains
   end function equilibrium_violation
 
   !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
-  !> relative to the largest force of the body, since along an axis without a load forces at tied points may be the
-  !> rounding of those along the other axes.
+  !> at least to a part of the largest force of the body, since along an axis without a load forces at tied points may be
+  !> the rounding of those along the other axes.
   pure function imbalance_in_modes(problem, force) result(violation)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:)
@@ -296,7 +298,7 @@ contains
         imbalance = max(abs(sum(mode*force) - resultant) - largest, 0.0_dp)
         if (abs(resultant) > 0.0_dp) own = 0.0_dp
         violation = max(violation, relative(imbalance, max(sum(abs(mode*force)), abs(resultant), &
-                                                           maxval(abs(mode))*own)))
+                                                           BESIDE*maxval(abs(mode))*own)))
       end associate
     end do
   end function imbalance_in_modes
