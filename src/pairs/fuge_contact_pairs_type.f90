@@ -10,10 +10,10 @@ module fuge_contact_pairs_type
 
   public :: append_pairs, check_pair_options, move_pairs
 
-  !> Method: weighted gaps of the dual mortar method. Uniform pressures are exact to 1e-12; middle nodes that are moved
+  !> Weighted gaps of the dual mortar method. Uniform pressures are exact to 1e-12; middle nodes that are moved
   !> along a surface, so that sides are curved in it, leave errors of 1e-4 to 5e-3.
   integer, parameter, public :: FUGE_MORTAR = 0
-  !> Method: each node against the face across from it. It fails the patch test.
+  !> Each node against the face across from it. It fails the patch test.
   integer, parameter, public :: FUGE_NODE_TO_FACE = 1
   !> Normals averaged at the nodes of the contact surface.
   integer, parameter, public :: FUGE_NORMALS_AVERAGED = 0
