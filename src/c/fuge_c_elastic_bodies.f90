@@ -3,7 +3,7 @@ module fuge_c_elastic_bodies
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
   use fuge_bodies_solution, only: fuge_bodies_contact
   use fuge_body_joining, only: fuge_joined_bodies
-  use fuge_c_pairs, only: check_sizes, copy_surface
+  use fuge_c_pairs, only: check_sizes, copy_surface, take_options
   use fuge_c_types, only: from_zero, message_for_c, report_to_c, require_columns, require_count, require_pointer, &
     set_handle, take_handle
   use fuge_contact_pairs_type, only: fuge_pair_options, FUGE_NORMALS_GIVEN
@@ -267,7 +267,6 @@ contains
     type(fuge_pair_options) :: options
     type(fuge_surface_pair), allocatable :: more(:)
     type(fuge_surface_pair) :: blank
-    real(c_double), pointer :: values(:, :)
     type(fuge_info) :: info
     integer :: n, stat
 
@@ -279,16 +278,9 @@ contains
     if (normals == FUGE_NORMALS_GIVEN) call require_pointer(normal, 'normal', info)
     if (.not. info%failed()) then
       options = handle%options
-      options%method = int(method)
-      options%normals = int(normals)
-      options%reach = reach
-      options%play = play
-      options%tied = tied /= 0
-      options%smooth = smooth /= 0
-      if (normals == FUGE_NORMALS_GIVEN) then
-        call c_f_pointer(normal, values, shape(handle%next%contact%node))
-        options%normal = values
-      end if
+      call take_options(handle%next%contact, [method, normals, tied, smooth], normal, [reach, play], options, info)
+    end if
+    if (.not. info%failed()) then
       n = size(handle%pair)
       allocate (more(n + 1), stat=stat)
       if (stat /= 0) then

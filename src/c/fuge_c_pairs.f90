@@ -11,7 +11,7 @@ module fuge_c_pairs
   implicit none
   private
 
-  public :: check_sizes, copy_surface
+  public :: check_sizes, copy_surface, take_options
 
   !> Behind struct fuge_pairs.
   type :: pairs_handle
@@ -165,7 +165,6 @@ contains
     integer(c_int) :: status
     type(pairs_handle), pointer :: handle
     type(fuge_pair_options) :: options
-    real(c_double), pointer :: values(:, :)
     type(fuge_info) :: info
 
     call find_pairs(pairs, handle, info)
@@ -176,20 +175,37 @@ contains
     if (normals == FUGE_NORMALS_GIVEN) call require_pointer(normal, 'normal', info)
     if (.not. info%failed()) then
       options = handle%options
-      options%method = int(method)
-      options%normals = int(normals)
-      options%reach = reach
-      options%play = play
-      options%tied = tied /= 0
-      options%smooth = smooth /= 0
-      if (normals == FUGE_NORMALS_GIVEN) then
-        call c_f_pointer(normal, values, shape(handle%contact%node))
-        options%normal = values
-      end if
+      call take_options(handle%contact, [method, normals, tied, smooth], normal, [reach, play], options, info)
+    end if
+    if (.not. info%failed()) then
       call fuge_find_pairs(handle%contact, handle%opposite, options, handle%pairs, info)
     end if
     status = report_to_pairs(info, handle)
   end function c_pairs_find
+
+  !> What the arguments say of a pair: method, normals, tied and smooth; `normal` at the nodes of the contact surface if
+  !> it is given; reach and play. Error: FUGE_ERR_MEMORY.
+  subroutine take_options(contact, choices, normal, lengths, options, info)
+    type(fuge_surface_mesh), intent(in) :: contact
+    integer(c_int), intent(in) :: choices(4)
+    type(c_ptr), intent(in) :: normal
+    real(c_double), intent(in) :: lengths(2)
+    type(fuge_pair_options), intent(inout) :: options
+    type(fuge_info), intent(inout) :: info
+    real(c_double), pointer :: values(:, :)
+    integer :: stat
+
+    options%method = int(choices(1))
+    options%normals = int(choices(2))
+    options%tied = choices(3) /= 0
+    options%smooth = choices(4) /= 0
+    options%reach = lengths(1)
+    options%play = lengths(2)
+    if (options%normals /= FUGE_NORMALS_GIVEN) return
+    call c_f_pointer(normal, values, shape(contact%node))
+    allocate (options%normal, source=values, stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the normals')
+  end subroutine take_options
 
   function c_pairs_get_sizes(pairs, n, width, unpaired) bind(c, name='fuge_pairs_get_sizes') result(status)
     type(c_ptr), intent(in), value :: pairs, n, width, unpaired

@@ -374,7 +374,9 @@ contains
   !> Leave out rows of `dof` and `normal` that no contact point uses.
   pure subroutine trim_width(found)
     type(fuge_contact_pairs), intent(inout) :: found
-    integer :: width
+    integer, allocatable :: dof(:, :)
+    real(dp), allocatable :: factor(:, :)
+    integer :: stat, width
 
     width = size(found%dof, 1)
     do while (width > 1)
@@ -382,8 +384,13 @@ contains
       width = width - 1
     end do
     if (width == size(found%dof, 1)) return
-    found%dof = found%dof(:width, :)
-    found%normal = found%normal(:width, :)
+    allocate (dof(width, size(found%dof, 2)), factor(width, size(found%dof, 2)), stat=stat)
+    ! Without memory the rows keep their unused places.
+    if (stat /= 0) return
+    dof = found%dof(:width, :)
+    factor = found%normal(:width, :)
+    call move_alloc(dof, found%dof)
+    call move_alloc(factor, found%normal)
   end subroutine trim_width
 
   pure function largest_dof(contact, opposite) result(largest)
