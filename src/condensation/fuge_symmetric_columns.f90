@@ -190,9 +190,15 @@ contains
   pure subroutine check_symmetry(lower, upper, info)
     type(compressed_columns), intent(in) :: lower, upper
     type(fuge_info), intent(inout) :: info
-    real(dp) :: diagonal(size(upper%column) - 1), above, below
-    integer :: i, j, p, q
+    real(dp), allocatable :: diagonal(:)
+    real(dp) :: above, below
+    integer :: i, j, p, q, stat
 
+    allocate (diagonal(size(upper%column) - 1), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to check the symmetry of the stiffness matrix')
+      return
+    end if
     call find_diagonal(upper, diagonal)
     do j = 1, size(diagonal)
       p = upper%column(j)

@@ -221,7 +221,7 @@ contains
     type(pair_draft), intent(in) :: draft
     type(fuge_contact_pairs), intent(inout) :: found
     integer, intent(out) :: stat
-    integer, allocatable :: place(:)
+    integer, allocatable :: owned(:), place(:)
     real(dp) :: direction(3)
     integer :: axis, dimensions, i, n, per_node, width
 
@@ -233,7 +233,7 @@ contains
           i) + row_length(draft%other, i)))
     end do
     call make_room(found, width, per_node*count(draft%weight > 0.0_dp), dimensions, stat)
-    if (stat == 0) allocate (place(largest_dof(contact, opposite)), stat=stat)
+    if (stat == 0) allocate (owned(found%points()), place(largest_dof(contact, opposite)), stat=stat)
     if (stat /= 0) return
     place = 0
     n = 0
@@ -245,13 +245,14 @@ contains
         if (options%normals == FUGE_NORMALS_OPPOSITE) direction = -unit(draft%normal(:, i))
         if (options%tied) direction = merge(1.0_dp, 0.0_dp, [1, 2, 3] == axis)
         call fill_point(options, draft, i, direction, n, found)
+        owned(n) = owned_dof(contact, i)
         call fill_row(contact, opposite, draft, i, direction(:dimensions), place, found%dof(:, n), found%normal(:, n), &
                       found%direction(:, n))
       end do
     end do
     call list_unpaired(contact, draft, found, stat)
     if (stat /= 0) return
-    call found%set_owned([(owned_dof(contact, found%node(i)), i=1, n)])
+    call found%set_owned(owned)
     call trim_width(found)
   end subroutine collect
 

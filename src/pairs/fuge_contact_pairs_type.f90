@@ -103,12 +103,13 @@ contains
     if (allocated(self%gap)) n = size(self%gap)
   end function points
 
-  !> Keep a degree of freedom of the node of each contact point, by which nodes in two pairs are found.
+  !> Keep a degree of freedom of the node of each contact point, by which nodes in two pairs are found; `owned` (n)
+  !> is moved.
   pure subroutine set_owned(self, owned)
     class(fuge_contact_pairs), intent(inout) :: self
-    integer, intent(in) :: owned(:)
+    integer, allocatable, intent(inout) :: owned(:)
 
-    self%owned = owned
+    call move_alloc(owned, self%owned)
   end subroutine set_owned
 
   !> The first contact point whose node belongs to a contact point of another pair too, and that one; or zeros.
