@@ -274,8 +274,8 @@ contains
     end do
   end subroutine check_normals
 
-  !> Append the contact points of one pair, which are moved or copied. `stat` is not zero, and `pairs` as before, without
-  !> memory.
+  !> Append the contact points of one pair, which are moved or copied. `stat` is not zero, and `pairs` as before,
+  !> without memory.
   pure subroutine append_pairs(pairs, more, stat)
     type(fuge_contact_pairs), intent(inout) :: pairs
     type(fuge_contact_pairs), intent(inout) :: more
