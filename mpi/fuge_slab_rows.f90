@@ -8,7 +8,7 @@ module fuge_slab_rows
 
   !> A rank has at least this many cells: coarser grids lie on fewer ranks, down to one, where messages would take
   !> longer than the transforms.
-  integer, parameter :: FEWEST_CELLS = 16384
+  integer, parameter, public :: FEWEST_CELLS = 16384
 
 contains
 
