@@ -29,7 +29,7 @@ contains
     call compare('free, few cells', 1000, FUGE_FREE, 1.0_dp, 0.01_dp, 1, 90.0_dp)
     call compare('three cells', 3, FUGE_FREE, 1.0_dp, 0.01_dp, 1, 90.0_dp)
     call compare('one cell', 1, FUGE_FREE, 1.0_dp, 0.01_dp, 1, 90.0_dp)
-    call compare('periodic', 61440, FUGE_PERIODIC, 0.0_dp, 0.0005_dp, 3, 130.0_dp)
+    call compare('periodic', 61440, FUGE_PERIODIC, 0.0_dp, 0.001_dp, 3, 40.0_dp)
     call compare('periodic, a prime number', 50021, FUGE_PERIODIC, 0.0_dp, 0.0005_dp, 1, 90.0_dp)
     call compare('periodic, one contact', 2**16, FUGE_PERIODIC, 1.0_dp, 0.001_dp, 1, 0.0_dp)
     call compare('no load', 65536, FUGE_FREE, 1.0_dp, 0.0_dp, 1, 90.0_dp)
