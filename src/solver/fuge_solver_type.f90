@@ -60,6 +60,8 @@ module fuge_solver_type
     logical, private :: solved_by_products = .false.
     !> The last problem of the iteration needed its canonical form; otherwise, whether its approach was prescribed.
     logical, private :: last_is_general = .false., last_is_prescribed = .false.
+    !> The report of the last solution, for its derivatives.
+    type(fuge_info), private :: last_report
   contains
     procedure :: solve
     procedure :: reset
@@ -100,6 +102,7 @@ contains
     if (present(monitor)) relay%listener => monitor
     self%history = fuge_history()
     self%has_solution = .false.
+    self%last_report = fuge_info()
     call check_options(chosen, info)
     if (info%failed()) return
     ranks = operator%ranks()
@@ -132,6 +135,7 @@ contains
       self%factor = kkt_factor()
       self%has_solution = .false.
     else
+      self%last_report = info
       call move_solution(solution, self%spare)
       call move_solution(candidate, solution)
     end if
@@ -185,6 +189,7 @@ contains
     self%history = fuge_history()
     self%factor = kkt_factor()
     self%has_solution = .false.
+    self%last_report = fuge_info()
     if (allocated(self%state)) deallocate (self%state)
     call self%steps%forget()
   end subroutine reset
@@ -196,10 +201,11 @@ contains
   !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force; `change` the changes in the
   !> order of `fuge_solution`. The contact stiffness dF_0/dv_0 is 1/change%motion(1) for gap_change 0 and load_change
   !> 1; column k of the sensitivity to the gaps is the change for a unit gap_change at k. A point that just touches
-  !> without force stays in the state in which the solve left it. Errors, `change` untouched: FUGE_ERR_CALL_ORDER
-  !> without a solution with a load, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_UNSUPPORTED,
-  !> FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY; by products also FUGE_ERR_ITERATION_LIMIT where the operator is too badly
-  !> conditioned, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_CALLBACK.
+  !> without force stays in the state in which the solve left it. `info` is that of the solve, whose warnings hold for
+  !> the derivative too, with the products of the derivative added; an error replaces status and message only.
+  !> Errors, `change` untouched: FUGE_ERR_CALL_ORDER without a solution with a load, FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_UNSUPPORTED, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY; by products also
+  !> FUGE_ERR_ITERATION_LIMIT where the operator is too badly conditioned, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_CALLBACK.
   subroutine derivative_by_load(self, operator, gap_change, load_change, change, info)
     class(fuge_solver), intent(in) :: self
     class(fuge_operator), intent(in) :: operator
@@ -220,6 +226,7 @@ contains
     type(fuge_info), intent(out) :: info
     type(shared_ranks) :: ranks
 
+    info = self%last_report
     ranks = operator%ranks()
     if (.not. ranks%is_alone()) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'there are no derivatives where ranks share the points: use a single one')
