@@ -94,8 +94,8 @@ contains
     padded = .not. cyclic(surface) .and. surface%cells > 1
     call shared%plan%set(part, surface%cells, length, padded, ranks, measured, info)
     call part%agree(info)
-    if (.not. info%failed()) call compute_slab_spectra(surface, shared%plan, padded, measured, shared%influence, &
-                                                       shared%inverse, info)
+    if (.not. info%failed()) call compute_slab_spectra(surface, shared%plan, padded, shared%influence, shared%inverse, &
+                                                       info)
   end subroutine prepare_shared
 
   !> What the only rank that has rows needs. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
