@@ -47,8 +47,8 @@ HOLDS = {
 PUBLIC = {".", "c", "f77"}
 
 BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 86, 36, 8, 8, 8
-# For a page of 800 pixels: longer lines than LINE_LENGTH letters are broken, or BUT_NOT_LENGTH in boxes with exceptions,
-# which are few in a layer.
+# For a page of 800 pixels: longer lines than LINE_LENGTH letters are broken, or BUT_NOT_LENGTH in boxes with
+# exceptions, which are few in a layer.
 NAME_SIZE, TEXT_SIZE, LINE_HEIGHT, LINE_LENGTH, BUT_NOT_LENGTH = 13.5, 13, 16, 13, 24
 STARTS = 20
 
