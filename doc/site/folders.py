@@ -9,6 +9,7 @@ Folders lie in layers, each above all that it may use; folders with the same arr
 within the layers is the one with the fewest crossings that a search from many starts finds.
 """
 
+import functools
 import itertools
 import pathlib
 import random
@@ -157,9 +158,13 @@ def text_width(text, size):
 
 def box_lines(folder, exceptions):
     """Lines of name, contents and exceptions of a folder, as far as there are any."""
+    return broken_lines(folder, ", ".join(sorted(used.split("/")[-1] for used in exceptions[folder])))
+
+
+@functools.cache
+def broken_lines(folder, but_not):
     name = "fuge.f90" if folder == "." else f"{folder}/"
     names = [name] if len(name) <= LINE_LENGTH else [f"{part}/" for part in folder.split("/")]
-    but_not = ", ".join(sorted(used.split("/")[-1] for used in exceptions[folder]))
     length = BUT_NOT_LENGTH if but_not else LINE_LENGTH
     contents = textwrap.wrap(HOLDS.get(folder, "").removeprefix("fuge.f90, "), length)
     return names, contents, textwrap.wrap(f"but not {but_not}", length) if but_not else []
