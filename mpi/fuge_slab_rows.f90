@@ -9,7 +9,7 @@ module fuge_slab_rows
 
   !> A rank has at least this many cells: coarser grids lie on fewer ranks, down to one, where messages would take
   !> longer than the transforms.
-  integer, parameter :: FEWEST_CELLS = 16384
+  integer, parameter, public :: FEWEST_CELLS = 16384
   !> A rank has at least this many cells for each rank, because it exchanges messages of 16 bytes a cell with all of
   !> them: with more ranks these would be so short that their latency would cost more than the ranks bring.
   integer, parameter :: SHORTEST = 128
