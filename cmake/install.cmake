@@ -13,11 +13,6 @@ set(for_programs COMPONENT fuge_runtime)
 set(for_developers COMPONENT fuge_development)
 set(for_readers COMPONENT fuge_documents)
 
-# The libraries that a C linker has to add for a static Fortran library.
-set(fortran_runtime ${CMAKE_Fortran_IMPLICIT_LINK_LIBRARIES})
-list(REMOVE_ITEM fortran_runtime gcc gcc_s c)
-list(REMOVE_DUPLICATES fortran_runtime)
-set(fortran_runtime_dirs ${CMAKE_Fortran_IMPLICIT_LINK_DIRECTORIES})
 set(fortran_compiler "${CMAKE_Fortran_COMPILER_ID}-${CMAKE_Fortran_COMPILER_VERSION}")
 
 # result: linker flags for the libraries `...`
@@ -72,8 +67,15 @@ function(fuge_install_library target package)
   install(FILES "${PROJECT_BINARY_DIR}/${package}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" ${for_developers})
 endfunction()
 
-fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}"
-  NEEDS ${LAPACK_LIBRARIES} ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY})
+set(fftw)
+if(FUGE_WITH_FFTW)
+  set(fftw ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY})
+endif()
+fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}" NEEDS ${LAPACK_LIBRARIES} ${fftw})
+# A static and a shared library in one prefix may differ in this.
+set(features "fuge-${library_kind}-features.cmake")
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/${features}" CONTENT "set(fuge_WITH_FFTW @FUGE_WITH_FFTW@)\n" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/${features}" DESTINATION "${package_dir}" ${for_developers})
 
 if(TARGET fuge_sparse)
   fuge_install_library(fuge_sparse fuge-sparse
