@@ -11,7 +11,7 @@ module bench_problems
   implicit none
   private
 
-  public :: make_known, make_random, make_rough, add_matrix, contact_problem, uniform_edges, graded_edges, &
+  public :: make_known, make_known_on, make_random, make_rough, add_matrix, contact_problem, uniform_edges, &
     next_uniform, whole
 
   !> Contacts with known answers.
@@ -92,14 +92,24 @@ contains
     integer :: n
 
     n = size(edges) - 1
+    call make_known_on(name, element, 0.5_dp*(edges(2:) + edges(:n)), edges(2:) - edges(:n), problem)
+  end subroutine make_known
+
+  !> The same on cells with centres `x` and widths `width`, (n).
+  subroutine make_known_on(name, element, x, width, problem)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: element
+    real(dp), intent(in) :: x(:), width(:)
+    type(bench_problem), intent(out) :: problem
+
     problem%name = name
     problem%element = element
     problem%e_star = E_STAR
     problem%load = LOAD
-    problem%width = edges(2:) - edges(:n)
-    problem%x = 0.5_dp*(edges(2:) + edges(:n))
+    problem%width = width
+    problem%x = x
     call set_form(problem)
-    allocate (problem%gap(n))
+    allocate (problem%gap(size(x)))
     ! An eccentric force tilts the face, which is flat: its gaps are zero.
     problem%gap = 0.0_dp
     if (allocated(problem%modes)) return
@@ -108,7 +118,7 @@ contains
     else
       problem%gap = problem%form%initial_gap(problem%x)
     end if
-  end subroutine make_known
+  end subroutine make_known_on
 
   subroutine set_form(problem)
     type(bench_problem), intent(inout) :: problem
@@ -162,35 +172,6 @@ contains
 
     edges = [(REACH*real(2*k - n, dp)/real(n, dp), k=0, n)]
   end function uniform_edges
-
-  !> `n` cells from `left` to `right`, refined towards both ends by a cosine. Beside each end that is
-  !> `open` there are three more of the last width, or if the ends are not `known` well some that double.
-  pure function graded_edges(left, right, n, open, known) result(edges)
-    real(dp), intent(in) :: left, right
-    integer, intent(in) :: n
-    logical, intent(in) :: open(2), known
-    integer, parameter :: FEW = 3
-    real(dp), parameter :: MARGIN = 0.05_dp
-    real(dp), allocatable :: edges(:)
-    real(dp) :: last
-    integer :: k, beside
-
-    last = (right - left)*sin(0.5_dp*PI/real(n, dp))**2
-    beside = FEW
-    if (.not. known) beside = max(FEW, ceiling(log(MARGIN*(right - left)/last)/log(2.0_dp)))
-    edges = [(left + (right - left)*sin(0.5_dp*PI*real(k, dp)/real(n, dp))**2, k=0, n)]
-    if (open(1)) edges = [(left - last*steps(k, known), k=beside, 1, -1), edges]
-    if (open(2)) edges = [edges, (right + last*steps(k, known), k=1, beside)]
-  end function graded_edges
-
-  !> Distance to which cell k beside the contact extends, in widths of the first.
-  elemental function steps(k, equal)
-    integer, intent(in) :: k
-    logical, intent(in) :: equal
-    real(dp) :: steps
-
-    steps = merge(real(k, dp), 2.0_dp**k - 1.0_dp, equal)
-  end function steps
 
   !> The influence matrix of a problem on the half-plane.
   subroutine add_matrix(problem)

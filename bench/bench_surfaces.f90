@@ -151,28 +151,33 @@ contains
   end function segment
 
   !> Periodic self-affine surface of side 1: waves of 4 .. n/8 periods in all directions with amplitudes k**(-1 - H) and
-  !> random phases, slope 0.1 (root mean square). `n` >= 64 a power of two. Another n has the same long waves.
-  subroutine make_rough_surface(n, pressure, surface)
+  !> random phases, slope 0.1 (root mean square). `n` >= 64 a power of two. Another n has the same long waves; with as
+  !> many `periods` of the shortest wave (default n/8) another n is another grid of the same surface, and gaps count from
+  !> its mean plane.
+  subroutine make_rough_surface(n, pressure, surface, periods)
     integer, intent(in) :: n
     real(dp), intent(in) :: pressure
     type(bench_surface), intent(out) :: surface
+    integer, intent(in), optional :: periods
     type(grid_transform) :: transform
     real(dp) :: slope
     integer(int64) :: state
-    integer :: ring, k, j
+    integer :: ring, k, j, most
 
     surface%name = 'rough'
     surface%n = n
     surface%load = pressure
     surface%boundary = FUGE_PERIODIC
+    most = n/CELLS_OF_SHORTEST
+    if (present(periods)) most = periods
     call transform%create(n, n)
     slope = 0.0_dp
     state = 5
     ! Ring after ring, so that a wave has the same phase for every n.
-    do ring = 1, n/CELLS_OF_SHORTEST
+    do ring = 1, most
       do k = -ring, ring
-        call add_wave(transform, [ring, k], state, slope)
-        if (abs(k) < ring) call add_wave(transform, [k, ring], state, slope)
+        call add_wave(transform, [ring, k], most, state, slope)
+        if (abs(k) < ring) call add_wave(transform, [k, ring], most, state, slope)
       end do
     end do
     call transform%backward()
@@ -181,13 +186,18 @@ contains
       surface%gap(n*(j - 1) + 1:n*j) = SLOPE_RMS/sqrt(slope)*transform%values(:n, j)
     end do
     call transform%free()
-    surface%gap = maxval(surface%gap) - surface%gap
+    if (present(periods)) then
+      surface%gap = -surface%gap
+    else
+      surface%gap = maxval(surface%gap) - surface%gap
+    end if
   end subroutine make_rough_surface
 
-  !> Add the wave a cos(2 pi (k(1) x + k(2) y) + phase), and half of (2 pi |k| a)**2 to `slope`.
-  subroutine add_wave(transform, k, state, slope)
+  !> Add the wave a cos(2 pi (k(1) x + k(2) y) + phase), and half of (2 pi |k| a)**2 to `slope`, unless it has more than
+  !> `most` periods.
+  subroutine add_wave(transform, k, most, state, slope)
     type(grid_transform), intent(inout) :: transform
-    integer, intent(in) :: k(2)
+    integer, intent(in) :: k(2), most
     integer(int64), intent(inout) :: state
     real(dp), intent(inout) :: slope
     real(dp) :: phase, length, amplitude
@@ -197,7 +207,7 @@ contains
     call next_uniform(state, phase)
     n = size(transform%waves, 2)
     length = hypot(real(k(1), dp), real(k(2), dp))
-    if (length < LONGEST_WAVE .or. length > n/CELLS_OF_SHORTEST) return
+    if (length < LONGEST_WAVE .or. length > most) return
     amplitude = length**(-1.0_dp - HURST)
     slope = slope + 0.5_dp*(2.0_dp*PI*length*amplitude)**2
     wave = 0.5_dp*amplitude*cmplx(cos(2.0_dp*PI*phase), sin(2.0_dp*PI*phase), dp)

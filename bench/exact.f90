@@ -5,13 +5,14 @@
 !> appends to DIRECTORY/results.csv; `quick` omits the finest grids, `write` writes the problems for
 !> other solvers.
 program exact
-  use bench_judge, only: approach_error, edge_interval
-  use bench_problems, only: bench_problem, add_matrix, graded_edges, make_known, uniform_edges, KNOWN, REACH
+  use bench_graded, only: make_graded
+  use bench_judge, only: approach_error
+  use bench_problems, only: bench_problem, add_matrix, make_known, uniform_edges, KNOWN, REACH
   use bench_records, only: bench_row, open_table, write_problem, write_row
-  use bench_runs, only: new_row, run_by_products, run_dense, run_warm, solve_once
+  use bench_runs, only: new_row, run_by_products, run_dense, run_warm
   use bench_watch, only: stopwatch
   use closed_forms, only: cylinder, quartic_punch
-  use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_info, fuge_interval, fuge_polynomial_profile, &
+  use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_info, fuge_polynomial_profile, &
     fuge_smooth_contact, fuge_solve_smooth_punch, FUGE_ACTIVE_SET, FUGE_MEAN, FUGE_TABLEAU
   implicit none
 
@@ -140,56 +141,6 @@ contains
       n = 2*n
     end do
   end subroutine run_graded
-
-  !> All steps of the set-up: coarse solution, its edges, grid and matrix. If one edge is a corner, equal cells
-  !> give the other edge less accurately: the steps are repeated if the contact on that grid ends elsewhere.
-  subroutine make_graded(name, n, problem)
-    character(len=*), intent(in) :: name
-    integer, intent(in) :: n
-    type(bench_problem), intent(out), target :: problem
-    integer, parameter :: FEWEST = 32, ROUNDS = 4
-    real(dp) :: ends(2), found(2)
-    logical :: known
-    integer :: round
-
-    known = name /= 'lifted'
-    ends = [-REACH, REACH]
-    call make_known(name, FUGE_MEAN, uniform_edges(max(FEWEST, n/2)), problem)
-    if (.not. problem%singular()) ends = coarse_ends(problem)
-    do round = 1, ROUNDS
-      call make_known(name, FUGE_MEAN, graded_edges(ends(1), ends(2), n, abs(ends) < REACH, known), problem)
-      problem%uniform = .false.
-      call add_matrix(problem)
-      if (known) exit
-      found = graded_ends(problem)
-      if (all(abs(found - ends) <= 2.0_dp*minval(problem%width))) exit
-      ends = found
-    end do
-  end subroutine make_graded
-
-  function coarse_ends(coarse) result(ends)
-    type(bench_problem), intent(inout), target :: coarse
-    real(dp) :: ends(2)
-    type(fuge_interval) :: contact
-    real(dp) :: force(coarse%points())
-    logical :: found
-
-    call add_matrix(coarse)
-    call solve_once(coarse, force)
-    call edge_interval(coarse, force, contact, found)
-    if (.not. found) error stop 'no edges of a coarse contact'
-    ends = [contact%left, contact%right]
-  end function coarse_ends
-
-  function graded_ends(problem) result(ends)
-    type(bench_problem), intent(in), target :: problem
-    real(dp) :: ends(2)
-    real(dp) :: force(problem%points())
-
-    call solve_once(problem, force)
-    ends = [minval(problem%x - 0.5_dp*problem%width, mask=force > 0.0_dp), &
-            maxval(problem%x + 0.5_dp*problem%width, mask=force > 0.0_dp)]
-  end function graded_ends
 
   !> Equal cells by FFT.
   subroutine run_fft(name, chosen)

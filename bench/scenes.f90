@@ -214,6 +214,8 @@ contains
       error stop 'a scene was not solved'
     end if
     what%residual = info%residual
+    what%products = info%products
+    what%preconditionings = info%preconditionings
     if (what%derivative) then
       unit = 0.0_dp
       unit(1) = 1.0_dp
@@ -221,9 +223,10 @@ contains
       call solver%derivative(operator, 0.0_dp*what%problem%gap, unit, change, info)
       call cpu_time(now)
       if (info%failed()) error stop 'no derivative'
+      ! Its products are added to those of the solve.
+      what%products = info%products - what%products
+      what%preconditionings = info%preconditionings - what%preconditionings
     end if
-    what%products = info%products
-    what%preconditionings = info%preconditionings
     what%seconds = min(what%seconds, now - begin)
   end subroutine solve
 

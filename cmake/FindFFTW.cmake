@@ -1,4 +1,4 @@
-# FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads; FFTW::mpi if it is there for MPI.
+# FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads.
 # FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a nonstandard location. FFTW_LIBRARY may be another library with
 # FFTW's interface, such as libmkl_rt of MKL.
 find_package(PkgConfig QUIET)
@@ -7,14 +7,12 @@ if(PkgConfig_FOUND)
 endif()
 find_library(FFTW_LIBRARY NAMES fftw3 libfftw3-3 HINTS ${PC_FFTW_LIBRARY_DIRS})
 if(FFTW_LIBRARY MATCHES "mkl")
-  # One library has the threads too, and FFTW's part for MPI does not work with it.
+  # One library has the threads too.
   set(FFTW_THREADS_LIBRARY "${FFTW_LIBRARY}")
-  set(FFTW_MPI_LIBRARY "")
 else()
   find_library(FFTW_THREADS_LIBRARY NAMES fftw3_threads HINTS ${PC_FFTW_LIBRARY_DIRS})
-  find_library(FFTW_MPI_LIBRARY NAMES fftw3_mpi HINTS ${PC_FFTW_LIBRARY_DIRS})
 endif()
-mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY FFTW_MPI_LIBRARY)
+mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY)
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(FFTW REQUIRED_VARS FFTW_LIBRARY FFTW_THREADS_LIBRARY
@@ -33,9 +31,4 @@ if(FFTW_FOUND AND NOT TARGET FFTW::threads)
   set_target_properties(FFTW::threads PROPERTIES
     IMPORTED_LOCATION "${FFTW_THREADS_LIBRARY}" INTERFACE_LINK_LIBRARIES FFTW::fftw)
   unset(fftw_needs)
-endif()
-if(FFTW_FOUND AND FFTW_MPI_LIBRARY AND NOT TARGET FFTW::mpi)
-  add_library(FFTW::mpi UNKNOWN IMPORTED)
-  set_target_properties(FFTW::mpi PROPERTIES
-    IMPORTED_LOCATION "${FFTW_MPI_LIBRARY}" INTERFACE_LINK_LIBRARIES FFTW::fftw)
 endif()

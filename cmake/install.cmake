@@ -85,7 +85,7 @@ endif()
 if(TARGET fuge_mpi)
   # The compiler wrappers of MPI know its libraries.
   fuge_install_library(fuge_mpi fuge-mpi
-    DESCRIPTION "Surfaces over MPI for fuge: compile with the wrapper of the MPI" REQUIRES fuge NEEDS ${FFTW_MPI_LIBRARY})
+    DESCRIPTION "Surfaces over MPI for fuge: compile with the wrapper of the MPI" REQUIRES fuge)
 endif()
 
 install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")

@@ -265,6 +265,30 @@ int fuge_halfplane_symmetric_matrix(int n, const double *x, const double *width,
                                     int element, double *alpha, int lda,
                                     char *message, size_t len);
 
+enum {                          /* kind of an end of an interval that graded cells cover */
+  FUGE_END_PLAIN = 0,           /* cells do not become narrower, as at an axis of symmetry */
+  FUGE_END_EDGE = 1,            /* the pressure falls to zero like a square root: distances from
+                                   the end grow quadratically */
+  FUGE_END_CORNER = 2           /* the pressure has no limit: they grow with the fourth power */
+};
+
+/* Cells side by side, ascending, narrow at the ends of an interval and wide in its middle, for
+ * fuge_halfplane_matrix with FUGE_MEAN and gaps that are means over the cells.
+ *   left, right   in   the interval, left < right: an expected contact, from fuge_contact_edges
+ *                      on a coarse grid, or the face of a punch; length
+ *   left_end, right_end  in  FUGE_END_...
+ *   left_beyond, right_beyond  in  cells beyond either end, mirror images of those inside, so
+ *                      that the contact may turn out to be wider: 3 for an end from
+ *                      fuge_contact_edges, 0 at a corner
+ *   n             in   all cells: n - left_beyond - right_beyond >= 1 cover the interval, and no
+ *                      more than these may lie beyond an end
+ *   x, width      out  n; centres and widths; length
+ * Several contacts: one call for each, with its part of the arrays.  FUGE_ERR_SIZE,
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION for a kind, FUGE_ERR_WIDTH unless left < right or if
+ * a cell would be no wider than a thousand roundings of x, FUGE_ERR_OVERFLOW. */
+int fuge_graded_cells(double left, double right, int left_end, int right_end, int left_beyond,
+                      int right_beyond, int n, double *x, double *width, char *message, size_t len);
+
 /* ---- edges of contact --------------------------------------------------- */
 
 enum {                          /* kind of an edge; all but the first are edges of cells, because */

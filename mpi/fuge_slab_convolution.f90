@@ -1,22 +1,19 @@
 !> Products with convolution matrices of grids whose rows ranks share.
 !>
 !> As in fuge_grid_convolution, a pair of rows is transformed as one line of complex numbers, and zeros of a circle that
-!> is twice as long are never transformed. Instead of a copy of a few columns at a time, FFTW transposes the transforms
-!> of all ranks: an element is one wave of a pair of rows, two complex numbers. Each line is computed as by one process,
-!> so that products do not depend on the number of ranks.
+!> is twice as long are never transformed; a few columns at a time are copied to lines and transformed there. Between
+!> the two an exchange (fuge_slab_exchange) carries all waves of a pair to the ranks that have them; an element is one
+!> wave of a pair of rows, two complex numbers. Each line is computed as by one process, so that products do not depend
+!> on the number of ranks.
 module fuge_slab_convolution
   use, intrinsic :: iso_c_binding, only: c_double, c_loc
   use fuge_grid_convolution, only: add_untwisted, convolve_line, opposite, twist_line
   use fuge_grid_plan, only: stored_waves
   use fuge_kinds, only: dp
-  use fuge_slab_plan, only: slab_plan
-  use fuge_slab_rows, only: block_of_waves
-  use fuge_slab_transpose, only: slab_transpose
+  use fuge_slab_exchange, only: slab_exchange
+  use fuge_slab_plan, only: slab_plan, COLUMNS, NUMBERS
   implicit none
   private
-
-  !> Real numbers of an element: one wave of both rows of a pair.
-  integer, parameter :: NUMBERS = 4
 
   !> The spectrum of an even kernel, of the waves along x that this rank has. It must not be copied.
   type, public :: slab_kernel
@@ -26,7 +23,7 @@ module fuge_slab_convolution
     integer :: all_waves = 0, first = 0, waves = 0
     !> (0:my, 0:waves - 1): as that of a `grid_kernel`, which includes the factor of the transforms.
     real(dp), allocatable :: spectrum(:, :)
-    type(slab_transpose), private :: transpose
+    type(slab_exchange), private :: exchange
   contains
     procedure :: place
     procedure :: set
@@ -41,23 +38,22 @@ contains
     class(slab_kernel), intent(inout) :: self
     type(slab_plan), intent(in) :: plan
     logical, intent(in) :: padded(2)
-    integer :: block
+    integer :: range(2)
 
+    call plan%describe_exchange(padded(1), self%exchange)
+    range = self%exchange%column_range(plan%group%number())
     self%padded = padded
     self%all_waves = stored_waves(plan%plan%length(1), padded(1))
-    block = block_of_waves(self%all_waves, plan%group%members())
-    self%first = min(plan%group%number()*block, self%all_waves)
-    self%waves = min(block, self%all_waves - self%first)
+    self%first = range(1)
+    self%waves = range(2)
   end subroutine place
 
-  !> Take the `spectrum` (0:my, 0:waves - 1) of this rank's waves and plan transpositions; after `place`. All ranks of
-  !> the plan's group call it. `planned` is false without memory.
-  subroutine set(self, plan, measured, spectrum, planned)
+  !> Take the `spectrum` (0:my, 0:waves - 1) of this rank's waves; after `place`. `status` is not 0 without memory.
+  subroutine set(self, plan, spectrum, status)
     class(slab_kernel), intent(inout) :: self
-    type(slab_plan), intent(inout) :: plan
-    logical, intent(in) :: measured
+    type(slab_plan), intent(in) :: plan
     real(dp), allocatable, intent(inout) :: spectrum(:, :)
-    logical, intent(out) :: planned
+    integer, intent(out) :: status
     real(dp) :: circle
     integer :: k
 
@@ -67,65 +63,54 @@ contains
     do k = lbound(self%spectrum, 2), ubound(self%spectrum, 2)
       self%spectrum(:, k) = self%spectrum(:, k)/circle
     end do
-    call self%transpose%set(plan%group, plan%all_pairs, self%all_waves, NUMBERS, &
-                            [plan%block, block_of_waves(self%all_waves, plan%group%members())], measured, &
-                            plan%by_rows, plan%by_columns, planned)
+    call self%exchange%set(status)
   end subroutine set
 
   !> y = the convolution of x with the kernel; both (nx*rows), the rows of this rank. All ranks of the group call it.
   subroutine convolve(self, plan, x, y)
-    class(slab_kernel), intent(in) :: self
+    class(slab_kernel), intent(inout) :: self
     type(slab_plan), intent(in) :: plan
     real(dp), intent(in) :: x(:)
     real(dp), intent(inout) :: y(:)
-    real(c_double), pointer, contiguous :: by_rows(:), by_columns(:), lines(:, :)
-    integer :: begin, k, width
+    integer :: first, p
 
-    by_rows => plan%by_rows
-    by_columns => plan%by_columns
-    lines => plan%lines
-    width = NUMBERS*self%all_waves
-    do k = 1, plan%pairs
-      begin = width*(k - 1)
-      call transform_pair(self, plan, k, x, lines, by_rows(begin + 1:begin + width))
+    call self%exchange%begin_rows(plan%by_columns)
+    do p = 1, plan%pairs
+      call transform_pair(self, plan, p, x, plan%lines)
+      call self%exchange%send_row(p - 1, plan%by_rows)
     end do
-    call self%transpose%forth(by_rows, by_columns)
-    width = NUMBERS*plan%all_pairs
-    do k = 1, self%waves
-      begin = width*(k - 1)
-      call convolve_wave(self, plan, k, lines, by_columns(begin + 1:begin + width))
+    call self%exchange%finish()
+    do first = 0, self%waves - 1, COLUMNS
+      call convolve_waves(self, plan, first, min(first + COLUMNS, self%waves) - 1, plan%lines)
     end do
-    call self%transpose%back_again(by_columns, by_rows)
-    width = NUMBERS*self%all_waves
-    do k = 1, plan%pairs
-      begin = width*(k - 1)
-      call transform_back(self, plan, k, by_rows(begin + 1:begin + width), lines, y)
+    call self%exchange%return_rows(plan%by_rows, plan%by_columns)
+    do p = 1, plan%pairs
+      call self%exchange%wait_for_row(p - 1)
+      call transform_back(self, plan, p, plan%lines, y)
     end do
+    call self%exchange%finish()
   end subroutine convolve
 
-  !> Twice the transforms of the rows 2 p - 1 and 2 p of x: `waves` (4, all waves).
-  subroutine transform_pair(kernel, plan, p, x, lines, waves)
+  !> The transforms of the rows 2 p - 1 and 2 p of x, twice, to where their waves belong.
+  subroutine transform_pair(kernel, plan, p, x, lines)
     type(slab_kernel), intent(in) :: kernel
     type(slab_plan), intent(in) :: plan
     integer, intent(in) :: p
     real(dp), intent(in) :: x(:)
     real(c_double), intent(inout), contiguous, target :: lines(:, :)
-    real(c_double), intent(inout), contiguous :: waves(:)
     logical :: zero
-    integer :: n
 
-    n = plan%plan%length(1)
-    call pack_rows(plan%plan%cells(1), n, 2*p <= plan%rows, p, x, lines(:, 1), zero)
+    call pack_rows(plan%plan%cells(1), plan%plan%length(1), 2*p <= plan%rows, p, x, lines(:, 1), zero)
     if (zero) then
-      waves = 0.0_dp
+      call clear_pair(kernel, plan, p)
       return
     end if
     call plan%plan%rows%transform_to(c_loc(lines(1, 1)), c_loc(lines(1, 2)))
-    call separate(n, 0, n/2, lines(:, 2), waves)
+    call separate_pair(kernel, plan, p, 0, lines(:, 2))
     if (.not. kernel%padded(1)) return
     call twist_line(plan%plan%row_twist, plan%plan%cells(1), lines(:, 1), lines(:, 2))
     call plan%plan%rows%transform_to(c_loc(lines(1, 2)), c_loc(lines(1, 1)))
-    call separate(n, 1, (n - 1)/2, lines(:, 1), waves(NUMBERS*(n/2 + 1) + 1:))
+    call separate_pair(kernel, plan, p, 1, lines(:, 1))
   end subroutine transform_pair
 
   !> Row 2 p - 1 and row 2 p of x, if it is there, as real and imaginary parts, unless both are zero.
@@ -152,57 +137,136 @@ contains
     line(2*nx + 1:2*length) = 0.0_dp
   end subroutine pack_rows
 
-  !> Twice the transforms of both rows of a pair from that of the pair: of the waves 0 .. `most` of a circle.
-  pure subroutine separate(n, circle, most, line, waves)
-    integer, intent(in) :: n, circle, most
-    real(c_double), intent(in), contiguous :: line(:)
-    real(c_double), intent(inout), contiguous :: waves(:)
-    integer :: k, o
-
-    do k = 0, most
-      o = 2*opposite(n, circle, k)
-      waves(4*k + 1) = line(2*k + 1) + line(o + 1)
-      waves(4*k + 2) = line(2*k + 2) - line(o + 2)
-      waves(4*k + 3) = line(2*k + 2) + line(o + 2)
-      waves(4*k + 4) = line(o + 1) - line(2*k + 1)
-    end do
-  end subroutine separate
-
-  !> Convolve `column`, number `k` of this rank; the result has real and imaginary parts exchanged.
-  subroutine convolve_wave(kernel, plan, k, lines, column)
-    type(slab_kernel), intent(in) :: kernel
-    type(slab_plan), intent(in) :: plan
-    integer, intent(in) :: k
-    real(c_double), intent(inout), contiguous, target :: lines(:, :)
-    real(c_double), intent(inout), contiguous :: column(:)
-    integer :: rows
-
-    rows = plan%plan%cells(2)
-    lines(:2*rows, 1) = column(:2*rows)
-    lines(2*rows + 1:2*plan%plan%length(2), 1) = 0.0_dp
-    call convolve_line(plan%plan%columns, plan%plan%column_twist, rows, kernel%padded(2), kernel%spectrum(:, k - 1), &
-                       lines(:, 1), lines(:, 2), lines(:, 3))
-    column(:2*rows) = lines(:2*rows, 1)
-    ! The second row of a last pair without one.
-    column(2*rows + 1:) = 0.0_dp
-  end subroutine convolve_wave
-
-  !> The rows 2 p - 1 and 2 p of y from their `waves`, real and imaginary parts exchanged.
-  subroutine transform_back(kernel, plan, p, waves, lines, y)
+  !> A pair of rows of zeros.
+  subroutine clear_pair(kernel, plan, p)
     type(slab_kernel), intent(in) :: kernel
     type(slab_plan), intent(in) :: plan
     integer, intent(in) :: p
-    real(c_double), intent(in), contiguous :: waves(:)
+    real(c_double), pointer, contiguous :: piece(:)
+    integer :: rank
+
+    do rank = 0, plan%group%members() - 1
+      call kernel%exchange%find_piece(p - 1, rank, plan%by_rows, plan%by_columns, piece)
+      piece = 0.0_dp
+    end do
+  end subroutine clear_pair
+
+  !> The waves of a circle from the transform `line` of pair `p`, to the pieces of all ranks.
+  subroutine separate_pair(kernel, plan, p, circle, line)
+    type(slab_kernel), intent(in) :: kernel
+    type(slab_plan), intent(in) :: plan
+    integer, intent(in) :: p, circle
+    real(c_double), intent(in), contiguous :: line(:)
+    real(c_double), pointer, contiguous :: piece(:)
+    integer :: begin, first, last, rank
+
+    do rank = 0, plan%group%members() - 1
+      call find_waves(kernel, plan%plan%length(1), circle, rank, first, last, begin)
+      if (last < first) cycle
+      call kernel%exchange%find_piece(p - 1, rank, plan%by_rows, plan%by_columns, piece)
+      call separate(plan%plan%length(1), circle, first, last, line, piece(NUMBERS*begin + 1:))
+    end do
+  end subroutine separate_pair
+
+  !> The waves `first` .. `last` of a circle of `n` cells that a rank has; `begin` of its waves are those of the circle
+  !> before it.
+  pure subroutine find_waves(kernel, n, circle, rank, first, last, begin)
+    type(slab_kernel), intent(in) :: kernel
+    integer, intent(in) :: n, circle, rank
+    integer, intent(out) :: first, last, begin
+    integer :: before, range(2)
+
+    range = kernel%exchange%column_range(rank)
+    before = merge(0, n/2 + 1, circle == 0)
+    first = max(range(1) - before, 0)
+    ! Waves above are the opposites of those below.
+    last = min(range(1) + range(2) - 1 - before, merge(n/2, (n - 1)/2, circle == 0))
+    begin = first + before - range(1)
+  end subroutine find_waves
+
+  !> Twice the transforms of both rows of a pair from that of the pair: of the waves `first` .. `last` of a circle.
+  pure subroutine separate(n, circle, first, last, line, waves)
+    integer, intent(in) :: n, circle, first, last
+    real(c_double), intent(in), contiguous :: line(:)
+    real(c_double), intent(inout), contiguous :: waves(:)
+    integer :: i, k, o
+
+    do k = first, last
+      i = NUMBERS*(k - first)
+      o = 2*opposite(n, circle, k)
+      waves(i + 1) = line(2*k + 1) + line(o + 1)
+      waves(i + 2) = line(2*k + 2) - line(o + 2)
+      waves(i + 3) = line(2*k + 2) + line(o + 2)
+      waves(i + 4) = line(o + 1) - line(2*k + 1)
+    end do
+  end subroutine separate
+
+  !> Convolve the columns of the waves `first` .. `last` of this rank, from 0; the results have real and imaginary parts
+  !> exchanged.
+  subroutine convolve_waves(kernel, plan, first, last, lines)
+    type(slab_kernel), intent(in) :: kernel
+    type(slab_plan), intent(in) :: plan
+    integer, intent(in) :: first, last
+    real(c_double), intent(inout), contiguous, target :: lines(:, :)
+    real(c_double), pointer, contiguous :: table(:, :)
+    integer :: k, rows, width
+
+    rows = plan%plan%cells(2)
+    width = last - first + 1
+    table(1:NUMBERS*kernel%waves, 1:plan%all_pairs) => plan%by_columns
+    call gather(NUMBERS*first, width, table, lines)
+    lines(2*rows + 1:2*plan%plan%length(2), :width) = 0.0_dp
+    do k = 1, width
+      call convolve_line(plan%plan%columns, plan%plan%column_twist, rows, kernel%padded(2), &
+                         kernel%spectrum(:, first + k - 1), lines(:, k), lines(:, COLUMNS + 1), lines(:, COLUMNS + 2))
+    end do
+    ! The second row of a last pair without one.
+    lines(2*rows + 1:NUMBERS*plan%all_pairs, :width) = 0.0_dp
+    call scatter(NUMBERS*first, width, lines, table)
+  end subroutine convolve_waves
+
+  !> The first `width` lines: the columns of as many waves, behind `begin` numbers in each row of `table`.
+  pure subroutine gather(begin, width, table, lines)
+    integer, intent(in) :: begin, width
+    real(c_double), intent(in), contiguous :: table(:, :)
+    real(c_double), intent(inout), contiguous :: lines(:, :)
+    integer :: k, p
+
+    do p = 1, size(table, 2)
+      do k = 1, width
+        lines(NUMBERS*p - 3:NUMBERS*p, k) = table(begin + NUMBERS*k - 3:begin + NUMBERS*k, p)
+      end do
+    end do
+  end subroutine gather
+
+  !> The reverse of `gather`.
+  pure subroutine scatter(begin, width, lines, table)
+    integer, intent(in) :: begin, width
+    real(c_double), intent(in), contiguous :: lines(:, :)
+    real(c_double), intent(inout), contiguous :: table(:, :)
+    integer :: k, p
+
+    do p = 1, size(table, 2)
+      do k = 1, width
+        table(begin + NUMBERS*k - 3:begin + NUMBERS*k, p) = lines(NUMBERS*p - 3:NUMBERS*p, k)
+      end do
+    end do
+  end subroutine scatter
+
+  !> The rows 2 p - 1 and 2 p of y from their waves, real and imaginary parts exchanged.
+  subroutine transform_back(kernel, plan, p, lines, y)
+    type(slab_kernel), intent(in) :: kernel
+    type(slab_plan), intent(in) :: plan
+    integer, intent(in) :: p
     real(c_double), intent(inout), contiguous, target :: lines(:, :)
     real(dp), intent(inout) :: y(:)
-    integer :: first, j, n, nx
+    integer :: first, j, nx
 
-    n = plan%plan%length(1)
     nx = plan%plan%cells(1)
-    call combine(n, 0, n/2, waves, lines(:, 2))
+    call combine_pair(kernel, plan, p, 0, lines(:, 2))
     call plan%plan%rows%transform_to(c_loc(lines(1, 2)), c_loc(lines(1, 1)))
     if (kernel%padded(1)) then
-      call combine(n, 1, (n - 1)/2, waves(NUMBERS*(n/2 + 1) + 1:), lines(:, 3))
+      call combine_pair(kernel, plan, p, 1, lines(:, 3))
       call plan%plan%rows%transform_to(c_loc(lines(1, 3)), c_loc(lines(1, 2)))
       call add_untwisted(plan%plan%row_twist, nx, lines(:, 2), lines(:, 1))
     end if
@@ -216,27 +280,45 @@ contains
     end do
   end subroutine transform_back
 
+  !> The transform `line` of pair `p` on a circle, from the pieces of all ranks.
+  subroutine combine_pair(kernel, plan, p, circle, line)
+    type(slab_kernel), intent(in) :: kernel
+    type(slab_plan), intent(in) :: plan
+    integer, intent(in) :: p, circle
+    real(c_double), intent(inout), contiguous :: line(:)
+    real(c_double), pointer, contiguous :: piece(:)
+    integer :: begin, first, last, rank
+
+    do rank = 0, plan%group%members() - 1
+      call find_waves(kernel, plan%plan%length(1), circle, rank, first, last, begin)
+      if (last < first) cycle
+      call kernel%exchange%find_piece(p - 1, rank, plan%by_rows, plan%by_columns, piece)
+      call combine(plan%plan%length(1), circle, first, last, piece(NUMBERS*begin + 1:), line)
+    end do
+  end subroutine combine_pair
+
   !> The transform of a pair from those of its rows, as `separate` gives them, all with parts exchanged.
-  pure subroutine combine(n, circle, most, waves, line)
-    integer, intent(in) :: n, circle, most
+  pure subroutine combine(n, circle, first, last, waves, line)
+    integer, intent(in) :: n, circle, first, last
     real(c_double), intent(in), contiguous :: waves(:)
     real(c_double), intent(inout), contiguous :: line(:)
-    integer :: k, o
+    integer :: i, k, o
 
-    do k = 0, most
+    do k = first, last
+      i = NUMBERS*(k - first)
       o = 2*opposite(n, circle, k)
-      line(o + 1) = waves(4*k + 4) - waves(4*k + 1)
-      line(o + 2) = waves(4*k + 2) + waves(4*k + 3)
-      line(2*k + 1) = waves(4*k + 1) + waves(4*k + 4)
-      line(2*k + 2) = waves(4*k + 2) - waves(4*k + 3)
+      line(o + 1) = waves(i + 4) - waves(i + 1)
+      line(o + 2) = waves(i + 2) + waves(i + 3)
+      line(2*k + 1) = waves(i + 1) + waves(i + 4)
+      line(2*k + 2) = waves(i + 2) - waves(i + 3)
     end do
   end subroutine combine
 
-  !> Destroy the plans.
+  !> Free the spectrum and what exchanges need.
   subroutine free(self)
     class(slab_kernel), intent(inout) :: self
 
-    call self%transpose%free()
+    call self%exchange%free()
     if (allocated(self%spectrum)) deallocate (self%spectrum)
   end subroutine free
 

@@ -199,8 +199,8 @@ contains
     call slabs%plan%set(operator%part, operator%surface%cells, length, padded, operator%group%members(), &
                         operator%measured, info)
     call operator%part%agree(info)
-    if (.not. info%failed()) call compute_slab_spectra(operator%surface, slabs%plan, padded, operator%measured, &
-                                                       slabs%influence, slabs%inverse, info)
+    if (.not. info%failed()) call compute_slab_spectra(operator%surface, slabs%plan, padded, slabs%influence, &
+                                                       slabs%inverse, info)
   end subroutine prepare_slabs
 
   !> What the only rank that has rows needs.

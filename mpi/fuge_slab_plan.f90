@@ -5,14 +5,19 @@ module fuge_slab_plan
   use fuge_grid_plan, only: grid_plan, stored_waves
   use fuge_number_text, only: text
   use fuge_rank_communicator, only: rank_communicator
+  use fuge_slab_exchange, only: slab_exchange
   use fuge_slab_rows, only: block_of_pairs, block_of_waves
-  use fuge_slab_transpose, only: local_numbers
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
 
-  !> Columns are convolved in lines of this many complex numbers more than they have.
-  integer, parameter :: LINES = 4
+  public :: COLUMNS, NUMBERS
+
+  !> Columns that are convolved one after the other, so that each visit to a row of them reads some cache lines as a
+  !> whole.
+  integer, parameter :: COLUMNS = 8
+  !> Real numbers of an element of an exchange: one wave of both rows of a pair.
+  integer, parameter :: NUMBERS = 4
   !> Numbers in a line of the buffers, which are allocated in lines.
   integer, parameter :: STRIDE = 1024
 
@@ -24,13 +29,14 @@ module fuge_slab_plan
     type(rank_communicator) :: group
     !> Pairs of rows of all ranks, in a block, and of this rank; its rows.
     integer :: all_pairs = 0, block = 0, pairs = 0, rows = 0
-    !> In turn the pairs of rows of this rank and the columns of its waves.
+    !> Transforms of the pairs of rows of this rank, for the other ranks, and of all pairs, the waves of this rank.
     real(c_double), pointer, contiguous :: by_rows(:) => null(), by_columns(:) => null()
-    !> A few lines of a row or a column.
+    !> Columns, and two lines for work.
     real(c_double), pointer, contiguous :: lines(:, :) => null()
     type(c_ptr), private :: memory(3) = c_null_ptr
   contains
     procedure :: set
+    procedure :: describe_exchange
     procedure :: free
   end type slab_plan
 
@@ -44,8 +50,9 @@ contains
     integer, intent(in) :: cells(2), length(2), ranks
     logical, intent(in) :: padded(2), measured
     type(fuge_info), intent(inout) :: info
-    integer(c_intptr_t) :: numbers
-    integer :: k, status(3), waves
+    type(slab_exchange) :: exchange
+    integer(c_intptr_t) :: most(2)
+    integer :: k, status(3)
 
     call self%plan%set(cells, length, info, measured)
     if (info%failed()) return
@@ -54,19 +61,30 @@ contains
     self%block = block_of_pairs(cells, ranks)
     self%pairs = max(min(self%block, self%all_pairs - group%number()*self%block), 0)
     self%rows = min(2*self%pairs, cells(2) - 2*group%number()*self%block)
-    numbers = 0
+    most = 1
     do k = 1, 2
       ! Those of a product, and those of the preconditioner.
-      waves = stored_waves(length(1), padded(1) .and. k == 1)
-      numbers = max(numbers, local_numbers(group, self%all_pairs, waves, 4, &
-                                           [self%block, block_of_waves(waves, group%members())]))
+      call self%describe_exchange(padded(1) .and. k == 1, exchange)
+      most = max(most, [exchange%numbers_by_rows(), exchange%numbers_by_columns()])
     end do
-    call allocate_line(numbers, self%memory(1), self%by_rows, status(1))
-    call allocate_line(numbers, self%memory(2), self%by_columns, status(2))
-    call allocate_values(2*max(maxval(length), 2*self%all_pairs) + 2, LINES, self%memory(3), self%lines, status(3))
+    call allocate_line(most(1), self%memory(1), self%by_rows, status(1))
+    call allocate_line(most(2), self%memory(2), self%by_columns, status(2))
+    call allocate_values(2*max(maxval(length), 2*self%all_pairs) + 2, COLUMNS + 2, self%memory(3), self%lines, status(3))
     if (any(status /= 0)) call report(info, FUGE_ERR_MEMORY, 'no memory for transforms of '//text(length(1))//' by ' &
                                       //text(length(2))//' values')
   end subroutine set
+
+  !> The exchange of a product whose circle along x is `padded` or not.
+  subroutine describe_exchange(self, padded, exchange)
+    class(slab_plan), intent(in) :: self
+    logical, intent(in) :: padded
+    type(slab_exchange), intent(inout) :: exchange
+    integer :: waves
+
+    waves = stored_waves(self%plan%length(1), padded)
+    call exchange%describe(self%group, self%all_pairs, waves, NUMBERS, &
+                           [self%block, block_of_waves(waves, self%group%members())])
+  end subroutine describe_exchange
 
   !> `values`: at least `numbers` real numbers, aligned for FFTW. `status` as for allocate_values.
   subroutine allocate_line(numbers, memory, values, status)

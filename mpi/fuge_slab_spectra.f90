@@ -1,8 +1,7 @@
 !> The spectra of the influence operator of a grid whose rows ranks share, and of its preconditioner: as by
 !> fuge_halfspace_spectra, but a rank computes only a part of the table, and keeps only its waves.
 module fuge_slab_spectra
-  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_intptr_t, c_null_ptr, c_ptr
-  use fuge_fft, only: allocate_values, release_buffer
+  use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t
   use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_halfspace_grid, only: cyclic, halfspace_grid
   use fuge_halfspace_spectra, only: invert
@@ -11,9 +10,9 @@ module fuge_slab_spectra
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_slab_convolution, only: slab_kernel
+  use fuge_slab_exchange, only: slab_exchange
   use fuge_slab_plan, only: slab_plan
   use fuge_slab_rows, only: block_of_waves
-  use fuge_slab_transpose, only: local_numbers, slab_transpose
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -24,21 +23,21 @@ contains
 
   !> `influence`, of A, and `inverse`, of the preconditioner, on the circles of `plan`, `padded` (2) those of A. The
   !> surface is free or periodic in both directions. Error, on all ranks of the plan: FUGE_ERR_MEMORY.
-  subroutine compute_slab_spectra(grid, plan, padded, measured, influence, inverse, info)
+  subroutine compute_slab_spectra(grid, plan, padded, influence, inverse, info)
     type(halfspace_grid), intent(in) :: grid
     type(slab_plan), intent(inout) :: plan
-    logical, intent(in) :: padded(2), measured
+    logical, intent(in) :: padded(2)
     type(slab_kernel), intent(inout) :: influence, inverse
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: spectrum(:, :)
-    logical :: planned
+    integer :: status
 
     call inverse%place(plan, [.false., .false.])
     call fill_columns(plan%plan%length, grid, plan, inverse, spectrum, info)
     if (info%failed()) return
     call invert_columns(inverse%first, grid%e_star*sqrt(product(grid%spacing)), spectrum)
-    call inverse%set(plan, measured, spectrum, planned)
-    if (.not. planned) call report_no_memory(plan, info)
+    call inverse%set(plan, spectrum, status)
+    if (status /= 0) call report_no_memory(plan, info)
     call plan%group%agree(info)
     if (info%failed()) return
     call influence%place(plan, padded)
@@ -48,8 +47,8 @@ contains
       call transform_table(grid, plan, padded, influence, spectrum, info)
     end if
     if (info%failed()) return
-    call influence%set(plan, measured, spectrum, planned)
-    if (.not. planned) call report_no_memory(plan, info)
+    call influence%set(plan, spectrum, status)
+    if (status /= 0) call report_no_memory(plan, info)
     call plan%group%agree(info)
   end subroutine compute_slab_spectra
 
@@ -86,7 +85,7 @@ contains
   end subroutine invert_columns
 
   !> The eigenvalues of A from its coefficients: each rank fills some rows of their table and transforms them along x;
-  !> transposed, the columns are transformed along y.
+  !> after an exchange the columns are transformed along y.
   subroutine transform_table(grid, plan, padded, kernel, spectrum, info)
     type(halfspace_grid), intent(in) :: grid
     type(slab_plan), intent(in) :: plan
@@ -94,83 +93,99 @@ contains
     type(slab_kernel), intent(in) :: kernel
     real(dp), allocatable, intent(out) :: spectrum(:, :)
     type(fuge_info), intent(inout) :: info
-    type(slab_transpose) :: transpose
-    real(c_double), pointer, contiguous :: by_rows(:), by_columns(:), table(:, :)
-    type(c_ptr) :: memory(2)
-    integer :: blocks(2), extent(2), first, rows, status
-    logical :: closed(2), planned
+    type(slab_exchange) :: exchange
+    real(c_double), allocatable :: table(:, :)
+    logical :: closed(2)
+    integer :: extent(2), rows(2), status
 
     closed = cyclic(grid)
     extent = merge(plan%plan%length, plan%plan%length/2, padded)
-    blocks = [block_of_waves(extent(2) + 1, plan%group%members()), &
-              block_of_waves(kernel%all_waves, plan%group%members())]
-    first = min(plan%group%number()*blocks(1), extent(2) + 1)
-    rows = min(blocks(1), extent(2) + 1 - first)
-    call allocate_buffers(plan, extent(2) + 1, kernel%all_waves, blocks, memory, by_rows, by_columns, info)
-    if (info%failed()) return
-    allocate (spectrum(0:extent(2), 0:kernel%waves - 1), stat=status)
-    if (status /= 0) call report_no_memory(plan, info)
-    call plan%group%agree(info)
-    ! Planned first, because that may use the buffers.
-    planned = .true.
-    if (.not. info%failed()) call transpose%set(plan%group, extent(2) + 1, kernel%all_waves, 1, blocks, .false., &
-                                                by_rows, by_columns, planned)
-    if (rows > 0 .and. planned .and. .not. info%failed()) then
-      table(0:extent(1), first:first + rows - 1) => by_rows(:(extent(1) + 1)*rows)
-      call fill_rows(grid, closed, extent(2) + 1, first, table, status)
+    call exchange%describe(plan%group, extent(2) + 1, kernel%all_waves, 1, &
+                           [block_of_waves(extent(2) + 1, plan%group%members()), &
+                            block_of_waves(kernel%all_waves, plan%group%members())])
+    rows = exchange%row_range(plan%group%number())
+    allocate (spectrum(0:extent(2), 0:kernel%waves - 1), table(0:extent(1), rows(2)), stat=status)
+    if (status == 0 .and. rows(2) > 0) then
+      call fill_rows(grid, closed, extent(2) + 1, rows(1), table, status)
       if (status == 0 .and. .not. closed(1)) call plan%plan%transform_even(1, padded(1), table, status)
     end if
-    if (status /= 0 .or. .not. planned) call report_no_memory(plan, info)
+    if (status == 0) call exchange%set(status)
+    if (status /= 0) call report_no_memory(plan, info)
     call plan%group%agree(info)
-    if (.not. info%failed()) then
-      call transpose%forth(by_rows, by_columns)
-      spectrum = reshape(by_columns(:size(spectrum)), shape(spectrum))
-      if (kernel%waves > 0 .and. .not. closed(2)) call plan%plan%transform_even(2, padded(2), spectrum, status)
-      if (status /= 0) call report_no_memory(plan, info)
-      call plan%group%agree(info)
-    end if
-    call transpose%free()
-    call release_buffer(memory(1))
-    call release_buffer(memory(2))
+    if (.not. info%failed()) call exchange_table(exchange, plan, table, spectrum, info)
+    call exchange%free()
+    if (info%failed()) return
+    if (kernel%waves > 0 .and. .not. closed(2)) call plan%plan%transform_even(2, padded(2), spectrum, status)
+    if (status /= 0) call report_no_memory(plan, info)
+    call plan%group%agree(info)
   end subroutine transform_table
 
-  !> Buffers for a transposition, on all ranks or on none.
-  subroutine allocate_buffers(plan, rows, columns, blocks, memory, by_rows, by_columns, info)
+  !> `spectrum`: the columns of this rank from the rows `table` of each rank. Error, on all ranks: FUGE_ERR_MEMORY.
+  subroutine exchange_table(exchange, plan, table, spectrum, info)
+    type(slab_exchange), intent(inout) :: exchange
     type(slab_plan), intent(in) :: plan
-    integer, intent(in) :: rows, columns, blocks(2)
-    type(c_ptr), intent(out) :: memory(2)
-    real(c_double), pointer, contiguous, intent(out) :: by_rows(:), by_columns(:)
+    real(dp), intent(in), contiguous :: table(:, :)
+    real(dp), intent(inout), contiguous :: spectrum(0:, 0:)
     type(fuge_info), intent(inout) :: info
-    integer, parameter :: STRIDE = 1024
-    real(c_double), pointer, contiguous :: values(:, :)
-    integer :: k, lines, status(2)
-    integer(c_intptr_t) :: numbers
+    real(c_double), pointer, contiguous :: by_rows(:), by_columns(:)
+    integer :: status(2)
 
-    numbers = local_numbers(plan%group, rows, columns, 1, blocks)
-    lines = int((numbers - 1)/STRIDE) + 1
-    do k = 1, 2
-      call allocate_values(STRIDE, lines, memory(k), values, status(k))
-    end do
-    nullify (by_rows, by_columns)
+    allocate (by_rows(exchange%numbers_by_rows()), stat=status(1))
+    allocate (by_columns(exchange%numbers_by_columns()), stat=status(2))
     if (any(status /= 0)) call report_no_memory(plan, info)
     call plan%group%agree(info)
-    if (info%failed()) then
-      do k = 1, 2
-        if (status(k) == 0) call release_buffer(memory(k))
-      end do
-      memory = c_null_ptr
-    else
-      call c_f_pointer(memory(1), by_rows, [int(STRIDE, c_intptr_t)*lines])
-      call c_f_pointer(memory(2), by_columns, [int(STRIDE, c_intptr_t)*lines])
+    if (.not. info%failed()) then
+      call exchange%begin_rows(by_columns)
+      call send_table(exchange, plan%group%members(), table, by_rows, by_columns)
+      call exchange%finish()
+      call transpose_columns(by_columns, spectrum)
     end if
-  end subroutine allocate_buffers
+    if (status(1) == 0) deallocate (by_rows)
+    if (status(2) == 0) deallocate (by_columns)
+  end subroutine exchange_table
+
+  !> Send the rows of `table`.
+  subroutine send_table(exchange, ranks, table, by_rows, by_columns)
+    type(slab_exchange), intent(inout) :: exchange
+    integer, intent(in) :: ranks
+    real(dp), intent(in), contiguous :: table(:, :)
+    real(c_double), pointer, contiguous, intent(in) :: by_rows(:), by_columns(:)
+    real(c_double), pointer, contiguous :: piece(:)
+    integer :: k, range(2), rank
+
+    do k = 1, size(table, 2)
+      do rank = 0, ranks - 1
+        range = exchange%column_range(rank)
+        call exchange%find_piece(k - 1, rank, by_rows, by_columns, piece)
+        piece = table(range(1) + 1:range(1) + range(2), k)
+      end do
+      call exchange%send_row(k - 1, by_rows)
+    end do
+  end subroutine send_table
+
+  !> Columns that lie side by side, one after the other.
+  pure subroutine transpose_columns(by_columns, spectrum)
+    real(c_double), intent(in), contiguous :: by_columns(:)
+    real(dp), intent(inout), contiguous :: spectrum(0:, 0:)
+    integer, parameter :: BLOCK = 8
+    integer(c_intptr_t) :: begin
+    integer :: first, j, last
+
+    do first = 0, size(spectrum, 2) - 1, BLOCK
+      last = min(first + BLOCK, size(spectrum, 2)) - 1
+      do j = 0, size(spectrum, 1) - 1
+        begin = int(j, c_intptr_t)*size(spectrum, 2)
+        spectrum(j, first:last) = by_columns(begin + first + 1:begin + last + 1)
+      end do
+    end do
+  end subroutine transpose_columns
 
   !> Coefficients, or waves in a direction that is `closed`: the rows from number `first` on of a table of `rows`.
   subroutine fill_rows(grid, closed, rows, first, table, status)
     type(halfspace_grid), intent(in) :: grid
     logical, intent(in) :: closed(2)
     integer, intent(in) :: rows, first
-    real(c_double), intent(inout), contiguous :: table(:, :)
+    real(dp), intent(inout), contiguous :: table(:, :)
     integer, intent(out) :: status
 
     if (grid%boundary == FUGE_FREE) then

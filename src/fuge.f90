@@ -3,6 +3,7 @@ module fuge
   use fuge_bodies_solution, only: fuge_bodies_contact, fuge_solve_bodies
   use fuge_body_joining, only: fuge_join_bodies, fuge_joined_bodies
   use fuge_body_type, only: fuge_body
+  use fuge_cell_grading, only: fuge_graded_cells, FUGE_END_CORNER, FUGE_END_EDGE, FUGE_END_PLAIN
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_condensation, only: fuge_condense, fuge_condensed
   use fuge_contact_pairs_search, only: fuge_find_pairs

@@ -33,7 +33,7 @@ def _outside(code, text, change):
 
 
 def targets(text):
-    """The targets of the links of a page."""
+    """The targets of the links of a page, as they come."""
     found = []
     outside_code(text, lambda part: found.extend(match[1] for match in LINK.findall(part)) or part)
     return found

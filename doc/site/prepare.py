@@ -1,8 +1,9 @@
 """Write the input from which FORD makes the site: prepare.py ROOT WORK
 
 WORK/src gets the public part of the sources, WORK/pages the pages: those of ROOT/doc with the
-front matter that FORD needs and with links that are valid in the site, the C headers, the repository's
-files that pages link to, and a list of all names of module fuge.
+front matter that FORD needs and with links that are valid in the site, the C headers, the Python package, the
+repository's files that pages link to, and a list of all names of module fuge. WORK/fragments.json has the
+formulas and other parts that FORD does not see, WORK/navigation.json the tree of the pages.
 """
 
 import pathlib
@@ -10,9 +11,15 @@ import re
 import shutil
 import sys
 
+import headers
+import landing
+import navigation
+import python_pages
 from dialect import for_markdown
-from links import LINK, outside_blocks, outside_code, targets
-from reduce import PROCEDURE, TYPE, exports, own_exports, reduced, without_uses
+from fragments import Fragments
+from links import LINK, outside_blocks, outside_code
+from reduce import exports, reduced, without_uses
+from sources import described, opening_sentence, public_modules, public_names
 
 # Modules in the order in which a reader meets them; others follow.
 FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_matrix_operator",
@@ -21,6 +28,11 @@ FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_sta
          "fuge_contact_path", "fuge_path_type", "fuge_elastic_moduli", "fuge_profile_files", "fuge_profile_sampling")
 # A name of fuge as code that is no link yet.
 NAME = re.compile(r"(?<!\[)`(fuge_\w+)`(?!\])")
+# A constant of fuge.
+CONSTANT = re.compile(r"\b(FUGE_[A-Z_]+)\b")
+# Pages whose names are those of C, where Fortran has the same.
+C_PAGES = ("tutorial_c.md",)
+PACKAGE = "python/fuge/__init__.py"
 ROOT_PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
 LANGUAGES = {".f90": "fortran", ".f": "fortranfixed", ".pf": "fortran", ".c": "c", ".h": "c", ".cpp": "cpp",
              ".py": "python", ".sh": "sh", ".cmake": "cmake", ".md": "markdown"}
@@ -33,70 +45,77 @@ class Site:
         self.root, self.work = root, work
         self.pages = work/"pages"
         self.names = public_names(root)
+        self.fragments = Fragments()
+        self.titles = {}
         self.place = {}
         for path in sorted((root/"doc").glob("*.md")):
             self.place[path] = path.stem
         for name in ROOT_PAGES:
             self.place[root/name] = name[:-3].lower()
         self.place[root/"src/fuge.f90"] = "fortran"
-        for path in sorted((root/"include").glob("*.h")):
+        self.place[root/PACKAGE] = "python"
+        self.c_names = {}
+        for path in sorted([*(root/"include").glob("*.h"), *(root/"mpi/include").glob("*.h")]):
             self.place[path] = path.name.replace(".", "_")
+            self.c_names.update({name: f"{self.place[path]}.html#{name}"
+                                 for name in headers.anchors(path.read_text())})
 
     def write(self):
         """Write all pages; files that they link to become pages too."""
         self.pages.mkdir(parents=True)
+        for path, name in self.place.items():
+            if path.suffix == ".md":
+                self.titles[name] = split_title(path.read_text())[0]
         for path in list(self.place):
             if path.suffix == ".f90":
                 self.put(path, "Fortran interface", interface(self.root))
             elif path.suffix == ".h":
-                self.put(path, path.name, header(path.read_text()))
+                self.put(path, path.name, headers.page(path.read_text(), self.c_names, self.fragments))
+            elif path.suffix == ".py":
+                self.put(path, "Python interface", python_pages.page(path.parent, self.fragments))
             else:
                 title, body = split_title(path.read_text())
                 self.put(path, title, self.linked(path, body))
-        self.put_order()
+        self.put_start()
+        navigation.save(navigation.tree(self), self.work/"navigation.json")
+        self.fragments.save(self.work/"fragments.json")
 
     def put(self, path, title, body):
-        self.put_page(self.place[path], title, body)
+        self.titles[self.place[path]] = title
+        (self.pages/f"{self.place[path]}.md").write_text(f"---\ntitle: {title}\n---\n\n{body}")
 
-    def put_page(self, name, title, body, more=""):
-        (self.pages/f"{name}.md").write_text(f"---\ntitle: {title}\n{more}---\n\n{body}")
-
-    def put_order(self):
-        """The start page, and the pages in the order in which it names them."""
-        start = self.root/"doc/index.md"
-        named = []
-        for target in targets(start.read_text()):
-            path = (start.parent/target.split("#")[0]).resolve()
-            if self.place.get(path) not in (None, "index", *named):
-                named.append(self.place[path])
-        # Pages of files come last.
-        order = sorted(named, key=lambda name: name.startswith("file_"))
-        for path, name in self.place.items():
-            if path.parent == start.parent and path != start and name not in order:
-                print(f"fuge: doc/index.md does not name {path.relative_to(self.root)}", file=sys.stderr)
-        title, body = split_title(start.read_text())
-        front = "".join(f"ordered_subpage: {name}.md\n" for name in order)
-        self.put_page("index", title, self.linked(start, body), front)
+    def put_start(self):
+        """The landing page."""
         settings = (self.root/"doc/site/ford.md").read_text()
-        body = self.linked(start, body, "page/")
         version = re.search(r'FUGE_VERSION "(.*)"', (self.root/"include/fuge.h").read_text()).group(1)
         settings = settings.replace("project: fuge\n", f"project: fuge\nversion: {version}\n")
-        (self.work/"ford.md").write_text(settings + "\n" + body)
+        readme = self.root/"README.md"
+        body = landing.page(readme.read_text())
+        (self.work/"ford.md").write_text(settings + "\n" + self.linked(readme, body, "page/"))
 
     def linked(self, page, text, prefix=""):
-        """The text with links to files replaced by links to pages."""
+        """The text with links to files replaced by links to pages, and without its formulas."""
         def replace(match):
             target, _, anchor = match.group(2).partition("#")
             if "://" in target or not target:
                 return match.group(0)
             path = (page.parent/target).resolve()
             name = self.picture(path) if path.suffix in (".png", ".svg") else f"{self.page_of(path)}.html"
-            return f"{match.group(1)}({prefix}{name}{'#' + anchor if anchor else ''})"
+            shown = match.group(1)
+            # On the site pages have titles, not names of files.
+            if shown == f"[{path.name}]" and path.suffix == ".md":
+                shown = f"[{navigation.shown_title(self, self.place[path])}]"
+            return f"{shown}({prefix}{name}{'#' + anchor if anchor else ''})"
+
         def refer(match):
             name = match.group(1)
             up = "" if prefix else "../"
-            return f"[`{name}`]({up}{self.names[name]}/{name}.html)" if name in self.names else match.group(0)
-        text = outside_code(text, lambda part: LINK.sub(replace, part))
+            fortran = f"{up}{self.names[name]}/{name}.html" if name in self.names else None
+            c = prefix + self.c_names[name] if name in self.c_names else None
+            place = c or fortran if page.name in C_PAGES else fortran or c
+            return f"[`{name}`]({place})" if place else match.group(0)
+        text = self.fragments.hold_fenced_formulas(text)
+        text = outside_code(text, lambda part: LINK.sub(replace, self.fragments.hold_formulas(part)))
         return for_markdown(outside_blocks(text, lambda part: NAME.sub(refer, part)))
 
     def picture(self, path):
@@ -108,12 +127,13 @@ class Site:
         """The page of a file; one with its text, or its names if it is a folder, is made where there is none."""
         if path not in self.place:
             short = str(path.relative_to(self.root))
-            name = "file_" + re.sub(r"\W", "_", short)
-            self.place[path] = name
+            self.place[path] = "file_" + re.sub(r"\W", "_", short)
             if path.is_dir():
                 body = "".join(f"- {item.name}\n" for item in sorted(path.iterdir()))
             elif path.exists():
-                body = code(path.read_text(), LANGUAGES.get(path.suffix, "text"))
+                text = path.read_text()
+                said = opening_sentence(text)
+                body = (f"{said}\n\n" if said else "") + code(text, LANGUAGES.get(path.suffix, "text"))
             else:
                 raise SystemExit(f"fuge: a page links to {short}, which is not there")
             self.put(path, short, body)
@@ -132,75 +152,25 @@ def code(text, language):
     return f"~~~{language}\n{text.rstrip()}\n~~~\n"
 
 
-def header(text):
-    """A C header: its sections as headings, between them the code as it is."""
-    parts = re.split(r"^/\* ---- (.*?) -+(?: \*/)?\n", text, flags=re.M)
-    body = "[TOC]\n\n" + code(parts[0], "c")
-    for name, part in zip(parts[1::2], parts[2::2]):
-        # A section's comment may go on below its heading.
-        opened = part.lstrip().startswith("*") and not part.lstrip().startswith("*/")
-        body += f"\n## {name[:1].upper() + name[1:]}\n\n" + code(("/*\n" if opened else "") + part.strip("\n"), "c")
-    return body
-
-
-def first_sentence(doc):
-    text = " ".join(line.strip()[2:].strip() for line in doc)
-    text = text.split("  ")[0]
-    return re.split(r"(?<=\.)\s", text)[0].rstrip(":") if text else ""
-
-
-def described(source):
-    """The description of each name of a source: kind and first sentence."""
-    found, doc = {}, []
-    for line in source.split("\n"):
-        if line.lstrip().startswith("!>"):
-            doc.append(line)
-            continue
-        constant = re.match(r"\s*(?:integer|character\(len=\*\)), parameter, public\s*::\s*(\w+)", line)
-        if PROCEDURE.match(line):
-            found[PROCEDURE.match(line).group(2)] = (PROCEDURE.match(line).group(1), first_sentence(doc))
-        elif TYPE.match(line):
-            found[TYPE.match(line).group(1)] = ("type", first_sentence(doc))
-        elif constant:
-            found[constant.group(1)] = ("constant", first_sentence(doc))
-        elif re.match(r"module (\w+)", line):
-            found[""] = ("module", first_sentence(doc))
-        doc = []
-    return found
-
-
 def interface(root):
-    """A table for each module that module fuge takes names from, and for fuge_sparse."""
+    """All names that module fuge takes from others, and those of fuge_sparse, by topic and module."""
     taken = exports((root/"src/fuge.f90").read_text())
     order = [name for name in FIRST if name in taken] + [name for name in taken if name not in FIRST]
-    body = ("`use fuge` gives all names of this page but those of fuge_sparse. They are grouped by the module that "
-            "defines them.\n")
+    topics = {}
     for module, path, names in public_modules(root, order, taken):
         found = described(path.read_text())
-        body += f"\n## {module}\n\n{found[''][1]}\n\n| name | | |\n| --- | --- | --- |\n"
+        rows = f"\n### {module}\n\n{found[''][1]}\n\n| name | | |\n| --- | --- | --- |\n"
         for name in names:
             kind, text = found[name]
             shown = f"[{name}](../module/{module}.html)" if kind == "constant" else f"[[{name}]]"
-            body += f"| {shown} | {kind} | {text} |\n"
+            rows += f"| {shown} | {kind} | {text} |\n"
+        topics.setdefault(navigation.topic(root, path), []).append(rows)
+    body = ("`use fuge` gives all names of this page but those of fuge_sparse, by subject and by the module that defines "
+            "them. Other lists: [all procedures](../lists/procedures.html), [all types](../lists/types.html), "
+            "[all modules](../lists/modules.html), [abstract interfaces](../lists/absint.html).\n")
+    for topic in navigation.in_order(topics):
+        body += f"\n## {topic}\n" + "".join(topics[topic])
     return body
-
-
-def public_modules(root, order, taken):
-    for module in order:
-        yield module, next((root/"src").rglob(f"{module}.f90")), taken[module]
-    sparse = root/"sparse/fuge_sparse.f90"
-    yield "fuge_sparse", sparse, own_exports(sparse.read_text())
-
-
-def public_names(root):
-    """In which folder of the site each public procedure and type has its page."""
-    taken = exports((root/"src/fuge.f90").read_text())
-    found = {}
-    for _, path, names in public_modules(root, list(taken), taken):
-        said = described(path.read_text())
-        found.update({name: "type" if said[name][0] == "type" else "proc"
-                      for name in names if said[name][0] != "constant"})
-    return found
 
 
 def write_sources(root, work):
@@ -217,8 +187,14 @@ def write_sources(root, work):
     (work/"src/fuge.f90").write_text(text)
     for _, path, names in public_modules(root, list(taken), taken):
         text = without_uses(reduced(path.read_text(), set(names)), [*taken, "fuge_sparse"])
-        text = re.sub(r"^ *!>.*$", lambda line: NAME.sub(refer, line.group(0)), text, flags=re.M)
+        text = re.sub(r"^ *!>.*$", lambda line: NAME.sub(refer, with_constants(line.group(0))), text, flags=re.M)
         (work/"src"/path.name).write_text(for_markdown(text, "!>"))
+
+
+def with_constants(line):
+    """A line of a docstring with the names of constants as code."""
+    indent, _, said = line.partition("!>")
+    return indent + "!>" + outside_code(said, lambda part: CONSTANT.sub(r"`\1`", part))
 
 
 def main():

@@ -1,19 +1,13 @@
 # A ball and a barrel on a plane against Hertz. Run in the folder of ball_axis.csv and ball_map.dat.
-set terminal pngcairo size 1200,480 font "sans,13" enhanced
-set output "ball.png"
+load system("dirname '".ARG0."'")."/style.gp"
+eval picture("ball", 800, 350)
 set multiplot
-set border 3
-set tics nomirror
 
-set lmargin at screen 0.07
-set rmargin at screen 0.48
-set tmargin at screen 0.91
-set bmargin at screen 0.14
-set title "Ball R = 10 mm on a plane, 100 N, steel on steel"
-set xlabel "x [mm]"
-set ylabel "pressure [GPa]"
-set grid lc rgb "#dddddd"
-set key bottom center
+eval panel(0.085, 0.485, 0.16, 0.90)
+set title "Ball R = 10 mm on a plane, 100 N, steel" offset 0, -0.3
+set xlabel "x [mm]" offset 0, 0.3
+set ylabel "pressure [GPa]" offset 0.7
+set key at graph 0.5, 0.06 center bottom
 set datafile separator comma
 stats "ball_axis.csv" using 1:2 every ::1 name "b" nooutput
 every_so_many = int(b_records/64) > 1 ? int(b_records/64) : 1
@@ -23,25 +17,28 @@ p(x) = abs(x) < a ? p0*sqrt(1 - x**2/a**2) : 0
 set samples 2001
 set xrange [-0.22:0.22]
 set yrange [0:1.5]
-plot p(x) with lines lw 2 lc rgb "#999999" title "Hertz", \
-     "ball_axis.csv" every every_so_many::1 using 1:($2/1e3) with points pt 7 ps 0.7 lc rgb "#c0392b" \
+set xtics 0.1
+plot p(x) with lines ls KNOWN title "Hertz", \
+     "ball_axis.csv" every every_so_many::1 using 1:($2/1e3) with points ls FUGE ps 0.6 \
        title sprintf("fuge, %d of %d cells", b_records/every_so_many, b_records)
 
 set datafile separator whitespace
-set title "Barrel R_x = 10 mm, R_y = 200 mm: pressure [GPa]"
-set lmargin at screen 0.54
-set rmargin at screen 0.90
+set title "Barrel R_x = 10 mm, R_y = 200 mm"
+eval panel(0.575, 0.865, 0.16, 0.90)
 unset grid
-unset key
+set key at graph 0.98, 0.98 right top samplen 1.2 noreverse Right
 set border 15
-set ylabel "y [mm]" offset 1
 set xrange [-0.125:0.125]
 set yrange [-0.87:0.87]
-set palette defined (0 "#ffffff", 0.0001 "#fdebd0", 0.5 "#e67e22", 1 "#7b241c")
+set xtics 0.1
+set ytics 0.4
+set ylabel "y [mm], not to scale" offset 0.7
+eval pressures
 set cbrange [0:*]
-set colorbox user origin 0.92, 0.14 size 0.015, 0.77
+set cblabel "pressure [GPa]" offset 0.5
+set colorbox user origin 0.885, 0.16 size 0.02, 0.74
 set parametric
 set trange [0:2*pi]
-plot "ball_map.dat" using 1:2:($3/1e3) with image, \
-     0.105527*cos(t), 0.731164*sin(t) with lines lw 1.5 lc rgb "#1f4e79"
+plot "ball_map.dat" using 1:2:($3 > 0 ? $3/1e3 : NaN) with image notitle, \
+     0.105527*cos(t), 0.731164*sin(t) with lines lw 1.5 lc rgb blue title "Hertz"
 unset multiplot

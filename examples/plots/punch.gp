@@ -1,34 +1,43 @@
 # Bild 7 and 8: pressure at 30 kN/mm, and half contact length over the load.
 # Run in the folder of punch_pressure.dat, punch_halfwidth.dat and punch_edge.dat.
-set terminal pngcairo size 1200,480 font "sans,13" enhanced
-set output "punch.png"
-set multiplot layout 1,2
-set border 3
-set tics nomirror
-set grid lc rgb "#dddddd"
+load system("dirname '".ARG0."'")."/style.gp"
+eval picture("punch", 800, 350)
+set multiplot
 a = 0.699001
 E = 1e6/(1 - 0.25**2)
 p(x) = abs(x) < a ? E*0.05*(2*x**2 + a**2)*sqrt(a**2 - x**2)/1e3 : 0
 b(F) = (F*1e3/(0.75*pi*E*0.05))**0.25
+stats "punch_pressure.dat" using 1:2 name "c" nooutput
+spacing = (c_max_x - c_min_x)/(c_records - 1)
+stats "punch_halfwidth.dat" using 1:2 name "h" nooutput
+last = h_max_y
 
-set title "Punch y = 0.05 x^4 mm on a half-plane, F = 30 kN/mm"
-set xlabel "x [mm]"
-set ylabel "pressure [kN/mm^2]"
-set xrange [-0.85:0.85]
-set yrange [0:30]
+eval panel(0.075, 0.485, 0.16, 0.90)
+set title "Punch y = 0.05 x^4 mm on a half-plane, F = 30 kN/mm" offset 0, -0.3
+set xlabel "x [mm]" offset 0, 0.3
+set ylabel "pressure [kN/mm^2]" offset 0.7
+set xrange [-0.88:0.88]
+set yrange [0:31]
 set samples 2001
-set key bottom center
-plot p(x) with lines lw 2 lc rgb "#999999" title "exact", \
-     "punch_pressure.dat" using 1:($2/1e3) with points pt 7 ps 0.8 lc rgb "#c0392b" title "fuge, 33 cells", \
-     "" using (-$1):($2/1e3) with points pt 7 ps 0.8 lc rgb "#c0392b" notitle
+set label 1 sprintf("half model of %d cells,\n%.0f µm wide, from x = 0;\nlight: mirror image", c_records, 1e3*spacing) \
+  at 0, 12 center
+set key at graph 0.5, 0.13 center center maxrows 1 width -1
+plot p(x) with lines ls KNOWN title "exact", \
+     "punch_pressure.dat" using (-$1):($2/1e3) with points ls FUGE ps 0.6 lc rgb sky notitle, \
+     "" using 1:($2/1e3) with points ls FUGE ps 0.6 title "fuge"
+unset label 1
 
+eval panel(0.575, 0.985, 0.16, 0.90)
 set title "Half contact length"
-set xlabel "F [kN/mm]"
+set xlabel "load F [kN/mm]"
 set ylabel "a [mm]"
-set xrange [0:55]
+set xrange [0:53]
 set yrange [0:0.9]
-set key bottom right
-plot [F=0.001:55] b(F) with lines lw 2 lc rgb "#999999" title "exact", \
-     "punch_halfwidth.dat" using 1:2 with steps lw 1.5 lc rgb "#c0392b" title "last cell in contact, 0.025 mm wide", \
-     "punch_edge.dat" using 1:2 with points pt 7 ps 0.9 lc rgb "#2471a3" title "edge from the pressure"
+set key at graph 0.99, 0.04 right bottom maxrows 3 noreverse Right
+set arrow 1 from 50, 0.59 to 50, last - 0.02 lw 1 lc rgb grey size 1.2, 20 filled
+set label 1 "50 kN/mm is the highest load\nasked for: the stairs end" at 52.5, 0.55 right textcolor rgb "#444444"
+plot [F=0.001:53] b(F) with lines ls KNOWN title "exact", \
+     "punch_halfwidth.dat" using 1:2 with steps lw 1.5 lc rgb vermilion title "outer end of the last cell in contact", \
+     "+" using (h_max_x + $0*(50 - h_max_x)):(last) every ::0::1 with lines lw 1.5 lc rgb vermilion notitle, \
+     "punch_edge.dat" using 1:2 with points ls FUGE title "edge refined from the pressure"
 unset multiplot

@@ -1,52 +1,45 @@
 # A roller of finite length on a plane: pressure along its axis, and maps of one end.
 # Run in the folder of roller_axis.csv and roller_map_1.dat to roller_map_4.dat.
-set terminal pngcairo size 1200,560 font "sans,13" enhanced
-set output "roller.png"
+load system("dirname '".ARG0."'")."/style.gp"
+eval picture("roller", 800, 500)
 set multiplot
-set tics nomirror
 
-set border 3
-set lmargin at screen 0.07
-set rmargin at screen 0.99
-set tmargin at screen 0.93
-set bmargin at screen 0.56
-set title "Roller of steel on a plane, R = 10 mm, L = 20 mm, 10 kN: largest pressure across the contact"
-set xlabel "y, along the axis [mm]" offset 0, 0.5
-set ylabel "pressure [GPa]"
-set grid lc rgb "#dddddd"
-set key top center maxrows 3 width 2
+eval panel(0.085, 0.985, 0.50, 0.93)
+set title "Roller of steel on a plane, R = 10 mm, L = 20 mm, 10 kN: largest pressure across the contact" offset 0, -0.3
+set xlabel "y, along the axis [mm]" offset 0, 0.3
+set ylabel "pressure [GPa]" offset 0.5
+set key at graph 0.5, 0.97 center top maxrows 3 width -3
 set datafile separator comma
 stats "roller_axis.csv" using 2 every ::1 name "s" nooutput
 set xrange [-10.4:10.4]
-set yrange [0:2.6]
-set label 1 sprintf("up to %.1f GPa", s_max/1e3) at -9.7, 2.4 left textcolor rgb "#c0392b"
-plot 1.3529 with lines dt 2 lw 1.5 lc rgb "#999999" title "a roller without ends", \
-     "roller_axis.csv" using 1:($2/1e3) every ::1 with lines lw 2 lc rgb "#c0392b" title "straight", \
-     "" using 1:($3/1e3) every ::1 with lines lw 2 lc rgb "#b9770e" title "crowned by 0.015 mm", \
-     "" using 1:($4/1e3) every ::1 with lines lw 2 lc rgb "#7fb3d5" title "logarithmic, made for the load", \
-     "" using 1:($5/1e3) every ::1 with lines lw 2 lc rgb "#1f4e79" title "logarithmic, made for 1.2 times the load"
-unset label 1
+set yrange [0:3]
+set ytics 0.5
+plot "roller_axis.csv" using 1:($2/1e3) every ::1 with lines lw 1.8 lc rgb vermilion \
+       title sprintf("straight, up to %.1f GPa at its ends", s_max/1e3), \
+     "" using 1:($3/1e3) every ::1 with lines lw 1.8 dt (8, 3) lc rgb green title "crowned by 0.015 mm", \
+     "" using 1:($4/1e3) every ::1 with lines lw 1.8 lc rgb sky title "logarithmic, made for F = 10 kN", \
+     "" using 1:($5/1e3) every ::1 with lines lw 1.8 lc rgb blue title "logarithmic, made for 1.2 F", \
+     1.3529 with lines lc rgb black dt (4, 4) lw 0.8 title "a roller without ends"
 
 set datafile separator whitespace
 set border 15
 unset grid
 unset key
-set tmargin at screen 0.40
-set bmargin at screen 0.11
 set xrange [8:10.2]
 set xtics 0.5
 set yrange [-0.34:0.34]
 set ytics 0.2
 set cbrange [0:2]
-set palette defined (0 "#ffffff", 0.0001 "#fdebd0", 0.5 "#e67e22", 0.75 "#a93226", 1 "#4a0e0b")
+set cbtics 0.5
+eval pressures
 set xlabel "y [mm]"
 do for [k=1:4] {
-  set lmargin at screen 0.07 + 0.217*(k - 1)
-  set rmargin at screen 0.07 + 0.217*(k - 1) + 0.195
+  left = 0.085 + 0.2*(k - 1)
+  eval panel(left, left + 0.183, 0.12, 0.345)
   if (k == 1) { set ylabel "x [mm]"; set format y } else { unset ylabel; set format y "" }
-  if (k == 4) { set colorbox user origin 0.94, 0.11 size 0.012, 0.29 } else { unset colorbox }
-  set title word("straight crowned logarithmic -", k) offset 0, -0.5
-  if (k == 4) { set title "logarithmic, 1.2 F" offset 0, -0.5; set cblabel "pressure [GPa]" offset 0.5 }
-  plot sprintf("roller_map_%d.dat", k) using 2:1:($3/1e3) with image
+  if (k == 4) { set colorbox user origin 0.885, 0.12 size 0.017, 0.225 } else { unset colorbox }
+  set title (k < 3 ? word("straight crowned", k) : k == 3 ? "logarithmic, F" : "logarithmic, 1.2 F") offset 0, -0.3
+  if (k == 4) { set cblabel "pressure [GPa]" offset 0.3 }
+  plot sprintf("roller_map_%d.dat", k) using 2:1:($3 > 0 ? $3/1e3 : NaN) with image
 }
 unset multiplot

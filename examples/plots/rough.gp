@@ -1,53 +1,44 @@
 # A rough profile on a half-plane: where it touches, and real contact length over load.
 # Run in the folder of rough_window.csv and rough_load.csv.
-set terminal pngcairo size 1200,520 font "sans,13" enhanced
-set output "rough.png"
+load system("dirname '".ARG0."'")."/style.gp"
+eval picture("rough", 800, 400)
 set datafile separator comma
-set border 3
-set tics nomirror
 set multiplot
 
 # Heights and pressures above each other, over the same cells.
-set lmargin at screen 0.08
-set rmargin at screen 0.485
-set key bottom left Left reverse
 stats "rough_window.csv" using 1:2 every ::1 name "w" nooutput
 set xrange [w_min_x*1e3:w_max_x*1e3]
-set tmargin at screen 0.92
-set bmargin at screen 0.50
-set title "Where the profile touches, mean pressure p = 0.01 E*"
+eval panel(0.10, 0.485, 0.525, 0.90)
+set title "Where it touches, mean pressure 0.01 E*" offset 0, -0.3
 set ylabel "height [L/1000]" offset 1
+set yrange [-0.33:0.33]
+set ytics 0.1
 set format x ""
-plot "rough_window.csv" using ($1*1e3):($2*1e3) every ::1 with filledcurves y1=w_min_y*1e3 \
-       fillcolor rgb "#d5d8dc" notitle, \
-     "" using ($1*1e3):($2*1e3) every ::1 with lines lw 1.5 lc rgb "#555555" title "profile", \
-     "" using ($1*1e3):($3*1e3) every ::1 with lines lw 2 lc rgb "#2471a3" title "elastic surface"
+set key bottom left
+plot "rough_window.csv" using ($1*1e3):($2*1e3) every ::1 with filledcurves y1=-0.33 \
+       fillcolor rgb solid notitle, \
+     "" using ($1*1e3):($2*1e3) every ::1 with lines lw 1 lc rgb "#555555" title "profile", \
+     "" using ($1*1e3):($3*1e3) every ::1 with lines lw 1.5 lc rgb blue title "elastic surface"
 unset title
 unset key
-set tmargin at screen 0.44
-set bmargin at screen 0.125
+eval panel(0.10, 0.485, 0.14, 0.475)
 set format x
-set xlabel "x [L/1000]"
-set ylabel "pressure [E*]" offset 1
+set xlabel "x [L/1000], L the period" offset 0, 0.3
+set ylabel "pressure [E*]"
 set yrange [0:*]
-set ytics 0.1
-plot "rough_window.csv" using ($1*1e3):4 every ::1 with filledcurves y1=0 fillcolor rgb "#c0392b" notitle
+plot "rough_window.csv" using ($1*1e3):4 every ::1 with filledcurves y1=0 fillcolor rgb vermilion notitle
 
-set lmargin at screen 0.575
-set rmargin at screen 0.985
-set tmargin at screen 0.92
-set key top left Left reverse
-set grid lc rgb "#dddddd"
-set title "Real contact length"
-set xlabel "p / (E* h')"
+eval panel(0.585, 0.985, 0.14, 0.90)
+set key top left
+set title "Real contact length A of the length A_0" offset 0, -0.3
+set xlabel "p / (E* h'),  p mean pressure, h' rms slope"
 set ylabel "A / A_0"
 set logscale xy
 set ytics autofreq
-set xrange [1e-3:1]
-set yrange [1e-3:1]
+set xrange [1e-3:1.2]
+set yrange [1e-3:1.2]
 set format "10^{%T}"
-plot [p=1e-3:1.2] erf(sqrt(2)*p) with lines lw 2 lc rgb "#999999" title "Persson, erf(√2 p/(E* h'))", \
-     2*p with lines dt 2 lw 1.5 lc rgb "#999999" title "linear, κ = 2", \
-     "rough_load.csv" using ($1/$9):2 every ::1 with points pt 7 ps 0.9 lc rgb "#c0392b" title "fuge"
+plot [p=1e-3:1.2] erf(sqrt(2)*p) with lines ls KNOWN title "Persson: erf(√2 p/(E* h'))", \
+     p < 0.55 ? 2*p : NaN with lines ls KNOWN lw 1.5 dt 2 title "A/A_0 = κ p/(E* h'), κ = 2", \
+     "rough_load.csv" using ($1/$9):2 every ::1 with points ls FUGE title "fuge"
 unset multiplot
-set ytics 0.1

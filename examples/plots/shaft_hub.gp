@@ -1,45 +1,37 @@
 # Press fit of a shaft in a hub by meshes that do not match: pressures at the nodes by angle.
 # Run in the folder of shaft_hub_pressure.csv.
-set terminal pngcairo size 1400,520 font "sans,13" enhanced
-set output "shaft_hub.png"
+load system("dirname '".ARG0."'")."/style.gp"
+eval picture("shaft_hub", 800, 440)
 set datafile separator comma
 set multiplot
-blue = "#1f4e79"
-red = "#c0392b"
-green = "#1e8449"
-brown = "#b9770e"
 lame = 5.7422
 f = "shaft_hub_pressure.csv"
-set border 3
-set xtics nomirror 15
-set ytics nomirror
-set grid xtics ytics lt 1 lc rgb "#dddddd"
-set xrange [0:90]
-set xlabel "angle [degrees]"
-set tmargin at screen 0.90
-set bmargin at screen 0.13
-set key top center Left reverse samplen 2
+at(k, angle) = column(1) == k ? angle : NaN
+set xtics 15
+set xrange [-2:92]
+set yrange [-0.3:12]
+set ytics 2
+set xlabel "angle [degrees]" offset 0, 0.3
+set label 1 "Smoothed surfaces, and faces as they are" at screen 0.28, 0.965 center
+set label 2 "Mortar method, and nodes against faces" at screen 0.77, 0.965 center
 
-set lmargin at screen 0.06
-set rmargin at screen 0.49
-set title "Smooth bodies, and faces as they are"
-set ylabel "pressure [N/mm^2]"
-set yrange [0:16]
-plot f using ($1 == 4 ? $2 : NaN):3 with points pt 6 ps 1.2 lw 1.5 lc rgb red title "linear, 96 and 64, as they are (up to 137)", \
-     f using ($1 == 3 ? $2 : NaN):3 with points pt 4 ps 1.1 lw 1.5 lc rgb brown title "linear, 64 and 96, as they are: no contact", \
-     f using ($1 == 5 ? $2 : NaN):3 with linespoints pt 2 ps 1.1 lw 1.2 lc rgb green title "quadratic, 24 and 36, as they are", \
-     f using ($1 == 1 ? $2 : NaN):3 with points pt 7 ps 0.9 lc rgb blue title "smooth: linear, 64 and 96", \
-     f using ($1 == 2 ? $2 : NaN):3 with points pt 7 ps 0.5 lc rgb "#5dade2" title "smooth: quadratic, 24 and 36", \
-     lame with lines lw 1 lc rgb "#666666" title "Lamé"
+eval panel(0.075, 0.485, 0.13, 0.66)
+set ylabel "pressure [N/mm^2]" offset 0.5
+set key at screen 0.08, 0.925 left top
+plot lame with lines ls KNOWN title "Lamé", \
+     f using (at(1, $2)):3 with points ls FUGE ps 0.8 title "smoothed: linear, 64 and 96", \
+     f using (at(2, $2)):3 with points ls FUGE_TOO ps 0.6 title "smoothed: quadratic, 24 and 36", \
+     f using (at(5, $2)):3 with linespoints ls OTHER title "as they are: quadratic, 24 and 36", \
+     f using (at(3, $2)):3 with points ls OTHER_THIRD pt 4 ps 1.0 title "as they are: linear, 64 and 96", \
+     f using (at(4, $2)):3 with points lc rgb black pt 2 ps 0.6 title "as they are: linear, 96 and 64 (0 or 137)"
 
-set lmargin at screen 0.56
-set rmargin at screen 0.985
-set title "Smooth bodies: mortar method, and nodes against faces"
+eval panel(0.565, 0.975, 0.13, 0.66)
 unset ylabel
-set yrange [0:16]
-plot f using ($1 == 6 ? $2 : NaN):3 with linespoints pt 6 ps 1.2 lw 1.2 lc rgb red title "nodes against faces: linear, 64 and 96", \
-     f using ($1 == 7 ? $2 : NaN):3 with linespoints pt 2 ps 1.1 lw 1.2 lc rgb green title "nodes against faces: quadratic, 24 and 36", \
-     f using ($1 == 1 ? $2 : NaN):3 with points pt 7 ps 0.9 lc rgb blue title "mortar: linear, 64 and 96", \
-     f using ($1 == 2 ? $2 : NaN):3 with points pt 7 ps 0.5 lc rgb "#5dade2" title "mortar: quadratic, 24 and 36", \
-     lame with lines lw 1 lc rgb "#666666" title "Lamé"
+unset label
+set key at screen 0.57, 0.925 left top
+plot lame with lines ls KNOWN title "Lamé", \
+     f using (at(1, $2)):3 with points ls FUGE ps 0.8 title "mortar: linear, 64 and 96", \
+     f using (at(2, $2)):3 with points ls FUGE_TOO ps 0.6 title "mortar: quadratic, 24 and 36", \
+     f using (at(7, $2)):3 with linespoints ls OTHER title "nodes on faces: quadratic, 24 and 36", \
+     f using (at(6, $2)):3 with linespoints ls OTHER_THIRD pt 4 title "nodes on faces: linear, 64 and 96"
 unset multiplot

@@ -5,25 +5,22 @@ stats "stress_punch_10.dat" matrix name "punch_1" nooutput
 stats "stress_punch_30.dat" matrix name "punch_2" nooutput
 stats "stress_tilt.dat" matrix name "tilt" nooutput
 stats "stress_ball.dat" matrix name "ball" nooutput
-set terminal pngcairo size 1200,800 font "sans,13" enhanced
-set output "stress.png"
+load system("dirname '".ARG0."'")."/style.gp"
+eval picture("stress", 800, 560)
 set multiplot
 set palette defined (0 "#101418", 0.5 "#7d848a", 1 "#ffffff")
 set cbrange [0:1]
 unset colorbox
 unset key
-set border 15 front
-set tics out nomirror
+set border 15 lw 1 front
+unset grid
+set tics out nomirror scale 0.6
 set size ratio -1
 set style textbox opaque noborder fillcolor rgb "#ffffff" margins 0.5, 0.3
 set style fill solid noborder
 set samples 481
 bright(tau) = cos(pi*tau)**2
-red = "#c0392b"
-grey = "#d5d8dc"
-margins(k, row) = sprintf("set lmargin at screen %g; set rmargin at screen %g; " \
-  ."set bmargin at screen %g; set tmargin at screen %g", \
-  0.065 + 0.495*k, 0.49 + 0.495*k, 0.575 - 0.495*row, 0.955 - 0.495*row)
+place(k, row) = panel(0.075 + 0.49*k, 0.50 + 0.49*k - 0.015, 0.575 - 0.495*row, 0.945 - 0.495*row)
 # The centre of a pixel, from its numbers in its table: the picture is twice as wide as high.
 across(k, n, width) = width*((k + 0.5)/n - 0.5)
 down(k, n, width) = 0.5*width*(k + 0.5)/n
@@ -38,7 +35,7 @@ set ytics 0.4
 set label 1 "33 cells" at graph 0.025, 0.06 left front boxed
 set label 2 "without a grid" at graph 0.975, 0.06 right front boxed
 do for [k=1:2] {
-  eval margins(k - 1, 0)
+  eval place(k - 1, 0)
   F = word("10 30", k)
   a = (F*1e3/(0.75*pi*1e6/(1 - 0.25**2)*0.05))**0.25
   punch(x) = abs(x) < a ? 0 : 0.05*(a**4 - x**4)
@@ -46,14 +43,14 @@ do for [k=1:2] {
   nz = value(sprintf("punch_%d_size_y", k))
   x_max = across(value(sprintf("punch_%d_index_max_x", k)), nx, 2.4)
   z_max = down(value(sprintf("punch_%d_index_max_y", k)), nz, 2.4)
-  set title sprintf("The paper's punch under %s kN/mm: 0.5 kN/mm^2 a fringe", F) offset 0, -0.5
+  set title sprintf("Punch, %s kN/mm: a fringe 0.5 kN/mm^2", F) offset 0, -0.5
   plot sprintf("stress_punch_%s.dat", F) matrix using (across($1, nx, 2.4)):(down($2, nz, 2.4)):(bright($3/500)) \
          with image, \
-       "+" using 1:(punch($1)):(-0.12) with filledcurves fillcolor rgb grey, \
-       "+" using (abs($1) <= a ? $1 : NaN):(0) with lines lw 4 lc rgb red, \
-       "+" using (abs(x_max)):(z_max) every ::0::0 with points pt 2 ps 1.1 lw 2.5 lc rgb red, \
-       "+" using (-abs(x_max)):(z_max) every ::0::0 with points pt 2 ps 1.1 lw 2.5 lc rgb red, \
-       "+" using (0):(0):(0):(1.2) every ::0::0 with vectors nohead dt 3 lw 1 lc rgb red
+       "+" using 1:(punch($1)):(-0.12) with filledcurves fillcolor rgb solid, \
+       "+" using (abs($1) <= a ? $1 : NaN):(0) with lines lw 3 lc rgb vermilion, \
+       "+" using (abs(x_max)):(z_max) every ::0::0 with points pt 2 ps 0.8 lw 2 lc rgb vermilion, \
+       "+" using (-abs(x_max)):(z_max) every ::0::0 with points pt 2 ps 0.8 lw 2 lc rgb vermilion, \
+       "+" using (0):(0):(0):(1.2) every ::0::0 with vectors nohead dt 3 lw 1 lc rgb vermilion
 }
 
 # In units of the contact.
@@ -64,26 +61,26 @@ set yrange [2:-0.2]
 set xtics 1
 set ytics 1
 unset label 2
-eval margins(0, 1)
-set title "A flat punch, tilted by a force at x = a/4: 0.03 F/a a fringe"
-set label 1 "F" at 0.33, -0.1 left front textcolor rgb "black"
+eval place(0, 1)
+set title "Flat punch, F at a/4: a fringe 0.03 F/a"
+set label 1 "F" at 0.36, -0.1 left front textcolor rgb "black"
 set arrow 1 from 0.25, -0.19 to 0.25, -0.01 front lw 2 lc rgb "black" size 0.06, 25 filled
 plot "stress_tilt.dat" matrix using (across($1, tilt_size_x, 4)):(down($2, tilt_size_y, 4)):(bright($3/0.03)) \
        with image, \
-     "+" using (abs($1) <= 1 ? $1 : NaN):(0):(-0.2) with filledcurves fillcolor rgb grey, \
-     "+" using (abs($1) <= 1 ? $1 : NaN):(0) with lines lw 4 lc rgb red
+     "+" using (abs($1) <= 1 ? $1 : NaN):(0):(-0.2) with filledcurves fillcolor rgb solid, \
+     "+" using (abs($1) <= 1 ? $1 : NaN):(0) with lines lw 3 lc rgb vermilion
 unset label 1
 unset arrow 1
 
-eval margins(1, 1)
-set title "A ball, in the plane y = 0: 0.04 p_0 a fringe"
+eval place(1, 1)
+set title "Ball, plane y = 0: a fringe 0.04 p_0"
 set label 1 "rectangles" at graph 0.025, 0.06 left front boxed
 set label 2 "without a grid" at graph 0.975, 0.06 right front boxed
 gap(x) = abs(x) < 1 ? 0 : -0.1*(x**2 - 1)
 plot "stress_ball.dat" matrix using (across($1, ball_size_x, 4)):(down($2, ball_size_y, 4)):(bright($3/0.04)) \
        with image, \
-     "+" using 1:(gap($1)):(-0.2) with filledcurves fillcolor rgb grey, \
-     "+" using (abs($1) <= 1 ? $1 : NaN):(0) with lines lw 4 lc rgb red, \
-     "+" using (0):(down(ball_index_max_y, ball_size_y, 4)) every ::0::0 with points pt 2 ps 1.1 lw 2.5 lc rgb red, \
-     "+" using (0):(0):(0):(2) every ::0::0 with vectors nohead dt 3 lw 1 lc rgb red
+     "+" using 1:(gap($1)):(-0.2) with filledcurves fillcolor rgb solid, \
+     "+" using (abs($1) <= 1 ? $1 : NaN):(0) with lines lw 3 lc rgb vermilion, \
+     "+" using (0):(down(ball_index_max_y, ball_size_y, 4)) every ::0::0 with points pt 2 ps 0.8 lw 2 lc rgb vermilion, \
+     "+" using (0):(0):(0):(2) every ::0::0 with vectors nohead dt 3 lw 1 lc rgb vermilion
 unset multiplot

@@ -1,50 +1,47 @@
 # A rough surface on a half-space: pressure, and real area of contact over load.
 # Run in the folder of surface_map.dat and surface_load.csv.
-set terminal pngcairo size 1200,520 font "sans,13" enhanced
-set output "surface.png"
+load system("dirname '".ARG0."'")."/style.gp"
+eval picture("surface", 800, 370)
 set multiplot
 
 stats "surface_map.dat" matrix name "m" nooutput
 n = m_size_x
-set lmargin at screen 0.045
-set rmargin at screen 0.42
-set tmargin at screen 0.92
-set bmargin at screen 0.055
+eval panel(0.015, 0.40, 0.06, 0.89)
 set size ratio -1
 set border 15
+unset grid
 unset tics
-set title "Pressure [E*], mean 0.1 E* g"
+set title "One period, mean pressure p = 0.1 E* g" offset 0, -0.3
 set xrange [-0.5:n - 0.5]
 set yrange [-0.5:n - 0.5]
-set palette defined (0 "#fad7a0", 0.4 "#e67e22", 0.7 "#a93226", 1 "#4a0e0b")
+# Darker at its light end than elsewhere: most spots are small.
+set palette defined (0 "#fdc98f", 0.35 "#fc8d59", 0.65 "#d7301f", 1 "#5a0000")
 set cbrange [0:*]
-set palette maxcolors 16
-set cbtics
-set colorbox user origin 0.432, 0.055 size 0.014, 0.865
+set cbtics 0.05
+set cblabel "pressure [E*]" offset 0.5
+set colorbox user origin 0.41, 0.06 size 0.017, 0.83
 plot "surface_map.dat" matrix using 1:2:($3 > 0 ? $3 : NaN) with image notitle
 
 set size noratio
 unset colorbox
 set border 3
-set tics nomirror
-set lmargin at screen 0.575
-set rmargin at screen 0.985
-set bmargin at screen 0.125
+set tics nomirror scale 0.6
+set grid xtics ytics lt 1 lw 0.6 lc rgb "#e2e2e2"
+eval panel(0.615, 0.985, 0.16, 0.89)
 set datafile separator comma
-set key bottom right
-set grid lc rgb "#dddddd"
-set title "Real area of contact"
-set xlabel "p / (E* g)"
-set ylabel "A / A_0"
+set key bottom right noreverse Right
+set title "Real area A of the nominal area A_0"
+set xlabel "p / (E* g),  g rms gradient" offset 0, 0.3
+set ylabel "A / A_0" offset 0.5
 set logscale xy
 set xrange [0.01:2.5]
-set yrange [0.01:1.3]
-set xtics autofreq
-set ytics autofreq
+set yrange [0.01:1.5]
+set xtics autofreq nomirror
+set ytics autofreq nomirror
 bgt(p) = p < 0.2 ? sqrt(2*pi)*p : NaN
 set samples 400
-plot bgt(x) with lines dt 2 lw 1.5 lc rgb "#1f4e79" title "Bush, Gibson, Thomas: κ = √(2π)", \
-     erf(sqrt(2)*x) with lines lw 2 lc rgb "#999999" title "Persson: erf(√2 p/(E* g)), κ = √(8/π)", \
-     "surface_load.csv" using 1:2 every ::1 with points pt 6 ps 0.9 lc rgb "#c0392b" title "fuge, cells in contact", \
-     "" using 1:3 every ::1 with points pt 7 ps 0.9 lc rgb "#c0392b" title "fuge, less the edges of the cells"
+plot bgt(x) with lines ls KNOWN lw 1.5 dt 2 title "Bush, Gibson, Thomas", \
+     erf(sqrt(2)*x) with lines ls KNOWN title "Persson", \
+     "surface_load.csv" using 1:2 every ::1 with points ls FUGE pt 6 title "fuge, cells in contact", \
+     "" using 1:3 every ::1 with points ls FUGE title "less the cells' edges"
 unset multiplot

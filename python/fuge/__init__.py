@@ -55,6 +55,7 @@ from fuge.halfplane import (
     combined_modulus,
     contact_edges,
     displacement_shares,
+    graded_cells,
     halfplane_matrix,
     plane_modulus,
 )
@@ -134,6 +135,7 @@ __all__ = [
     "combined_modulus",
     "contact_edges",
     "displacement_shares",
+    "graded_cells",
     "halfplane_displacement",
     "halfplane_displacement_grid",
     "halfplane_matrix",

@@ -13,6 +13,7 @@ fuge_sample_profile: int int doubles doubles int doubles doubles buffer size_t
 fuge_level_profile: int int doubles doubles int buffer size_t
 fuge_halfplane_matrix: int int doubles doubles double int doubles int buffer size_t
 fuge_halfplane_symmetric_matrix: int int doubles doubles double int doubles int buffer size_t
+fuge_graded_cells: int double double int int int int int doubles doubles buffer size_t
 fuge_contact_edges: int int doubles doubles doubles int int int doubles doubles doubles doubles ints ints ints buffer
   size_t
 fuge_operator_dense: int int doubles int fuge_operator* buffer size_t

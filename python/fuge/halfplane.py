@@ -16,8 +16,11 @@ from fuge.errors import Status
 Element = Literal["centre", "mean", "hat"]
 PlaneState = Literal["strain", "stress"]
 
+EndKind = Literal["plain", "edge", "corner"]
+
 ELEMENTS = {"centre": 0, "mean": 1, "hat": 2}
 PLANE_STATES = {"strain": 0, "stress": 1}
+END_KINDS = {"plain": 0, "edge": 1, "corner": 2}
 
 
 def plane_modulus(young: float, poisson: float, plane_state: PlaneState = "strain") -> float:
@@ -113,6 +116,53 @@ def halfplane_matrix(
     chosen = _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT)
     call(name, n, centres, widths, _arrays.number("e_star", e_star), chosen, alpha, n)
     return alpha
+
+
+def graded_cells(
+    left: float,
+    right: float,
+    n: int,
+    *,
+    ends: tuple[EndKind, EndKind] = ("edge", "edge"),
+    beyond: tuple[int, int] = (0, 0),
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Cells side by side that are narrow at the ends of an interval and wide in its middle.
+
+    They are meant for ``halfplane_matrix(.., "mean")``, with gaps that are means over the cells. Several contacts:
+    one call for each, and the arrays one after the other.
+
+    Parameters
+    ----------
+    left, right : float
+        The interval, left < right: an expected contact, as :func:`contact_edges` finds it on a coarse grid, or the face
+        of a punch; length.
+    n : int
+        Cells in the interval.
+    ends : pair of {'plain', 'edge', 'corner'}
+        The left and the right end: cells do not become narrower, as at an axis of symmetry; the pressure falls to
+        zero like a square root, and distances from the end grow quadratically; it has no limit, and distances grow with
+        the fourth power.
+    beyond : pair of int
+        Further cells beyond either end, at most n, mirror images of those inside, so that the contact may turn out to
+        be wider: 3 for an end from :func:`contact_edges`, 0 at a corner.
+
+    Returns
+    -------
+    x, width : ndarray, shape (n + sum(beyond),)
+        Centres, ascending, and widths; length.
+
+    Raises
+    ------
+    InputError
+        No cell, left >= right, more cells beyond an end than inside, or cells that rounding would lose.
+    """
+    limits = _arrays.number("left", left), _arrays.number("right", right)
+    left_end, right_end = (_arrays.choice("ends", kind, END_KINDS) for kind in ends)
+    before, after = (_arrays.integer("beyond", cells) for cells in beyond)
+    total = _arrays.integer("n", _arrays.integer("n", n) + before + after)
+    x, width = np.empty(max(total, 1)), np.empty(max(total, 1))
+    call("fuge_graded_cells", *limits, left_end, right_end, before, after, total, x, width)
+    return x, width
 
 
 class EdgeKind(IntEnum):

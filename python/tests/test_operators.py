@@ -30,6 +30,19 @@ class Halfplane(unittest.TestCase):
         np.testing.assert_allclose(contact.force, np.full(self.n, 0.1), rtol=1e-12)
         self.assertRaises(fuge.UnsupportedError, fuge.load_path, operator, self.gap, 1.0)
 
+    def test_graded_cells(self):
+        # A flat punch: the approach is F/(pi E*) times 2 ln(2 D/a), with the datum D of the matrix.
+        x, width = fuge.graded_cells(-0.5, 0.5, 40, ends=("corner", "corner"))
+        self.assertEqual((x.size, width.size), (40, 40))
+        contact = fuge.solve(fuge.halfplane_matrix(x, width, 2.0, "mean"), 0.0, 3.0)
+        self.assertAlmostEqual(contact.approach, 3.0 / np.pi * np.log(2.0 * 2.0 / 0.5), delta=1e-4)
+        x, width = fuge.graded_cells(-1.0, 3.0, 10, beyond=(2, 1))
+        self.assertAlmostEqual(x[2] - width[2] / 2, -1.0, delta=1e-15)
+        self.assertAlmostEqual(x[-1] - width[-1] / 2, 3.0, delta=1e-15)
+        self.assertRaises(fuge.InputError, fuge.graded_cells, 1.0, 1.0, 4)
+        self.assertRaises(fuge.InputError, fuge.graded_cells, 0.0, 1.0, 0)
+        self.assertRaises(fuge.InputError, fuge.graded_cells, 0.0, 1.0, 4, ends=("edge", "round"))
+
     def test_symmetric(self):
         half = self.x[self.n // 2 :]
         whole = fuge.solve(fuge.halfplane_matrix(self.x, self.width, self.e_star, "mean"), self.gap, 3.0)

@@ -291,17 +291,17 @@ contains
     class(symmetric_columns), intent(in) :: self
     integer, intent(in) :: places(:)
     real(dp), intent(out), contiguous :: block(:, :)
-    integer, allocatable :: place(:)
     integer :: i, j, k, p
 
     block = 0.0_dp
-    allocate (place(size(block, 1)), source=0)
-    place(places) = [(k, k=1, size(places))]
-    do j = 1, size(place)
-      do p = self%upper%column(j), self%upper%column(j + 1) - 1
-        i = self%upper%row(p)
-        if (place(i) > 0) block(j, place(i)) = self%upper%value(p)
-        if (place(j) > 0) block(i, place(j)) = self%upper%value(p)
+    ! Columns are few: a look at all entries for each of them needs no memory.
+    do k = 1, size(places)
+      do j = 1, size(block, 1)
+        do p = self%upper%column(j), self%upper%column(j + 1) - 1
+          i = self%upper%row(p)
+          if (i == places(k)) block(j, k) = self%upper%value(p)
+          if (j == places(k)) block(i, k) = self%upper%value(p)
+        end do
       end do
     end do
   end subroutine copy_columns

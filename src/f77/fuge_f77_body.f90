@@ -7,7 +7,7 @@ module fuge_f77_body
   use fuge_f77_problem, only: check_modes
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_NO_EQUILIBRIUM
@@ -17,7 +17,8 @@ module fuge_f77_body
   implicit none
   private
 
-  public :: check_body_sizes, set_body, condense_dense, condense_band, recover_dense, recover_band, copy_condensed
+  public :: check_body_sizes, check_nodes, set_body, condense_dense, condense_band, recover_dense, recover_band, &
+    copy_condensed
 
   !> Forces whose work in a rigid mode is below this fraction of its terms are in equilibrium.
   real(dp), parameter :: BALANCED = 1.0e-8_dp
@@ -42,6 +43,29 @@ contains
         //' is less than ND = '//text(nd))
     end if
   end subroutine check_body_sizes
+
+  !> Refuse nodes that have no rigid modes, or not in `ldz` rows (FUGE_ERR_SIZE), and positions `x` (ndim, nodes) that
+  !> are not finite (FUGE_ERR_NOT_FINITE).
+  pure subroutine check_nodes(ndim, nodes, x, ldz, info)
+    integer, intent(in) :: ndim, nodes, ldz
+    real(dp), intent(in) :: x(:, :)
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    if (ndim < 2 .or. ndim > 3) then
+      call report(info, FUGE_ERR_SIZE, 'NDIM = '//text(ndim)//': nodes are in the plane, 2, or in space, 3')
+    else if (nodes < 1) then
+      call report(info, FUGE_ERR_SIZE, 'NN = '//text(nodes)//': at least one node is needed')
+    else if (ldz/ndim < nodes) then
+      ! Not ndim*nodes, which might overflow.
+      call report(info, FUGE_ERR_SIZE, 'LDZ = '//text(ldz)//' is less than '//text(ndim)//' for each of ' &
+                  //text(nodes)//' node(s)')
+    end if
+    do k = 1, nodes
+      if (info%failed()) return
+      call check_finite(x(:, k), 'position of node '//index_text(k)//',', info)
+    end do
+  end subroutine check_nodes
 
   !> Set a body: fixed degrees of freedom `fixed` with displacements `displacement`, external load
   !> `load` (nd), rigid modes `rigid_modes` (ldz, m), contact points `dof` and `normal` (nw, n).

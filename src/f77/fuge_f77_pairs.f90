@@ -1,4 +1,4 @@
-!> Surfaces and contact pairs from and to plain arrays, for FUGECP.
+!> Surfaces and contact pairs from and to plain arrays, for FUGECP and FUGECX.
 module fuge_f77_pairs
   use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options
   use fuge_kinds, only: dp
@@ -8,7 +8,7 @@ module fuge_f77_pairs
   implicit none
   private
 
-  public :: check_room, check_surface_sizes, copy_points, copy_stops, set_pair_options, set_surface
+  public :: check_pair_room, check_surface_sizes, copy_pairs, set_pair_options, set_surface
 
   !> Kinds of contact: NKIND of FUGECP.
   integer, parameter :: ONE_SIDED = 1, WITH_PLAY = 2, TIED = 3
@@ -74,7 +74,7 @@ contains
   end subroutine set_pair_options
 
   !> Refuse arrays that are too small for the contact points (FUGE_ERR_SIZE), unless an error is known already.
-  pure subroutine check_room(pairs, columns, rows, info)
+  pure subroutine check_pair_room(pairs, columns, rows, info)
     type(fuge_contact_pairs), intent(in) :: pairs
     integer, intent(in) :: columns, rows
     type(fuge_info), intent(inout) :: info
@@ -87,7 +87,23 @@ contains
       call report(info, FUGE_ERR_SIZE, 'MAXN = '//text(columns)//': there are '//text(pairs%points()) &
                   //' contact points, so pass arrays with room for them')
     end if
-  end subroutine check_room
+  end subroutine check_pair_room
+
+  !> Copy the contact points to the first columns and elements of the caller's arrays, which have room for them.
+  pure subroutine copy_pairs(pairs, dof, normal, gap, stops, play, area, node, face)
+    type(fuge_contact_pairs), intent(in) :: pairs
+    integer, intent(inout) :: dof(:, :), stops(:), node(:), face(:)
+    real(dp), intent(inout) :: normal(:, :), gap(:), play(:), area(:)
+    integer :: n
+
+    n = pairs%points()
+    call copy_points(pairs, dof, normal)
+    call copy_stops(pairs, stops, play)
+    gap(:n) = pairs%gap
+    area(:n) = pairs%area
+    node(:n) = pairs%node
+    face(:n) = pairs%face
+  end subroutine copy_pairs
 
   !> Copy degrees of freedom and factors to the first columns of `dof` and `normal`, 0 in rows beyond.
   pure subroutine copy_points(pairs, dof, normal)

@@ -1,18 +1,19 @@
 !> Shared by the external procedures for FORTRAN 77: a general problem from plain arrays, and
 !> its solution.
 module fuge_f77_problem
-  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_positive_inf, ieee_value
   use fuge_kinds, only: dp
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
   use fuge_options_type, only: fuge_options
-  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_OPTION
   implicit none
   private
 
-  public :: check_dimensions, check_modes, set_general_problem, prescribe_motions, solve_matrix
+  public :: check_dimensions, check_modes, check_room, prescribe_motions, set_general_problem, set_options, &
+    set_translation, solve_matrix
 
   !> Values of NSTOP, the number of stops at a point.
   integer, parameter :: EXCLUDED = 0
@@ -49,6 +50,48 @@ contains
       call check_dimensions(n, 'N', ldr, 'LDR', info)
     end if
   end subroutine check_modes
+
+  !> Refuse a negative number of entries that fit into the caller's arrays (FUGE_ERR_SIZE), unless an error is known
+  !> already.
+  pure subroutine check_room(room, name, info)
+    integer, intent(in) :: room
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. info%failed() .and. room < 0) call report(info, FUGE_ERR_SIZE, name//' = '//text(room) &
+      //' is negative: it is the number of entries that fit into the arrays')
+  end subroutine check_room
+
+  !> Set the options of a solve; `tolerance` <= 0 is the default. The solver refuses what is out of range, NaN included.
+  pure subroutine set_options(method, tolerance, max_iterations, options)
+    integer, intent(in) :: method, max_iterations
+    real(dp), intent(in) :: tolerance
+    type(fuge_options), intent(inout) :: options
+
+    options%method = method
+    options%max_iterations = max_iterations
+    if (ieee_is_nan(tolerance)) then
+      ! A comparison might trap.
+      options%tolerance = tolerance
+    else if (tolerance > 0.0_dp) then
+      options%tolerance = tolerance
+    end if
+  end subroutine set_options
+
+  !> Set the problem of one translation, which is `held` at `approach` or free under `load`. Error: FUGE_ERR_MEMORY.
+  pure subroutine set_translation(gap, held, load, approach, problem, info)
+    real(dp), intent(in) :: gap(:), load, approach
+    logical, intent(in) :: held
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_info), intent(inout) :: info
+
+    if (held) then
+      call set_problem(gap, 0.0_dp, problem, info)
+      if (.not. info%failed()) call prescribe_motions([1], [approach], problem, info)
+    else
+      call set_problem(gap, load, problem, info)
+    end if
+  end subroutine set_translation
 
   !> Set a problem with all motions free: `gap` (n), `stops` (n) as above, `play` (n), which is
   !> read only where there are two stops, `modes` (ldr, m), ldr >= n, `resultant` (m).

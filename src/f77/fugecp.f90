@@ -4,7 +4,7 @@ subroutine fugecp(ndim, nn, x, np, nf, iface, id, nno, xo, npo, nfo, ifaceo, ido
                   reach, maxn, nw, n, nwmin, idof, dn, gap, nstop, play, area, node, nopp, msg, info)
   use fuge_contact_pairs_search, only: fuge_find_pairs
   use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options
-  use fuge_f77_pairs, only: check_room, check_surface_sizes, copy_points, copy_stops, set_pair_options, set_surface
+  use fuge_f77_pairs, only: check_pair_room, check_surface_sizes, copy_pairs, set_pair_options, set_surface
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   use fuge_surface_mesh_type, only: fuge_surface_mesh
@@ -29,17 +29,11 @@ subroutine fugecp(ndim, nn, x, np, nf, iface, id, nno, xo, npo, nfo, ifaceo, ido
   call set_surface(x, iface, id, contact, outcome)
   call set_surface(xo, ifaceo, ido, opposite, outcome)
   if (.not. outcome%failed()) call fuge_find_pairs(contact, opposite, options, pairs, outcome)
-  if (.not. asks) call check_room(pairs, maxn, nw, outcome)
+  if (.not. asks) call check_pair_room(pairs, maxn, nw, outcome)
   info = outcome%status
   msg = outcome%message
   if (outcome%failed()) return
   n = pairs%points()
   nwmin = size(pairs%dof, 1)
-  if (asks) return
-  call copy_points(pairs, idof, dn)
-  call copy_stops(pairs, nstop, play)
-  gap(:n) = pairs%gap
-  area(:n) = pairs%area
-  node(:n) = pairs%node
-  nopp(:n) = pairs%face
+  if (.not. asks) call copy_pairs(pairs, idof, dn, gap, nstop, play, area, node, nopp)
 end subroutine fugecp

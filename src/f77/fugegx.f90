@@ -2,8 +2,8 @@
 !> Arguments in doc/legacy.md; `alpha` is not copied.
 subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, method, tol, maxit, &
                   f, c, ncon, niter, resid, msg, info)
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-  use fuge_f77_problem, only: check_dimensions, check_modes, prescribe_motions, set_general_problem, solve_matrix
+  use fuge_f77_problem, only: check_dimensions, check_modes, prescribe_motions, set_general_problem, set_options, &
+    solve_matrix
   use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
@@ -20,14 +20,7 @@ subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, metho
   type(fuge_solution) :: solution
   type(fuge_info) :: outcome
 
-  options%method = method
-  options%max_iterations = maxit
-  if (ieee_is_nan(tol)) then
-    ! Refused by the solver; a comparison might trap.
-    options%tolerance = tol
-  else if (tol > 0.0_dp) then
-    options%tolerance = tol
-  end if
+  call set_options(method, tol, maxit, options)
   call check_dimensions(n, 'N', lda, 'LDA', outcome)
   if (.not. outcome%failed()) call check_modes(n, m, ldr, outcome)
   if (.not. outcome%failed()) call set_general_problem(gap, nstop, play, r, w, problem, outcome)

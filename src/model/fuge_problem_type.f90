@@ -119,7 +119,7 @@ contains
   !> Refuse data that no engine can use, for an operator of `n` points: wrong sizes
   !> (FUGE_ERR_SIZE), NaN or infinity (FUGE_ERR_NOT_FINITE), numbers near overflow
   !> (FUGE_ERR_OVERFLOW), a negative play (FUGE_ERR_GAP), a negative load of a plain problem
-  !> (FUGE_ERR_NO_EQUILIBRIUM).
+  !> (FUGE_ERR_NO_EQUILIBRIUM) or one below the smallest normal number (FUGE_ERR_OVERFLOW).
   pure subroutine check_problem(problem, n, info)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
@@ -209,8 +209,8 @@ contains
     end if
   end subroutine check_modes
 
-  !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE) or negative
-  !> (FUGE_ERR_NO_EQUILIBRIUM).
+  !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE), negative (FUGE_ERR_NO_EQUILIBRIUM), or so small that its
+  !> parts have not all digits (FUGE_ERR_OVERFLOW).
   pure subroutine check_load(load, info)
     real(dp), intent(in) :: load
     type(fuge_info), intent(inout) :: info
@@ -220,6 +220,9 @@ contains
     else if (load < 0.0_dp) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load F_0 = '//text(load) &
                   //' is negative: contact forces can only push, so F_0 must be >= 0')
+    else if (load > 0.0_dp .and. load < tiny(load)) then
+      call report(info, FUGE_ERR_OVERFLOW, 'load F_0 = '//text(load)//' is below '//text(tiny(load))//', where double ' &
+                  //'precision loses its digits: choose a smaller unit of force')
     end if
   end subroutine check_load
 

@@ -145,9 +145,8 @@ contains
     integer, intent(out) :: stat
     type(fuge_info), intent(inout) :: info
 
-    stat = 0
     if (options%normals == FUGE_NORMALS_GIVEN) then
-      call take_normals(contact, CONTACT_NAME, options%normal, normal, info)
+      call take_normals(contact, CONTACT_NAME, options%normal, normal, stat, info)
     else
       call average_normals(contact, CONTACT_NAME, normal, stat, info)
       if (stat == 0 .and. size(faces%own_bend, 3) > 0) call mean_of_faces(contact, faces%own_bend, normal, stat)

@@ -81,19 +81,22 @@ contains
 
   !> Unit normals along those given, (dimensions, nodes), of any length.
   !>
-  !> FUGE_ERR_MESH for one that looks along all faces at its node, or into the body.
-  pure subroutine take_normals(surface, name, given, normal, info)
+  !> FUGE_ERR_MESH for one that looks along all faces at its node, or into the body. `stat` is not zero without memory.
+  pure subroutine take_normals(surface, name, given, normal, stat, info)
     type(fuge_surface_mesh), intent(in) :: surface
     character(len=*), intent(in) :: name
     real(dp), intent(in) :: given(:, :)
     real(dp), intent(out) :: normal(:, :)
+    integer, intent(out) :: stat
     type(fuge_info), intent(inout) :: info
-    logical :: outwards_somewhere(size(normal, 2))
+    logical, allocatable :: outwards_somewhere(:)
     type(face_nodes) :: face
     integer :: f, i, k
 
-    normal = 0.0_dp
+    allocate (outwards_somewhere(size(normal, 2)), stat=stat)
+    if (stat /= 0) return
     outwards_somewhere = .false.
+    normal = 0.0_dp
     do f = 1, size(surface%face, 2)
       face = get_face(surface, f)
       do k = 1, face%count

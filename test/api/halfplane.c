@@ -203,6 +203,45 @@ static void test_message_is_cut(void) {
   CHECK(store[0] == '#');
 }
 
+/* Edge on the left with a cell beyond, corner on the right: widths by hand, 1/16 of I_t(2, 4) and so on. */
+static void test_graded_cells(void) {
+  double x[5], width[5];
+  /* I_t(2, 4) at t = 1/4, 1/2, 3/4: 376/1024, 832/1024, 1008/1024. */
+  const double at[6] = {-376, 0, 376, 832, 1008, 1024};
+  CHECK_STATUS(fuge_graded_cells(1.0, 3.0, FUGE_END_EDGE, FUGE_END_CORNER, 1, 0, 5, x, width, NULL, 0), FUGE_DONE);
+  for (int k = 0; k < 5; k++) {
+    CHECK_NEAR(x[k], 1.0 + (at[k] + at[k + 1]) / 1024.0, TOLERANCE);
+    CHECK_NEAR(width[k], 2.0 * (at[k + 1] - at[k]) / 1024.0, TOLERANCE);
+  }
+  CHECK_STATUS(fuge_graded_cells(-1.0, 1.0, FUGE_END_PLAIN, FUGE_END_PLAIN, 0, 0, 1, x, width, NULL, 0), FUGE_DONE);
+  CHECK_NEAR(x[0], 0.0, 0.0);
+  CHECK_NEAR(width[0], 2.0, 0.0);
+}
+
+static void check_bad_cells(int n, int kind, int beyond, double right, double *x, double *width, int status,
+                            const char *part) {
+  char message[256] = "";
+  CHECK_STATUS(fuge_graded_cells(1.0, right, FUGE_END_EDGE, kind, 0, beyond, n, x, width, message, sizeof message),
+               status);
+  CHECK_CONTAINS(message, part);
+}
+
+static void test_bad_graded_cells(void) {
+  double x[N], width[N];
+  fill(x, N);
+  fill(width, N);
+  check_bad_cells(0, FUGE_END_EDGE, 0, 3.0, x, width, FUGE_ERR_SIZE, "n = 0");
+  check_bad_cells(-7, FUGE_END_EDGE, 0, 3.0, x, width, FUGE_ERR_SIZE, "n = -7");
+  check_bad_cells(N, FUGE_END_EDGE, N, 3.0, x, width, FUGE_ERR_SIZE, "at least one cell");
+  check_bad_cells(N, 3, 0, 3.0, x, width, FUGE_ERR_OPTION, "kind 3");
+  check_bad_cells(N, FUGE_END_EDGE, 0, NAN, x, width, FUGE_ERR_NOT_FINITE, "right");
+  check_bad_cells(N, FUGE_END_EDGE, 0, 1.0, x, width, FUGE_ERR_WIDTH, "left has to be less");
+  check_bad_cells(N, FUGE_END_EDGE, 0, 3.0, NULL, width, FUGE_ERR_POINTER, "x is NULL");
+  check_bad_cells(N, FUGE_END_EDGE, 0, 3.0, x, NULL, FUGE_ERR_POINTER, "width is NULL");
+  CHECK_UNTOUCHED(x, N);
+  CHECK_UNTOUCHED(width, N);
+}
+
 int main(void) {
   test_coefficients(FUGE_CENTRE, at_centre);
   test_coefficients(FUGE_MEAN, mean_of_cell);
@@ -218,5 +257,7 @@ int main(void) {
   test_leading_dimension();
   test_null_pointers();
   test_message_is_cut();
+  test_graded_cells();
+  test_bad_graded_cells();
   return check_summary();
 }

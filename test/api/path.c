@@ -74,6 +74,7 @@ static void test_refusals(void) {
 static void test_derivative(void) {
   const double unit[2] = {0.0, 1.0};
   double force[2], gap[2], motion = -1.0;
+  fuge_info info;
   fuge_operator *op = NULL;
   fuge_solver *solver = NULL;
   CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
@@ -92,6 +93,14 @@ static void test_derivative(void) {
   CHECK_STATUS(fuge_get_derivative(solver, unit, 0.0, force, NULL, NULL), FUGE_DONE);
   CHECK_NEAR(force[0], 5.0, 1e-13);
   CHECK_NEAR(force[1], -5.0, 1e-13);
+  /* Solution and report of the solve are still there, after a derivative that is refused too. */
+  CHECK_STATUS(fuge_get_derivative(solver, unit, NAN, force, NULL, NULL), FUGE_ERR_NOT_FINITE);
+  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_INT(info.status, FUGE_DONE);
+  CHECK_INT(info.contacts, 2);
+  CHECK(info.products > 0);
+  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  CHECK_NEAR(force[0] + force[1], 20.0, 1e-13);
   CHECK_STATUS(fuge_set_load(solver, 0.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
   CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_ERR_CALL_ORDER);

@@ -1,8 +1,8 @@
 # Code in the pages of the manual becomes programs that are tests.
 #
-# fuge_page_programs(page [file ..]): each block ```fortran with a `program`, and each block ```c
-# with a `main`, is compiled; the block ```text after it is what the program has to print. The
-# programs run in a folder with copies of the files.
+# fuge_page_programs(page [file ..]): each block ```fortran with a `program`, in fixed form with a
+# `PROGRAM`, and each block ```c with a `main`, is compiled; the block ```text after it is what the
+# program has to print. The programs run in a folder with copies of the files.
 # fuge_page_calls(page): each block ```fortran that begins with `use fuge`, and each block ```c
 # that begins with `#include <fuge.h>`, is a piece of a program; where a comment says
 # `name = value, value    name = value`, these are the values that it has to find.
@@ -43,6 +43,8 @@ function(fuge_add_block name language code)
   set(suffix f90)
   if(language STREQUAL "c")
     set(suffix c)
+  elseif(code MATCHES "^      PROGRAM ")
+    set(suffix f)
   endif()
   set(source "${CMAKE_CURRENT_BINARY_DIR}/${name}.${suffix}")
   file(CONFIGURE OUTPUT "${source}" CONTENT "${code}" @ONLY)
@@ -54,7 +56,11 @@ function(fuge_add_block name language code)
   if(UNIX)
     target_link_libraries(doc_${name} PRIVATE m)
   endif()
-  fuge_set_warnings(doc_${name})
+  if(suffix STREQUAL "f")
+    fuge_set_legacy_warnings(doc_${name})
+  else()
+    fuge_set_warnings(doc_${name})
+  endif()
 endfunction()
 
 function(fuge_page_programs page)
@@ -84,7 +90,7 @@ function(fuge_page_programs page)
       set(name "")
     elseif(name)
       message(FATAL_ERROR "${page}: after the program ${name} there is no block ```text with what it prints")
-    elseif((language STREQUAL "fortran" AND code MATCHES "^program ")
+    elseif((language STREQUAL "fortran" AND code MATCHES "^(program|      PROGRAM) ")
         OR (language STREQUAL "c" AND code MATCHES "int main\\("))
       math(EXPR count "${count} + 1")
       fuge_needs_fftw(left_out "${code}")

@@ -222,7 +222,21 @@ C     What FUGERM refuses.
       CALL STATUS('FUGERM, LDZ < 2 NN', INFO, -1)
       CALL FUGERM(3, 2000000000, X, Z, 8, INFO)
       CALL STATUS('FUGERM, NN large', INFO, -1)
+      CALL FUGERX(1, 4, X, Z, 8, MSG, INFO)
+      CALL STATUS('FUGERX, NDIM = 1', INFO, -1)
+      CALL HASTXT('FUGERX, NDIM = 1', MSG, 'NDIM = 1')
+      CALL FUGERX(2, 0, X, Z, 8, MSG, INFO)
+      CALL STATUS('FUGERX, NN = 0', INFO, -1)
+      CALL HASTXT('FUGERX, NN = 0', MSG, 'NN = 0')
+      CALL FUGERX(2, 4, X, Z, 7, MSG, INFO)
+      CALL STATUS('FUGERX, LDZ < 2 NN', INFO, -1)
+      CALL HASTXT('FUGERX, LDZ < 2 NN', MSG, 'LDZ = 7')
       CALL NUMBER('FUGERM untouched', Z(1,1), 7.D0, 0.D0)
+C     FUGERX is FUGERM with a message, which is blank where all is well.
+      CALL FUGERX(2, 4, X, Z, 8, MSG, INFO)
+      CALL STATUS('FUGERX', INFO, 0)
+      CALL NUMBER('FUGERX Z(3,3)', Z(3,3), 0.5D0, 0.D0)
+      CALL STATUS('FUGERX blank MSG', INDEX(MSG, 'LDZ'), 0)
       END
 
 C     A spring between nodes I and J in the stiffness matrix of a plane
@@ -405,6 +419,9 @@ C     NaN, one after the other.
       U(2) = BAD
       CALL FUGERM(3, 1, U, Z, 3, INFO)
       CALL STATUS('FUGERM, X NaN', INFO, -3)
+      CALL FUGERX(3, 1, U, Z, 3, MSG, INFO)
+      CALL STATUS('FUGERX, X NaN', INFO, -3)
+      CALL HASTXT('FUGERX, X NaN', MSG, 'node 1')
       U(2) = 7.D0
       CALL NUMBER('FUGERM, X NaN, Z', Z(1,1), 1.D0, 0.D0)
       UFIX(1) = BAD

@@ -5,6 +5,8 @@ C     refused.
       CALL BLOCKS
       CALL KINDS
       CALL SPACE
+      CALL BENT
+      CALL RINGS
       CALL REFUSE
       CALL VERDCT
       END
@@ -328,6 +330,99 @@ C     A square of four nodes above a larger one, in space.
         CALL NUMBER('space, sum of DN', DN(1,I) + DN(2,I) + DN(3,I)
      $    + DN(4,I) + DN(5,I), 0.D0, 4*TOL)
    10 CONTINUE
+      END
+
+C     Two faces that meet at 30 degrees above a rigid one: an edge, or
+C     beyond that angle a round nose.
+      SUBROUTINE BENT
+      INTEGER NW, MAXN
+      PARAMETER (NW=2, MAXN=3)
+      DOUBLE PRECISION X(2,3), XO(2,2), DN(NW,MAXN), GAP(MAXN)
+      DOUBLE PRECISION PLAY(MAXN), AREA(MAXN), SHARP(MAXN), CREASE
+      INTEGER IFACE(2,2), IFACEO(2,1), ID(2,3), NONE(2,2)
+      INTEGER IDOF(NW,MAXN), NSTOP(MAXN), NODE(MAXN), NOPP(MAXN)
+      INTEGER N, NWMIN, INFO, I
+      CHARACTER*256 MSG
+      DATA X /0.D0, 0.25D0, 1.D0, 0.D0, 1.8660254037844386D0, 0.5D0/
+      DATA XO /-1.D0, -1.D0, 3.D0, -1.D0/
+      DATA IFACE /1, 2, 2, 3/
+      DATA IFACEO /2, 1/
+      DATA ID /1, 2, 3, 4, 5, 6/
+      DATA NONE /4*0/
+C     FUGECP has 25 degrees.
+      CALL FUGECP(2, 3, X, 2, 2, IFACE, ID, 2, XO, 2, 1, IFACEO, NONE,
+     $  0, 1, 1, 1, 0.D0, 0.D0, MAXN, NW, N, NWMIN, IDOF, DN, SHARP,
+     $  NSTOP, PLAY, AREA, NODE, NOPP, MSG, INFO)
+      CALL STATUS('FUGECP, bent', INFO, 0)
+      CALL STATUS('FUGECP, bent, N', N, 3)
+      CREASE = 29.D0
+      CALL FUGECX(2, 3, X, 2, 2, IFACE, ID, 2, XO, 2, 1, IFACEO, NONE,
+     $  0, 1, 1, 1, 0.D0, 0.D0, CREASE, 0, MAXN, NW, N, NWMIN, IDOF,
+     $  DN, GAP, NSTOP, PLAY, AREA, NODE, NOPP, MSG, INFO)
+      CALL STATUS('FUGECX, edge', INFO, 0)
+      DO 10 I = 1, N
+        CALL NUMBER('FUGECX, edge, GAP', GAP(I), SHARP(I), 0.D0)
+   10 CONTINUE
+      CREASE = 60.D0
+      CALL FUGECX(2, 3, X, 2, 2, IFACE, ID, 2, XO, 2, 1, IFACEO, NONE,
+     $  0, 1, 1, 1, 0.D0, 0.D0, CREASE, 0, MAXN, NW, N, NWMIN, IDOF,
+     $  DN, GAP, NSTOP, PLAY, AREA, NODE, NOPP, MSG, INFO)
+      CALL STATUS('FUGECX, round', INFO, 0)
+      CALL STATUS('FUGECX, round, GAP', INT(MIN(1.D0,
+     $  (SHARP(1) - GAP(1))/0.01D0)), 1)
+C     The question, and what no angle is.
+      NODE(1) = 77
+      N = 77
+      CALL FUGECX(2, 3, X, 2, 2, IFACE, ID, 2, XO, 2, 1, IFACEO, NONE,
+     $  0, 1, 1, 1, 0.D0, 0.D0, CREASE, 0, 0, NW, N, NWMIN, IDOF,
+     $  DN, GAP, NSTOP, PLAY, AREA, NODE, NOPP, MSG, INFO)
+      CALL STATUS('FUGECX, question, N', N, 3)
+      CREASE = 91.D0
+      N = 77
+      CALL FUGECX(2, 3, X, 2, 2, IFACE, ID, 2, XO, 2, 1, IFACEO, NONE,
+     $  0, 1, 1, 1, 0.D0, 0.D0, CREASE, 0, MAXN, NW, N, NWMIN, IDOF,
+     $  DN, GAP, NSTOP, PLAY, AREA, NODE, NOPP, MSG, INFO)
+      CALL STATUS('FUGECX, CREASE = 91', INFO, -14)
+      CALL HASTXT('FUGECX, CREASE = 91', MSG, 'crease = 91.0')
+      CALL STATUS('FUGECX, N untouched', N, 77)
+      CALL STATUS('FUGECX, NODE untouched', NODE(1), 77)
+      END
+
+C     A disc of radius 2 above a larger one, in bodies of revolution:
+C     the shares of both nodes in its area are 1/3 and 2/3.
+      SUBROUTINE RINGS
+      INTEGER NW, MAXN
+      PARAMETER (NW=3, MAXN=2)
+      DOUBLE PRECISION X(2,2), XO(2,2), DN(NW,MAXN), GAP(MAXN)
+      DOUBLE PRECISION PLAY(MAXN), AREA(MAXN), DISC, TOL
+      INTEGER IFACE(2,1), IFACEO(2,1), ID(2,2), IDO(2,2)
+      INTEGER IDOF(NW,MAXN), NSTOP(MAXN), NODE(MAXN), NOPP(MAXN)
+      INTEGER N, NWMIN, INFO, I
+      CHARACTER*256 MSG
+      PARAMETER (TOL=1.D-12)
+      DATA X /0.D0, 1.D0, 2.D0, 1.D0/
+      DATA XO /0.D0, 0.5D0, 3.D0, 0.5D0/
+      DATA IFACE /1, 2/
+      DATA IFACEO /2, 1/
+      DATA ID /1, 2, 3, 4/
+      DATA IDO /5, 6, 7, 8/
+      DISC = 16.D0*ATAN(1.D0)
+      CALL FUGECX(2, 2, X, 2, 1, IFACE, ID, 2, XO, 2, 1, IFACEO, IDO,
+     $  0, 0, 1, 1, 0.D0, 0.D0, 25.D0, 1, MAXN, NW, N, NWMIN, IDOF, DN,
+     $  GAP, NSTOP, PLAY, AREA, NODE, NOPP, MSG, INFO)
+      CALL STATUS('rings', INFO, 0)
+      CALL STATUS('rings, N', N, 2)
+      DO 10 I = 1, N
+        CALL NUMBER('rings, AREA', AREA(I), NODE(I)*DISC/3.D0, TOL)
+        CALL NUMBER('rings, GAP', GAP(I), 0.5D0, TOL)
+   10 CONTINUE
+C     A node beyond the axis.
+      XO(1,1) = -1.D0
+      CALL FUGECX(2, 2, X, 2, 1, IFACE, ID, 2, XO, 2, 1, IFACEO, IDO,
+     $  0, 0, 1, 1, 0.D0, 0.D0, 25.D0, 1, MAXN, NW, N, NWMIN, IDOF, DN,
+     $  GAP, NSTOP, PLAY, AREA, NODE, NOPP, MSG, INFO)
+      CALL STATUS('rings, radius < 0', INFO, -23)
+      CALL HASTXT('rings, radius < 0', MSG, 'radius')
       END
 
 C     Errors touch nothing but INFO and MSG.

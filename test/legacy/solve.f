@@ -3,6 +3,7 @@ C     without any interface. Answers by hand.
       PROGRAM SOLVE
       CALL PLAIN
       CALL GIVEN
+      CALL BOTH
       CALL LEVER
       CALL EXPERT
       CALL REFUSE
@@ -65,6 +66,62 @@ C     The approach given: 0.4 takes the load 2, -1 leaves a gap.
       CALL STATUS('FUGEAV apart', INFO, 0)
       CALL NUMBER('FUGEAV F0 apart', F0, 0.D0, 0.D0)
       CALL NUMBER('FUGEAV C(2) apart', C(2), 2.D0, EPS)
+      END
+
+C     Both by FUGESX, with each method; a message that is cut to fit.
+      SUBROUTINE BOTH
+      DOUBLE PRECISION ALPHA(3,2), GAP(2), F(2), C(2), F0, V0, RESID,
+     $                 EPS
+      PARAMETER (EPS=1.D-14)
+      INTEGER NCON, NITER, INFO, METHOD
+      CHARACTER MSG*80, SHORT*8
+      CALL TWONOD(ALPHA, GAP)
+      DO 10 METHOD = 0, 3
+        F0 = 2.D0
+        V0 = 77.D0
+        MSG = 'old'
+        CALL FUGESX(2, ALPHA, 3, GAP, 0, F0, V0, METHOD, 0.D0, 0, F, C,
+     $              NCON, NITER, RESID, MSG, INFO)
+        CALL STATUS('FUGESX', INFO, 0)
+        CALL STATUS('FUGESX blank MSG', INDEX(MSG, 'old'), 0)
+        CALL NUMBER('FUGESX F(1)', F(1), 2.D0, EPS)
+        CALL NUMBER('FUGESX C(2)', C(2), 0.8D0, EPS)
+        CALL NUMBER('FUGESX V0', V0, 0.4D0, EPS)
+        CALL NUMBER('FUGESX F0', F0, 2.D0, 0.D0)
+        CALL STATUS('FUGESX NCON', NCON, 1)
+        CALL NUMBER('FUGESX RESID', RESID, 0.D0, EPS)
+        F0 = 77.D0
+        V0 = 0.4D0
+        CALL FUGESX(2, ALPHA, 3, GAP, 1, F0, V0, METHOD, 0.D0, 0, F, C,
+     $              NCON, NITER, RESID, MSG, INFO)
+        CALL STATUS('FUGESX, approach', INFO, 0)
+        CALL NUMBER('FUGESX, F0', F0, 2.D0, EPS)
+        CALL NUMBER('FUGESX, V0', V0, 0.4D0, 0.D0)
+   10 CONTINUE
+      SHORT = 'old'
+      NCON = 7
+      CALL FUGESX(2, ALPHA, 1, GAP, 1, F0, V0, 0, 0.D0, 0, F, C, NCON,
+     $            NITER, RESID, SHORT, INFO)
+      CALL STATUS('FUGESX, LDA < N', INFO, -1)
+      CALL HASTXT('FUGESX, LDA < N', SHORT, 'LDA = 1 ')
+      F0 = -2.D0
+      CALL FUGESX(2, ALPHA, 3, GAP, 0, F0, V0, 0, 0.D0, 0, F, C, NCON,
+     $            NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGESX pulls', INFO, -10)
+      CALL HASTXT('FUGESX pulls', MSG, 'negative')
+      F0 = 2.D0
+      CALL FUGESX(2, ALPHA, 3, GAP, 0, F0, V0, 9, 0.D0, 0, F, C, NCON,
+     $            NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGESX, METHOD = 9', INFO, -14)
+      CALL HASTXT('FUGESX, METHOD = 9', MSG, 'method = 9')
+      ALPHA(2,1) = 0.3D0
+      CALL FUGESX(2, ALPHA, 3, GAP, 0, F0, V0, 0, 0.D0, 0, F, C, NCON,
+     $            NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGESX not symmetric', INFO, -8)
+      CALL HASTXT('FUGESX not symmetric', MSG, 'alpha(2,1)')
+      CALL NUMBER('FUGESX, V0 untouched', V0, 0.4D0, 0.D0)
+      CALL NUMBER('FUGESX, F untouched', F(1), 2.D0, EPS)
+      CALL STATUS('FUGESX, NCON untouched', NCON, 7)
       END
 
 C     A lever on two points at x = 0 and 1, a force of 1 at x = 2: the

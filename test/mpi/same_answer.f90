@@ -31,7 +31,41 @@ contains
     call compare('periodic, uneven', 135, 301, FUGE_PERIODIC, 0.0_dp, 0.0005_dp, 3)
     call compare('periodic, small contact', 300, 300, FUGE_PERIODIC, 4.0_dp, 0.00001_dp, 1)
     call compare('no load', 256, 200, FUGE_FREE, 1.0_dp, 0.0_dp, 1)
+    ! So many that rows travel in several messages.
+    call compare_products('free, products', 640, 2001, FUGE_FREE)
+    call compare_products('periodic, products', 640, 2001, FUGE_PERIODIC)
   end subroutine run
+
+  ! Products and preconditionings are those of one process.
+  subroutine compare_products(name, nx, ny, boundary)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: nx, ny, boundary
+    type(fuge_mpi_halfspace_operator) :: shared
+    type(fuge_halfspace_operator) :: whole
+    type(fuge_info) :: info
+    real(dp), allocatable :: x(:), y(:), z(:), expected(:), found(:)
+    integer :: k, rows(2), status
+
+    call shared%set(nx, ny, 1.0_dp, 1.5_dp, 1.0_dp, MPI_COMM_WORLD, info, boundary=boundary)
+    call whole%set(nx, ny, 1.0_dp, 1.5_dp, 1.0_dp, info, boundary=boundary)
+    call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
+    if (info%failed()) return
+    rows = shared%own_rows()
+    allocate (x(shared%points()), y(shared%points()), z(nx*ny), expected(nx*ny))
+    call fill_gap(nx, ny, rows(1), rows(2), 1.0_dp, x)
+    call fill_gap(nx, ny, 1, ny, 1.0_dp, z)
+    do k = 1, 2
+      if (k == 1) call shared%apply(x, y, status)
+      if (k == 2) call shared%precondition(x, y, status)
+      call expect(status == FUGE_DONE, name//': status')
+      if (k == 1) call whole%apply(z, expected, status)
+      if (k == 2) call whole%precondition(z, expected, status)
+      call gather(nx, rows, y, found)
+      if (rank > 0) cycle
+      call expect(maxval(abs(found - expected)) <= 4.0_dp*epsilon(1.0_dp)*maxval(abs(expected)), name)
+      write (*, '(a24,i6,es10.2)') name, k, maxval(abs(found - expected))/maxval(abs(expected))
+    end do
+  end subroutine compare_products
 
   ! The gaps of the rows first .. last of a wavy sphere, or of waves, on a grid whose longer side is 1.
   pure subroutine fill_gap(nx, ny, first, last, curvature, gap)

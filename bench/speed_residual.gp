@@ -1,0 +1,18 @@
+# Time over residual for problems without a known answer, from speed_error.csv: speed_residual.png.
+folder = system("dirname '".ARG0."'")
+load folder."/curves.gp"
+eval picture("speed_residual", 800, 510)
+panels = 'random light heavy light_area heavy_area'
+array heading[5] = ['random matrix', 'rough profile, light load', 'rough profile, heavy load', \
+  'rough surface, light load', 'rough surface, heavy load']
+array first[5] = [-1, -1, -1, -1, -1]
+array last[5] = [-16, -16, -16, -16, -16]
+array every[5] = [5, 5, 5, 5, 5]
+array fastest[5] = [5e-3, 5e-3, 5e-3, 5e-2, 5e-2]
+array slowest[5] = [1e2, 1e2, 1e2, 5e1, 5e1]
+measure = 'scaled residual'
+rows = 2
+keys = '1 3 4 6 7 8 9 10 11 12 13 14 15'
+key_x(k) = 0.725
+key_y(k) = 0.455 - 0.036*(k - 1)
+load folder."/speed_panels.gp"

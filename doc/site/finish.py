@@ -1,0 +1,150 @@
+"""Finish the pages that FORD has made: finish.py WORK SITE KATEX
+
+Every page gets the tree of all pages, the path to itself, its formulas, and below its heading a list of its
+sections; then the page of the search and its index are written. KATEX is the folder with KaTeX's katex.js,
+katex.css and fonts; the formulas are set here, so that the site needs no script for them.
+"""
+
+import html
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import navigation
+import search
+from fragments import Fragments
+from pygments.formatters import HtmlFormatter
+
+SECTIONS_LISTED = 4
+LISTS = {"lists/procedures.html": "All procedures", "lists/types.html": "All types",
+         "lists/modules.html": "All modules", "lists/absint.html": "Abstract interfaces"}
+SEARCH_BODY = """<h1>Search</h1>
+<form role="search"><input type="search" name="q" aria-label="Search the manual" autocomplete="off">
+<button type="submit">Search</button></form>
+<noscript><p>The search needs JavaScript; <a href="page/index.html">the manual</a> lists all pages.</p></noscript>
+<p id="status" role="status"></p>
+<ol id="results"></ol>
+<script src="search_index.js"></script>
+<script src="search.js"></script>
+"""
+
+
+def shown_parts(fragments, script, katex):
+    """The HTML of all held parts."""
+    formulas = [(kind == "display", text) for kind, text in fragments.parts if kind != "html"]
+    done = subprocess.run(["node", str(script), str(katex/"katex.js")], input=json.dumps(formulas), text=True,
+                          stdout=subprocess.PIPE, check=False)
+    if done.returncode:
+        raise SystemExit("fuge: formulas cannot be set")
+    set_formulas = iter(json.loads(done.stdout))
+    return [text if kind == "html" else next(set_formulas) for kind, text in fragments.parts]
+
+
+def trail_of(groups, address):
+    if address == "index.html":
+        return [["fuge", "index.html"]]
+    fortran = navigation.trail(groups, "page/fortran.html")
+    if address in LISTS:
+        return [*fortran, [LISTS[address], address]]
+    if address.startswith("interface/"):
+        return [*fortran, [LISTS["lists/absint.html"], "lists/absint.html"], [address[10:-5], address]]
+    found = navigation.trail(groups, address)
+    if found is None and not address.startswith("module/"):
+        raise SystemExit(f"fuge: the tree of pages does not have {address}")
+    return found or [*fortran, [f"module {address[7:-5]}", address]]
+
+
+def trail_html(trail, up):
+    items = [f'<li><a href="{up}{place}">{html.escape(title)}</a></li>' if place else f"<li>{html.escape(title)}</li>"
+             for title, place in trail[:-1]]
+    last = f'<li aria-current="page">{html.escape(trail[-1][0])}</li>'
+    return f'<nav class="trail" aria-label="Breadcrumbs"><ol>{"".join(items)}{last}</ol></nav>' if items else ""
+
+
+def contents(page):
+    """The list of the sections of a page, where it has some."""
+    found = re.findall(r'<h2 id="([^"]+)">(.*?)</h2>', page, re.S)
+    if len(found) < SECTIONS_LISTED:
+        return ""
+    rows = "".join(f'<li><a href="#{anchor}">{re.sub("<[^>]*>", "", title)}</a></li>\n' for anchor, title in found)
+    return f'<details class="contents"><summary>On this page</summary>\n<ul>\n{rows}</ul></details>'
+
+
+def broken_headings(page):
+    """The page with names in its headings that may be broken behind an underscore."""
+    return re.sub(r"(<h[1-4][^>]*>)([^<]*_[^<]*)", lambda m: m[1] + m[2].replace("_", "_<wbr>"), page)
+
+
+def scrollable(page):
+    """The page with its tables in boxes that scroll."""
+    return re.sub(r'(?<!<div class="wide">)(<table.*?</table>)', r'<div class="wide">\1</div>', page, flags=re.S)
+
+
+def without_ford(page):
+    """The page without what FORD puts in for its own style sheets."""
+    page = re.sub(r'<a href="[^"]*" class="pull-right"><emph>.*?</emph></a>', "", page)
+    return re.sub(r"<div class=\"toc\">.*?</div>", "", page, flags=re.S)
+
+
+def finish(site, groups, fragments, shown):
+    """All pages, and the entries of the search."""
+    entries = []
+    for path in sorted(site.rglob("*.html")):
+        address = path.relative_to(site).as_posix()
+        up = "../"*address.count("/")
+        trail = trail_of(groups, address)
+        page = fragments.restored(without_ford(path.read_text()), shown)
+        page = scrollable(page.replace("<!--contents-->", contents(page)))
+        entries += search.sections(page, address, trail)
+        page = broken_headings(page)
+        page = page.replace("<!--trail-->", trail_html(trail, up))
+        page = page.replace("<!--tree-->", navigation.as_html(groups, address, up))
+        path.write_text(page)
+    return entries
+
+
+def write_search(site, here):
+    """The page of the search: the frame of the start page with the form and the list of results."""
+    start = (site/"index.html").read_text()
+    head, rest = start.split('<main id="text">')
+    tail = rest[rest.index("</main>"):]
+    head = re.sub(r"<title>.*?</title>", "<title>Search &ndash; fuge</title>", head, flags=re.S)
+    trail = trail_html([["fuge", "index.html"], ["Search", "search.html"]], "")
+    # One field for the search is enough.
+    head = re.sub(r"<form.*?</form>\n", "", head, flags=re.S)
+    (site/"search.html").write_text(f'{head}<main id="text">\n{trail}\n{SEARCH_BODY}{tail}')
+    shutil.copy(here/"search.js", site)
+
+
+def write_styles(site, katex):
+    """The colours of code in the light and in the dark, and KaTeX's style sheet with the fonts of browsers of today."""
+    light = HtmlFormatter(style="default").get_style_defs(".codehilite")
+    dark = HtmlFormatter(style="github-dark").get_style_defs(".codehilite")
+    lines = re.sub(r"^(pre|td\.linenos|span\.linenos)[^\n]*\n", "", dark, flags=re.M)
+    (site/"css/pygments.css").write_text(f"{light}\n@media (prefers-color-scheme: dark) {{\n{lines}\n}}\n")
+    (site/"css/katex/fonts").mkdir(parents=True)
+    for font in sorted((katex/"fonts").glob("*.woff2")):
+        shutil.copyfile(font, site/"css/katex/fonts"/font.name)
+    style = (katex/"katex.css").read_text()
+    style = re.sub(r",\s*url\([^)]*\.(?:woff|ttf)\)\s*format\([^)]*\)", "", style)
+    (site/"css/katex/katex.css").write_text(style)
+
+
+def main():
+    work, site, katex = (pathlib.Path(name).resolve() for name in sys.argv[1:4])
+    here = pathlib.Path(__file__).resolve().parent
+    groups = navigation.load(work/"navigation.json")
+    fragments = Fragments.load(work/"fragments.json")
+    entries = finish(site, groups, fragments, shown_parts(fragments, here/"formulas.js", katex))
+    write_styles(site, katex)
+    write_search(site, here)
+    search.write(entries, site/"search_index.js")
+    print(f"fuge: {len([1 for kind, _ in fragments.parts if kind != 'html'])} formulas, "
+          f"{len(entries)} sections to search in")
+
+
+if __name__ == "__main__":
+    main()

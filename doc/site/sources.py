@@ -1,0 +1,55 @@
+"""What the sources say about the public names."""
+
+import re
+
+from reduce import PROCEDURE, TYPE, exports, own_exports
+
+
+def opening_sentence(text):
+    """The first sentence of the comment at the top of a source, without its colon or stop; None without one."""
+    match = re.match(r"(?:#!.*\n)?(?:!>?|/\*|#|C|\"\"\") *([A-Z][^\n]*)", text)
+    return match[1].rstrip("*/ ") if match else None
+
+
+def first_sentence(doc):
+    text = " ".join(line.strip()[2:].strip() for line in doc)
+    text = text.split("  ")[0]
+    return re.split(r"(?<=\.)\s", text)[0].rstrip(":") if text else ""
+
+
+def described(source):
+    """The description of each name of a source: kind and first sentence."""
+    found, doc = {}, []
+    for line in source.split("\n"):
+        if line.lstrip().startswith("!>"):
+            doc.append(line)
+            continue
+        constant = re.match(r"\s*(?:integer|character\(len=\*\)), parameter, public\s*::\s*(\w+)", line)
+        if PROCEDURE.match(line):
+            found[PROCEDURE.match(line).group(2)] = (PROCEDURE.match(line).group(1), first_sentence(doc))
+        elif TYPE.match(line):
+            found[TYPE.match(line).group(1)] = ("type", first_sentence(doc))
+        elif constant:
+            found[constant.group(1)] = ("constant", first_sentence(doc))
+        elif re.match(r"module (\w+)", line):
+            found[""] = ("module", first_sentence(doc))
+        doc = []
+    return found
+
+
+def public_modules(root, order, taken):
+    for module in order:
+        yield module, next((root/"src").rglob(f"{module}.f90")), taken[module]
+    sparse = root/"sparse/fuge_sparse.f90"
+    yield "fuge_sparse", sparse, own_exports(sparse.read_text())
+
+
+def public_names(root):
+    """In which folder of the site each public procedure and type has its page."""
+    taken = exports((root/"src/fuge.f90").read_text())
+    found = {}
+    for _, path, names in public_modules(root, list(taken), taken):
+        said = described(path.read_text())
+        found.update({name: "type" if said[name][0] == "type" else "proc"
+                      for name in names if said[name][0] != "constant"})
+    return found
