@@ -114,9 +114,27 @@ write_basic_package_version_file(fuge-config-version.cmake COMPATIBILITY SameMin
 install(FILES "${PROJECT_BINARY_DIR}/fuge-config.cmake" "${PROJECT_BINARY_DIR}/fuge-config-version.cmake"
   cmake/FindFFTW.cmake cmake/FindCHOLMOD.cmake DESTINATION "${package_dir}" ${for_developers})
 
-file(GLOB documents CONFIGURE_DEPENDS doc/*.md doc/*.svg doc/*.png)
-install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc" ${for_readers})
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" ${for_readers})
+# The documents are made when they are installed, because their links depend on what is.
+set(doc_dir "${CMAKE_INSTALL_DOCDIR}")
+set(doc_full_dir "${CMAKE_INSTALL_FULL_DOCDIR}")
+if(NOT is_top_level)
+  # The folder may be that of the project around this one.
+  set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc/fuge")
+  set(doc_full_dir "${CMAKE_INSTALL_FULL_DATAROOTDIR}/doc/fuge")
+endif()
+file(GLOB headers RELATIVE "${PROJECT_SOURCE_DIR}/include" CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/*.h")
+if(TARGET fuge_mpi)
+  list(APPEND headers fuge_mpi.h)
+endif()
+file(RELATIVE_PATH to_headers "${doc_full_dir}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+set(documents "${PROJECT_BINARY_DIR}/documents")
+install(CODE "
+  set(SOURCE_DIR [[${PROJECT_SOURCE_DIR}]])
+  set(DOCUMENTS [[${documents}]])
+  set(HEADERS [[${headers}]])
+  set(TO_HEADERS [[${to_headers}]])" ${for_readers})
+install(SCRIPT cmake/documents.cmake ${for_readers})
+install(DIRECTORY "${documents}/" DESTINATION "${doc_dir}" ${for_readers})
 install(FILES doc/man/fuge.3 DESTINATION "${CMAKE_INSTALL_MANDIR}/man3" ${for_readers})
 
 if(TARGET fuge_program)
