@@ -74,7 +74,12 @@ endif()
 fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}" NEEDS ${LAPACK_LIBRARIES} ${fftw})
 # A static and a shared library in one prefix may differ in this.
 set(features "fuge-${library_kind}-features.cmake")
-file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/${features}" CONTENT "set(fuge_WITH_FFTW @FUGE_WITH_FFTW@)\n" @ONLY)
+set(feature_lines "set(fuge_WITH_FFTW ${FUGE_WITH_FFTW})\n")
+if(FUGE_WITH_FFTW AND FFTW_LIBRARY MATCHES "mkl")
+  # Others would find FFTW, with its licence.
+  string(APPEND feature_lines "set(fuge_FFTW_LIBRARY \"${FFTW_LIBRARY}\")\n")
+endif()
+file(WRITE "${PROJECT_BINARY_DIR}/${features}" "${feature_lines}")
 install(FILES "${PROJECT_BINARY_DIR}/${features}" DESTINATION "${package_dir}" ${for_developers})
 
 if(TARGET fuge_sparse)
