@@ -106,7 +106,7 @@ enum {
   FUGE_ERR_CALL_ORDER = -13,       /* a call came before another one that it requires */
   FUGE_ERR_OPTION = -14,           /* an option has an invalid value */
   FUGE_ERR_UNSUPPORTED = -15,      /* this engine or operator cannot solve this kind of problem */
-  FUGE_ERR_OVERFLOW = -16,         /* magnitudes exceed the range of double precision */
+  FUGE_ERR_OVERFLOW = -16,         /* numbers are too large or too small for double precision */
   FUGE_ERR_CALLBACK = -17,         /* a callback failed or returned NaN or infinity */
   FUGE_ERR_CANCELLED = -18,        /* the progress monitor cancelled the solve */
   FUGE_ERR_FILE = -19,             /* a file cannot be read or written */

@@ -24,7 +24,7 @@ module fuge_fft
   implicit none
   private
 
-  public :: allocate_values, begin_planning, end_planning, good_length, release_buffer
+  public :: allocate_values, good_length, release_buffer
 
   !> Complex numbers from which on a transform is long.
   integer, parameter :: LONG = 4096
@@ -67,17 +67,6 @@ module fuge_fft
   end type fft_plan
 
 contains
-
-  !> Wait until no other thread plans, then plan alone until `end_planning`. For libraries beside this one, which do not
-  !> see its locks.
-  subroutine begin_planning()
-    call lock(LOCK_PLANNER)
-  end subroutine begin_planning
-
-  !> Let other threads plan.
-  subroutine end_planning()
-    call unlock(LOCK_PLANNER)
-  end subroutine end_planning
 
   !> Least even 2^a 3^b 5^c 7^d >= n, a length that FFTW transforms fast; 0 if it exceeds the
   !> largest default integer.

@@ -14,7 +14,7 @@ module fuge_small_loads
   implicit none
   private
 
-  public :: lower_solution, raise_loads
+  public :: has_translation, lower_solution, place_body, raise_loads
 
   !> Lengths and loads below 2**LEAST_EXPONENT have squares that leave the range.
   integer, parameter :: LEAST_EXPONENT = 16 - LARGEST_EXPONENT_OF_2
@@ -127,7 +127,7 @@ contains
     if (allocated(problem%excluded)) included = .not. problem%excluded
   end function takes_part
 
-  !> From the solution of the raised problem to that of the given one, in place.
+  !> From the solution of the raised problem to that of the given one, in place: its size.
   !>
   !> `change`: the derivative of the raised solution by its loads, times these; not allocated where it is not known.
   !> It takes back what the loads in excess displace.
@@ -153,5 +153,29 @@ contains
     if (has_translation(problem)) solution%motion = solution%motion + scaling%datum
     if (allocated(problem%prescribed)) where (problem%prescribed) solution%motion = problem%motion
   end subroutine lower_solution
+
+  !> For one translation: gaps and approach from the forces, whose `displacement` (n), length, is that by the given
+  !> operator. The contact point with the largest force tells the approach.
+  subroutine place_body(problem, displacement, ranks, solution)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: displacement(:)
+    type(shared_ranks), intent(in) :: ranks
+    type(fuge_solution), intent(inout) :: solution
+    real(dp) :: key, reference(2)
+    integer :: k
+
+    k = maxloc(solution%force, dim=1)
+    key = huge(key)
+    reference = 0.0_dp
+    if (k > 0) then
+      key = -solution%force(k)
+      reference = [problem%gap(k), displacement(k)]
+    end if
+    call ranks%take_from_least(key, reference)
+    solution%motion = reference(1) + reference(2)
+    where (.not. solution%force > 0.0_dp) &
+      solution%gap = (problem%gap - reference(1)) + (displacement - reference(2))
+    where (takes_part(problem)) solution%gap = max(solution%gap, 0.0_dp)
+  end subroutine place_body
 
 end module fuge_small_loads

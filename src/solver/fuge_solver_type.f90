@@ -16,6 +16,7 @@ module fuge_solver_type
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_monitor_type, only: fuge_monitor, monitor_relay
   use fuge_number_text, only: text
+  use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
@@ -23,7 +24,7 @@ module fuge_solver_type
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_sensitivity, only: find_derivative
   use fuge_set_derivative, only: find_derivative_by_products
-  use fuge_small_loads, only: load_scaling, lower_solution, raise_loads
+  use fuge_small_loads, only: has_translation, load_scaling, lower_solution, place_body, raise_loads
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_SIZE, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
@@ -198,8 +199,9 @@ contains
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
 
-    if (info%status == FUGE_ERR_OVERFLOW) call solve_with_larger_loads(self, operator, problem, RATIO_IN_RANGE, options, &
-                                                                       monitor, solution, info)
+    if (info%status == FUGE_ERR_OVERFLOW) then
+      call solve_with_larger_loads(self, operator, problem, RATIO_IN_RANGE, options, monitor, solution, info)
+    end if
     if (.not. any(info%status == [FUGE_ERR_OVERFLOW, FUGE_ERR_ITERATION_LIMIT, FUGE_WARN_RESIDUAL])) return
     select type (operator)
     class is (fuge_dense_operator)
@@ -231,11 +233,14 @@ contains
     call self%reset()
     call run_engine(self, operator, raised, options, monitor, second, second_info)
     if (second_info%failed()) return
-    if (scaling%loads > scaling%lengths .and. .not. self%solved_by_products) then
+    if (scaling%loads > scaling%lengths .and. .not. (has_translation(problem) .or. self%solved_by_products)) then
       call self%derivative(operator, 0.0_dp*raised%gap, raised%resultant, change, change_info)
     end if
     call lower_solution(scaling, problem, second, change)
-    call certify(operator, problem, second, options%tolerance, second_info)
+    if (scaling%loads > scaling%lengths .and. has_translation(problem)) then
+      call place_by_forces(operator, problem, second, second_info)
+    end if
+    if (.not. second_info%failed()) call certify(operator, problem, second, options%tolerance, second_info)
     self%has_solution = .not. second_info%failed() .and. second_info%status /= FUGE_WARN_RESIDUAL
     if (.not. self%has_solution) return
     call add_counts(info, second_info)
@@ -244,6 +249,27 @@ contains
     ! Their forces are those of other loads.
     call self%steps%forget()
   end subroutine solve_with_larger_loads
+
+  !> Gaps and approach that belong to the forces. Errors: those of a product, FUGE_ERR_MEMORY.
+  subroutine place_by_forces(operator, problem, solution, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(shared_ranks) :: ranks
+    real(dp), allocatable :: displacement(:)
+    integer :: stat
+
+    ranks = operator%ranks()
+    allocate (displacement(operator%points()), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
+    call ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    call multiply(operator, solution%force, displacement, info)
+    if (info%failed()) return
+    displacement = displacement + operator%datum()*ranks%total(sum(solution%force))
+    call place_body(problem, displacement, ranks, solution)
+  end subroutine place_by_forces
 
   !> The work of both tries.
   pure subroutine add_counts(first, second)
