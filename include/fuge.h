@@ -427,7 +427,8 @@ enum {                          /* boundary: what lies beyond the cells */
  * *op is set on success only.  n is limited by memory (32 n to 64 n bytes, as much again for the
  * coarser grids of its solves, which it keeps, and 8 n for a product), and for FUGE_FREE to
  * nearly 2^30.  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS,
- * FUGE_ERR_ELEMENT, FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. */
+ * FUGE_ERR_ELEMENT, FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY;
+ * FUGE_ERR_UNSUPPORTED from a library without FFTW. */
 int fuge_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
                             fuge_operator **op, char *message, size_t len);
 

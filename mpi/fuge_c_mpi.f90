@@ -5,7 +5,9 @@ module fuge_c_mpi
   use fuge_c_types, only: copy_integers, copy_reals, from_c_string, operator_handle, report_to_c, require_path, &
     require_pointer
   use fuge_kinds, only: dp
+  use fuge_line_halfplane, only: fuge_mpi_halfplane_operator
   use fuge_operator_type, only: fuge_operator
+  use fuge_shared_operator, only: shared_operator
   use fuge_slab_files, only: fuge_mpi_read_rows, fuge_mpi_write_rows
   use fuge_slab_halfspace, only: fuge_mpi_halfspace_operator
   use fuge_status, only: fuge_info, report, FUGE_ERR_UNSUPPORTED
@@ -38,11 +40,33 @@ contains
     status = report_to_c(info, message, length)
   end function c_operator_halfspace_mpi
 
+  !> As fuge_operator_halfplane_mpi, with the handle that Fortran has of the communicator.
+  function c_operator_halfplane_mpi(n, spacing, e_star, element, boundary, comm, destination, message, length) &
+    bind(c, name='fuge_operator_halfplane_comm') result(status)
+    integer(c_int), intent(in), value :: n, element, boundary, comm
+    real(c_double), intent(in), value :: spacing, e_star
+    type(c_ptr), intent(in), value :: destination, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mpi_halfplane_operator), allocatable :: line
+    class(fuge_operator), allocatable :: operator
+    type(MPI_Comm) :: communicator
+    type(fuge_info) :: info
+
+    allocate (line)
+    communicator%MPI_VAL = comm
+    call require_pointer(destination, 'op', info)
+    if (.not. info%failed()) call line%set(int(n), spacing, e_star, communicator, info, int(element), int(boundary))
+    call move_alloc(line, operator)
+    if (.not. info%failed()) call new_operator(operator, destination, info)
+    status = report_to_c(info, message, length)
+  end function c_operator_halfplane_mpi
+
   function c_operator_rows(operator, first, rows, message, length) bind(c, name='fuge_operator_rows') result(status)
     type(c_ptr), intent(in), value :: operator, first, rows, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_mpi_halfspace_operator), pointer :: surface
+    class(shared_operator), pointer :: surface
     type(fuge_info) :: info
     integer :: range(2)
 
@@ -61,7 +85,7 @@ contains
     type(c_ptr), intent(in), value :: path, operator, values, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_mpi_halfspace_operator), pointer :: surface
+    class(shared_operator), pointer :: surface
     real(dp), allocatable :: rows(:)
     type(fuge_info) :: info
 
@@ -77,7 +101,7 @@ contains
     type(c_ptr), intent(in), value :: path, operator, values, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_mpi_halfspace_operator), pointer :: surface
+    class(shared_operator), pointer :: surface
     real(c_double), pointer, contiguous :: rows(:)
     type(fuge_info) :: info
 
@@ -94,7 +118,7 @@ contains
   !> The surface behind a handle; FUGE_ERR_POINTER, FUGE_ERR_UNSUPPORTED for another operator.
   subroutine find_surface(operator, surface, info)
     type(c_ptr), intent(in) :: operator
-    type(fuge_mpi_halfspace_operator), pointer, intent(out) :: surface
+    class(shared_operator), pointer, intent(out) :: surface
     type(fuge_info), intent(inout) :: info
     type(operator_handle), pointer :: handle
 
@@ -103,10 +127,10 @@ contains
     if (info%failed()) return
     call c_f_pointer(operator, handle)
     select type (found => handle%operator)
-    type is (fuge_mpi_halfspace_operator)
+    class is (shared_operator)
       surface => found
     class default
-      call report(info, FUGE_ERR_UNSUPPORTED, 'only an operator of fuge_operator_halfspace_mpi has rows of a rank')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'only an operator of fuge_mpi.h has rows of a rank')
     end select
   end subroutine find_surface
 

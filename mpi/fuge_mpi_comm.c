@@ -13,3 +13,14 @@ int fuge_operator_halfspace_mpi(int nx, int ny, double spacing_x, double spacing
   return fuge_operator_halfspace_comm(nx, ny, spacing_x, spacing_y, e_star, element, boundary, (int)MPI_Comm_c2f(comm),
                                       op, message, len);
 }
+
+int fuge_operator_halfplane_comm(int n, double spacing, double e_star, int element, int boundary, int comm,
+                                 fuge_operator **op, char *message, size_t len);
+
+#if defined(__GNUC__)
+__attribute__((visibility("default")))
+#endif
+int fuge_operator_halfplane_mpi(int n, double spacing, double e_star, int element, int boundary, MPI_Comm comm,
+                                fuge_operator **op, char *message, size_t len) {
+  return fuge_operator_halfplane_comm(n, spacing, e_star, element, boundary, (int)MPI_Comm_c2f(comm), op, message, len);
+}

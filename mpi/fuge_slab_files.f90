@@ -1,13 +1,14 @@
 !> Values of a grid in files that all ranks read and write together, each its own rows.
 !>
 !> The format is that of numpy, .npy: a header with the shape, and the numbers one after the other. The array has ny
-!> rows of nx numbers, in the order of a grid's points, so that numpy.load(path)[j, i] is the cell i of row j, from 0.
+!> rows of nx numbers, in the order of a grid's points, so that numpy.load(path)[j, i] is the cell i of row j, from 0; of
+!> a line of n cells it is (n,).
 module fuge_slab_files
   use, intrinsic :: iso_fortran_env, only: int8
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_ranks, only: shared_ranks
-  use fuge_slab_halfspace, only: fuge_mpi_halfspace_operator
+  use fuge_shared_operator, only: shared_operator
   use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use mpi_f08, only: MPI_Bcast, MPI_File, MPI_File_close, MPI_File_open, MPI_File_read_at, MPI_File_read_at_all, &
     MPI_File_set_size, MPI_File_set_view, MPI_File_write_at, MPI_File_write_at_all, MPI_Get_count, MPI_Status, &
@@ -29,14 +30,14 @@ module fuge_slab_files
 
 contains
 
-  !> Read the rows of this rank, `values` (points of this rank), from the numpy file `path`, an array (ny, nx) of real
-  !> numbers of 8 bytes. All ranks call it.
+  !> Read the rows of this rank, `values` (points of this rank), from the numpy file `path`, an array (ny, nx), or
+  !> (n,) for a half-plane, of real numbers of 8 bytes. All ranks call it.
   !>
   !> Errors, on all ranks, which leave `values` as they were: FUGE_ERR_CALL_ORDER before the operator is set,
   !> FUGE_ERR_FILE, FUGE_ERR_SIZE for another shape, FUGE_ERR_MEMORY.
   subroutine fuge_mpi_read_rows(path, operator, values, info)
     character(len=*), intent(in) :: path
-    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    class(shared_operator), intent(in) :: operator
     real(dp), allocatable, intent(inout) :: values(:)
     type(fuge_info), intent(out) :: info
     real(dp), allocatable :: rows(:)
@@ -73,7 +74,7 @@ contains
   !> ranks: FUGE_ERR_CALL_ORDER before the operator is set, FUGE_ERR_SIZE, FUGE_ERR_FILE.
   subroutine fuge_mpi_write_rows(path, operator, values, info)
     character(len=*), intent(in) :: path
-    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    class(shared_operator), intent(in) :: operator
     real(dp), intent(in), contiguous :: values(:)
     type(fuge_info), intent(out) :: info
     type(shared_ranks) :: ranks
@@ -112,7 +113,7 @@ contains
   end subroutine fuge_mpi_write_rows
 
   subroutine require_grid(operator, info)
-    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    class(shared_operator), intent(in) :: operator
     type(fuge_info), intent(inout) :: info
 
     if (any(operator%grid() < 1)) call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it first')
@@ -120,7 +121,7 @@ contains
 
   !> Where the rows of this rank begin in a file whose numbers begin at byte `begin`.
   function place_of(operator, begin) result(place)
-    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    class(shared_operator), intent(in) :: operator
     integer, intent(in) :: begin
     integer(MPI_OFFSET_KIND) :: place
     integer :: cells(2), rows(2)
@@ -147,16 +148,28 @@ contains
     bytes = achar(0)
     bytes(1:1) = transfer(int(FIRST_BYTE - 256, int8), 'a')
     bytes(2:) = NAME//achar(1)//achar(0)//achar(HEADER - LENGTH_BYTES)//achar(0)//'{''descr'': '''//number_type() &
-                //''', ''fortran_order'': False, ''shape'': ('//text(cells(2))//', '//text(cells(1))//'), }'
+                //''', ''fortran_order'': False, ''shape'': '//trim(shape_text(cells))//', }'
     bytes(HEADER:) = new_line('a')
   end function header_of
+
+  !> How numpy writes the shape of the grid, or of the line, of `cells`.
+  pure function shape_text(cells) result(words)
+    integer, intent(in) :: cells(2)
+    character(len=32) :: words
+
+    if (cells(1) == 1) then
+      words = '('//text(cells(2))//',)'
+    else
+      words = '('//text(cells(2))//', '//text(cells(1))//')'
+    end if
+  end function shape_text
 
   !> Read the header on rank 0: `begin`, the byte at which the numbers begin, on all ranks. Errors, on rank 0:
   !> FUGE_ERR_FILE, FUGE_ERR_SIZE.
   subroutine read_header(path, file, operator, begin, info)
     character(len=*), intent(in) :: path
     type(MPI_File), intent(in) :: file
-    type(fuge_mpi_halfspace_operator), intent(in) :: operator
+    class(shared_operator), intent(in) :: operator
     integer, intent(out) :: begin
     type(fuge_info), intent(inout) :: info
     character(len=LONGEST_HEADER) :: bytes
@@ -183,6 +196,7 @@ contains
     integer, intent(in) :: cells(2)
     integer, intent(out) :: begin
     type(fuge_info), intent(inout) :: info
+    character(len=len(bytes)) :: words
     integer :: first, last, shape(2), stat
 
     begin = 0
@@ -200,12 +214,16 @@ contains
     end if
     first = index(bytes, '''shape'': (') + len('''shape'': (')
     last = first + index(bytes(first:), ')') - 2
-    shape = 0
+    ! A line has one number.
+    shape = [0, 1]
     stat = 1
-    if (first > len('''shape'': (') .and. last >= first) read (bytes(first:last), *, iostat=stat) shape
+    if (first > len('''shape'': (') .and. last >= first) then
+      words = bytes(first:last)//'/'
+      read (words, *, iostat=stat) shape
+    end if
     if (stat /= 0 .or. any(shape /= cells(2:1:-1))) then
       call report(info, FUGE_ERR_SIZE, path//' has the shape ('//bytes(first:min(last, first + 40)) &
-                  //'): the grid needs ('//text(cells(2))//', '//text(cells(1))//')')
+                  //'): the grid needs '//trim(shape_text(cells)))
     end if
   end subroutine parse_header
 

@@ -28,12 +28,24 @@ extern "C" {
 int fuge_operator_halfspace_mpi(int nx, int ny, double spacing_x, double spacing_y, double e_star, int element,
                                 int boundary, MPI_Comm comm, fuge_operator **op, char *message, size_t len);
 
+/* An elastic half-plane of n equal cells, as fuge_operator_halfplane, which the ranks of comm share.  The cells of a
+ * periodic one are shared in lots of its largest divisor up to the square root of n, or of what that leaves: a prime
+ * number of cells stays on one rank.
+ *   n          in   of the whole line; spacing, e_star, element and boundary as in fuge_operator_halfplane
+ *   comm       in   is duplicated
+ *   op         out  set on success only, on all ranks
+ * Errors are those of fuge_operator_halfplane, on all ranks; FUGE_ERR_OPTION if the arguments differ between the ranks,
+ * FUGE_ERR_CALL_ORDER if MPI is not running. */
+int fuge_operator_halfplane_mpi(int n, double spacing, double e_star, int element, int boundary, MPI_Comm comm,
+                                fuge_operator **op, char *message, size_t len);
+
 /* The rows of this rank: first, from 0, and their number, 0 where there are fewer rows than ranks.  Its points are
- * nx*rows; point i + nx*j is the cell i of row first + j.  FUGE_ERR_UNSUPPORTED for another operator. */
+ * nx*rows; point i + nx*j is the cell i of row first + j.  The rows of a half-plane are its cells, nx = 1.
+ * FUGE_ERR_UNSUPPORTED for an operator of fuge.h. */
 int fuge_operator_rows(const fuge_operator *op, int *first, int *rows, char *message, size_t len);
 
-/* Read values (nx*rows of this rank) from a file of numpy, .npy, an array (ny, nx) of doubles, or write one: all ranks
- * together, each its own rows.  FUGE_ERR_FILE, FUGE_ERR_SIZE for another shape, FUGE_ERR_UNSUPPORTED for another
+/* Read values (nx*rows of this rank) from a file of numpy, .npy, an array (ny, nx) of doubles, (n,) of a half-plane, or
+ * write one: all ranks together, each its own rows.  FUGE_ERR_FILE, FUGE_ERR_SIZE for another shape, FUGE_ERR_UNSUPPORTED for another
  * operator; on all ranks, values unchanged. */
 int fuge_mpi_read_rows(const char *path, const fuge_operator *op, double *values, char *message, size_t len);
 int fuge_mpi_write_rows(const char *path, const fuge_operator *op, const double *values, char *message, size_t len);

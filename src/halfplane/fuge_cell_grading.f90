@@ -2,10 +2,10 @@
 !>
 !> Equal cells resolve the square root with which the pressure falls to zero at an edge of the contact, and its
 !> singularity at a corner, only slowly. Cells between the values of a smooth function of equal steps t, whose
-!> derivative vanishes at such an end, restore the order of the element (Y. Yan and I. H. Sloan, On integral equations
-!> of the first kind with logarithmic kernels, J. Integral Equations Appl. 1, 1988, 549-579, for open arcs). Here the
-!> function is the incomplete beta function I_t(a, b) with whole a and b: distances grow as t**a from the left end and
-!> as (1 - t)**b from the right one.
+!> derivative vanishes at such an end, restore the order of the element: a change of variable as for logarithmic kernels
+!> on open arcs (K. E. Atkinson and I. H. Sloan, Mathematics of Computation 56, 1991, 119-139). Here the function is the
+!> incomplete beta function I_t(a, b) with whole a and b: distances grow as t**a from the left end and as (1 - t)**b
+!> from the right one.
 module fuge_cell_grading
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_input_checks, only: check_finite

@@ -2,11 +2,10 @@
 !> surface, in O(n log n) operations and O(n) memory.
 module fuge_halfspace_fft
   use fuge_grid_convolution, only: grid_kernel
-  use fuge_grid_plan, only: fast_length, grid_plan
+  use fuge_grid_plan, only: grid_plan
   use fuge_grid_store, only: grid_store
-  use fuge_halfplane_fft, only: FUGE_FREE
-  use fuge_halfspace_grid, only: check_grid, coarsened, complete, count_coarser, cyclic, halfspace_grid, periodic, &
-    term_length, MEAN_TERM, MOST_CELLS
+  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, count_coarser, halfspace_grid, &
+    least_magnitude, periodic
   use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
@@ -72,7 +71,8 @@ contains
   !> product; `measured` (default .false.) lets FFTW time its algorithms and take the fastest.
   !> The arguments are ten, because the last four are optional and named by the caller.
   !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
-  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
+  !> library without FFTW.
   subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, info, element, boundary, threads, measured)
     class(fuge_halfspace_operator), intent(inout) :: self
     integer, intent(in) :: nx, ny
@@ -141,13 +141,8 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: length(2)
 
-    length = operator%surface%cells
-    where (.not. cyclic(operator%surface) .and. length > 1) length = [fast_length(length(1)), fast_length(length(2))]
-    if (any(length < 1) .or. any(length > MOST_CELLS)) then
-      call report(info, FUGE_ERR_MEMORY, 'nx = '//text(operator%surface%cells(1))//', ny = ' &
-                  //text(operator%surface%cells(2))//': a direction has at most '//text(MOST_CELLS)//' cells')
-      return
-    end if
+    call circle_of(operator%surface, length, info)
+    if (info%failed()) return
     call check_memory(bytes_needed(operator%surface, length), 'nx = '//text(operator%surface%cells(1))//', ny = ' &
                       //text(operator%surface%cells(2))//':', info)
     if (info%failed()) return
@@ -255,13 +250,8 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
-    real(dp) :: largest
 
-    largest = maxval(abs(displacement))
-    if (self%surface%boundary /= FUGE_FREE) then
-      largest = max(largest, MEAN_TERM*sum(abs(force))/(self%surface%e_star*term_length(self%surface)))
-    end if
-    magnitude = largest
+    magnitude = max(maxval(abs(displacement)), least_magnitude(self%surface, sum(abs(force))))
   end subroutine halfspace_magnitude
 
   !> True after `set`.

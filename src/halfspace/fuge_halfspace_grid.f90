@@ -2,17 +2,18 @@
 module fuge_halfspace_grid
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_constants, only: LARGEST_EXPONENT_OF_4
+  use fuge_grid_plan, only: fast_length
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: FUGE_MEAN
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_rectangle_checks, only: check_area_element, check_area_modulus
-  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, &
-    FUGE_ERR_WIDTH
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, &
+    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   implicit none
   private
 
-  public :: check_grid, coarsened, complete, count_coarser, cyclic, periodic, term_length
+  public :: check_grid, circle_of, coarsened, complete, count_coarser, cyclic, least_magnitude, periodic
 
   !> `boundary`: the cells repeat periodically along x, and beyond them along y the surface is free.
   integer, parameter, public :: FUGE_PERIODIC_X = 2
@@ -21,9 +22,9 @@ module fuge_halfspace_grid
 
   !> On a periodic surface the terms of a displacement by the forces f are about this times the sum of |f|/(e_star L),
   !> L being the `term_length`.
-  real(dp), parameter, public :: MEAN_TERM = 0.4_dp
+  real(dp), parameter :: MEAN_TERM = 0.4_dp
   !> Cells of one direction, at most: a row of the circle has a default integer of numbers.
-  integer, parameter, public :: MOST_CELLS = 2**28
+  integer, parameter :: MOST_CELLS = 2**28
 
   !> A grid of fewer cells is not made by `coarsen`.
   integer, parameter :: FEWEST_CELLS = 32
@@ -174,5 +175,31 @@ contains
     end do
     count = max(count, 0)
   end function count_coarser
+
+  !> The least size of the terms of a displacement by forces the sum of whose magnitudes is `total`: on a periodic
+  !> surface equal forces displace nothing, but their terms do.
+  pure function least_magnitude(grid, total) result(magnitude)
+    type(halfspace_grid), intent(in) :: grid
+    real(dp), intent(in) :: total
+    real(dp) :: magnitude
+
+    magnitude = 0.0_dp
+    if (grid%boundary /= FUGE_FREE) magnitude = MEAN_TERM*total/(grid%e_star*term_length(grid))
+  end function least_magnitude
+
+  !> `length`: the cells of the circles that transforms of rows and columns have; where they are not cyclic twice as many
+  !> hold the products. Error: FUGE_ERR_MEMORY if they are too many.
+  pure subroutine circle_of(grid, length, info)
+    type(halfspace_grid), intent(in) :: grid
+    integer, intent(out) :: length(2)
+    type(fuge_info), intent(inout) :: info
+
+    length = grid%cells
+    where (.not. cyclic(grid) .and. length > 1) length = [fast_length(length(1)), fast_length(length(2))]
+    if (any(length < 1) .or. any(length > MOST_CELLS)) then
+      call report(info, FUGE_ERR_MEMORY, 'nx = '//text(grid%cells(1))//', ny = '//text(grid%cells(2)) &
+                  //': a direction has at most '//text(MOST_CELLS)//' cells')
+    end if
+  end subroutine circle_of
 
 end module fuge_halfspace_grid

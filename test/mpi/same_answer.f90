@@ -3,17 +3,12 @@ program same_answer
   use fuge, dp => fuge_dp
   use fuge_mpi, only: fuge_mpi_halfspace_operator
   use mpi_f08
+  use rank_checks, only: begin_checks, check_solution, end_checks, expect, gather, my_rank
   implicit none
 
-  integer :: failures, rank
-
-  call MPI_Init()
-  call MPI_Comm_rank(MPI_COMM_WORLD, rank)
-  failures = 0
+  call begin_checks()
   call run()
-  call MPI_Bcast(failures, 1, MPI_INTEGER, 0, MPI_COMM_WORLD)
-  call MPI_Finalize()
-  if (failures > 0) error stop 1
+  call end_checks()
 
 contains
 
@@ -60,8 +55,8 @@ contains
       call expect(status == FUGE_DONE, name//': status')
       if (k == 1) call whole%apply(z, expected, status)
       if (k == 2) call whole%precondition(z, expected, status)
-      call gather(nx, rows, y, found)
-      if (rank > 0) cycle
+      call gather(y, found)
+      if (my_rank() > 0) cycle
       call expect(maxval(abs(found - expected)) <= 4.0_dp*epsilon(1.0_dp)*maxval(abs(expected)), name)
       write (*, '(a24,i6,es10.2)') name, k, maxval(abs(found - expected))/maxval(abs(expected))
     end do
@@ -104,7 +99,7 @@ contains
     allocate (problem%gap(shared%points()))
     call fill_gap(nx, ny, rows(1), rows(2), curvature, problem%gap)
     problem%resultant = [load]
-    if (rank == 0) then
+    if (my_rank() == 0) then
       call whole%set(nx, ny, 1.0_dp/max(nx, ny), 1.0_dp/max(nx, ny), 1.0_dp, whole_info, boundary=boundary)
       allocate (whole_problem%gap(nx*ny))
       call fill_gap(nx, ny, 1, ny, curvature, whole_problem%gap)
@@ -114,8 +109,8 @@ contains
       call solver%solve(shared, problem, solution, info)
       call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
       if (info%failed()) return
-      if (rank == 0) call whole_solver%solve(whole, whole_problem, expected, whole_info)
-      call check(name, nx, rows, info, solution, whole_info, expected)
+      if (my_rank() == 0) call whole_solver%solve(whole, whole_problem, expected, whole_info)
+      call check_solution(name, 1.0e-12_dp, info, solution, whole_info, expected)
       problem%resultant = [1.1_dp*load]
       whole_problem%resultant = problem%resultant
       if (k == 2) then
@@ -126,63 +121,5 @@ contains
       end if
     end do
   end subroutine compare
-
-  ! Compare on rank 0.
-  subroutine check(name, nx, rows, info, solution, whole_info, expected)
-    character(len=*), intent(in) :: name
-    integer, intent(in) :: nx, rows(2)
-    type(fuge_info), intent(in) :: info, whole_info
-    type(fuge_solution), intent(in) :: solution, expected
-    real(dp), allocatable :: force(:), gap(:)
-    real(dp) :: largest
-
-    call gather(nx, rows, solution%force, force)
-    call gather(nx, rows, solution%gap, gap)
-    if (rank > 0) return
-    call expect(size(force) == size(expected%force), name//': number of points')
-    call expect(info%products == whole_info%products, name//': products')
-    call expect(info%preconditionings == whole_info%preconditionings, name//': preconditionings')
-    call expect(info%iterations == whole_info%iterations, name//': contact sets')
-    call expect(info%contacts == whole_info%contacts, name//': number of contacts')
-    call expect(info%message == whole_info%message, name//': '//trim(info%message)//' / '//trim(whole_info%message))
-    call expect(all((force > 0.0_dp) .eqv. (expected%force > 0.0_dp)), name//': contact set')
-    largest = maxval(expected%force)
-    call expect(maxval(abs(force - expected%force)) <= 1.0e-12_dp*largest, name//': forces')
-    largest = maxval(expected%gap)
-    call expect(maxval(abs(gap - expected%gap)) <= 1.0e-12_dp*largest, name//': gaps')
-    call expect(abs(solution%motion(1) - expected%motion(1)) <= 1.0e-12_dp*abs(expected%motion(1)), name//': approach')
-    write (*, '(a24,4i6,es10.2,2x,a)') name, info%iterations, info%products, info%preconditionings, info%contacts, &
-      maxval(abs(force - expected%force))/max(maxval(expected%force), tiny(1.0_dp)), trim(info%message)
-  end subroutine check
-
-  ! `all_values` on rank 0: those of all ranks.
-  subroutine gather(nx, rows, values, all_values)
-    integer, intent(in) :: nx, rows(2)
-    real(dp), intent(in) :: values(:)
-    real(dp), allocatable, intent(out) :: all_values(:)
-    integer, allocatable :: counts(:), begins(:)
-    integer :: r, ranks
-
-    call MPI_Comm_size(MPI_COMM_WORLD, ranks)
-    allocate (counts(0:ranks - 1), begins(0:ranks - 1))
-    call MPI_Gather(nx*(rows(2) - rows(1) + 1), 1, MPI_INTEGER, counts, 1, MPI_INTEGER, 0, MPI_COMM_WORLD)
-    if (rank > 0) counts = 0
-    begins(0) = 0
-    do r = 1, ranks - 1
-      begins(r) = begins(r - 1) + counts(r - 1)
-    end do
-    allocate (all_values(sum(counts)))
-    call MPI_Gatherv(values, size(values), MPI_DOUBLE_PRECISION, all_values, counts, begins, MPI_DOUBLE_PRECISION, 0, &
-                     MPI_COMM_WORLD)
-  end subroutine gather
-
-  subroutine expect(true, what)
-    logical, intent(in) :: true
-    character(len=*), intent(in) :: what
-
-    if (true) return
-    failures = failures + 1
-    write (*, '(a,i0,2a)') 'rank ', rank, ', not as expected: ', what
-  end subroutine expect
 
 end program same_answer

@@ -17,6 +17,8 @@ module fuge_contact_preconditioner
     preconditioner_level
   use fuge_ranks, only: shared_ranks
   use fuge_rigid_images, only: rigid_images
+  use fuge_shared_exchange, only: count_segments
+  use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
@@ -100,7 +102,7 @@ contains
       if (self%is_close) return
     end if
     self%is_close = .false.
-    if (.not. info%failed()) call prepare_levels(self, operator, contact, size(segments%first) >= MANY_SEGMENTS, info)
+    if (.not. info%failed()) call prepare_levels(self, operator, contact, info)
     self%has_uniform = zero_sum
     if (info%failed() .or. .not. zero_sum) return
     if (self%depth == 1) then
@@ -286,37 +288,59 @@ contains
     end do
   end subroutine center
 
-  !> Store the contact set; with `many_segments` also create the levels that do not exist yet and
-  !> count the contact points in their cells.
-  subroutine prepare_levels(self, operator, contact, many_segments, info)
+  !> Store the contact set; where it is many segments of a line of cells also create the levels that do not exist yet
+  !> and count the contact points in their cells.
+  subroutine prepare_levels(self, operator, contact, info)
     class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
-    logical, intent(in) :: contact(:), many_segments
+    logical, intent(in) :: contact(:)
     type(fuge_info), intent(inout) :: info
     type(shared_ranks) :: ranks
-    integer :: l, n, stat
+    integer :: n, stat
 
     n = operator%points()
     stat = 0
     if (.not. allocated(self%contact)) allocate (self%contact(n), self%uniform(n), stat=stat)
     if (stat == 0) self%contact = contact
     self%depth = 1
-    if (many_segments .and. stat == 0) then
-      if (.not. allocated(self%levels)) then
-        allocate (self%levels(MAX_LEVELS), self%forces(MAX_LEVELS), stat=stat)
-        if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%residual(n), stat=stat)
-      end if
-      do l = 2, MAX_LEVELS
-        if (stat == 0) call create_level(operator, l, self%levels(l), self%forces(l), stat)
-        if (stat /= 0 .or. .not. exists(self%levels(l))) exit
-        self%depth = l
-      end do
-      if (self%depth > 1 .and. stat == 0) call count_contacts(self%levels(:self%depth), contact)
-    end if
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
     ranks = operator%ranks()
+    if (ranks%everywhere(stat == 0)) call find_levels(self, operator, contact, stat, info)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
     call ranks%agree(info)
+    if (self%depth > 1 .and. .not. info%failed()) call count_contacts(self%levels(:self%depth), contact, info)
   end subroutine prepare_levels
+
+  !> As many levels, self%depth, as the contact set needs; `stat` is not 0 without memory on this rank.
+  subroutine find_levels(self, operator, contact, stat, info)
+    class(contact_preconditioner), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    logical, intent(in) :: contact(:)
+    integer, intent(out) :: stat
+    type(fuge_info), intent(inout) :: info
+    type(shared_rows) :: rows
+    type(shared_ranks) :: ranks
+    integer :: l, n
+
+    stat = 0
+    if (.not. any(operator%grid() == 1)) return
+    call rows_of(operator, 0, rows, info)
+    if (info%failed()) return
+    if (count_segments(rows, contact) < MANY_SEGMENTS) return
+    n = size(contact)
+    ranks = operator%ranks()
+    if (.not. allocated(self%levels)) then
+      allocate (self%levels(MAX_LEVELS), self%forces(MAX_LEVELS), stat=stat)
+      if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%residual(n), stat=stat)
+      if (stat == 0) self%levels(1)%rows = rows
+    end if
+    do l = 2, MAX_LEVELS
+      if (.not. ranks%everywhere(stat == 0)) return
+      call create_level(operator, l, self%levels(l), self%forces(l), stat)
+      if (.not. ranks%everywhere(stat == 0)) return
+      if (.not. exists(self%levels(l))) exit
+      self%depth = l
+    end do
+  end subroutine find_levels
 
   !> The operator's preconditioner applied to 1 on the contact set and 0 elsewhere.
   subroutine precondition_unit(operator, contact, force, info)

@@ -72,7 +72,7 @@ contains
     logical :: to_tolerance, confirmed, fresh, in_row, undetermined
 
     cells = operator%grid()
-    in_row = cells(1) > 0 .and. cells(2) == 1
+    in_row = all(cells > 0) .and. any(cells == 1)
     fewest_wrong = huge(fewest_wrong)
     stalls_left = MAX_STALLS
     previous_residual = huge(previous_residual)

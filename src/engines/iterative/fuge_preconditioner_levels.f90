@@ -5,19 +5,19 @@
 !> sum over the levels is symmetric and positive definite.
 module fuge_preconditioner_levels
   use fuge_kinds, only: dp
+  use fuge_level_groups, only: add_to_groups, compute_group_means, subtract_from_groups, sum_over_groups, GROUP
   use fuge_number_text, only: text
   use fuge_operator_products, only: precondition
   use fuge_operator_type, only: fuge_operator
+  use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_status, only: composed_message, fuge_info, report
   implicit none
   private
 
   public :: apply_levels, count_contacts, create_level, exists
 
-  !> From one level to the next the cell width doubles this many times.
+  !> From one level to the next the cell width doubles this many times, so that a cell is a GROUP of cells.
   integer, parameter :: DOUBLINGS_PER_LEVEL = 4
-  !> Cells of one level in a cell of the next.
-  integer, parameter :: GROUP = 2**DOUBLINGS_PER_LEVEL
 
   !> One level.
   type, public :: preconditioner_level
@@ -32,6 +32,8 @@ module fuge_preconditioner_levels
     real(dp), allocatable :: indicator(:)
     !> The residual (length) that this level preconditions, zero off the contact; overwritten.
     real(dp), allocatable :: residual(:)
+    !> Which cells each rank has, where several share them.
+    type(shared_rows) :: rows = shared_rows()
   end type preconditioner_level
 
   !> Forces on the cells of a level. They are no component of `preconditioner_level` because they
@@ -45,7 +47,7 @@ contains
   !> Create level `number` unless it exists already; it stays empty if the operator has no grid
   !> so coarse, and for a grid with rows and columns: on a surface the displacements of a force fall off with the
   !> distance, so that separate contacts hardly couple, and one level converges faster than two
-  !> (doc/theory.md). `stat` is not 0 where memory is short.
+  !> (doc/theory.md). `stat` is not 0 where memory is short, maybe on this rank only.
   subroutine create_level(operator, number, level, force, stat)
     class(fuge_operator), intent(in) :: operator
     integer, intent(in) :: number
@@ -54,21 +56,27 @@ contains
     integer, intent(out) :: stat
     class(fuge_operator), pointer :: kept
     class(fuge_operator), allocatable :: coarse
-    integer :: grid(2), cells
+    type(fuge_info) :: info
+    integer :: grid(2), cells, own
 
     stat = 0
     grid = operator%grid()
     if (exists(level) .or. all(grid > 1)) return
-    cells = (operator%points() - 1)/GROUP**(number - 1) + 1
+    cells = (product(grid) - 1)/GROUP**(number - 1) + 1
     call operator%kept_coarser(DOUBLINGS_PER_LEVEL*(number - 1), kept)
     if (associated(kept)) then
       if (.not. is_usable(kept, cells)) return
+      own = kept%points()
+      call rows_of(kept, 0, level%rows, info)
     else
       call operator%coarsen(DOUBLINGS_PER_LEVEL*(number - 1), coarse)
       if (.not. allocated(coarse)) return
       if (.not. is_usable(coarse, cells)) return
+      own = coarse%points()
+      call rows_of(coarse, 0, level%rows, info)
     end if
-    allocate (level%weight(cells), level%indicator(cells), level%residual(cells), force%values(cells), stat=stat)
+    if (info%failed()) stat = 1
+    if (stat == 0) allocate (level%weight(own), level%indicator(own), level%residual(own), force%values(own), stat=stat)
     if (stat /= 0) return
     level%kept => kept
     if (allocated(coarse)) call move_alloc(coarse, level%owned)
@@ -88,21 +96,21 @@ contains
     integer, intent(in) :: cells
     logical :: usable
 
-    usable = coarse%points() == cells
+    usable = product(coarse%grid()) == cells
     if (usable) usable = coarse%has_preconditioner()
   end function is_usable
 
-  !> Count the points in contact in the cells of every level.
-  pure subroutine count_contacts(levels, contact)
+  !> Count the points in contact in the cells of every level. Error: FUGE_ERR_MEMORY.
+  subroutine count_contacts(levels, contact, info)
     type(preconditioner_level), intent(inout) :: levels(:)
     logical, intent(in) :: contact(:)
-    integer :: k, l
+    type(fuge_info), intent(inout) :: info
+    integer :: l
 
     levels(1)%weight = merge(1.0_dp, 0.0_dp, contact)
     do l = 2, size(levels)
-      do k = 1, size(levels(l)%weight)
-        levels(l)%weight(k) = sum(levels(l - 1)%weight((k - 1)*GROUP + 1:min(k*GROUP, size(levels(l - 1)%weight))))
-      end do
+      call sum_over_groups(levels(l - 1)%rows, levels(l)%rows, levels(l - 1)%weight, levels(l)%weight, info)
+      if (info%failed()) return
       levels(l)%indicator = min(levels(l)%weight, 1.0_dp)
     end do
   end subroutine count_contacts
@@ -120,23 +128,30 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (size(levels) > 1) then
-      call compute_group_means(levels(1)%weight, levels(1)%residual, levels(2)%weight, levels(2)%residual)
-      if (allocated(levels(1)%indicator)) then
-        call subtract_from_groups(levels(2)%residual, levels(1)%indicator, levels(1)%residual)
-      else
-        call subtract_from_groups(levels(2)%residual, levels(1)%weight, levels(1)%residual)
-      end if
+      associate (fine => levels(1), coarse => levels(2))
+        call compute_group_means(fine%rows, coarse%rows, fine%weight, fine%residual, coarse%weight, coarse%residual, &
+                                 info)
+        if (info%failed()) return
+        if (allocated(fine%indicator)) then
+          call subtract_from_groups(fine%rows, coarse%rows, coarse%residual, fine%indicator, fine%residual, info)
+        else
+          call subtract_from_groups(fine%rows, coarse%rows, coarse%residual, fine%weight, fine%residual, info)
+        end if
+      end associate
+      if (info%failed()) return
     end if
     if (exists(levels(1))) then
-      call precondition_coarse(levels(1), operator%points(), force, coarse_share, info)
+      call precondition_coarse(levels(1), product(operator%grid()), force, coarse_share, info)
     else
       call precondition(operator, levels(1)%residual, force, info)
     end if
     if (info%failed() .or. size(levels) == 1) return
-    call compute_group_means(levels(1)%weight, force, levels(2)%weight, forces(2)%values)
-    call add_to_groups(-1.0_dp, forces(2)%values, force)
-    call apply_levels(levels(2:), forces(2:), operator, forces(2)%values, coarse_share, info)
-    call add_to_groups(1.0_dp, forces(2)%values, force)
+    associate (fine => levels(1)%rows, coarse => levels(2)%rows, means => forces(2)%values)
+      call compute_group_means(fine, coarse, levels(1)%weight, force, levels(2)%weight, means, info)
+      if (.not. info%failed()) call add_to_groups(fine, coarse, -1.0_dp, means, force, info)
+      if (.not. info%failed()) call apply_levels(levels(2:), forces(2:), operator, means, coarse_share, info)
+      if (.not. info%failed()) call add_to_groups(fine, coarse, 1.0_dp, means, force, info)
+    end associate
   end subroutine apply_levels
 
   !> The preconditioner of a coarser level; the force on a cell is divided evenly among its points
@@ -154,55 +169,12 @@ contains
     else
       call precondition(level%owned, level%residual, force, coarse)
     end if
-    coarse_share = coarse_share + real(size(force), dp)/real(points, dp)
-    if (coarse%failed()) call report(info, coarse%status, 'on the grid of '//text(size(force))//' cells: ' &
-                                     //composed_message(coarse))
+    associate (cells => level%rows%points(size(force)))
+      coarse_share = coarse_share + real(cells, dp)/real(points, dp)
+      if (coarse%failed()) call report(info, coarse%status, 'on the grid of '//text(cells)//' cells: ' &
+                                       //composed_message(coarse))
+    end associate
     where (level%weight > 0.0_dp) force = force/level%weight
   end subroutine precondition_coarse
-
-  !> Weighted mean of `fine` over each group of cells; 0 for a group of weight 0.
-  pure subroutine compute_group_means(weight, fine, coarse_weight, coarse)
-    real(dp), intent(in), contiguous :: weight(:), fine(:), coarse_weight(:)
-    real(dp), intent(inout), contiguous :: coarse(:)
-    integer :: first, last, k
-
-    do k = 1, size(coarse)
-      coarse(k) = 0.0_dp
-      if (.not. coarse_weight(k) > 0.0_dp) cycle
-      first = (k - 1)*GROUP + 1
-      last = min(k*GROUP, size(fine))
-      coarse(k) = sum(weight(first:last)*fine(first:last))/coarse_weight(k)
-    end do
-  end subroutine compute_group_means
-
-  !> Subtract each group's value from those of its cells whose `indicator` is 1.
-  pure subroutine subtract_from_groups(coarse, indicator, fine)
-    real(dp), intent(in), contiguous :: coarse(:), indicator(:)
-    real(dp), intent(inout), contiguous :: fine(:)
-    integer :: i, k
-
-    do k = 1, size(coarse)
-      if (.not. abs(coarse(k)) > 0.0_dp) cycle
-      do i = (k - 1)*GROUP + 1, min(k*GROUP, size(fine))
-        fine(i) = fine(i) - coarse(k)*indicator(i)
-      end do
-    end do
-  end subroutine subtract_from_groups
-
-  !> Add `factor` times each group's value to all its cells. Meant for forces, which are undefined
-  !> off the contact anyway.
-  pure subroutine add_to_groups(factor, coarse, fine)
-    real(dp), intent(in) :: factor
-    real(dp), intent(in), contiguous :: coarse(:)
-    real(dp), intent(inout), contiguous :: fine(:)
-    integer :: i, k
-
-    do k = 1, size(coarse)
-      if (.not. abs(coarse(k)) > 0.0_dp) cycle
-      do i = (k - 1)*GROUP + 1, min(k*GROUP, size(fine))
-        fine(i) = fine(i) + factor*coarse(k)
-      end do
-    end do
-  end subroutine add_to_groups
 
 end module fuge_preconditioner_levels

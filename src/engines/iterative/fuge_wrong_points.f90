@@ -5,7 +5,8 @@ module fuge_wrong_points
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_set_exchange, only: exchange, exchange_extrapolated
+  use fuge_set_exchange, only: exchange
+  use fuge_shared_exchange, only: exchange_in_line
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -141,7 +142,8 @@ contains
     end if
     if (extrapolate) then
       call measure_states(scene, iterate, measure)
-      call exchange_extrapolated(tensile, penetrating, measure, iterate%contact)
+      call exchange_in_line(scene%rows, tensile, penetrating, measure, iterate%contact, info)
+      if (info%failed()) return
       call keep_tied(scene, iterate%contact)
     else
       call exchange(tensile, penetrating, iterate%contact)

@@ -1,0 +1,140 @@
+! The exchange of points of a line, its segments and its groups of cells do not depend on how ranks share the line.
+program exchanges
+  use fuge, dp => fuge_dp
+  use fuge_level_groups, only: add_to_groups, compute_group_means, subtract_from_groups, sum_over_groups, GROUP
+  use fuge_mpi, only: fuge_mpi_halfplane_operator
+  use fuge_set_exchange, only: exchange_extrapolated
+  use fuge_shared_exchange, only: count_segments, exchange_in_line
+  use fuge_shared_rows, only: shared_rows
+  use mpi_f08
+  use rank_checks, only: begin_checks, end_checks, expect
+  implicit none
+
+  integer, parameter :: TRIALS = 1500
+
+  call begin_checks()
+  call run()
+  call end_checks()
+
+contains
+
+  subroutine run()
+    type(fuge_mpi_halfplane_operator) :: line
+    type(shared_rows) :: rows
+    type(fuge_info) :: info
+    real(dp) :: random(3)
+    integer :: n, seed_size, trial
+
+    call random_seed(size=seed_size)
+    call random_seed(put=spread(7919, 1, seed_size))
+    call line%set(64, 1.0_dp, 1.0_dp, MPI_COMM_WORLD, info)
+    call expect(info%status == FUGE_DONE, trim(info%message))
+    rows%ranks = line%ranks()
+    if (rows%is_alone()) return
+    do trial = 1, TRIALS
+      call random_number(random)
+      n = 1 + int(80*random(1))
+      call share(n, rows)
+      call compare_sets(n, 1 + int(12*random(2)), 0.2_dp + 0.8_dp*random(3), rows)
+      if (modulo(trial, 10) == 0) call compare_groups(8*n, rows)
+    end do
+  end subroutine run
+
+  ! Any cells of each rank, or none.
+  subroutine share(n, rows)
+    integer, intent(in) :: n
+    type(shared_rows), intent(inout) :: rows
+    real(dp) :: random
+    integer :: r
+
+    rows%cells = [1, n]
+    if (allocated(rows%first)) deallocate (rows%first)
+    allocate (rows%first(0:rows%ranks%members()))
+    rows%first(0) = 1
+    do r = 1, rows%ranks%members()
+      call random_number(random)
+      rows%first(r) = min(rows%first(r - 1) + int(2.5_dp*n*random/rows%ranks%members()), n + 1)
+    end do
+    rows%first(rows%ranks%members()) = n + 1
+  end subroutine share
+
+  ! Sets of runs of at most `longest` cells, open or in contact, of which the part `wrong` are wrong at one end.
+  subroutine compare_sets(n, longest, wrong, rows)
+    integer, intent(in) :: n, longest
+    real(dp), intent(in) :: wrong
+    type(shared_rows), intent(in) :: rows
+    type(fuge_info) :: info
+    logical, dimension(n) :: tensile, penetrating, contact, expected
+    real(dp) :: measure(n), random(4)
+    logical, allocatable :: own(:)
+    integer :: begin, finish, k, run, segments
+
+    call random_number(measure)
+    tensile = .false.
+    penetrating = .false.
+    contact = .false.
+    k = 0
+    do while (k < n)
+      call random_number(random)
+      run = min(1 + int(longest*random(1)), n - k)
+      contact(k + 1:k + run) = random(2) < 0.5_dp
+      if (random(3) < wrong) then
+        begin = k + 1
+        finish = k + run
+        if (random(4) < 0.5_dp) begin = k + 1 + int(run*random(1))
+        if (random(4) > 0.3_dp) finish = k + 1 + int((run - 1)*random(2))
+        tensile(begin:finish) = contact(begin:finish)
+        penetrating(begin:finish) = .not. contact(begin:finish)
+        measure(begin:finish) = -measure(begin:finish)
+      end if
+      k = k + run
+    end do
+    segments = count(contact(2:) .and. .not. contact(:n - 1)) + merge(1, 0, contact(1))
+    begin = rows%first(rows%ranks%number())
+    finish = rows%first(rows%ranks%number() + 1) - 1
+    call expect(count_segments(rows, contact(begin:finish)) == segments, 'the number of segments')
+    expected = contact
+    call exchange_extrapolated(tensile, penetrating, measure, expected)
+    own = contact(begin:finish)
+    call exchange_in_line(rows, tensile(begin:finish), penetrating(begin:finish), measure(begin:finish), own, info)
+    call expect(.not. info%failed(), trim(info%message))
+    call expect(all(own .eqv. expected(begin:finish)), 'the exchanged set')
+  end subroutine compare_sets
+
+  ! Sums, means and differences over the groups of n cells.
+  subroutine compare_groups(n, rows)
+    integer, intent(in) :: n
+    type(shared_rows), intent(inout) :: rows
+    type(shared_rows) :: coarse, alone
+    type(fuge_info) :: info
+    real(dp), dimension(n) :: weight, values
+    real(dp), dimension((n - 1)/GROUP + 1) :: sums, means
+    real(dp), allocatable :: own(:), own_sums(:), own_means(:)
+    integer :: me
+
+    coarse%ranks = rows%ranks
+    call share(size(sums), coarse)
+    call share(n, rows)
+    me = rows%ranks%number()
+    call random_number(weight)
+    weight = anint(weight)
+    call random_number(values)
+    allocate (own_sums(coarse%first(me + 1) - coarse%first(me)), own_means(coarse%first(me + 1) - coarse%first(me)))
+    associate (a => rows%first(me), b => rows%first(me + 1) - 1, c => coarse%first(me), d => coarse%first(me + 1) - 1)
+      own = values(a:b)
+      call sum_over_groups(alone, alone, weight, sums, info)
+      call sum_over_groups(rows, coarse, weight(a:b), own_sums, info)
+      call expect(all(abs(own_sums - sums(c:d)) <= 0.0_dp), 'sums over groups')
+      call compute_group_means(alone, alone, weight, values, sums, means, info)
+      call compute_group_means(rows, coarse, weight(a:b), own, own_sums, own_means, info)
+      call expect(all(abs(own_means - means(c:d)) <= 1.0e-14_dp), 'means over groups')
+      call subtract_from_groups(alone, alone, means, weight, values, info)
+      call subtract_from_groups(rows, coarse, own_means, weight(a:b), own, info)
+      call add_to_groups(alone, alone, 3.0_dp, means, values, info)
+      call add_to_groups(rows, coarse, 3.0_dp, own_means, own, info)
+      call expect(all(abs(own - values(a:b)) <= 1.0e-13_dp), 'values less those of their groups')
+    end associate
+    call expect(.not. info%failed(), trim(info%message))
+  end subroutine compare_groups
+
+end program exchanges

@@ -1,0 +1,97 @@
+! What programs for several ranks expect: the solution of one process, on rank 0.
+module rank_checks
+  use fuge, dp => fuge_dp
+  use mpi_f08
+  implicit none
+  private
+
+  public :: begin_checks, check_solution, end_checks, expect, gather, my_rank
+
+  type :: counters
+    integer :: failures = 0, rank = 0
+  end type counters
+
+  type(counters) :: now
+
+contains
+
+  subroutine begin_checks()
+    call MPI_Init()
+    call MPI_Comm_rank(MPI_COMM_WORLD, now%rank)
+  end subroutine begin_checks
+
+  ! Fails on all ranks if something was not as expected on any.
+  subroutine end_checks()
+    call MPI_Allreduce(MPI_IN_PLACE, now%failures, 1, MPI_INTEGER, MPI_SUM, MPI_COMM_WORLD)
+    call MPI_Finalize()
+    if (now%failures > 0) error stop 1
+  end subroutine end_checks
+
+  function my_rank() result(rank)
+    integer :: rank
+
+    rank = now%rank
+  end function my_rank
+
+  subroutine expect(true, what)
+    logical, intent(in) :: true
+    character(len=*), intent(in) :: what
+
+    if (true) return
+    now%failures = now%failures + 1
+    write (*, '(a,i0,2a)') 'rank ', now%rank, ', not as expected: ', what
+  end subroutine expect
+
+  ! Compare on rank 0 what the ranks have found with what one process has: counts and contact set; forces, gaps and
+  ! motions to `accuracy`.
+  subroutine check_solution(name, accuracy, info, solution, whole_info, expected)
+    character(len=*), intent(in) :: name
+    real(dp), intent(in) :: accuracy
+    type(fuge_info), intent(in) :: info, whole_info
+    type(fuge_solution), intent(in) :: solution, expected
+    real(dp), allocatable :: force(:), gap(:)
+    real(dp) :: largest
+
+    call gather(solution%force, force)
+    call gather(solution%gap, gap)
+    if (now%rank > 0) return
+    call expect(size(force) == size(expected%force), name//': number of points')
+    call expect(info%status == whole_info%status, name//': status')
+    call expect(info%products == whole_info%products, name//': products')
+    call expect(info%preconditionings == whole_info%preconditionings, name//': preconditionings')
+    call expect(info%iterations == whole_info%iterations, name//': contact sets')
+    call expect(info%contacts == whole_info%contacts, name//': number of contacts')
+    call expect(info%message == whole_info%message, name//': '//trim(info%message)//' / '//trim(whole_info%message))
+    call expect(all((force > 0.0_dp) .eqv. (expected%force > 0.0_dp)), name//': contact set')
+    call expect(all((force < 0.0_dp) .eqv. (expected%force < 0.0_dp)), name//': contact set at upper stops')
+    largest = maxval(abs(expected%force))
+    call expect(maxval(abs(force - expected%force)) <= accuracy*largest, name//': forces')
+    largest = maxval(abs(expected%gap))
+    call expect(maxval(abs(gap - expected%gap)) <= accuracy*largest, name//': gaps')
+    call expect(all(abs(solution%motion - expected%motion) <= accuracy*maxval(abs(expected%motion))), &
+                name//': motions')
+    write (*, '(a,t36,4i6,es10.2,2x,a)') name, info%iterations, info%products, info%preconditionings, info%contacts, &
+      maxval(abs(force - expected%force))/max(maxval(abs(expected%force)), tiny(1.0_dp)), trim(info%message)
+  end subroutine check_solution
+
+  ! `all_values` on rank 0: those of all ranks.
+  subroutine gather(values, all_values)
+    real(dp), intent(in) :: values(:)
+    real(dp), allocatable, intent(out) :: all_values(:)
+    integer, allocatable :: counts(:), begins(:)
+    integer :: r, ranks
+
+    call MPI_Comm_size(MPI_COMM_WORLD, ranks)
+    allocate (counts(0:ranks - 1), begins(0:ranks - 1))
+    call MPI_Gather(size(values), 1, MPI_INTEGER, counts, 1, MPI_INTEGER, 0, MPI_COMM_WORLD)
+    if (now%rank > 0) counts = 0
+    begins(0) = 0
+    do r = 1, ranks - 1
+      begins(r) = begins(r - 1) + counts(r - 1)
+    end do
+    allocate (all_values(sum(counts)))
+    call MPI_Gatherv(values, size(values), MPI_DOUBLE_PRECISION, all_values, counts, begins, MPI_DOUBLE_PRECISION, 0, &
+                     MPI_COMM_WORLD)
+  end subroutine gather
+
+end module rank_checks
