@@ -3,7 +3,6 @@ module fuge_solver_type
   use fuge_active_set_engine, only: solve_by_active_set
   use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_certificate, only: find_violation, fuge_violation
-  use fuge_constants, only: LARGEST_EXPONENT_OF_2
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_force_error, only: estimate_force_error
@@ -16,7 +15,6 @@ module fuge_solver_type
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_monitor_type, only: fuge_monitor, monitor_relay
   use fuge_number_text, only: text
-  use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
@@ -24,7 +22,6 @@ module fuge_solver_type
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_sensitivity, only: find_derivative
   use fuge_set_derivative, only: find_derivative_by_products
-  use fuge_small_loads, only: has_translation, load_scaling, lower_solution, place_body, raise_loads
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_SIZE, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
@@ -38,9 +35,6 @@ module fuge_solver_type
 
   !> Above this estimate of the relative error of the forces, a solution comes with a warning.
   real(dp), parameter :: MOST_FORCE_ERROR = 1.0e-3_dp
-  !> As powers of two, how often lengths may contain the load, or what it displaces, in a second try with larger loads:
-  !> squares of the ratio stay in range, or displacements are just above the rounding of the lengths.
-  integer, parameter :: RATIO_IN_RANGE = LARGEST_EXPONENT_OF_2 - 32, RATIO_RESOLVED = 46
 
   !> Solves contact problems one after the other, each from the contact set of the last one. One solver for each
   !> thread.
@@ -133,7 +127,6 @@ contains
         info = fuge_info()
         call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
       end if
-      call try_larger_loads(self, operator, problem, chosen, relay, candidate, info)
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
                                                          //text(relay%reported)//' by the progress monitor')
     end if
@@ -187,99 +180,6 @@ contains
     call run_engine(self, operator, problem, options, monitor, solution, info)
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
   end subroutine solve_and_certify
-
-  !> Where a solve has failed because its loads are tiny beside its lengths: once more with larger loads, which have the
-  !> same contact. The certificate of the given problem decides whether the second solution is taken.
-  subroutine try_larger_loads(self, operator, problem, options, monitor, solution, info)
-    class(fuge_solver), intent(inout) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_options), intent(in) :: options
-    class(fuge_monitor), intent(inout) :: monitor
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-
-    if (info%status == FUGE_ERR_OVERFLOW) then
-      call solve_with_larger_loads(self, operator, problem, RATIO_IN_RANGE, options, monitor, solution, info)
-    end if
-    if (.not. any(info%status == [FUGE_ERR_OVERFLOW, FUGE_ERR_ITERATION_LIMIT, FUGE_WARN_RESIDUAL])) return
-    select type (operator)
-    class is (fuge_dense_operator)
-      associate (survey => operator%known())
-        if (survey%largest() > 0.0_dp) call solve_with_larger_loads(self, operator, problem, RATIO_RESOLVED &
-          + exponent(survey%largest()), options, monitor, solution, info)
-      end associate
-    end select
-  end subroutine try_larger_loads
-
-  !> `most_ratio` as in `raise_loads`. Where the second solve is no better, solution and report stay as they are.
-  subroutine solve_with_larger_loads(self, operator, problem, most_ratio, options, monitor, solution, info)
-    class(fuge_solver), intent(inout) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: most_ratio
-    type(fuge_options), intent(in) :: options
-    class(fuge_monitor), intent(inout) :: monitor
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-    type(fuge_problem) :: raised
-    type(fuge_solution) :: second, change
-    type(fuge_info) :: second_info, change_info
-    type(load_scaling) :: scaling
-    logical :: is_raised
-
-    call raise_loads(problem, operator%ranks(), most_ratio, raised, scaling, is_raised)
-    if (.not. is_raised) return
-    call self%reset()
-    call run_engine(self, operator, raised, options, monitor, second, second_info)
-    if (second_info%failed()) return
-    if (scaling%loads > scaling%lengths .and. .not. (has_translation(problem) .or. self%solved_by_products)) then
-      call self%derivative(operator, 0.0_dp*raised%gap, raised%resultant, change, change_info)
-    end if
-    call lower_solution(scaling, problem, second, change)
-    if (scaling%loads > scaling%lengths .and. has_translation(problem)) then
-      call place_by_forces(operator, problem, second, second_info)
-    end if
-    if (.not. second_info%failed()) call certify(operator, problem, second, options%tolerance, second_info)
-    self%has_solution = .not. second_info%failed() .and. second_info%status /= FUGE_WARN_RESIDUAL
-    if (.not. self%has_solution) return
-    call add_counts(info, second_info)
-    info = second_info
-    call move_solution(second, solution)
-    ! Their forces are those of other loads.
-    call self%steps%forget()
-  end subroutine solve_with_larger_loads
-
-  !> Gaps and approach that belong to the forces. Errors: those of a product, FUGE_ERR_MEMORY.
-  subroutine place_by_forces(operator, problem, solution, info)
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
-    real(dp), allocatable :: displacement(:)
-    integer :: stat
-
-    ranks = operator%ranks()
-    allocate (displacement(operator%points()), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
-    call ranks%agree(info)
-    if (stat /= 0 .or. info%failed()) return
-    call multiply(operator, solution%force, displacement, info)
-    if (info%failed()) return
-    displacement = displacement + operator%datum()*ranks%total(sum(solution%force))
-    call place_body(problem, displacement, ranks, solution)
-  end subroutine place_by_forces
-
-  !> The work of both tries.
-  pure subroutine add_counts(first, second)
-    type(fuge_info), intent(in) :: first
-    type(fuge_info), intent(inout) :: second
-
-    second%iterations = second%iterations + first%iterations
-    second%products = second%products + first%products
-    second%preconditionings = second%preconditionings + first%preconditionings
-  end subroutine add_counts
 
   !> Forget the last contact set and the history: the next solve starts from scratch. After a change of the operator
   !> that may be faster; the solution is the same.
