@@ -131,6 +131,11 @@ def write_styles(site, katex):
     style = (katex/"katex.css").read_text()
     style = re.sub(r",\s*url\([^)]*\.(?:woff|ttf)\)\s*format\([^)]*\)", "", style)
     (site/"css/katex/katex.css").write_text(style)
+    # The licence of what is copied here, where Debian or npm has it.
+    for licence in (pathlib.Path("/usr/share/doc/libjs-katex/copyright"), katex.parent/"LICENSE"):
+        if licence.is_file():
+            shutil.copyfile(licence, site/"css/katex/LICENSE.txt")
+            break
 
 
 def main():

@@ -9,8 +9,7 @@ import json
 import re
 
 from links import targets
-from reduce import exports
-from sources import described, opening_sentence, public_modules
+from sources import described, opening_sentence, public_modules, taken_names
 
 # Topics of the Fortran interface: the folders of src/.
 TOPICS = {
@@ -75,7 +74,7 @@ def shown_title(site, name):
 
 def fortran_topics(root):
     """The topics with their types, procedures and modules."""
-    taken = exports((root/"src/fuge.f90").read_text())
+    taken = taken_names(root)
     found = {}
     for module, path, names in public_modules(root, list(taken), taken):
         said = described(path.read_text())

@@ -18,8 +18,8 @@ import python_pages
 from dialect import for_markdown
 from fragments import Fragments
 from links import LINK, outside_blocks, outside_code
-from reduce import exports, reduced, without_uses
-from sources import described, opening_sentence, public_modules, public_names
+from reduce import reduced, without_uses
+from sources import described, opening_sentence, public_modules, public_names, taken_names
 
 # Modules in the order in which a reader meets them; others follow.
 FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_matrix_operator",
@@ -154,7 +154,7 @@ def code(text, language):
 
 def interface(root):
     """All names that module fuge takes from others, and those of fuge_sparse, by topic and module."""
-    taken = exports((root/"src/fuge.f90").read_text())
+    taken = taken_names(root)
     order = [name for name in FIRST if name in taken] + [name for name in taken if name not in FIRST]
     topics = {}
     for module, path, names in public_modules(root, order, taken):
@@ -181,7 +181,7 @@ def write_sources(root, work):
         return f"[[{match.group(1)}]]" if match.group(1) in known else match.group(0)
 
     facade = root/"src/fuge.f90"
-    taken = exports(facade.read_text())
+    taken = taken_names(root)
     more = "!> All names, by subject: [Fortran interface](|page|/fortran.html).\n"
     text = facade.read_text().replace("\nmodule fuge\n", f"\n{more}module fuge\n")
     (work/"src/fuge.f90").write_text(text)
