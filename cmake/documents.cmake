@@ -83,7 +83,7 @@ endfunction()
 file(REMOVE_RECURSE "${DOCUMENTS}")
 file(GLOB pictures "${SOURCE_DIR}/doc/*.png" "${SOURCE_DIR}/doc/*.svg" "${SOURCE_DIR}/doc/*.csv")
 file(COPY ${pictures} DESTINATION "${DOCUMENTS}/doc")
-file(COPY "${SOURCE_DIR}/LICENSE" DESTINATION "${DOCUMENTS}")
+file(COPY "${SOURCE_DIR}/LICENSE" "${SOURCE_DIR}/CITATION.cff" DESTINATION "${DOCUMENTS}")
 file(COPY "${SOURCE_DIR}/examples" DESTINATION "${DOCUMENTS}"
   PATTERN CMakeLists.txt EXCLUDE PATTERN "*.cmake" EXCLUDE PATTERN plots EXCLUDE)
 fuge_write_reference("${SOURCE_DIR}" "${DOCUMENTS}/doc/fortran.md")

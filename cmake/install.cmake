@@ -68,13 +68,15 @@ function(fuge_install_library target package)
 endfunction()
 
 set(fftw)
+set(with_fftw OFF)
 if(FUGE_WITH_FFTW)
+  set(with_fftw ON)
   set(fftw ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY})
 endif()
 fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}" NEEDS ${LAPACK_LIBRARIES} ${fftw})
 # A static and a shared library in one prefix may differ in this.
 set(features "fuge-${library_kind}-features.cmake")
-set(feature_lines "set(fuge_WITH_FFTW ${FUGE_WITH_FFTW})\n")
+set(feature_lines "set(fuge_WITH_FFTW ${with_fftw})\n")
 if(FUGE_WITH_FFTW AND FFTW_LIBRARY MATCHES "mkl")
   # Others would find FFTW, with its licence.
   string(APPEND feature_lines "set(fuge_FFTW_LIBRARY \"${FFTW_LIBRARY}\")\n")

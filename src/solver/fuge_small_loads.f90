@@ -45,8 +45,8 @@ contains
     integer :: excess, largest, stat
 
     is_raised = .false.
-    call measure(problem, ranks, length, load)
-    if (.not. load > 0.0_dp) return
+    call measure(problem, ranks, length, load, stat)
+    if (ranks%anywhere(stat /= 0) .or. .not. load > 0.0_dp) return
     largest = exponent(load)
     if (length > 0.0_dp) largest = max(largest, exponent(length))
     excess = max(largest - exponent(load) - most_ratio, 0)
@@ -55,7 +55,7 @@ contains
     if (scaling%loads == 0) return
     call copy_problem(problem, raised, stat)
     if (ranks%anywhere(stat /= 0)) return
-    if (has_translation(problem)) scaling%datum = ranks%least(minval(problem%gap, mask=takes_part(problem)))
+    if (has_translation(problem)) scaling%datum = ranks%least(lowest_gap(problem))
     raised%gap = scale(problem%gap - scaling%datum, scaling%lengths)
     if (allocated(raised%gap_upper)) then
       where (raised%gap_upper < huge(length)) raised%gap_upper = scale(raised%gap_upper, scaling%lengths)
@@ -85,19 +85,24 @@ contains
     if (stat == 0 .and. allocated(problem%motion)) allocate (copy%motion, source=problem%motion, stat=stat)
   end subroutine copy_problem
 
-  !> The largest length of the data, and the largest load; 0 where no point takes part.
-  subroutine measure(problem, ranks, length, load)
+  !> The largest length of the data, and the largest load; 0 where no point takes part. `stat` is not 0 without memory.
+  subroutine measure(problem, ranks, length, load, stat)
     type(fuge_problem), intent(in) :: problem
     type(shared_ranks), intent(in) :: ranks
     real(dp), intent(out) :: length, load
-    real(dp), dimension(problem%points()) :: none, unit
+    integer, intent(out) :: stat
+    real(dp), allocatable :: none(:), unit(:)
+    logical, allocatable :: included(:)
     real(dp) :: arm
-    logical :: included(problem%points())
-    integer :: j
+    integer :: j, n
 
     length = 0.0_dp
     load = 0.0_dp
-    included = takes_part(problem)
+    n = problem%points()
+    allocate (none(n), unit(n), included(n), stat=stat)
+    if (ranks%anywhere(stat /= 0)) return
+    included = .true.
+    if (allocated(problem%excluded)) included = .not. problem%excluded
     if (.not. ranks%anywhere(any(included))) return
     none = 0.0_dp
     unit = 1.0_dp
@@ -110,6 +115,18 @@ contains
     end do
   end subroutine measure
 
+  !> The least gap of the points that are not excluded; huge without points.
+  pure function lowest_gap(problem) result(lowest)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: lowest
+    integer :: k
+
+    lowest = huge(lowest)
+    do k = 1, problem%points()
+      if (takes_part(problem, k)) lowest = min(lowest, problem%gap(k))
+    end do
+  end function lowest_gap
+
   !> One free translation of all points: a constant in the gaps changes its motion only.
   pure function has_translation(problem)
     type(fuge_problem), intent(in) :: problem
@@ -118,13 +135,14 @@ contains
     has_translation = .not. (allocated(problem%modes) .or. is_prescribed(problem, 1))
   end function has_translation
 
-  !> The points that are not excluded, (n).
-  pure function takes_part(problem) result(included)
+  !> Is point `k` not excluded?
+  pure function takes_part(problem, k)
     type(fuge_problem), intent(in) :: problem
-    logical :: included(problem%points())
+    integer, intent(in) :: k
+    logical :: takes_part
 
-    included = .true.
-    if (allocated(problem%excluded)) included = .not. problem%excluded
+    takes_part = .true.
+    if (allocated(problem%excluded)) takes_part = .not. problem%excluded(k)
   end function takes_part
 
   !> From the solution of the raised problem to that of the given one, in place: its size.
@@ -137,14 +155,17 @@ contains
     type(fuge_solution), intent(inout) :: solution
     type(fuge_solution), intent(in) :: change
     real(dp) :: excess
+    integer :: k
 
     if (allocated(change%gap)) then
       excess = 1.0_dp - scale(1.0_dp, scaling%lengths - scaling%loads)
-      where (solution%gap > 0.0_dp .and. takes_part(problem))
-        solution%gap = max(solution%gap - excess*change%gap, 0.0_dp)
-      elsewhere (.not. takes_part(problem))
-        solution%gap = solution%gap - excess*change%gap
-      end where
+      do k = 1, size(solution%gap)
+        if (.not. takes_part(problem, k)) then
+          solution%gap(k) = solution%gap(k) - excess*change%gap(k)
+        else if (solution%gap(k) > 0.0_dp) then
+          solution%gap(k) = max(solution%gap(k) - excess*change%gap(k), 0.0_dp)
+        end if
+      end do
       solution%motion = solution%motion - excess*change%motion
     end if
     solution%force = scale(solution%force, -scaling%loads)
@@ -173,9 +194,11 @@ contains
     end if
     call ranks%take_from_least(key, reference)
     solution%motion = reference(1) + reference(2)
-    where (.not. solution%force > 0.0_dp) &
-      solution%gap = (problem%gap - reference(1)) + (displacement - reference(2))
-    where (takes_part(problem)) solution%gap = max(solution%gap, 0.0_dp)
+    do k = 1, size(displacement)
+      if (solution%force(k) > 0.0_dp) cycle
+      solution%gap(k) = (problem%gap(k) - reference(1)) + (displacement(k) - reference(2))
+      if (takes_part(problem, k)) solution%gap(k) = max(solution%gap(k), 0.0_dp)
+    end do
   end subroutine place_body
 
 end module fuge_small_loads
