@@ -167,8 +167,9 @@ def interface(root):
         topics.setdefault(navigation.topic(root, path), []).append(rows)
     body = ("`use fuge` gives all names of this page, by subject and by the module that defines them; only those on "
             "[sparse stiffness](#sparse-stiffness) need `use fuge_sparse`, and those on [surfaces over "
-            "MPI](#surfaces-over-mpi) `use fuge_mpi`. Other lists: [all procedures](../lists/procedures.html), [all types](../lists/types.html), "
-            "[all modules](../lists/modules.html), [abstract interfaces](../lists/absint.html).\n")
+            "MPI](#surfaces-over-mpi) `use fuge_mpi`. Other lists: [all procedures](../lists/procedures.html), "
+            "[all types](../lists/types.html), [all modules](../lists/modules.html), "
+            "[abstract interfaces](../lists/absint.html).\n")
     for topic in navigation.in_order(topics):
         body += f"\n## {topic}\n" + "".join(topics[topic])
     return body
