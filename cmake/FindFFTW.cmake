@@ -1,17 +1,22 @@
-# FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads; FFTW::mpi if it is there for MPI.
-# FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a nonstandard location.
+# FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads.
+# FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a nonstandard location. FFTW_LIBRARY may be another library with
+# FFTW's interface, such as libmkl_rt of MKL.
 find_package(PkgConfig QUIET)
 if(PkgConfig_FOUND)
   pkg_check_modules(PC_FFTW QUIET fftw3)
 endif()
 find_library(FFTW_LIBRARY NAMES fftw3 libfftw3-3 HINTS ${PC_FFTW_LIBRARY_DIRS})
-find_library(FFTW_THREADS_LIBRARY NAMES fftw3_threads HINTS ${PC_FFTW_LIBRARY_DIRS})
-find_library(FFTW_MPI_LIBRARY NAMES fftw3_mpi HINTS ${PC_FFTW_LIBRARY_DIRS})
-mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY FFTW_MPI_LIBRARY)
+if(FFTW_LIBRARY MATCHES "mkl")
+  # One library has the threads too.
+  set(FFTW_THREADS_LIBRARY "${FFTW_LIBRARY}")
+else()
+  find_library(FFTW_THREADS_LIBRARY NAMES fftw3_threads HINTS ${PC_FFTW_LIBRARY_DIRS})
+endif()
+mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY)
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(FFTW REQUIRED_VARS FFTW_LIBRARY FFTW_THREADS_LIBRARY
-  REASON_FAILURE_MESSAGE "install FFTW 3.3.5 or newer with threads (Debian: libfftw3-dev)")
+  REASON_FAILURE_MESSAGE "install FFTW 3.3.9 or newer with threads (Debian: libfftw3-dev)")
 
 if(FFTW_FOUND AND NOT TARGET FFTW::threads)
   # A static copy does not name the libraries that it needs.
@@ -26,9 +31,4 @@ if(FFTW_FOUND AND NOT TARGET FFTW::threads)
   set_target_properties(FFTW::threads PROPERTIES
     IMPORTED_LOCATION "${FFTW_THREADS_LIBRARY}" INTERFACE_LINK_LIBRARIES FFTW::fftw)
   unset(fftw_needs)
-endif()
-if(FFTW_FOUND AND FFTW_MPI_LIBRARY AND NOT TARGET FFTW::mpi)
-  add_library(FFTW::mpi UNKNOWN IMPORTED)
-  set_target_properties(FFTW::mpi PROPERTIES
-    IMPORTED_LOCATION "${FFTW_MPI_LIBRARY}" INTERFACE_LINK_LIBRARIES FFTW::fftw)
 endif()

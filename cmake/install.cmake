@@ -13,11 +13,6 @@ set(for_programs COMPONENT fuge_runtime)
 set(for_developers COMPONENT fuge_development)
 set(for_readers COMPONENT fuge_documents)
 
-# The libraries that a C linker has to add for a static Fortran library.
-set(fortran_runtime ${CMAKE_Fortran_IMPLICIT_LINK_LIBRARIES})
-list(REMOVE_ITEM fortran_runtime gcc gcc_s c)
-list(REMOVE_DUPLICATES fortran_runtime)
-set(fortran_runtime_dirs ${CMAKE_Fortran_IMPLICIT_LINK_DIRECTORIES})
 set(fortran_compiler "${CMAKE_Fortran_COMPILER_ID}-${CMAKE_Fortran_COMPILER_VERSION}")
 
 # result: linker flags for the libraries `...`
@@ -72,8 +67,22 @@ function(fuge_install_library target package)
   install(FILES "${PROJECT_BINARY_DIR}/${package}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" ${for_developers})
 endfunction()
 
-fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}"
-  NEEDS ${LAPACK_LIBRARIES} ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY})
+set(fftw)
+set(with_fftw OFF)
+if(FUGE_WITH_FFTW)
+  set(with_fftw ON)
+  set(fftw ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY})
+endif()
+fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}" NEEDS ${LAPACK_LIBRARIES} ${fftw})
+# A static and a shared library in one prefix may differ in this.
+set(features "fuge-${library_kind}-features.cmake")
+set(feature_lines "set(fuge_WITH_FFTW ${with_fftw})\n")
+if(FUGE_WITH_FFTW AND FFTW_LIBRARY MATCHES "mkl")
+  # Others would find FFTW, with its licence.
+  string(APPEND feature_lines "set(fuge_FFTW_LIBRARY \"${FFTW_LIBRARY}\")\n")
+endif()
+file(WRITE "${PROJECT_BINARY_DIR}/${features}" "${feature_lines}")
+install(FILES "${PROJECT_BINARY_DIR}/${features}" DESTINATION "${package_dir}" ${for_developers})
 
 if(TARGET fuge_sparse)
   fuge_install_library(fuge_sparse fuge-sparse
@@ -83,7 +92,7 @@ endif()
 if(TARGET fuge_mpi)
   # The compiler wrappers of MPI know its libraries.
   fuge_install_library(fuge_mpi fuge-mpi
-    DESCRIPTION "Surfaces over MPI for fuge: compile with the wrapper of the MPI" REQUIRES fuge NEEDS ${FFTW_MPI_LIBRARY})
+    DESCRIPTION "Surfaces over MPI for fuge: compile with the wrapper of the MPI" REQUIRES fuge)
 endif()
 
 install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")
@@ -112,9 +121,27 @@ write_basic_package_version_file(fuge-config-version.cmake COMPATIBILITY SameMin
 install(FILES "${PROJECT_BINARY_DIR}/fuge-config.cmake" "${PROJECT_BINARY_DIR}/fuge-config-version.cmake"
   cmake/FindFFTW.cmake cmake/FindCHOLMOD.cmake DESTINATION "${package_dir}" ${for_developers})
 
-file(GLOB documents CONFIGURE_DEPENDS doc/*.md doc/*.svg doc/*.png)
-install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc" ${for_readers})
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" ${for_readers})
+# The documents are made when they are installed, because their links depend on what is.
+set(doc_dir "${CMAKE_INSTALL_DOCDIR}")
+set(doc_full_dir "${CMAKE_INSTALL_FULL_DOCDIR}")
+if(NOT is_top_level)
+  # The folder may be that of the project around this one.
+  set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc/fuge")
+  set(doc_full_dir "${CMAKE_INSTALL_FULL_DATAROOTDIR}/doc/fuge")
+endif()
+file(GLOB headers RELATIVE "${PROJECT_SOURCE_DIR}/include" CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/*.h")
+if(TARGET fuge_mpi)
+  list(APPEND headers fuge_mpi.h)
+endif()
+file(RELATIVE_PATH to_headers "${doc_full_dir}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+set(documents "${PROJECT_BINARY_DIR}/documents")
+install(CODE "
+  set(SOURCE_DIR [[${PROJECT_SOURCE_DIR}]])
+  set(DOCUMENTS [[${documents}]])
+  set(HEADERS [[${headers}]])
+  set(TO_HEADERS [[${to_headers}]])" ${for_readers})
+install(SCRIPT cmake/documents.cmake ${for_readers})
+install(DIRECTORY "${documents}/" DESTINATION "${doc_dir}" ${for_readers})
 install(FILES doc/man/fuge.3 DESTINATION "${CMAKE_INSTALL_MANDIR}/man3" ${for_readers})
 
 if(TARGET fuge_program)

@@ -106,7 +106,7 @@ enum {
   FUGE_ERR_CALL_ORDER = -13,       /* a call came before another one that it requires */
   FUGE_ERR_OPTION = -14,           /* an option has an invalid value */
   FUGE_ERR_UNSUPPORTED = -15,      /* this engine or operator cannot solve this kind of problem */
-  FUGE_ERR_OVERFLOW = -16,         /* magnitudes exceed the range of double precision */
+  FUGE_ERR_OVERFLOW = -16,         /* numbers are too large or too small for double precision */
   FUGE_ERR_CALLBACK = -17,         /* a callback failed or returned NaN or infinity */
   FUGE_ERR_CANCELLED = -18,        /* the progress monitor cancelled the solve */
   FUGE_ERR_FILE = -19,             /* a file cannot be read or written */
@@ -427,7 +427,8 @@ enum {                          /* boundary: what lies beyond the cells */
  * *op is set on success only.  n is limited by memory (32 n to 64 n bytes, as much again for the
  * coarser grids of its solves, which it keeps, and 8 n for a product), and for FUGE_FREE to
  * nearly 2^30.  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS,
- * FUGE_ERR_ELEMENT, FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. */
+ * FUGE_ERR_ELEMENT, FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY;
+ * FUGE_ERR_UNSUPPORTED from a library without FFTW. */
 int fuge_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
                             fuge_operator **op, char *message, size_t len);
 

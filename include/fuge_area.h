@@ -67,7 +67,8 @@ enum {                          /* boundary, beside FUGE_FREE and FUGE_PERIODIC 
  * bit.  FUGE_ERR_SIZE also if nx*ny is too large, FUGE_ERR_MEMORY, before anything is
  * allocated, if the machine has too little; FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH (also for two
  * spacings with a ratio of more than 1e5), FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT,
- * FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW. */
+ * FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW; FUGE_ERR_UNSUPPORTED from a library without
+ * FFTW. */
 int fuge_operator_halfspace(int nx, int ny, double spacing_x, double spacing_y, double e_star,
                             int element, int boundary, fuge_operator **op, char *message,
                             size_t len);

@@ -132,7 +132,7 @@ int fuge_halfspace_symmetric_displacement(int n, const double *x, const double *
  *
  * Below the centres of equal cells side by side, by FFT: a depth costs O(n log n), and the forces
  * are transformed once for all of them.  The results are those of the sections above at these
- * points.  They may not overlap inputs.
+ * points.  They may not overlap inputs.  FUGE_ERR_UNSUPPORTED from a library without FFTW.
  *
  * With FUGE_PERIODIC the mean pressure is a stress zz = -mean at all depths; what stress it has
  * along the surface depends on how the body is held far away.  Here it is 0: a body that cannot

@@ -1,6 +1,7 @@
 !> Which rows of a grid each rank has: pairs of rows, in blocks of equal size, so that a product transforms the same
 !> pairs whatever the number of ranks.
 module fuge_slab_rows
+  use fuge_kinds, only: dp
   implicit none
   private
 
@@ -9,6 +10,9 @@ module fuge_slab_rows
   !> A rank has at least this many cells: coarser grids lie on fewer ranks, down to one, where messages would take
   !> longer than the transforms.
   integer, parameter, public :: FEWEST_CELLS = 16384
+  !> A rank has at least this many cells for each rank, because it exchanges messages of 16 bytes a cell with all of
+  !> them: with more ranks these would be so short that their latency would cost more than the ranks bring.
+  integer, parameter :: SHORTEST = 128
 
 contains
 
@@ -20,8 +24,16 @@ contains
 
     pairs = (cells(2) + 1)/2
     if (any(cells < 2)) return
-    pairs = max((pairs - 1)/ranks + 1, min((FEWEST_CELLS - 1)/(2*cells(1)) + 1, pairs))
+    pairs = max((pairs - 1)/useful_ranks(cells, ranks) + 1, min((FEWEST_CELLS - 1)/(2*cells(1)) + 1, pairs))
   end function block_of_pairs
+
+  !> How many of the ranks messages leave useful.
+  pure function useful_ranks(cells, ranks) result(useful)
+    integer, intent(in) :: cells(2), ranks
+    integer :: useful
+
+    useful = min(ranks, max(int(sqrt(real(cells(1), dp)*real(cells(2), dp)/real(SHORTEST, dp))), 1))
+  end function useful_ranks
 
   !> How many of the ranks have rows: the first ones.
   pure function active_ranks(cells, ranks) result(active)

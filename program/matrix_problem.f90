@@ -4,7 +4,7 @@ module matrix_problem
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use command_line, only: arguments, refuse
   use contact_table, only: write_contact, write_field
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, FUGE_ERR_MODES
   use matrix_body, only: elastic_body
   use matrix_files, only: read_square, read_vector, read_modes
   use number_words, only: number_text, read_integer, read_real
@@ -53,6 +53,7 @@ contains
     call take_points(given, problem, info)
     if (.not. info%failed()) call body%pose(problem, info)
     if (.not. info%failed()) call solve(body%condensed%alpha, problem, solution, log, info)
+    if (size(body%condensed%resultant) > 0) call explain_motions(info)
     if (info%failed()) return
     call take_warning(of_body, info)
     if (given%has('field')) then
@@ -66,6 +67,21 @@ contains
     end if
     call write_contact(given%file('output'), problem, solution, info)
   end subroutine solve_body
+
+  !> Of a body that floats, the library counts motions together with those of the counter-body, which the files do not
+  !> name: say in the words of the options which motions depend on each other.
+  subroutine explain_motions(info)
+    type(fuge_info), intent(inout) :: info
+
+    if (info%status /= FUGE_ERR_MODES) return
+    if (index(info%message, 'moves no point') > 0) then
+      info%message = 'a rigid motion of the body that floats, or of the counter-body, moves no point that may touch: ' &
+        //'exclude fewer points, or hold the body by --fixed'
+    else
+      info%message = 'the body floats (--floats) and the counter-body is free under its load (--load): nothing ' &
+        //'resists a motion of both together; prescribe the counter-body by --approach, or hold the body by --fixed'
+    end if
+  end subroutine explain_motions
 
   !> What belongs to the points: plays, excluded ones and motions.
   subroutine take_points(given, problem, info)

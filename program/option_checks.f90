@@ -57,7 +57,7 @@ contains
     motions = count([given%has('load'), given%has('approach'), given%has('modes')])
     if (.not. given%has('gap')) then
       call refuse('--gap is needed', info)
-    else if (kind == WITH_ALPHA .and. given%has('modes') .neqv. given%has('resultant')) then
+    else if (kind == WITH_ALPHA .and. (given%has('modes') .neqv. given%has('resultant'))) then
       call refuse('--modes and --resultant go together', info)
     else if (kind == WITH_ALPHA .and. motions /= 1) then
       call refuse('one of --load, --approach and --modes is needed', info)

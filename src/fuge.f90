@@ -18,9 +18,10 @@ module fuge
     FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
   use fuge_field_files, only: fuge_write_fields, fuge_write_volume
   use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid, fuge_halfplane_stress_grid
-  use fuge_halfplane_fft, only: fuge_halfplane_operator, FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
+  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_peak_search, only: fuge_halfplane_peak, fuge_smooth_peak
   use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
   use fuge_halfspace_fft, only: fuge_halfspace_operator

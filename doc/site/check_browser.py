@@ -28,15 +28,17 @@ QUERIES = (("fuge_solve_smooth_punch", 1, "fuge_solve_smooth_punch"), ("fuge_sol
 LOOK = """(() => {
   const text = document.querySelector('main').cloneNode(true)
   text.querySelectorAll('pre, code, script, style').forEach(part => part.remove())
-  const raw = text.textContent.match(/\\$[^$\\n]{1,60}\\$|\\\\[(\\[][^\\n]{0,40}|\\\\(?:frac|alpha|sum)\\b[^\\n]{0,30}|fragment\\d+held/)
+  const raw = text.textContent.match(
+    /\\$[^$\\n]{1,60}\\$|\\\\[(\\[][^\\n]{0,40}|\\\\(?:frac|alpha|sum)\\b[^\\n]{0,30}|fragment\\d+held/)
   const wide = [...document.querySelectorAll('main *')].find(part => part.getBoundingClientRect().right > innerWidth + 1
-    && !part.closest('pre, .wide, .katex-display, .katex-mathml'))
+    && !part.closest('pre, .wide, .katex-display, .katex-mathml, .katex svg'))
   return { scroll: document.documentElement.scrollWidth, width: innerWidth, raw: raw && raw[0],
     hidden: [document.documentElement, document.body].some(part => getComputedStyle(part).overflowX !== 'visible'),
     wide: wide ? wide.outerHTML.slice(0, 90) : null,
     column: document.querySelector('main').getBoundingClientRect().width,
     formulas: document.querySelectorAll('.katex').length,
-    plain: [...document.querySelectorAll('.katex .mord')].slice(0, 1).some(part => !getComputedStyle(part).fontFamily.includes('KaTeX')),
+    plain: [...document.querySelectorAll('.katex .mord')].slice(0, 1).some(
+      part => !getComputedStyle(part).fontFamily.includes('KaTeX')),
     broken: [...document.images].filter(image => !image.naturalWidth).map(image => image.src) }
 })()"""
 NARROWEST_TEXT = 0.85
@@ -154,23 +156,31 @@ def checked(check):
         yield str(error)
 
 
-def opened(program):
+def program():
+    """The browser that there is."""
+    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if not found:
+        raise SystemExit("fuge: there is no Chromium to look at the site with")
+    return found
+
+
+def opened(browser_program):
     """A browser that tells what its page loads and logs."""
-    browser = Browser(program)
+    browser = Browser(browser_program)
     for domain in ("Page", "Runtime", "Log", "Network"):
         browser.call(f"{domain}.enable")
     browser.call("Emulation.setScrollbarsHidden", hidden=True)
     return browser
 
 
-def check_pages(program, pages, site, pictures):
-    with opened(program) as browser:
+def check_pages(browser_program, pages, site, pictures):
+    with opened(browser_program) as browser:
         return [f"{path.relative_to(site)}: {said}" for path in pages
                 for said in checked(check_page(browser, path, site, pictures))]
 
 
-def check_use(program, site):
-    with opened(program) as browser:
+def check_use(browser_program, site):
+    with opened(browser_program) as browser:
         return [*(f"menu: {said}" for said in checked(check_menu(browser, site))),
                 *(f"search: {said}" for said in checked(check_search(browser, site)))]
 
@@ -182,14 +192,12 @@ def main():
     parser.add_argument("--pictures", type=pathlib.Path)
     given = parser.parse_args()
     site = given.site.resolve()
-    program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if not program:
-        raise SystemExit("fuge: there is no Chromium to look at the site with")
     pages = [path for path in sorted(site.rglob("*.html")) if given.only in path.relative_to(site).as_posix()]
     with concurrent.futures.ThreadPoolExecutor(BROWSERS) as pool:
-        shares = [pool.submit(check_pages, program, pages[k::BROWSERS], site, given.pictures) for k in range(BROWSERS)]
+        shares = [pool.submit(check_pages, program(), pages[k::BROWSERS], site, given.pictures)
+                  for k in range(BROWSERS)]
         if not given.only:
-            shares.append(pool.submit(check_use, program, site))
+            shares.append(pool.submit(check_use, program(), site))
         faults = sorted(said for share in shares for said in share.result())
     for fault in faults:
         print(f"fuge: {fault}", file=sys.stderr)

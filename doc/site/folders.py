@@ -9,10 +9,12 @@ Folders lie in layers, each above all that it may use; folders with the same arr
 within the layers is the one with the fewest crossings that a search from many starts finds.
 """
 
+import functools
 import itertools
 import pathlib
 import random
 import sys
+import textwrap
 
 # What a folder holds, in a few words for its box; one that is not here shows its name only.
 HOLDS = {
@@ -31,8 +33,12 @@ HOLDS = {
     "solver": "the choice of the engine",
     "condensation": "stiffness to influence",
     "pairs": "surfaces to contact points",
-    "bodies": "bodies in contact in one call",
+    "bodies": "contact in one call",
     "fe_files": "files of FE programs",
+    "stress/common": "measures, peaks",
+    "stress/halfplane": "stresses under cells",
+    "stress/halfspace": "stresses under areas",
+    "stress/round": "stresses under rings",
     "smooth_punch": "contact without a grid",
     "round_punch": "round contact without a grid",
     "io": "matrices, profiles",
@@ -41,8 +47,10 @@ HOLDS = {
 }
 PUBLIC = {".", "c", "f77"}
 
-BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 58, 52, 22, 12, 24
-NAME_SIZE, TEXT_SIZE = 15, 12
+BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 86, 36, 8, 8, 8
+# For a page of 800 pixels: longer lines than LINE_LENGTH letters are broken, or BUT_NOT_LENGTH in boxes with
+# exceptions, which are few in a layer.
+NAME_SIZE, TEXT_SIZE, LINE_HEIGHT, LINE_LENGTH, BUT_NOT_LENGTH = 13.5, 13, 16, 13, 24
 STARTS = 20
 
 
@@ -145,21 +153,28 @@ def total_cost(layers, below):
 
 
 def text_width(text, size):
-    return 0.6*size*len(text)
+    return 0.55*size*len(text)
 
 
 def box_lines(folder, exceptions):
-    """Name, contents and exceptions of a folder, as far as there are any."""
+    """Lines of name, contents and exceptions of a folder, as far as there are any."""
+    return broken_lines(folder, ", ".join(sorted(used.split("/")[-1] for used in exceptions[folder])))
+
+
+@functools.cache
+def broken_lines(folder, but_not):
     name = "fuge.f90" if folder == "." else f"{folder}/"
-    lines = [name, HOLDS.get(folder, "").removeprefix("fuge.f90, ")]
-    if exceptions[folder]:
-        lines.append("but not " + ", ".join(sorted(used.split("/")[-1] for used in exceptions[folder])))
-    return [line for line in lines if line]
+    names = [name] if len(name) <= LINE_LENGTH else [f"{part}/" for part in folder.split("/")]
+    length = BUT_NOT_LENGTH if but_not else LINE_LENGTH
+    contents = textwrap.wrap(HOLDS.get(folder, "").removeprefix("fuge.f90, "), length)
+    return names, contents, textwrap.wrap(f"but not {but_not}", length) if but_not else []
 
 
 def box_width(folder, exceptions):
-    name, *rest = box_lines(folder, exceptions)
-    return 20 + max(text_width(name, NAME_SIZE), *(text_width(line, TEXT_SIZE) for line in rest or [""]))
+    names, contents, but_not = box_lines(folder, exceptions)
+    # Bold letters are wider.
+    return 8 + max(*(1.2*text_width(line, NAME_SIZE) for line in names),
+                   *(text_width(line, TEXT_SIZE) for line in contents + but_not + [""]))
 
 
 def node_width(node, exceptions):
@@ -222,7 +237,7 @@ def draw(may_use):
              f'viewBox="0 0 {width:.0f} {height:.0f}" font-family="Helvetica, Arial, sans-serif">',
              "<title>Which folder of src may use which: src/folders.txt, drawn by doc/site/folders.py</title>",
              '<rect width="100%" height="100%" fill="#ffffff"/>',
-             '<defs><marker id="tip" viewBox="0 0 10 8" refX="9" refY="4" markerWidth="10" markerHeight="8" '
+             '<defs><marker id="tip" viewBox="0 0 10 8" refX="9" refY="4" markerWidth="8" markerHeight="6.4" '
              'orient="auto"><path d="M0,0 L10,4 L0,8 z" fill="#4a5563"/></marker></defs>']
     parts += arrow_paths(steps, middle, top, exceptions)
     for layer in layers:
@@ -295,16 +310,14 @@ def box_shapes(folder, begin, y, exceptions):
     fill = "#fbe9d0" if folder in PUBLIC else "#dcecf7" if folder.startswith("engines/") else "#e9f3e4"
     parts = [f'<rect x="{begin:.1f}" y="{y:.1f}" width="{width:.1f}" height="{BOX_HEIGHT}" rx="5" '
              f'fill="{fill}" stroke="#4a5563"/>']
-    name, *rest = box_lines(folder, exceptions)
-    line = y + 0.5*(BOX_HEIGHT - 16*len(rest)) + 5
-    x = begin + 0.5*width
-    parts.append(f'<text x="{x:.1f}" y="{line:.1f}" text-anchor="middle" font-size="{NAME_SIZE}" '
-                 f'font-weight="bold">{name}</text>')
-    for text in rest:
-        line += 16
-        colour = "#a33a1e" if text.startswith("but not ") else "#333333"
-        parts.append(f'<text x="{x:.1f}" y="{line:.1f}" text-anchor="middle" font-size="{TEXT_SIZE}" '
-                     f'fill="{colour}">{text}</text>')
+    names, contents, but_not = box_lines(folder, exceptions)
+    looks = [(text, f'font-size="{NAME_SIZE}" font-weight="bold"') for text in names]
+    looks += [(text, f'font-size="{TEXT_SIZE}" fill="#333333"') for text in contents]
+    looks += [(text, f'font-size="{TEXT_SIZE}" fill="#a33a1e"') for text in but_not]
+    first = y + 0.5*(BOX_HEIGHT - LINE_HEIGHT*(len(looks) - 1)) + 5
+    for k, (text, look) in enumerate(looks):
+        parts.append(f'<text x="{begin + 0.5*width:.1f}" y="{first + LINE_HEIGHT*k:.1f}" text-anchor="middle" '
+                     f'{look}>{text}</text>')
     return parts
 
 

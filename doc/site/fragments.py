@@ -7,6 +7,9 @@ import json
 import re
 
 WORD = re.compile(r"(<p>\s*)?fragment(\d{6})held(\s*</p>)?")
+# A short formula with what belongs to it on the same line.
+JOINED = re.compile(r"[^\s<>]*fragment(\d{6})held[^\s<>]+|[^\s<>]+fragment(\d{6})held")
+SHORT = 16
 FENCED_FORMULA = re.compile(r"^( *)```math\n(.*?)\n *```$", re.M | re.S)
 FORMULA = re.compile(r"(?<![\\\w$`])\$(?=[^\s$])([^$`]*?[^\s$\\])\$(?![\w$])")
 
@@ -44,5 +47,10 @@ class Fragments:
             if kind == "inline":
                 return (match[1] or "") + shown[number] + (match[3] or "")
             return shown[number]
+
+        def join(match):
+            kind, text = self.parts[int(match[1] or match[2])]
+            short = kind == "inline" and len(text) <= SHORT
+            return f'<span class="joined">{match[0]}</span>' if short else match[0]
         # Within held HTML there may be held formulas.
-        return WORD.sub(put, WORD.sub(put, page))
+        return WORD.sub(put, WORD.sub(put, JOINED.sub(join, page)))

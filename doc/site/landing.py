@@ -1,4 +1,4 @@
-"""The start page of the site, from README.md: what it is, a picture, the ways in, how to install it."""
+"""The start page of the site, from README.md: what it is, a picture, what it solves, the ways in, how to install it."""
 
 import re
 
@@ -9,25 +9,31 @@ WAYS = (("Fortran", "fortran", "use fuge", "Tutorial in Fortran", "doc/tutorial_
         ("FORTRAN 77", "fortran", "CALL FUGE", "All procedures for FORTRAN 77", "doc/legacy.md"))
 INSTALL = r"(?:^ *cmake [^\n]*\n)+"
 PICTURE = r"^!\[[^\]]*\]\([^)]*\)$"
+TABLE = r"^\| ---"
 
 
 def page(readme):
     """The start page, with links as those of README.md."""
-    title, _, text = readme.partition("\n")
-    lead = re.split(r"\n(?=!\[|## )", text.strip(), maxsplit=1)[0]
-    picture = _only(PICTURE, readme, "picture")
-    ways = "".join(f'<section markdown="1">\n\n### {name}\n\n{_call(name, language, mark, readme)}\n\n'
+    opening, *sections = re.split(r"^(?=## )", readme, flags=re.M)
+    if not re.search(PICTURE, opening, re.M):
+        raise SystemExit("fuge: README.md has no picture for the start page of the site")
+    title, _, lead = opening.partition("\n")
+    # A table of what to call for which problem.
+    choices = sections[0].strip() if re.search(TABLE, sections[0], re.M) else ""
+    ways = "".join(f'<section markdown="1">\n\n### From {name}\n\n{_call(name, language, mark, readme)}\n\n'
                    f"[{more}]({target})\n\n</section>\n" for name, language, mark, more, target in WAYS)
-    commands = "\n".join(line.strip() for line in _only(INSTALL, readme, "cmake commands").splitlines()
-                         if line.strip() and not line.startswith("```"))
-    return (f"{title}\n\n{lead}\n\n{picture}\n\n"
+    commands = "\n".join(line.strip() for line in _only(INSTALL, readme, "cmake commands").splitlines())
+    text = (f"{title}\n\n{lead.strip()}\n\n{choices}\n\n"
             f'## Ways in\n\n<div class="ways" markdown="1">\n{ways}</div>\n\n'
             f"## Install\n\n~~~sh\n{commands}\n~~~\n\n"
             "For Python `pip install .`; all other ways are in [Installation](doc/install.md).\n\n"
             "## Where to go\n\n"
-            "[The manual](doc/index.md) lists all pages; [Performance](doc/performance.md) says which engine to "
-            "choose, [Theory](doc/theory.md) how they work, [Conventions](doc/conventions.md) what signs and units "
-            "mean.\n")
+            "[The manual](doc/index.md) lists all pages. [Overview](README.md) goes on from here: limits, licence, "
+            "how to cite. [Performance](doc/performance.md) says which engine to choose, "
+            "[Theory](doc/theory.md) how they "
+            "work, [Conventions](doc/conventions.md) what signs and units mean.\n")
+    # What is not here is on the page of README.md.
+    return re.sub(r"\]\(#", "](README.md#", text)
 
 
 def _call(name, language, mark, text):

@@ -9,8 +9,7 @@ import json
 import re
 
 from links import targets
-from reduce import exports
-from sources import described, opening_sentence, public_modules
+from sources import described, opening_sentence, public_modules, taken_names
 
 # Topics of the Fortran interface: the folders of src/.
 TOPICS = {
@@ -18,8 +17,10 @@ TOPICS = {
     "halfplane": "Half-plane", "halfspace": "Half-space", "hertz": "Hertz", "smooth_punch": "Smooth punch",
     "round_punch": "Round punch", "stress": "Stresses", "condensation": "Finite elements", "sparse": "Sparse stiffness",
     "pairs": "Pairs of surfaces", "bodies": "Several bodies", "fe_files": "Meshes and their files", "io": "Other files",
-    "numerics": "Numerics",
+    "numerics": "Numerics", "mpi": "Surfaces over MPI",
 }
+# The modules that give the names of topics with a library of their own.
+LIBRARIES = {"Sparse stiffness": "fuge_sparse", "Surfaces over MPI": "fuge_mpi"}
 # Pages whose headings do not say what they are among others.
 TITLES = {"readme": "Overview"}
 
@@ -75,7 +76,7 @@ def shown_title(site, name):
 
 def fortran_topics(root):
     """The topics with their types, procedures and modules."""
-    taken = exports((root/"src/fuge.f90").read_text())
+    taken = taken_names(root)
     found = {}
     for module, path, names in public_modules(root, list(taken), taken):
         said = described(path.read_text())

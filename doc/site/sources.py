@@ -37,16 +37,47 @@ def described(source):
     return found
 
 
+# Modules that pass on the names of others, one for each library but fuge_sparse, which has one module.
+FACADES = ("src/fuge.f90", "mpi/fuge_mpi.f90")
+
+
+def source_of(root, module):
+    return next(path for folder in ("src", "mpi") for path in (root/folder).rglob(f"{module}.f90"))
+
+
+def taken_names(root):
+    """The names that the facades take from other modules, by the module that defines them.
+
+    A module may pass on what it takes from another one.
+    """
+    found = {}
+    for facade in FACADES:
+        for module, names in exports((root/facade).read_text()).items():
+            for name in names:
+                found.setdefault(_defining(root, module, name), []).append(name)
+    return found
+
+
+def _defining(root, module, name):
+    source = source_of(root, module).read_text()
+    if name not in described(source):
+        for other, names in exports(source).items():
+            if name in names:
+                return _defining(root, other, name)
+        raise SystemExit(f"fuge: module {module} does not define {name}")
+    return module
+
+
 def public_modules(root, order, taken):
     for module in order:
-        yield module, next((root/"src").rglob(f"{module}.f90")), taken[module]
+        yield module, source_of(root, module), taken[module]
     sparse = root/"sparse/fuge_sparse.f90"
     yield "fuge_sparse", sparse, own_exports(sparse.read_text())
 
 
 def public_names(root):
     """In which folder of the site each public procedure and type has its page."""
-    taken = exports((root/"src/fuge.f90").read_text())
+    taken = taken_names(root)
     found = {}
     for _, path, names in public_modules(root, list(taken), taken):
         said = described(path.read_text())

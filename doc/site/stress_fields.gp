@@ -1,6 +1,6 @@
 # The figure of doc/theory.md with the level lines of the largest shear stress in a half-plane, z |P'(x + i z)|:
 #     gnuplot doc/site/stress_fields.gp        in the root of the repository
-load "examples/plots/style.gp"
+load system("dirname '".ARG0."'")."/../../examples/plots/style.gp"
 set terminal svg size 800,600 font "sans-serif,13" enhanced background rgb "white"
 set output "doc/stress_fields.svg"
 i = {0, 1}

@@ -87,7 +87,7 @@ class EquilibriumError(Error):
 
 
 class LimitError(Error, ArithmeticError):
-    """The iteration limit was reached, or magnitudes exceed the range of double precision."""
+    """The iteration limit was reached, or numbers are too large or too small for double precision."""
 
 
 class OutOfMemoryError(Error, MemoryError):

@@ -58,7 +58,7 @@ module fuge_status
   integer, parameter, public :: FUGE_ERR_OPTION = -14
   !> This engine or operator cannot solve this kind of problem.
   integer, parameter, public :: FUGE_ERR_UNSUPPORTED = -15
-  !> Magnitudes exceed the range of double precision.
+  !> Numbers are too large or too small for double precision.
   integer, parameter, public :: FUGE_ERR_OVERFLOW = -16
   !> A callback failed or returned NaN or infinity.
   integer, parameter, public :: FUGE_ERR_CALLBACK = -17
@@ -88,7 +88,7 @@ module fuge_status
     'a file cannot be read or written', &
     'the progress monitor cancelled the solve', &
     'a callback failed or returned NaN or infinity', &
-    'magnitudes exceed the range of double precision', &
+    'numbers are too large or too small for double precision', &
     'this engine or operator cannot solve this kind of problem', &
     'an option has an invalid value', &
     'a call came before another one that it requires', &

@@ -433,8 +433,8 @@ contains
     if (status /= FUGE_DONE) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the factor of the stiffness matrix')
     else if (.not. quotient > epsilon(quotient)) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive definite: with ' &
-                  //text(count(self%constrained))//' fixed or pinned, degree of freedom '//index_text(weakest) &
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive definite: ' &
+                  //trim(what_holds(self, pins))//', and degree of freedom '//index_text(weakest) &
                   //' still moves freely; fix it, or, if the body floats, set its rigid modes or let them be found')
     else if (quotient < NEARLY_SINGULAR) then
       call report(info, FUGE_WARN_RESIDUAL, 'the stiffness matrix is nearly singular: its softest mode, which ' &
@@ -443,6 +443,24 @@ contains
                   //' correct digits')
     end if
   end subroutine factorise
+
+  !> What holds a body that moves nevertheless, for a message: its supports, and the pins for its rigid modes.
+  function what_holds(self, pins) result(words)
+    type(fuge_condensed), intent(in) :: self
+    integer, intent(in) :: pins(:)
+    character(len=80) :: words
+    integer :: supports
+
+    supports = count(self%constrained) - size(pins)
+    if (supports < 1) then
+      words = 'no degree of freedom is fixed'
+    else if (supports == 1) then
+      words = 'with one degree of freedom fixed'
+    else
+      words = 'with '//text(supports)//' degrees of freedom fixed'
+    end if
+    if (size(pins) > 0) words = trim(words)//' and its rigid modes held'
+  end function what_holds
 
   !> The factor in the order that the stiffness asks for, and its smallest eigenvalue; results as in `measure`.
   subroutine factorise_measured(self, pins, quotient, weakest, status)

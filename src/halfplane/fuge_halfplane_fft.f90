@@ -70,7 +70,8 @@ contains
   !> `measured` (default .false.) lets FFTW time its algorithms and take the fastest. The
   !> arguments are nine, because the last four are optional and named by the caller.
   !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
-  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
+  !> library without FFTW.
   subroutine set(self, n, spacing, e_star, info, element, boundary, threads, measured)
     class(fuge_halfplane_operator), intent(inout) :: self
     integer, intent(in) :: n

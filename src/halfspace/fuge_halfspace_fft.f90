@@ -71,7 +71,8 @@ contains
   !> product; `measured` (default .false.) lets FFTW time its algorithms and take the fastest.
   !> The arguments are ten, because the last four are optional and named by the caller.
   !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
-  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
+  !> library without FFTW.
   subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, info, element, boundary, threads, measured)
     class(fuge_halfspace_operator), intent(inout) :: self
     integer, intent(in) :: nx, ny

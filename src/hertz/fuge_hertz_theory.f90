@@ -46,7 +46,7 @@ contains
   !> bodies, along x and y, length; equal for a sphere. `e_star` force per length squared, `load` >= 0 force.
   !> Errors, `contact` untouched: FUGE_ERR_NOT_FINITE; FUGE_ERR_WIDTH for a radius that is not positive, because
   !> then the contact is no ellipse; FUGE_ERR_MODULUS; FUGE_ERR_NO_EQUILIBRIUM for a negative load; FUGE_ERR_OVERFLOW
-  !> for numbers beyond 1e77 or below 1e-77.
+  !> for a radius or e_star beyond 1e77 or below 1e-77, or a load below the smallest normal number.
   pure subroutine fuge_hertz_ellipse(radius_x, radius_y, e_star, load, contact, info)
     real(dp), intent(in) :: radius_x, radius_y, e_star, load
     type(fuge_hertz_contact), intent(inout) :: contact
@@ -70,12 +70,12 @@ contains
     end if
 
     square = squared_axis_ratio(max(radius_x, radius_y)/min(radius_x, radius_y))
-    long = cube_root(load*max(radius_x, radius_y)*carlson_rd(0.0_dp, square, 1.0_dp)/(PI*e_star))
+    long = longer_axis(load, max(radius_x, radius_y), e_star, carlson_rd(0.0_dp, square, 1.0_dp)/PI)
     short = long*sqrt(square)
     contact%semi_axis_x = merge(long, short, radius_x >= radius_y)
     contact%semi_axis_y = merge(short, long, radius_x >= radius_y)
-    contact%approach = 1.5_dp*load*carlson_rf(0.0_dp, square, 1.0_dp)/(PI*e_star*long)
-    contact%peak_pressure = 1.5_dp*load/(PI*long*short)
+    contact%approach = 1.5_dp*(load/long)*carlson_rf(0.0_dp, square, 1.0_dp)/PI/e_star
+    contact%peak_pressure = 1.5_dp*(load/long)/PI/short
   end subroutine fuge_hertz_ellipse
 
   !> The pressure at a place; force per length squared. `x`, `y` from the middle of the contact, length; 0 outside it.
@@ -120,6 +120,19 @@ contains
     end do
   end function squared_axis_ratio
 
+  !> The cube root of factor load radius/e_star. The exponents are taken apart, because the product may leave the range
+  !> of double precision where its root does not.
+  elemental function longer_axis(load, radius, e_star, factor) result(long)
+    real(dp), intent(in) :: load, radius, e_star, factor
+    real(dp) :: long
+    integer :: power, third
+
+    power = exponent(load) + exponent(radius) - exponent(e_star)
+    third = (power - modulo(power, 3))/3
+    long = scale(fraction(load)*fraction(radius)/fraction(e_star)*factor, modulo(power, 3))
+    long = scale(cube_root(long), third)
+  end function longer_axis
+
   !> The cube root, with one step of Newton's method because the power rounds its exponent.
   elemental function cube_root(x) result(root)
     real(dp), intent(in) :: x
@@ -154,7 +167,10 @@ contains
     if (info%failed()) return
     if (load < 0.0_dp) call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load = '//text(load) &
       //' is negative: contact forces only push')
-    if (load > 0.0_dp) call check_range(load, 'load', info)
+    if (load > 0.0_dp .and. load < tiny(load)) then
+      call report(info, FUGE_ERR_OVERFLOW, 'load = '//text(load)//' is below '//text(tiny(load)) &
+                  //', where double precision loses its digits: choose a smaller unit of force')
+    end if
   end subroutine check_load
 
   pure subroutine check_range(value, name, info)

@@ -152,10 +152,10 @@ contains
       call report(info, FUGE_ERR_NOT_FINITE, 'poisson = '//text(poisson)//' is not a finite number')
     else if (.not. poisson > -1.0_dp) then
       call report(info, FUGE_ERR_MODULUS, 'poisson = '//text(poisson) &
-                  //' is not above -1: the shear modulus would not be positive')
+                  //', Poisson''s ratio, is not above -1: the shear modulus would not be positive')
     else if (poisson > 0.5_dp) then
-      call report(info, FUGE_ERR_MODULUS, 'poisson = '//text(poisson) &
-                  //' is above 0.5: the bulk modulus would be negative')
+      call report(info, FUGE_ERR_MODULUS, 'poisson = '//text(poisson)//', Poisson''s ratio, is above 0.5, that of an ' &
+                  //'incompressible body: the bulk modulus would be negative')
     end if
   end subroutine check_poisson
 

@@ -221,8 +221,8 @@ contains
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'load F_0 = '//text(load) &
                   //' is negative: contact forces can only push, so F_0 must be >= 0')
     else if (load > 0.0_dp .and. load < tiny(load)) then
-      call report(info, FUGE_ERR_OVERFLOW, 'load F_0 = '//text(load)//' is below '//text(tiny(load))//', where double ' &
-                  //'precision loses its digits: choose a smaller unit of force')
+      call report(info, FUGE_ERR_OVERFLOW, 'load F_0 = '//text(load)//' is below '//text(tiny(load)) &
+                  //', where double precision loses its digits: choose a smaller unit of force')
     end if
   end subroutine check_load
 

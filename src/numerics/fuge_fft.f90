@@ -12,23 +12,22 @@
 !> fftw_make_planner_thread_safe before it starts threads.
 module fuge_fft
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t, c_associated
+  use fuge_fftw, only: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, &
+    fftw_init_threads, fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, &
+    fftw_plan_r2c, fftw_plan_with_nthreads, FFTW_ESTIMATE, FFTW_FORWARD, FFTW_MEASURE, FFTW_NO_BUFFERING, HAS_FFTW
+  use fuge_fftw_planner, only: fftw_make_planner_thread_safe, fftw_planner_nthreads
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_PLANNER
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
-    FUGE_ERR_SIZE
+    FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
-  public :: allocate_values, begin_planning, end_planning, good_length, release_buffer
+  public :: allocate_values, good_length, release_buffer
 
-  integer(c_int), parameter :: FFTW_MEASURE = 0
-  integer(c_int), parameter :: FFTW_ESTIMATE = 64
-  !> FFTW may not copy parts of long transforms to buffers: in place, copying only costs time.
-  integer(c_int), parameter :: FFTW_NO_BUFFERING = 2048
   !> Complex numbers from which on a transform is long.
   integer, parameter :: LONG = 4096
-  integer(c_int), parameter :: FORWARD = -1
   integer, parameter :: int64 = selected_int_kind(18)
 
   !> Forward and backward transforms of one length.
@@ -67,106 +66,7 @@ module fuge_fft
     final :: finish
   end type fft_plan
 
-  interface
-    function fftw_malloc(bytes) bind(c, name='fftw_malloc') result(memory)
-      import :: c_ptr, c_size_t
-      integer(c_size_t), intent(in), value :: bytes
-      type(c_ptr) :: memory
-    end function fftw_malloc
-
-    subroutine fftw_free(memory) bind(c, name='fftw_free')
-      import :: c_ptr
-      type(c_ptr), intent(in), value :: memory
-    end subroutine fftw_free
-
-    subroutine fftw_make_planner_thread_safe() bind(c, name='fftw_make_planner_thread_safe')
-    end subroutine fftw_make_planner_thread_safe
-
-    !> Result 0: threads are not available.
-    function fftw_init_threads() bind(c, name='fftw_init_threads') result(done)
-      import :: c_int
-      integer(c_int) :: done
-    end function fftw_init_threads
-
-    subroutine fftw_plan_with_nthreads(threads) bind(c, name='fftw_plan_with_nthreads')
-      import :: c_int
-      integer(c_int), intent(in), value :: threads
-    end subroutine fftw_plan_with_nthreads
-
-    function fftw_planner_nthreads() bind(c, name='fftw_planner_nthreads') result(threads)
-      import :: c_int
-      integer(c_int) :: threads
-    end function fftw_planner_nthreads
-
-    function fftw_plan_c2c(n, in, out, sign, flags) bind(c, name='fftw_plan_dft_1d') result(plan)
-      import :: c_int, c_ptr
-      integer(c_int), intent(in), value :: n, sign, flags
-      type(c_ptr), intent(in), value :: in, out
-      type(c_ptr) :: plan
-    end function fftw_plan_c2c
-
-    function fftw_plan_r2c(n, in, out, flags) bind(c, name='fftw_plan_dft_r2c_1d') result(plan)
-      import :: c_int, c_ptr
-      integer(c_int), intent(in), value :: n, flags
-      type(c_ptr), intent(in), value :: in, out
-      type(c_ptr) :: plan
-    end function fftw_plan_r2c
-
-    function fftw_plan_c2r(n, in, out, flags) bind(c, name='fftw_plan_dft_c2r_1d') result(plan)
-      import :: c_int, c_ptr
-      integer(c_int), intent(in), value :: n, flags
-      type(c_ptr), intent(in), value :: in, out
-      type(c_ptr) :: plan
-    end function fftw_plan_c2r
-
-    !> `n` counts along the second dimension of a Fortran array, `m` along the first.
-    function fftw_plan_grid_r2c(n, m, in, out, flags) bind(c, name='fftw_plan_dft_r2c_2d') result(plan)
-      import :: c_int, c_ptr
-      integer(c_int), intent(in), value :: n, m, flags
-      type(c_ptr), intent(in), value :: in, out
-      type(c_ptr) :: plan
-    end function fftw_plan_grid_r2c
-
-    function fftw_plan_grid_c2r(n, m, in, out, flags) bind(c, name='fftw_plan_dft_c2r_2d') result(plan)
-      import :: c_int, c_ptr
-      integer(c_int), intent(in), value :: n, m, flags
-      type(c_ptr), intent(in), value :: in, out
-      type(c_ptr) :: plan
-    end function fftw_plan_grid_c2r
-
-    subroutine fftw_execute_c2c(plan, in, out) bind(c, name='fftw_execute_dft')
-      import :: c_ptr
-      type(c_ptr), intent(in), value :: plan, in, out
-    end subroutine fftw_execute_c2c
-
-    subroutine fftw_execute_r2c(plan, in, out) bind(c, name='fftw_execute_dft_r2c')
-      import :: c_ptr
-      type(c_ptr), intent(in), value :: plan, in, out
-    end subroutine fftw_execute_r2c
-
-    subroutine fftw_execute_c2r(plan, in, out) bind(c, name='fftw_execute_dft_c2r')
-      import :: c_ptr
-      type(c_ptr), intent(in), value :: plan, in, out
-    end subroutine fftw_execute_c2r
-
-    subroutine fftw_destroy_plan(plan) bind(c, name='fftw_destroy_plan')
-      import :: c_ptr
-      type(c_ptr), intent(in), value :: plan
-    end subroutine fftw_destroy_plan
-  end interface
-
 contains
-
-  !> Wait until no other thread plans, then plan alone until `end_planning`. For libraries beside this one, which do not
-  !> see its locks.
-  subroutine begin_planning()
-    call lock(LOCK_PLANNER)
-  end subroutine begin_planning
-
-  !> Let other threads plan.
-  subroutine end_planning()
-    call unlock(LOCK_PLANNER)
-  end subroutine end_planning
 
   !> Least even 2^a 3^b 5^c 7^d >= n, a length that FFTW transforms fast; 0 if it exceeds the
   !> largest default integer.
@@ -203,7 +103,8 @@ contains
   !> fastest, which takes seconds for long transforms. `separate` (default .false.) plans for `transform_to`; then
   !> `length` must be even. With `lines` >= 1 the values are a grid of as many lines, transformed in both directions;
   !> then `separate` is not allowed.
-  !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
+  !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a library
+  !> that was built without FFTW.
   subroutine set(self, length, info, threads, measured, separate, lines)
     class(fft_plan), intent(inout) :: self
     integer, intent(in) :: length
@@ -225,6 +126,9 @@ contains
       call report(info, FUGE_ERR_SIZE, 'lines = '//text(new_plan%lines)//': use 1 or more, in place')
     else if (new_plan%threads < 1) then
       call report(info, FUGE_ERR_OPTION, 'threads = '//text(new_plan%threads)//': use 1 or more')
+    else if (.not. HAS_FFTW) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'this library was built without FFTW (FUGE_WITH_FFTW=OFF), which ' &
+                  //'operators by FFT and stresses on grids need: build it with FFTW, or use a matrix, or stresses at points')
     else
       call make_plans(new_plan, info)
     end if
@@ -270,7 +174,7 @@ contains
       if (plan%separate) then
         other = fftw_malloc(buffer_bytes(plan))
         if (c_associated(other)) then
-          plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, other, FORWARD, flags)
+          plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, other, FFTW_FORWARD, flags)
           call fftw_free(other)
         end if
       else if (plan%lines > 0) then
@@ -278,7 +182,7 @@ contains
         plan%backward = fftw_plan_grid_c2r(int(plan%lines, c_int), int(plan%length, c_int), buffer, buffer, flags)
       else if (plan%is_packed()) then
         if (plan%length/2 >= LONG .and. .not. plan%measured) flags = flags + FFTW_NO_BUFFERING
-        plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, buffer, FORWARD, flags)
+        plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, buffer, FFTW_FORWARD, flags)
       else
         plan%forward = fftw_plan_r2c(int(plan%length, c_int), buffer, buffer, flags)
         plan%backward = fftw_plan_c2r(int(plan%length, c_int), buffer, buffer, flags)

@@ -131,11 +131,23 @@ contains
     else if (kind_given == GIVEN_RADIUS .and. (given < 0.0_dp .or. given > profile%upper)) then
       call report(info, FUGE_ERR_WIDTH, 'radius = '//text(given)//' is not between 0 and the end of the profile, ' &
                   //text(profile%upper))
-    else if (abs(given) > 0.0_dp .and. abs(exponent(given)) > LARGEST_EXPONENT_OF_2) then
+    else if (exponent(given) > LARGEST_EXPONENT_OF_2) then
       call report(info, FUGE_ERR_OVERFLOW, trim(given_name(kind_given))//' = '//text(given) &
                   //' is out of range: choose other units')
+    else if (abs(given) > 0.0_dp .and. exponent(given) < least_exponent(kind_given)) then
+      call report(info, FUGE_ERR_OVERFLOW, trim(given_name(kind_given))//' = '//text(given) &
+                  //' is too small for double precision: choose smaller units')
     end if
   end subroutine check_given
+
+  !> A load may be as small as its parts have all digits, because of it only roots are formed; of lengths also squares.
+  pure function least_exponent(kind_given) result(least)
+    integer, intent(in) :: kind_given
+    integer :: least
+
+    least = -LARGEST_EXPONENT_OF_2
+    if (kind_given == GIVEN_LOAD) least = minexponent(1.0_dp)
+  end function least_exponent
 
   pure function given_name(kind_given) result(name)
     integer, intent(in) :: kind_given
@@ -181,7 +193,8 @@ contains
     call certify_round(profile, search%contact, search%transform, info%residual, info)
     if (info%failed()) return
     call report_accuracy(max(search%contact%radius_error, search%contact%pressure_error), &
-                         max(search%violation%tension, search%violation%penetration), search%violation%undecided, info)
+                         max(search%violation%tension, search%violation%penetration), search%violation%undecided, &
+                         0.0_dp, info)
   end subroutine certify_search
 
   !> Refuse: report why there is no single disc, and which engine to use.

@@ -10,19 +10,25 @@ module fuge_smooth_accuracy
   public :: report_accuracy
 
   type(fuge_options), parameter :: DEFAULTS = fuge_options()
+  !> An error up to so many times the rounding of the ends may come from it.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
 
 contains
 
   !> Complete info%residual, on entry the certificate's, and warn if it or `error` is above the default tolerance.
   !>
   !> `error` the largest estimated error of the answer, `wrong_sign` the largest tension or penetration that the bounds
-  !> of the series found, `undecided` the penetration that they cannot exclude; all relative.
-  pure subroutine report_accuracy(error, wrong_sign, undecided, info)
-    real(dp), intent(in) :: error, wrong_sign, undecided
+  !> of the series found, `undecided` the penetration that they cannot exclude, `rounding` that of the ends; all
+  !> relative, the last one to half the width of the contact.
+  pure subroutine report_accuracy(error, wrong_sign, undecided, rounding, info)
+    real(dp), intent(in) :: error, wrong_sign, undecided, rounding
     type(fuge_info), intent(inout) :: info
 
     info%residual = max(info%residual, wrong_sign)
-    if (info%residual <= DEFAULTS%tolerance .and. undecided > DEFAULTS%tolerance) then
+    if (max(info%residual, error) > DEFAULTS%tolerance .and. ROUNDINGS*rounding > error) then
+      call report(info, FUGE_WARN_RESIDUAL, 'the estimated error is '//text(error) &
+                  //': the contact is so narrow that the rounding of its positions matters; put x = 0 into the contact')
+    else if (info%residual <= DEFAULTS%tolerance .and. undecided > DEFAULTS%tolerance) then
       info%residual = undecided
       call report(info, FUGE_WARN_RESIDUAL, 'penetration beside the contact is excluded down to ' &
                   //text(undecided)//' only: the profile is not smooth there')

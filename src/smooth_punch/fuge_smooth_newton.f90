@@ -194,11 +194,11 @@ contains
     a_change(:, 2) = [0.5_dp*d(1), d(0) + 0.5_dp*d(2), 0.5_dp*(d(1) + d(3))]
     associate (a => series%coefficients)
       if (load%free_tilt) then
-        matrix(1, :) = 0.5_dp*(a_change(2, :)*a(2) - a(3)*a_change(1, :))/a(2)**2
+        matrix(1, :) = 0.5_dp*(a_change(2, :) - a(3)/a(2)*a_change(1, :))/a(2)
         matrix(1, 1) = matrix(1, 1) + 1.0_dp
         matrix(1, 2) = matrix(1, 2) - eccentricity(series, load)
       else
-        matrix(1, :) = (a_change(0, :)*a(2) - a(1)*a_change(1, :))/a(2)**2
+        matrix(1, :) = (a_change(0, :) - a(1)/a(2)*a_change(1, :))/a(2)
       end if
       matrix(2, :) = a_change(1, :)/a(2)
       matrix(2, 2) = matrix(2, 2) + 1.0_dp

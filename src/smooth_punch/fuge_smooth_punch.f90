@@ -77,7 +77,7 @@ contains
     info%iterations = search%steps
     if (info%failed()) return
     if (search%outcome /= INTERVAL_FOUND) then
-      call report_outcome(profile, search, load%free_tilt, info)
+      call report_outcome(profile, search, load, info)
       return
     end if
     search%contact%force = force
@@ -102,10 +102,13 @@ contains
                   //text(profile%upper)//': lower has to be less')
     else if (force < 0.0_dp) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'force = '//text(force)//' is negative: contact can only push')
-    else if (any(abs(exponent([e_star, force, profile%upper - profile%lower])) > LARGEST_EXPONENT_OF_4) &
-             .or. exponent(max(abs(profile%lower), abs(profile%upper))) > LARGEST_EXPONENT_OF_4) then
+    else if (any(abs(exponent([e_star, profile%upper - profile%lower])) > LARGEST_EXPONENT_OF_4) &
+             .or. exponent(max(abs(profile%lower), abs(profile%upper), force)) > LARGEST_EXPONENT_OF_4) then
       call report(info, FUGE_ERR_OVERFLOW, 'e_star = '//text(e_star)//', force = '//text(force) &
                   //' or the position of the profile is out of range: choose other units')
+    else if (force > 0.0_dp .and. exponent(force) - max(exponent(e_star), 0) < minexponent(force) + 1) then
+      call report(info, FUGE_ERR_OVERFLOW, 'force = '//text(force)//' is too small beside e_star = '//text(e_star) &
+                  //': their quotient leaves the range of double precision; choose a smaller unit of length')
     end if
   end subroutine check_data
 
@@ -152,14 +155,24 @@ contains
     call certify_contact(profile, search%contact, info%residual, info)
     if (info%failed()) return
     call report_accuracy(max(search%contact%end_error, search%contact%pressure_error), &
-                         max(search%violation%tension, search%violation%penetration), search%violation%undecided, info)
+                         max(search%violation%tension, search%violation%penetration), search%violation%undecided, &
+                         rounding_of_ends(search%contact%ends), info)
   end subroutine certify_search
 
+  !> The rounding of the ends over half the width between them.
+  pure function rounding_of_ends(ends) result(rounding)
+    real(dp), intent(in) :: ends(2)
+    real(dp) :: rounding
+
+    rounding = 1.0_dp
+    if (ends(2) > ends(1)) rounding = epsilon(rounding)*maxval(abs(ends))/(0.5_dp*(ends(2) - ends(1)))
+  end function rounding_of_ends
+
   !> Refuse: report why there is no single interval, and which engine to use.
-  subroutine report_outcome(profile, search, free_tilt, info)
+  subroutine report_outcome(profile, search, load, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(interval_search), intent(in) :: search
-    logical, intent(in) :: free_tilt
+    type(load_case), intent(in) :: load
     type(fuge_info), intent(inout) :: info
     character(len=:), allocatable :: reason
 
@@ -176,8 +189,13 @@ contains
                //' the punch would penetrate at x = '//text(search%violation%penetration_position)
     case default
       reason = 'no contact in one interval between the ends of the profile was found'
+      if (load%reduced_force < epsilon(1.0_dp)*(profile%upper - profile%lower)) then
+        call report(info, FUGE_ERR_UNSUPPORTED, 'no contact was found: force/e_star is so small that the contact is ' &
+                    //'narrower than the rounding of its positions; put x = 0 where the punch touches')
+        return
+      end if
     end select
-    if (free_tilt) then
+    if (load%free_tilt) then
       call report(info, FUGE_ERR_UNSUPPORTED, reason//': use a dense half-plane matrix with the active set')
     else
       call report(info, FUGE_ERR_UNSUPPORTED, reason//OTHER_ENGINES)

@@ -47,6 +47,8 @@ module fuge_smooth_search
   real(dp), parameter :: SIGN_TOLERANCE = 1.0e-10_dp, ERROR_FACTOR = 10.0_dp
   !> Halvings of the distance from a starting point.
   integer, parameter :: HALVINGS = 60
+  !> At smaller distances their products leave the range of double precision.
+  real(dp), parameter :: LEAST_DISTANCE = sqrt(tiny(1.0_dp))
   !> Search by exclusion: limits of the number of series and of pending parts, highest degree and
   !> tolerance of a series, and the ratio of lengths above which shrinking stops.
   integer, parameter :: MAX_SERIES = 600, MAX_PARTS = 100, COARSE_MAX_DEGREE = 512
@@ -91,7 +93,7 @@ contains
     logical, intent(in) :: refined
     type(anchored_interval), intent(out) :: first
     type(fuge_info), intent(inout) :: info
-    real(dp) :: distances(HALVINGS + 1), level(1), tilt(1), reach(2)
+    real(dp) :: distances(HALVINGS + 1), level(1), tilt(1), reach(2), farthest
     integer :: side, j, k
 
     first%anchor = start
@@ -100,13 +102,16 @@ contains
     if (.not. load%free_tilt) tilt = 0.0_dp
     level = level + 0.5_dp*load%reduced_force
     do side = 1, 2
-      distances(1) = merge(profile%lower, profile%upper, side == 1) - start
-      do k = 2, HALVINGS + 1
-        distances(k) = 0.5_dp*distances(k - 1)
+      farthest = merge(profile%lower, profile%upper, side == 1) - start
+      do
+        distances = farthest*[(0.5_dp**j, j=0, HALVINGS)]
+        call farthest_below(profile, start, level(1), tilt(1), distances, k, info)
+        if (info%failed()) return
+        farthest = distances(k)
+        ! Below the last distance too, the contact under a tiny force may lie.
+        if (k <= HALVINGS .or. abs(farthest) < LEAST_DISTANCE) exit
       end do
-      call farthest_below(profile, start, level(1), tilt(1), distances, k, info)
-      if (info%failed()) return
-      reach(side) = distances(k)
+      reach(side) = farthest
       if (k == 1 .or. .not. refined) cycle
       ! Between this distance and the next one.
       distances = distances(k)*[(2.0_dp - real(j, dp)/real(HALVINGS, dp), j=0, HALVINGS)]

@@ -3,7 +3,6 @@ module fuge_solver_type
   use fuge_active_set_engine, only: solve_by_active_set
   use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_certificate, only: find_violation, fuge_violation
-  use fuge_constants, only: LARGEST_EXPONENT_OF_2
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_data_scales, only: is_prescribed
@@ -24,7 +23,6 @@ module fuge_solver_type
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_sensitivity, only: find_derivative
   use fuge_set_derivative, only: find_derivative_by_products
-  use fuge_small_loads, only: load_scaling, lower_solution, raise_loads
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_SIZE, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
@@ -38,9 +36,6 @@ module fuge_solver_type
 
   !> Above this estimate of the relative error of the forces, a solution comes with a warning.
   real(dp), parameter :: MOST_FORCE_ERROR = 1.0e-3_dp
-  !> As powers of two, how often lengths may contain the load, or what it displaces, in a second try with larger loads:
-  !> squares of the ratio stay in range, or displacements are just above the rounding of the lengths.
-  integer, parameter :: RATIO_IN_RANGE = LARGEST_EXPONENT_OF_2 - 32, RATIO_RESOLVED = 46
 
   !> Solves contact problems one after the other, each from the contact set of the last one. One solver for each
   !> thread.
@@ -133,7 +128,6 @@ contains
         info = fuge_info()
         call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
       end if
-      call try_larger_loads(self, operator, problem, chosen, relay, candidate, info)
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
                                                          //text(relay%reported)//' by the progress monitor')
     end if
@@ -210,74 +204,6 @@ contains
     call run_engine(self, operator, problem, options, monitor, solution, info)
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
   end subroutine solve_and_certify
-
-  !> Where a solve has failed because its loads are tiny beside its lengths: once more with larger loads, which have the
-  !> same contact. The certificate of the given problem decides whether the second solution is taken.
-  subroutine try_larger_loads(self, operator, problem, options, monitor, solution, info)
-    class(fuge_solver), intent(inout) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_options), intent(in) :: options
-    class(fuge_monitor), intent(inout) :: monitor
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-
-    if (info%status == FUGE_ERR_OVERFLOW) call solve_with_larger_loads(self, operator, problem, RATIO_IN_RANGE, options, &
-                                                                       monitor, solution, info)
-    if (.not. any(info%status == [FUGE_ERR_OVERFLOW, FUGE_ERR_ITERATION_LIMIT, FUGE_WARN_RESIDUAL])) return
-    select type (operator)
-    class is (fuge_dense_operator)
-      associate (survey => operator%known())
-        if (survey%largest() > 0.0_dp) call solve_with_larger_loads(self, operator, problem, RATIO_RESOLVED &
-          + exponent(survey%largest()), options, monitor, solution, info)
-      end associate
-    end select
-  end subroutine try_larger_loads
-
-  !> `most_ratio` as in `raise_loads`. Where the second solve is no better, solution and report stay as they are.
-  subroutine solve_with_larger_loads(self, operator, problem, most_ratio, options, monitor, solution, info)
-    class(fuge_solver), intent(inout) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: most_ratio
-    type(fuge_options), intent(in) :: options
-    class(fuge_monitor), intent(inout) :: monitor
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-    type(fuge_problem) :: raised
-    type(fuge_solution) :: second, change
-    type(fuge_info) :: second_info, change_info
-    type(load_scaling) :: scaling
-    logical :: is_raised
-
-    call raise_loads(problem, operator%ranks(), most_ratio, raised, scaling, is_raised)
-    if (.not. is_raised) return
-    call self%reset()
-    call run_engine(self, operator, raised, options, monitor, second, second_info)
-    if (second_info%failed()) return
-    if (scaling%loads > scaling%lengths .and. .not. self%solved_by_products) then
-      call self%derivative(operator, 0.0_dp*raised%gap, raised%resultant, change, change_info)
-    end if
-    call lower_solution(scaling, problem, second, change)
-    call certify(operator, problem, second, options%tolerance, second_info)
-    self%has_solution = .not. second_info%failed() .and. second_info%status /= FUGE_WARN_RESIDUAL
-    if (.not. self%has_solution) return
-    call add_counts(info, second_info)
-    info = second_info
-    call move_solution(second, solution)
-    ! Their forces are those of other loads.
-    call self%steps%forget()
-  end subroutine solve_with_larger_loads
-
-  !> The work of both tries.
-  pure subroutine add_counts(first, second)
-    type(fuge_info), intent(in) :: first
-    type(fuge_info), intent(inout) :: second
-
-    second%iterations = second%iterations + first%iterations
-    second%products = second%products + first%products
-    second%preconditionings = second%preconditionings + first%preconditionings
-  end subroutine add_counts
 
   !> Forget the last contact set and the history: the next solve starts from scratch. After a change of the operator
   !> that may be faster; the solution is the same.

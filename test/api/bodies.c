@@ -33,6 +33,7 @@ static void test_refusals(void) {
   CHECK_CONTAINS(message, "young = 0.0");
   CHECK_STATUS(fuge_plane_modulus(1.0, 0.6, FUGE_PLANE_STRAIN, out, message, sizeof message), FUGE_ERR_MODULUS);
   CHECK_CONTAINS(message, "poisson = 0.6");
+  CHECK_CONTAINS(message, "Poisson's ratio, is above 0.5");
   CHECK_STATUS(fuge_plane_modulus(1.0, NAN, FUGE_PLANE_STRAIN, out, NULL, 0), FUGE_ERR_NOT_FINITE);
   CHECK_STATUS(fuge_plane_modulus(1.0, 0.3, 7, out, small, sizeof small), FUGE_ERR_OPTION);
   CHECK_STRING(small, "plane_s");

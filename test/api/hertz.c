@@ -42,6 +42,7 @@ int main(void) {
   check_refused(NAN, 1.0, 1.0, FUGE_ERR_NOT_FINITE, "radius_y = NaN");
   check_refused(1.0, 0.0, 1.0, FUGE_ERR_MODULUS, "e_star = 0.");
   check_refused(1.0, 1.0, -1.0, FUGE_ERR_NO_EQUILIBRIUM, "load = -1.");
-  check_refused(1.0, 1.0, 1e90, FUGE_ERR_OVERFLOW, "load = 1.");
+  check_refused(1.0, 1.0, 1e-320, FUGE_ERR_OVERFLOW, "smaller unit of force");
+  check_refused(1.0, 1e90, 1.0, FUGE_ERR_OVERFLOW, "e_star = 1.");
   return check_summary();
 }

@@ -400,6 +400,24 @@ static void test_not_definite(void) {
   free_both(&solver, &op);
 }
 
+/* A load whose displacements leave the range of double precision is refused in words of its own. */
+static void test_tiny_loads(void) {
+  for (int method = FUGE_AUTO; method <= FUGE_TABLEAU; method++) {
+    fuge_options options;
+    fuge_operator *op = NULL;
+    fuge_default_options(&options);
+    options.method = method;
+    fuge_solver *solver = table1_solver(&options, &op);
+    CHECK_STATUS(fuge_set_load(solver, 1e-300), FUGE_DONE);
+    check_solve_fails(solver, FUGE_ERR_OVERFLOW, "too small for double precision");
+    CHECK_STATUS(fuge_set_load(solver, 1e-320), FUGE_ERR_OVERFLOW);
+    check_message(solver, "smaller unit of force");
+    CHECK_STATUS(fuge_set_load(solver, TABLE1_LOAD), FUGE_DONE);
+    check_solved(solver);
+    free_both(&solver, &op);
+  }
+}
+
 /* An answer of before is gone, the data stay and can be mended. */
 static void test_overflow_after_answer(void) {
   fuge_operator *op = NULL;
@@ -507,6 +525,7 @@ int main(void) {
   test_warm_start();
   test_iteration_limit();
   test_not_definite();
+  test_tiny_loads();
   test_overflow_after_answer();
   test_residual_warning();
   test_ill_conditioned();

@@ -29,16 +29,20 @@ module hard_estimates
 
 contains
 
-  !> Count one answer.
-  subroutine judge_estimate(alpha, problem, counts)
+  !> Count one answer of the engine `method`, by default the active set.
+  subroutine judge_estimate(alpha, problem, counts, method)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
     type(estimate_counts), intent(inout) :: counts
+    integer, intent(in), optional :: method
     type(fuge_solution) :: solution
     type(fuge_info) :: info
     real(dp) :: error, ratio
+    integer :: engine
 
-    call solve_general(alpha, problem, solution, info, fuge_options(FUGE_ACTIVE_SET))
+    engine = FUGE_ACTIVE_SET
+    if (present(method)) engine = method
+    call solve_general(alpha, problem, solution, info, fuge_options(engine))
     if (info%failed() .or. any(info%status == [FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL])) return
     if (.not. any(abs(solution%force) > 0.0_dp)) return
     error = force_error_of(alpha, problem, solution)
@@ -62,10 +66,11 @@ contains
     if (info%force_error > WARNED .and. error <= RIGHT) counts%false_warnings = counts%false_warnings + 1
   end subroutine judge_estimate
 
-  !> Count `trials` random problems of 3 to 30 points.
-  subroutine judge_problems(kind, decimals, trials, counts)
+  !> Count the answers of the engine `method`, by default the active set, to `trials` random problems of 3 to 30 points.
+  subroutine judge_problems(kind, decimals, trials, counts, method)
     integer, intent(in) :: kind, decimals, trials
     type(estimate_counts), intent(out) :: counts
+    integer, intent(in), optional :: method
     type(fuge_problem) :: problem
     real(dp), allocatable :: alpha(:, :)
     integer(int64) :: seed
@@ -76,7 +81,7 @@ contains
       n = 3 + mod(7*trial, 28)
       allocate (alpha(n, n))
       call random_problem(seed, n, kind, decimals, alpha, problem)
-      call judge_estimate(alpha, problem, counts)
+      call judge_estimate(alpha, problem, counts, method)
       deallocate (alpha)
     end do
   end subroutine judge_problems

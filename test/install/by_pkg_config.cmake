@@ -1,5 +1,6 @@
-# Sources compiled with what pkg-config says of the copy in PREFIX: C, C++, Fortran, and the man page's example.
-# ctest sets PREFIX, MANDIR, LIBDIR, KIND, SCRATCH, PKG_CONFIG, C_COMPILER, CXX_COMPILER and Fortran_COMPILER.
+# Sources compiled with what pkg-config says of the copy in PREFIX: C, C++, Fortran, and the man page's example; and by
+# the commands that the page on the installation shows.
+# ctest sets PREFIX, PAGE, MANDIR, LIBDIR, KIND, SCRATCH, PKG_CONFIG, C_COMPILER, CXX_COMPILER and Fortran_COMPILER.
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
@@ -37,4 +38,27 @@ foreach(source IN ITEMS c/main.c cxx/main.cxx fortran/main.f90 "${SCRATCH}/examp
   get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_LIST_DIR}")
   run("${what}: compile" "${${language}_COMPILER}" "${source}" -o "${SCRATCH}/${language}" ${flags})
   expect_answer_in("${PREFIX}" "${what}" "${SCRATCH}/${language}")
+endforeach()
+
+# A program in C that needs the mathematical library itself.
+file(READ "${CMAKE_CURRENT_LIST_DIR}/c/main.c" program)
+file(WRITE "${SCRATCH}/app.c" "#include <math.h>\ndouble wave(double x);\ndouble wave(double x) { return cos(x); }\n"
+  "${program}")
+configure_file("${CMAKE_CURRENT_LIST_DIR}/fortran/main.f90" "${SCRATCH}/app.f90" COPYONLY)
+file(STRINGS "${PAGE}" commands REGEX "^    (cc|gfortran) app")
+list(LENGTH commands number)
+if(NOT number EQUAL 2)
+  message(FATAL_ERROR "${PAGE} should have a command of cc and one of gfortran: ${commands}")
+endif()
+foreach(command IN LISTS commands)
+  string(STRIP "${command}" command)
+  set(what "${command}, ${KIND}")
+  string(REGEX REPLACE "^cc " "\"${C_COMPILER}\" " command "${command}")
+  string(REGEX REPLACE "^gfortran " "\"${Fortran_COMPILER}\" " command "${command}")
+  string(REPLACE "pkg-config" "\"${PKG_CONFIG}\"" command "${command}")
+  file(REMOVE "${SCRATCH}/app")
+  file(WRITE "${SCRATCH}/command" "cd '${SCRATCH}'\nPKG_CONFIG_PATH='${PREFIX}/${LIBDIR}/pkgconfig'\n"
+    "export PKG_CONFIG_PATH\n${command}\n")
+  run("${what}: compile" sh "${SCRATCH}/command")
+  expect_answer_in("${PREFIX}" "${what}" "${SCRATCH}/app")
 endforeach()

@@ -45,9 +45,9 @@ contains
       call report(info, FUGE_ERR_OVERFLOW, 'alpha reaches '//text(largest)//' and alpha times load 2**' &
                   //text(deflection)//': choose units in which they are nearer to 1')
     else if (deflection < -LARGEST_EXPONENT) then
-      call report(info, FUGE_ERR_OVERFLOW, 'the load '//text(load)//' is too small: what it displaces, alpha times load, ' &
-                  //'is 2**'//text(deflection)//' at most and leaves the range of double precision; choose a smaller ' &
-                  //'unit of force or of length')
+      call report(info, FUGE_ERR_OVERFLOW, 'the load '//text(load)//' displaces 2**'//text(deflection) &
+                  //' at most (alpha reaches '//text(largest)//'), too small for double precision: choose a smaller ' &
+                  //'unit of length')
     end if
   end subroutine check_largest
 

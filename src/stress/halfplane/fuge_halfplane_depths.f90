@@ -47,8 +47,8 @@ contains
   !> addition xx = nu/(1 - nu) times the mean of zz in plane strain.
   !>
   !> Errors, stress untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION
-  !> (boundary), FUGE_ERR_GRID for a depth < 0, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. Source: K. L. Johnson, Contact
-  !> Mechanics, 1985, sections 2.5 and 13.2.
+  !> (boundary), FUGE_ERR_GRID for a depth < 0, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED in a library
+  !> without FFTW. Source: K. L. Johnson, Contact Mechanics, 1985, sections 2.5 and 13.2.
   subroutine fuge_halfplane_stress_grid(spacing, force, element, boundary, depth, stress, info)
     real(dp), intent(in) :: spacing, force(:), depth(:)
     integer, intent(in) :: element, boundary

@@ -63,8 +63,8 @@ contains
   !>
   !> Ten arguments, because the grid alone has four. Errors, stress untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_WIDTH, FUGE_ERR_MODULUS (poisson), FUGE_ERR_OPTION (boundary), FUGE_ERR_GRID for a depth < 0,
-  !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. Source: A. E. H. Love, Phil. Trans. R. Soc. A 228, 1929; K. L. Johnson, Contact
-  !> Mechanics, 1985, section 3.2.
+  !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED in a library without FFTW. Source: A. E. H. Love, Phil.
+  !> Trans. R. Soc. A 228, 1929; K. L. Johnson, Contact Mechanics, 1985, section 3.2.
   subroutine fuge_halfspace_stress_grid(nx, ny, spacing_x, spacing_y, force, boundary, poisson, depth, stress, info)
     integer, intent(in) :: nx, ny, boundary
     real(dp), intent(in) :: spacing_x, spacing_y, force(:), poisson, depth(:)
