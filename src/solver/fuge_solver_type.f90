@@ -5,6 +5,7 @@ module fuge_solver_type
   use fuge_certificate, only: find_violation, fuge_violation
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
+  use fuge_data_scales, only: is_prescribed
   use fuge_force_error, only: estimate_force_error
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
@@ -141,29 +142,52 @@ contains
     end if
   end subroutine solve
 
-  !> Refuse what ranks that share the points do not solve (FUGE_ERR_UNSUPPORTED): modes, play and excluded points; and
-  !> loads or motions that differ between them (FUGE_ERR_OPTION).
+  !> Refuse loads, motions and kinds of problems that differ between the ranks that share the points
+  !> (FUGE_ERR_OPTION).
   subroutine check_shared_problem(problem, ranks, info)
     type(fuge_problem), intent(in) :: problem
     type(shared_ranks), intent(in) :: ranks
     type(fuge_info), intent(inout) :: info
-    real(dp) :: control(2)
+    real(dp) :: kind_of(6)
 
-    if (ranks%anywhere(is_general(problem))) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'ranks share problems with one load or one prescribed approach only: ' &
-                  //'leave out modes, gap_upper and excluded')
-      return
-    end if
-    control = 0.0_dp
-    if (problem%is_plain()) then
-      control(1) = problem%resultant(1)
-    else
-      control = [problem%motion(1), 1.0_dp]
-    end if
-    if (ranks%anywhere(any(abs(control - [ranks%largest(control(1)), ranks%largest(control(2))]) > 0.0_dp))) then
-      call report(info, FUGE_ERR_OPTION, 'the load, or the prescribed approach, differs between the ranks')
+    kind_of = real([problem%mode_count(), merge(1, 0, allocated(problem%modes)), &
+                    merge(1, 0, allocated(problem%gap_upper)), merge(1, 0, allocated(problem%excluded)), &
+                    merge(1, 0, allocated(problem%prescribed)), merge(1, 0, problem%is_plain())], dp)
+    if (differ(kind_of, ranks)) then
+      call report(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded or prescribed are not allocated alike on all ' &
+                  //'ranks: allocate them on all or on none, also where a rank has no points')
+    else if (differ(controls(problem), ranks)) then
+      call report(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs between the ranks')
     end if
   end subroutine check_shared_problem
+
+  !> Do the `values`, as many on each, differ between the ranks?
+  function differ(values, ranks)
+    real(dp), intent(in) :: values(:)
+    type(shared_ranks), intent(in) :: ranks
+    logical :: differ
+    real(dp) :: extremes(2*size(values))
+
+    extremes = [values, -values]
+    call ranks%raise(extremes)
+    differ = any(abs(extremes(:size(values)) + extremes(size(values) + 1:)) > 0.0_dp)
+  end function differ
+
+  !> Of each mode 1 and the motion where that is prescribed, else 0 and the resultant, (2 m).
+  pure function controls(problem)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: controls(2*problem%mode_count())
+    integer :: j
+
+    controls = 0.0_dp
+    do j = 1, problem%mode_count()
+      if (is_prescribed(problem, j)) then
+        controls(2*j - 1:2*j) = [1.0_dp, problem%motion(j)]
+      else
+        controls(2*j) = problem%resultant(j)
+      end if
+    end do
+  end function controls
 
   !> One solve by the engine that the options choose, and its certificate.
   subroutine solve_and_certify(self, operator, problem, options, monitor, solution, info)
@@ -228,12 +252,13 @@ contains
 
     info = self%last_report
     ranks = operator%ranks()
-    if (.not. ranks%is_alone()) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'there are no derivatives where ranks share the points: use a single one')
+    call check_changes(self, ranks, operator%points(), gap_change, load_change, info)
+    call ranks%agree(info)
+    if (info%failed()) return
+    if (differ(load_change, ranks)) then
+      call report(info, FUGE_ERR_OPTION, 'load_change differs between the ranks')
       return
     end if
-    call check_changes(self, operator%points(), gap_change, load_change, info)
-    if (info%failed()) return
     if (self%solved_by_products) then
       call differentiate_by_products(self, operator, gap_change, load_change, change, info)
       return
@@ -255,6 +280,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(canonical_problem) :: canonical
     type(fuge_problem) :: problem
+    type(shared_ranks) :: ranks
 
     if (self%last_is_general) then
       call find_derivative_by_products(operator, self%canonical, self%last%state, self%last%tolerance, gap_change, &
@@ -262,23 +288,26 @@ contains
       return
     end if
     call set_problem(0.0_dp*gap_change, 1.0_dp, problem, info)
+    ranks = operator%ranks()
+    call ranks%agree(info)
     if (info%failed()) return
     problem%prescribed = [self%last_is_prescribed]
     problem%motion = [0.0_dp]
-    call make_canonical(problem, canonical, info)
+    call make_canonical(problem, canonical, info, operator%ranks())
     if (.not. info%failed()) call find_derivative_by_products(operator, canonical, self%last%state, &
                                                               self%last%tolerance, gap_change, load_change, change, &
                                                               info)
   end subroutine differentiate_by_products
 
   !> Refuse changes that fit no solution of n points.
-  pure subroutine check_changes(self, n, gap_change, load_change, info)
+  subroutine check_changes(self, ranks, n, gap_change, load_change, info)
     class(fuge_solver), intent(in) :: self
+    type(shared_ranks), intent(in) :: ranks
     integer, intent(in) :: n
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_info), intent(inout) :: info
 
-    integer :: modes, points
+    integer :: all_points, modes, points
 
     points = 0
     modes = self%canonical%mode_count()
@@ -288,7 +317,8 @@ contains
     else if (allocated(self%state)) then
       points = size(self%state)
     end if
-    if (.not. self%has_solution .or. points < 1) then
+    all_points = ranks%total_count(points)
+    if (.not. self%has_solution .or. all_points < 1) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
     else if (size(gap_change) /= n .or. points /= n) then
       call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
@@ -464,7 +494,7 @@ contains
     if (info%failed()) return
     self%last_is_general = is_general(problem)
     self%last_is_prescribed = .not. (self%last_is_general .or. problem%is_plain())
-    if (self%last_is_general) call make_canonical(problem, self%canonical, info)
+    if (self%last_is_general) call make_canonical(problem, self%canonical, info, operator%ranks())
     if (info%failed()) return
     call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, info)
     ! Do not retry a solve that the operator or the monitor has ended.
