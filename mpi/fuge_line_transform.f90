@@ -7,14 +7,15 @@
 !> real and imaginary parts are exchanged: then the same transforms and the same factors serve.
 !>
 !> `twisted`: whatever goes once round the circle counts nothing, as on a circle of twice the length that holds N
-!> zeros. The cells are multiplied by exp(-i pi j/(2 N)) and the results by the conjugate: once round is a factor -i, and
-!> only the real part is kept.
+!> zeros. The cells are multiplied by exp(-i pi j/(2 N)) and the results by the conjugate: once round is a factor -i,
+!> and only the real part is kept.
 module fuge_line_transform
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_loc, c_null_ptr, c_ptr
-  use fuge_constants, only: PI
   use fuge_fft, only: allocate_values, fft_plan, release_buffer
   use fuge_kinds, only: dp
   use fuge_line_cells, only: block_begins, rows_of_circle, rows_of_ranks
+  use fuge_line_numbers, only: gather_lines, multiply_exchanging, multiply_line, quarter_root, root_of_one, &
+    scale_line, scatter_lines
   use fuge_number_text, only: text
   use fuge_rank_communicator, only: rank_communicator
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
@@ -146,40 +147,6 @@ contains
     end do
   end subroutine compute_factors
 
-  !> Real and imaginary parts of exp(-2 pi i k/n), 0 <= k < n, from the angle to the nearest axis: a large angle is
-  !> rounded by more.
-  pure function root_of_one(k, n) result(root)
-    integer, intent(in) :: k, n
-    real(dp) :: root(2)
-    real(dp) :: angle, quarters
-    integer :: axis
-
-    quarters = 4.0_dp*(real(k, dp)/real(n, dp))
-    axis = int(quarters + 0.5_dp)
-    angle = 0.5_dp*PI*((4.0_dp*real(k, dp) - real(axis, dp)*real(n, dp))/real(n, dp))
-    select case (modulo(axis, 4))
-    case (0)
-      root = [cos(angle), -sin(angle)]
-    case (1)
-      root = [-sin(angle), -cos(angle)]
-    case (2)
-      root = [-cos(angle), sin(angle)]
-    case default
-      root = [sin(angle), cos(angle)]
-    end select
-  end function root_of_one
-
-  !> Real and imaginary parts of exp(-i pi k/(2 n)), 0 <= k <= n.
-  pure function quarter_root(k, n) result(root)
-    integer, intent(in) :: k, n
-    real(dp) :: root(2)
-    real(dp) :: angle
-
-    angle = 0.5_dp*PI*(real(min(k, n - k), dp)/real(n, dp))
-    root = [cos(angle), -sin(angle)]
-    if (k > n - k) root = [sin(angle), -cos(angle)]
-  end function quarter_root
-
   !> The columns of this rank from the cells `x` of all ranks, each its own; cells that no rank has are zero. All ranks
   !> of the group call it, and the procedures below that exchange anything.
   subroutine columns_from_cells(self, x)
@@ -264,34 +231,6 @@ contains
     call self%group%exchange(2*self%own_columns*extents(self%wave), one, 2*self%own_waves*extents(self%column), other)
   end subroutine waves_from_columns
 
-  !> Multiply complex numbers, `z` (real and imaginary parts), by others, `factors` (2, :).
-  pure subroutine multiply_line(factors, z)
-    real(dp), intent(in), contiguous :: factors(:, :)
-    real(c_double), intent(inout), contiguous :: z(:)
-    real(dp) :: real_part
-    integer :: k
-
-    do k = 1, size(factors, 2)
-      real_part = z(2*k - 1)*factors(1, k) - z(2*k)*factors(2, k)
-      z(2*k) = z(2*k - 1)*factors(2, k) + z(2*k)*factors(1, k)
-      z(2*k - 1) = real_part
-    end do
-  end subroutine multiply_line
-
-  !> Multiply complex numbers, `z` (real and imaginary parts), by one.
-  pure subroutine scale_line(factor, z)
-    real(dp), intent(in) :: factor(2)
-    real(c_double), intent(inout), contiguous :: z(:)
-    real(dp) :: real_part
-    integer :: k
-
-    do k = 1, size(z)/2
-      real_part = z(2*k - 1)*factor(1) - z(2*k)*factor(2)
-      z(2*k) = z(2*k - 1)*factor(2) + z(2*k)*factor(1)
-      z(2*k - 1) = real_part
-    end do
-  end subroutine scale_line
-
   !> Put the transform of column `j` of this rank where the exchange takes it from.
   pure subroutine to_waves(self, j, z, sent)
     class(line_transform), intent(in) :: self
@@ -355,52 +294,6 @@ contains
       call scatter_lines(self%own_waves, self%columns, first, count, line, other)
     end do
   end subroutine multiply_waves
-
-  !> `lines` 1 .. count: the rows `first` .. of a table of `rows` by `columns` complex numbers.
-  pure subroutine gather_lines(rows, columns, first, count, table, lines)
-    integer, intent(in) :: rows, columns, first, count
-    real(c_double), intent(in), contiguous :: table(:)
-    real(c_double), intent(inout), contiguous :: lines(:, :)
-    integer :: begin, j, k
-
-    do k = 1, columns
-      begin = 2*((k - 1)*rows + first - 1)
-      do j = 1, count
-        lines(2*k - 1, j) = table(begin + 2*j - 1)
-        lines(2*k, j) = table(begin + 2*j)
-      end do
-    end do
-  end subroutine gather_lines
-
-  !> The reverse of `gather_lines`.
-  pure subroutine scatter_lines(rows, columns, first, count, lines, table)
-    integer, intent(in) :: rows, columns, first, count
-    real(c_double), intent(in), contiguous :: lines(:, :)
-    real(c_double), intent(inout), contiguous :: table(:)
-    integer :: begin, j, k
-
-    do k = 1, columns
-      begin = 2*((k - 1)*rows + first - 1)
-      do j = 1, count
-        table(begin + 2*j - 1) = lines(2*k - 1, j)
-        table(begin + 2*j) = lines(2*k, j)
-      end do
-    end do
-  end subroutine scatter_lines
-
-  !> Multiply complex numbers, `z`, by real ones, and exchange their parts.
-  pure subroutine multiply_exchanging(factors, z)
-    real(dp), intent(in), contiguous :: factors(:)
-    real(c_double), intent(inout), contiguous :: z(:)
-    real(dp) :: real_part
-    integer :: k
-
-    do k = 1, size(factors)
-      real_part = z(2*k - 1)
-      z(2*k - 1) = factors(k)*z(2*k)
-      z(2*k) = factors(k)*real_part
-    end do
-  end subroutine multiply_exchanging
 
   !> Exchange the waves for columns and transform these; their real parts stay.
   subroutine columns_from_waves(self, twisted)

@@ -52,18 +52,23 @@ contains
     class(shared_operator), intent(inout), target :: self
     type(MPI_Comm), intent(in) :: comm
     type(fuge_info), intent(inout) :: info
+    type(rank_communicator) :: own
     integer :: stat
 
     call check_mpi(info)
     if (info%failed()) return
+    call new_communicator(comm, own)
     allocate (self%group, stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a communicator')
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a communicator')
+    call own%agree(info)
+    if (info%failed()) then
+      if (stat == 0) deallocate (self%group)
+      call free_communicator(own)
       return
     end if
+    self%group = own
     ! Addresses are only compared, never dereferenced.
     self%group_owner = c_loc(self%measured)
-    call new_communicator(comm, self%group)
   end subroutine join
 
   !> Take the group of `source`, which leaves it.

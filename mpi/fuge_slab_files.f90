@@ -1,8 +1,8 @@
 !> Values of a grid in files that all ranks read and write together, each its own rows.
 !>
 !> The format is that of numpy, .npy: a header with the shape, and the numbers one after the other. The array has ny
-!> rows of nx numbers, in the order of a grid's points, so that numpy.load(path)[j, i] is the cell i of row j, from 0; of
-!> a line of n cells it is (n,).
+!> rows of nx numbers, in the order of a grid's points, so that numpy.load(path)[j, i] is the cell i of row j, from 0;
+!> of a line of n cells it is (n,).
 module fuge_slab_files
   use, intrinsic :: iso_fortran_env, only: int8
   use fuge_kinds, only: dp

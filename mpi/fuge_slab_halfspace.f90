@@ -3,7 +3,8 @@ module fuge_slab_halfspace
   use, intrinsic :: iso_c_binding, only: c_loc, c_null_ptr, c_ptr
   use fuge_grid_store, only: grid_store
   use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
-  use fuge_halfspace_grid, only: check_grid, coarsened, complete, count_coarser, halfspace_grid, least_magnitude, periodic
+  use fuge_halfspace_grid, only: check_grid, coarsened, complete, count_coarser, halfspace_grid, least_magnitude, &
+    periodic
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator

@@ -80,8 +80,8 @@ contains
     call group%agree(info)
   end subroutine prepare_parts
 
-  !> What one of several ranks needs, of the `ranks` on which the rows are laid out, those of `part` have any. Errors, on
-  !> all these: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> What one of several ranks needs, of the `ranks` on which the rows are laid out, those of `part` have any. Errors,
+  !> on all these: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
   subroutine prepare_shared(surface, length, part, ranks, measured, shared, info)
     type(halfspace_grid), intent(in) :: surface
     integer, intent(in) :: length(2), ranks

@@ -2,9 +2,9 @@
  * ranks make the same calls in the same order, with the same arguments but for arrays of points, whose n is the number
  * of points of the rank.  A solver of fuge.h solves on an operator of this header as on any other: fuge_solver_new,
  * fuge_set_gap, fuge_set_load or fuge_set_approach, fuge_solve, and the results, where fuge_get_resultant sums over the
- * ranks.  The solution is that of one process, also with modes, play, excluded points and prescribed motions, and so are
- * derivatives: arrays of points are those of the rank, loads and motions the same on all ranks.  Modes of several bodies,
- * which move no common point, are FUGE_ERR_UNSUPPORTED.
+ * ranks.  The solution is that of one process, also with modes, play, excluded points and prescribed motions, and so
+ * are derivatives: arrays of points are those of the rank, loads and motions the same on all ranks.  Modes of several
+ * bodies, which move no common point, are FUGE_ERR_UNSUPPORTED.
  *
  * An error on one rank ends fuge_solve on all of them with the same status, and the message names the rank.  A call
  * that concerns one rank only, such as fuge_set_gap, may fail on that rank alone: let the ranks agree (MPI_Allreduce of
@@ -24,7 +24,7 @@ extern "C" {
  *   nx, ny     in   of the whole grid; spacings, e_star and element as in fuge_operator_halfspace
  *   boundary   in   FUGE_FREE or FUGE_PERIODIC
  *   comm       in   is duplicated
- *   op         out  set on success only, on all ranks
+ *   op         out  set on success only, on all ranks; not NULL, on any of them
  * Errors are those of fuge_operator_halfspace, on all ranks; FUGE_ERR_OPTION if the arguments differ between the ranks,
  * FUGE_ERR_UNSUPPORTED for another boundary, FUGE_ERR_CALL_ORDER if MPI is not running. */
 int fuge_operator_halfspace_mpi(int nx, int ny, double spacing_x, double spacing_y, double e_star, int element,
@@ -35,7 +35,7 @@ int fuge_operator_halfspace_mpi(int nx, int ny, double spacing_x, double spacing
  * number of cells stays on one rank.
  *   n          in   of the whole line; spacing, e_star, element and boundary as in fuge_operator_halfplane
  *   comm       in   is duplicated
- *   op         out  set on success only, on all ranks
+ *   op         out  set on success only, on all ranks; not NULL, on any of them
  * Errors are those of fuge_operator_halfplane, on all ranks; FUGE_ERR_OPTION if the arguments differ between the ranks,
  * FUGE_ERR_CALL_ORDER if MPI is not running. */
 int fuge_operator_halfplane_mpi(int n, double spacing, double e_star, int element, int boundary, MPI_Comm comm,
@@ -47,8 +47,8 @@ int fuge_operator_halfplane_mpi(int n, double spacing, double e_star, int elemen
 int fuge_operator_rows(const fuge_operator *op, int *first, int *rows, char *message, size_t len);
 
 /* Read values (nx*rows of this rank) from a file of numpy, .npy, an array (ny, nx) of doubles, (n,) of a half-plane, or
- * write one: all ranks together, each its own rows.  FUGE_ERR_FILE, FUGE_ERR_SIZE for another shape, FUGE_ERR_UNSUPPORTED for another
- * operator; on all ranks, values unchanged. */
+ * write one: all ranks together, each its own rows.  FUGE_ERR_FILE, FUGE_ERR_SIZE for another shape,
+ * FUGE_ERR_UNSUPPORTED for an operator of fuge.h; on all ranks, values unchanged. */
 int fuge_mpi_read_rows(const char *path, const fuge_operator *op, double *values, char *message, size_t len);
 int fuge_mpi_write_rows(const char *path, const fuge_operator *op, const double *values, char *message, size_t len);
 

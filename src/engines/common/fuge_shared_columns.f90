@@ -10,8 +10,8 @@ module fuge_shared_columns
 
 contains
 
-  !> Overwrite a matrix by orthonormal columns that span the same space, and count those that are not rounding: that keep
-  !> more than `tolerance` of the first one's length beside those before them.
+  !> Overwrite a matrix by orthonormal columns that span the same space, and count those that are not rounding: that
+  !> keep more than `tolerance` of the first one's length beside those before them.
   !>
   !> By Gram-Schmidt orthogonalisation, twice (L. Giraud, J. Langou, M. Rozloznik, The loss of orthogonality in the
   !> Gram-Schmidt orthogonalization process, 2005). `matrix` (rows of this rank, n); `pivoted`: the longest remaining
