@@ -15,7 +15,6 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_SOURCE_GENERATOR "")
 set(CPACK_PACKAGE_NAME fuge)
 set(CPACK_PACKAGE_VENDOR "The fuge authors")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "frictionless elastic contact, exactly and with a certificate")
 set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_VERBATIM_VARIABLES ON)
@@ -27,6 +26,7 @@ if(FUGE_PACKAGE_HOMEPAGE)
 endif()
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 # The package of one library is no package yet when those that need the library are made.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src" "${PROJECT_BINARY_DIR}/sparse")
 set(stage "${PROJECT_BINARY_DIR}/packages/all")
@@ -36,20 +36,31 @@ set(CPACK_INSTALL_COMMANDS
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 file(WRITE "${PROJECT_BINARY_DIR}/packages/triggers" "activate-noawait ldconfig\n")
+# Each package has a summary of its own.
+file(WRITE "${PROJECT_BINARY_DIR}/packages/cpack.cmake" "set(CPACK_PACKAGE_DESCRIPTION_SUMMARY)\n")
+set(CPACK_PROJECT_CONFIG_FILE "${PROJECT_BINARY_DIR}/packages/cpack.cmake")
 
-set(description "fuge finds the points at which elastic bodies touch, the contact forces, the gaps and the rigid
-approach, from an influence matrix or by fast Fourier transforms on half-planes and half-spaces, exactly and with
+set(description "fuge finds the points at which elastic bodies touch, the contact
+forces, the gaps and the rigid approach, from an influence matrix or by
+fast Fourier transforms on half-planes and half-spaces, exactly and with
 a certificate.")
-string(REPLACE "\n" " " description "${description}")
 
-# fuge_package(name SECTION .. ABOUT .. [DEPENDS .. ] [RECOMMENDS ..] [FOR_ALL] [LIBRARY] FILES pattern ..)
+# The package of the compiler brings the commands gfortran and cc. Compilers of another version may do if they read the
+# same version of module files.
+set(for_fortran)
+if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU" AND CMAKE_Fortran_COMPILER_VERSION VERSION_GREATER_EQUAL 8
+    AND CMAKE_Fortran_COMPILER_VERSION VERSION_LESS 15)
+  set(for_fortran ", gfortran | gfortran-mod-15")
+endif()
+
+# fuge_package(name SECTION .. ABOUT .. [DEPENDS .. ] [RECOMMENDS ..] [FOR_ALL] FILES pattern ..)
 #
 # A package of the files below the prefix that one of the regular expressions matches, without those that an earlier
-# package has; FOR_ALL architectures; a LIBRARY tells the linker that it is there.
+# package has; FOR_ALL architectures.
 set(fuge_packages)
 set(fuge_packaged)
 macro(fuge_package name)
-  cmake_parse_arguments(package "FOR_ALL;LIBRARY" "SECTION;ABOUT;DEPENDS;RECOMMENDS" "FILES" ${ARGN})
+  cmake_parse_arguments(package "FOR_ALL" "SECTION;ABOUT;DEPENDS;RECOMMENDS" "FILES" ${ARGN})
   string(TOUPPER "${name}" key)
   list(APPEND fuge_packages "${name}")
   set(CPACK_DEBIAN_${key}_PACKAGE_NAME "${name}")
@@ -61,12 +72,12 @@ macro(fuge_package name)
   if(package_RECOMMENDS)
     set(CPACK_DEBIAN_${key}_PACKAGE_RECOMMENDS "${package_RECOMMENDS}")
   endif()
+  if("${package_SECTION}" STREQUAL "libs")
+    set(CPACK_DEBIAN_${key}_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/packages/triggers")
+  endif()
   if(package_FOR_ALL)
     set(CPACK_DEBIAN_${key}_PACKAGE_ARCHITECTURE all)
     set(CPACK_DEBIAN_${key}_PACKAGE_SHLIBDEPS OFF)
-  endif()
-  if(package_LIBRARY)
-    set(CPACK_DEBIAN_${key}_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/packages/triggers")
   endif()
   install(CODE "
     set(PACKAGE ${name})
@@ -83,26 +94,27 @@ endmacro()
 
 set(links "The libraries that the package depends on have licences of their own; FFTW and parts of CHOLMOD are under the GPL.")
 set(exactly "(= ${PROJECT_VERSION})")
-fuge_package(libfuge${fuge_soversion} LIBRARY SECTION libs
+fuge_package(libfuge${fuge_soversion} SECTION libs
   ABOUT "frictionless elastic contact, shared library" FILES "^lib[^ ]*/libfuge\\.so\\..*")
 if(TARGET fuge_sparse)
-  fuge_package(libfuge-sparse${fuge_soversion} LIBRARY SECTION libs DEPENDS "libfuge${fuge_soversion} ${exactly}"
+  fuge_package(libfuge-sparse${fuge_soversion} SECTION libs DEPENDS "libfuge${fuge_soversion} ${exactly}"
     ABOUT "frictionless elastic contact, sparse stiffness matrices" FILES "^lib[^ ]*/libfuge_sparse\\.so\\..*")
   fuge_package(libfuge-sparse-dev SECTION libdevel
-    DEPENDS "libfuge-dev ${exactly}, libfuge-sparse${fuge_soversion} ${exactly}"
+    DEPENDS "libfuge-dev ${exactly}, libfuge-sparse${fuge_soversion} ${exactly}${for_fortran}"
     ABOUT "frictionless elastic contact, development files for sparse matrices"
     FILES "^lib.*/libfuge_sparse\\.so$" "^lib.*/fuge-sparse[^/]*$" "^lib.*/fuge_sparse-[^/]*$" "^lib.*/fuge_sparse\\.mod$")
 endif()
 if(TARGET fuge_mpi)
-  fuge_package(libfuge-mpi${fuge_soversion} LIBRARY SECTION libs DEPENDS "libfuge${fuge_soversion} ${exactly}"
+  fuge_package(libfuge-mpi${fuge_soversion} SECTION libs DEPENDS "libfuge${fuge_soversion} ${exactly}"
     ABOUT "frictionless elastic contact, surfaces over MPI" FILES "^lib[^ ]*/libfuge_mpi\\.so\\..*")
   fuge_package(libfuge-mpi-dev SECTION libdevel
-    DEPENDS "libfuge-dev ${exactly}, libfuge-mpi${fuge_soversion} ${exactly}, mpi-default-dev"
+    DEPENDS "libfuge-dev ${exactly}, libfuge-mpi${fuge_soversion} ${exactly}, mpi-default-dev${for_fortran}"
     ABOUT "frictionless elastic contact, development files for MPI"
     FILES "^lib.*/libfuge_mpi\\.so$" "^lib.*/fuge-mpi[^/]*$" "^lib.*/fuge_mpi-[^/]*$" "^lib.*/fuge_mpi\\.mod$"
       "^include/fuge_mpi\\.h$")
 endif()
-fuge_package(libfuge-dev SECTION libdevel DEPENDS "libfuge${fuge_soversion} ${exactly}" RECOMMENDS "gfortran, pkg-config"
+fuge_package(libfuge-dev SECTION libdevel DEPENDS "libfuge${fuge_soversion} ${exactly}${for_fortran}"
+  RECOMMENDS "pkg-config"
   ABOUT "frictionless elastic contact, development files for C and Fortran" FILES "^lib" "^include/" "/man3/")
 if(TARGET fuge_program)
   set(needed "libfuge${fuge_soversion} ${exactly}")

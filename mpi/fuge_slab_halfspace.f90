@@ -150,7 +150,7 @@ contains
     call self%free()
   end subroutine finish
 
-  !> Assignment: compute everything anew, because each variable frees its own. All ranks assign together; without memory
+  !> Assignment computes everything anew, because each variable frees its own. All ranks assign together; without memory
   !> the copy is not set.
   subroutine copy(self, source)
     class(fuge_mpi_halfspace_operator), intent(inout) :: self

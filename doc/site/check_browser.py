@@ -28,7 +28,8 @@ QUERIES = (("fuge_solve_smooth_punch", 1, "fuge_solve_smooth_punch"), ("fuge_sol
 LOOK = """(() => {
   const text = document.querySelector('main').cloneNode(true)
   text.querySelectorAll('pre, code, script, style').forEach(part => part.remove())
-  const raw = text.textContent.match(/\\$[^$\\n]{1,60}\\$|\\\\[(\\[][^\\n]{0,40}|\\\\(?:frac|alpha|sum)\\b[^\\n]{0,30}|fragment\\d+held/)
+  const raw = text.textContent.match(
+    /\\$[^$\\n]{1,60}\\$|\\\\[(\\[][^\\n]{0,40}|\\\\(?:frac|alpha|sum)\\b[^\\n]{0,30}|fragment\\d+held/)
   const wide = [...document.querySelectorAll('main *')].find(part => part.getBoundingClientRect().right > innerWidth + 1
     && !part.closest('pre, .wide, .katex-display, .katex-mathml, .katex svg'))
   return { scroll: document.documentElement.scrollWidth, width: innerWidth, raw: raw && raw[0],
@@ -36,7 +37,8 @@ LOOK = """(() => {
     wide: wide ? wide.outerHTML.slice(0, 90) : null,
     column: document.querySelector('main').getBoundingClientRect().width,
     formulas: document.querySelectorAll('.katex').length,
-    plain: [...document.querySelectorAll('.katex .mord')].slice(0, 1).some(part => !getComputedStyle(part).fontFamily.includes('KaTeX')),
+    plain: [...document.querySelectorAll('.katex .mord')].slice(0, 1).some(
+      part => !getComputedStyle(part).fontFamily.includes('KaTeX')),
     broken: [...document.images].filter(image => !image.naturalWidth).map(image => image.src) }
 })()"""
 NARROWEST_TEXT = 0.85
@@ -192,7 +194,8 @@ def main():
     site = given.site.resolve()
     pages = [path for path in sorted(site.rglob("*.html")) if given.only in path.relative_to(site).as_posix()]
     with concurrent.futures.ThreadPoolExecutor(BROWSERS) as pool:
-        shares = [pool.submit(check_pages, program(), pages[k::BROWSERS], site, given.pictures) for k in range(BROWSERS)]
+        shares = [pool.submit(check_pages, program(), pages[k::BROWSERS], site, given.pictures)
+                  for k in range(BROWSERS)]
         if not given.only:
             shares.append(pool.submit(check_use, program(), site))
         faults = sorted(said for share in shares for said in share.result())

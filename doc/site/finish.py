@@ -79,7 +79,8 @@ def broken_headings(page):
 
 
 def scrollable(page):
-    """The page with its tables in boxes that scroll."""
+    """The page with its tables in boxes that scroll, and with names in them that may be broken."""
+    page = re.sub(r"(?<=<code>)[^<\n]*_[^<\n]*(?=</code>)", lambda m: m[0].replace("_", "_<wbr>"), page)
     return re.sub(r'(?<!<div class="wide">)(<table.*?</table>)', r'<div class="wide">\1</div>', page, flags=re.S)
 
 
@@ -100,6 +101,8 @@ def finish(site, groups, fragments, shown):
         page = scrollable(page.replace("<!--contents-->", contents(page)))
         entries += search.sections(page, address, trail)
         page = broken_headings(page)
+        library = next((navigation.LIBRARIES[title] for title, _ in trail if title in navigation.LIBRARIES), "fuge")
+        page = page.replace("<code>use fuge</code> gives it too", f"<code>use {library}</code> gives it")
         page = page.replace("<!--trail-->", trail_html(trail, up))
         page = page.replace("<!--tree-->", navigation.as_html(groups, address, up))
         path.write_text(page)

@@ -49,7 +49,7 @@ def _opening(text, places, fragments):
     """The comment at the top, and what is declared before the first section."""
     end = text.index("*/") + 2
     comment = re.sub(r"SPDX-License-Identifier: \S+", "", text[:end])
-    comment = re.sub(r"/\* (fuge - [^\n]*)", lambda m: "/* " + m[1].removeprefix("fuge - ").strip().capitalize(), comment)
+    comment = re.sub(r"/\* fuge - ([^\n]*)", lambda m: "/* " + m[1].strip().capitalize(), comment)
     body = _held(comment_html(comment, places), fragments)
     return body + "".join(_item(said, code, places, fragments) for said, code in _items(text[end:]))
 
@@ -127,8 +127,8 @@ def _table(lines, places):
                 rows.append([match["names"], match["way"] or "", match["text"]] if match else [part, "", ""])
         else:
             rows[-1][2] += " " + line.strip()
-    cells = "".join(f"<tr><td><code>{html.escape(name)}</code></td><td>{way}</td><td>{_linked(text, places)}</td></tr>\n"
-                    for name, way, text in rows)
+    cells = "".join(f"<tr><td><code>{html.escape(name)}</code></td><td>{way}</td>"
+                    f"<td>{_linked(text, places)}</td></tr>\n" for name, way, text in rows)
     return f'<div class="wide"><table class="arguments">\n{cells}</table></div>'
 
 

@@ -28,8 +28,9 @@ def page(readme):
             f"## Install\n\n~~~sh\n{commands}\n~~~\n\n"
             "For Python `pip install .`; all other ways are in [Installation](doc/install.md).\n\n"
             "## Where to go\n\n"
-            "[The manual](doc/index.md) lists all pages. [Overview](README.md) goes on from here: limits, licence, how to "
-            "cite. [Performance](doc/performance.md) says which engine to choose, [Theory](doc/theory.md) how they "
+            "[The manual](doc/index.md) lists all pages. [Overview](README.md) goes on from here: limits, licence, "
+            "how to cite. [Performance](doc/performance.md) says which engine to choose, "
+            "[Theory](doc/theory.md) how they "
             "work, [Conventions](doc/conventions.md) what signs and units mean.\n")
     # What is not here is on the page of README.md.
     return re.sub(r"\]\(#", "](README.md#", text)

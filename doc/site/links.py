@@ -32,10 +32,17 @@ def _outside(code, text, change):
     return "".join(part if k % 2 else change(part) for k, part in enumerate(parts))
 
 
+def with_links(text, change):
+    """The text with each link replaced by `change` of its match; code may be in a link, but no link in code."""
+    either = re.compile(r"`[^`\n]*`|" + LINK.pattern)
+    return outside_blocks(text, lambda part: either.sub(
+        lambda match: match[0] if match[0].startswith("`") else change(match), part))
+
+
 def targets(text):
     """The targets of the links of a page, as they come."""
     found = []
-    outside_code(text, lambda part: found.extend(match[1] for match in LINK.findall(part)) or part)
+    with_links(text, lambda match: found.append(match[2]) or match[0])
     return found
 
 

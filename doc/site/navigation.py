@@ -17,8 +17,10 @@ TOPICS = {
     "halfplane": "Half-plane", "halfspace": "Half-space", "hertz": "Hertz", "smooth_punch": "Smooth punch",
     "round_punch": "Round punch", "stress": "Stresses", "condensation": "Finite elements", "sparse": "Sparse stiffness",
     "pairs": "Pairs of surfaces", "bodies": "Several bodies", "fe_files": "Meshes and their files", "io": "Other files",
-    "numerics": "Numerics",
+    "numerics": "Numerics", "mpi": "Surfaces over MPI",
 }
+# The modules that give the names of topics with a library of their own.
+LIBRARIES = {"Sparse stiffness": "fuge_sparse", "Surfaces over MPI": "fuge_mpi"}
 # Pages whose headings do not say what they are among others.
 TITLES = {"readme": "Overview"}
 

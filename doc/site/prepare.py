@@ -17,9 +17,9 @@ import navigation
 import python_pages
 from dialect import for_markdown
 from fragments import Fragments
-from links import LINK, outside_blocks, outside_code
+from links import outside_blocks, outside_code, with_links
 from reduce import reduced, without_uses
-from sources import described, opening_sentence, public_modules, public_names, taken_names
+from sources import FACADES, described, opening_sentence, public_modules, public_names, taken_names
 
 # Modules in the order in which a reader meets them; others follow.
 FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_matrix_operator",
@@ -115,7 +115,7 @@ class Site:
             place = c or fortran if page.name in C_PAGES else fortran or c
             return f"[`{name}`]({place})" if place else match.group(0)
         text = self.fragments.hold_fenced_formulas(text)
-        text = outside_code(text, lambda part: LINK.sub(replace, self.fragments.hold_formulas(part)))
+        text = with_links(outside_code(text, self.fragments.hold_formulas), replace)
         return for_markdown(outside_blocks(text, lambda part: NAME.sub(refer, part)))
 
     def picture(self, path):
@@ -153,7 +153,7 @@ def code(text, language):
 
 
 def interface(root):
-    """All names that module fuge takes from others, and those of fuge_sparse, by topic and module."""
+    """All public names, by topic and module."""
     taken = taken_names(root)
     order = [name for name in FIRST if name in taken] + [name for name in taken if name not in FIRST]
     topics = {}
@@ -165,9 +165,11 @@ def interface(root):
             shown = f"[{name}](../module/{module}.html)" if kind == "constant" else f"[[{name}]]"
             rows += f"| {shown} | {kind} | {text} |\n"
         topics.setdefault(navigation.topic(root, path), []).append(rows)
-    body = ("`use fuge` gives all names of this page but those of fuge_sparse, by subject and by the module that defines "
-            "them. Other lists: [all procedures](../lists/procedures.html), [all types](../lists/types.html), "
-            "[all modules](../lists/modules.html), [abstract interfaces](../lists/absint.html).\n")
+    body = ("`use fuge` gives all names of this page, by subject and by the module that defines them; only those on "
+            "[sparse stiffness](#sparse-stiffness) need `use fuge_sparse`, and those on [surfaces over "
+            "MPI](#surfaces-over-mpi) `use fuge_mpi`. Other lists: [all procedures](../lists/procedures.html), "
+            "[all types](../lists/types.html), [all modules](../lists/modules.html), "
+            "[abstract interfaces](../lists/absint.html).\n")
     for topic in navigation.in_order(topics):
         body += f"\n## {topic}\n" + "".join(topics[topic])
     return body
@@ -180,15 +182,26 @@ def write_sources(root, work):
     def refer(match):
         return f"[[{match.group(1)}]]" if match.group(1) in known else match.group(0)
 
-    facade = root/"src/fuge.f90"
     taken = taken_names(root)
     more = "!> All names, by subject: [Fortran interface](|page|/fortran.html).\n"
-    text = facade.read_text().replace("\nmodule fuge\n", f"\n{more}module fuge\n")
-    (work/"src/fuge.f90").write_text(text)
+    for facade in FACADES:
+        text = (root/facade).read_text()
+        (work/"src"/pathlib.Path(facade).name).write_text(re.sub(r"^(?=module \w+$)", more, text, flags=re.M))
     for _, path, names in public_modules(root, list(taken), taken):
         text = without_uses(reduced(path.read_text(), set(names)), [*taken, "fuge_sparse"])
+        text = re.sub(r"(?<=extends\()\w+", lambda base: public_base(root, base.group(0), known), text)
         text = re.sub(r"^ *!>.*$", lambda line: NAME.sub(refer, with_constants(line.group(0))), text, flags=re.M)
         (work/"src"/path.name).write_text(for_markdown(text, "!>"))
+
+
+def public_base(root, base, known):
+    """The type itself, or the one that it extends, if that has a page and it has none."""
+    if base not in known:
+        for path in [*(root/"src").rglob("*.f90"), *(root/"mpi").glob("*.f90")]:
+            match = re.search(rf"^ *type\b.*extends\((\w+)\).*:: *{base}$", path.read_text(), re.M)
+            if match:
+                return match.group(1)
+    return base
 
 
 def with_constants(line):

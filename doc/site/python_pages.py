@@ -94,7 +94,8 @@ def _paragraph(lines):
 
 def _section(lines):
     """A list of items, or text with examples."""
-    if any(line.startswith(">>>") for line in lines) or not any(line.startswith(" ") or " : " in line for line in lines):
+    has_items = any(line.startswith(" ") or " : " in line for line in lines)
+    if any(line.startswith(">>>") for line in lines) or not has_items:
         parts = re.split(r"\n\s*\n", "\n".join(lines).strip("\n"))
         return "\n".join(_paragraph(part.split("\n")) for part in parts if part.strip())
     return _items(lines)

@@ -10,7 +10,9 @@ import re
 
 PROCEDURE = re.compile(r"\s*(?:(?:pure|elemental|recursive|impure)\s+)*(subroutine|function)\s+(\w+)", re.I)
 TYPE = re.compile(r"\s*type\b(?!\s*\().*::\s*(\w+)\s*$", re.I)
-BINDING = re.compile(r"\s*(?:procedure\b[^:]*::\s*\w+(?:\s*=>\s*(\w+))?|final\s*::\s*(\w+))", re.I)
+BINDING = re.compile(r"\s*procedure\b[^:]*::\s*\w+(?:\s*=>\s*(\w+))?", re.I)
+# Finalisers are nobody's business but the compiler's.
+FINAL = re.compile(r"\s*final\s*::", re.I)
 DEFERRED = re.compile(r"\s*procedure\((\w+)\)", re.I)
 
 
@@ -92,7 +94,8 @@ def reduced(source, keep):
         held.append((doc, block))
         name = TYPE.match(block[0]) if block else None
         if name and name.group(1) in keep:
-            bound |= {a or b for line in block for a, b in BINDING.findall(line) if a or b}
+            block[:] = [line for line in block if not FINAL.match(line)]
+            bound |= {target for line in block for target in BINDING.findall(line) if target}
             bound |= {m.group(1) for m in (re.match(r"\s*procedure\b[^:(]*::\s*(\w+)", line) for line in block) if m}
             interfaces |= {m.group(1) for m in map(DEFERRED.match, block) if m}
     if interfaces:

@@ -46,7 +46,7 @@
     if (entry.plainTitle.includes(query)) sum += 10
     // Where a constant is declared or explained.
     if (entry.names.includes(query)) sum += 70
-    const aside = entry.place.startsWith('Other files') || entry.place.startsWith('The project')
+    const aside = entry.address.startsWith('page/file_') || entry.place.startsWith('The project')
     return (aside ? 0.5 : 1) * sum
   }
 

@@ -6,7 +6,7 @@ import json
 import re
 
 # Headings that many pages have.
-PARTS = ("Components", "Procedures", "Constants", "Types and procedures")
+PARTS = ("Components", "Procedures", "Inherited procedures", "Constants", "Types and procedures")
 HEADINGS = ("h1", "h2", "h3", "h4")
 SKIPPED = ("nav", "script", "style", "details")
 

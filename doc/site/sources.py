@@ -37,19 +37,24 @@ def described(source):
     return found
 
 
+# Modules that pass on the names of others, one for each library but fuge_sparse, which has one module.
+FACADES = ("src/fuge.f90", "mpi/fuge_mpi.f90")
+
+
 def source_of(root, module):
-    return next((root/"src").rglob(f"{module}.f90"))
+    return next(path for folder in ("src", "mpi") for path in (root/folder).rglob(f"{module}.f90"))
 
 
 def taken_names(root):
-    """The names that module fuge takes from others, by the module that defines them.
+    """The names that the facades take from other modules, by the module that defines them.
 
     A module may pass on what it takes from another one.
     """
     found = {}
-    for module, names in exports((root/"src/fuge.f90").read_text()).items():
-        for name in names:
-            found.setdefault(_defining(root, module, name), []).append(name)
+    for facade in FACADES:
+        for module, names in exports((root/facade).read_text()).items():
+            for name in names:
+                found.setdefault(_defining(root, module, name), []).append(name)
     return found
 
 

@@ -8,6 +8,7 @@ module fuge_c_results
   use fuge_c_types, only: c_info, solver_handle, to_c, copy_integers, copy_reals, copy_string, require_pointer
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
+  use fuge_kinds, only: dp
   use fuge_ranks, only: shared_ranks
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
@@ -49,17 +50,22 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
     type(shared_ranks) :: ranks
+    real(dp), allocatable :: sums(:)
 
     status = find_solution(solver, resultant, 'resultant', handle)
     if (status /= FUGE_DONE) return
     ranks = handle%operator%operator%ranks()
     associate (problem => handle%problem, force => handle%solution%force)
       if (allocated(problem%modes)) then
-        call copy_reals(matmul(force, problem%modes), resultant)
+        allocate (sums(size(problem%modes, 2)))
+        sums = matmul(force, problem%modes)
       else
-        call copy_reals([ranks%total(sum(force))], resultant)
+        allocate (sums(1))
+        sums = sum(force)
       end if
     end associate
+    call ranks%add(sums)
+    call copy_reals(sums, resultant)
   end function c_get_resultant
 
   !> First-order changes of the last solution with the gaps and one load, see `derivative` of `fuge_solver`.

@@ -1,5 +1,6 @@
 !> Surfaces and contact pairs from and to plain arrays, for FUGECP and FUGECX.
 module fuge_f77_pairs
+  use fuge_contact_pairs_search, only: fuge_find_pairs
   use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
@@ -8,12 +9,43 @@ module fuge_f77_pairs
   implicit none
   private
 
-  public :: check_pair_room, check_surface_sizes, copy_pairs, set_pair_options, set_surface
+  public :: find_contact_points
 
   !> Kinds of contact: NKIND of FUGECP.
   integer, parameter :: ONE_SIDED = 1, WITH_PLAY = 2, TIED = 3
 
 contains
+
+  !> FUGECX, whose arguments these are, and FUGECP with the angle and the bodies of its own.
+  subroutine find_contact_points(ndim, nn, x, np, nf, iface, id, nno, xo, npo, nfo, ifaceo, ido, method, norm, nsmth, &
+                                 nkind, d, reach, crease, revolution, maxn, nw, n, nwmin, idof, dn, gap, nstop, play, &
+                                 area, node, nopp, info)
+    integer, intent(in) :: ndim, nn, np, nf, nno, npo, nfo, method, norm, nsmth, nkind, maxn, nw
+    integer, intent(in) :: iface(np, nf), id(ndim, nn), ifaceo(npo, nfo), ido(ndim, nno)
+    real(dp), intent(in) :: x(ndim, nn), xo(ndim, nno), d, reach, crease
+    logical, intent(in) :: revolution
+    integer, intent(inout) :: n, nwmin, idof(nw, maxn), nstop(maxn), node(maxn), nopp(maxn)
+    real(dp), intent(inout) :: dn(nw, maxn), gap(maxn), play(maxn), area(maxn)
+    type(fuge_info), intent(out) :: info
+    type(fuge_surface_mesh) :: contact, opposite
+    type(fuge_pair_options) :: options
+    type(fuge_contact_pairs) :: pairs
+
+    call check_surface_sizes(ndim, nn, np, nf, '', info)
+    call check_surface_sizes(ndim, nno, npo, nfo, 'O', info)
+    call set_pair_options(method, norm, nsmth, nkind, d, reach, options, info)
+    options%crease = crease
+    options%revolution = revolution
+    call set_surface(x, iface, id, contact, info)
+    call set_surface(xo, ifaceo, ido, opposite, info)
+    if (.not. info%failed()) call fuge_find_pairs(contact, opposite, options, pairs, info)
+    ! Without room the caller asks for the sizes only.
+    if (maxn /= 0) call check_pair_room(pairs, maxn, nw, info)
+    if (info%failed()) return
+    n = pairs%points()
+    nwmin = size(pairs%dof, 1)
+    if (maxn /= 0) call copy_pairs(pairs, idof, dn, gap, nstop, play, area, node, nopp)
+  end subroutine find_contact_points
 
   !> Refuse sizes of a surface that no arrays have (FUGE_ERR_SIZE); `name` is '' or 'O', the end of their names.
   pure subroutine check_surface_sizes(ndim, nodes, most, faces, name, info)

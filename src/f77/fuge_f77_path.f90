@@ -42,14 +42,14 @@ contains
   end subroutine follow_problem
 
   !> Copy as many entries of a path as the arrays have room for: `motion` and `rate` (m, room), the others (room).
-  pure subroutine copy_events(path, parameter, motion, rate, point, state, contacts)
+  pure subroutine copy_events(path, parameters, motion, rate, point, state, contacts)
     type(fuge_path), intent(in) :: path
-    real(dp), intent(inout) :: parameter(:), motion(:, :), rate(:, :)
+    real(dp), intent(inout) :: parameters(:), motion(:, :), rate(:, :)
     integer, intent(inout) :: point(:), state(:), contacts(:)
     integer :: last
 
-    last = min(path%entries, size(parameter))
-    parameter(:last) = path%parameter(:last)
+    last = min(path%entries, size(parameters))
+    parameters(:last) = path%parameter(:last)
     motion(:, :last) = path%motion(:, :last)
     rate(:, :last) = path%rate(:, :last)
     point(:last) = path%point(:last)

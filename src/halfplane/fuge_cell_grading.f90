@@ -7,7 +7,6 @@
 !> incomplete beta function I_t(a, b) with whole a and b: distances grow as t**a from the left end and as (1 - t)**b
 !> from the right one.
 module fuge_cell_grading
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
@@ -30,6 +29,8 @@ module fuge_cell_grading
 
   !> A width has to be this many roundings of the largest coordinate, so that cells lie side by side to a thousandth.
   real(dp), parameter :: FEWEST_ROUNDINGS = 1.0e3_dp
+  !> With an interval between numbers of at most this size, no cell beyond it overflows.
+  real(dp), parameter :: LARGEST = 0.125_dp*huge(1.0_dp)
 
 contains
 
@@ -115,12 +116,16 @@ contains
     call check_finite(left, 'left', info)
     if (.not. info%failed()) call check_finite(right, 'right', info)
     if (info%failed()) return
-    if (left < right) return
-    call report(info, FUGE_ERR_WIDTH, 'the interval from '//text(left)//' to '//text(right) &
-                //' has no length: left has to be less than right')
+    if (.not. left < right) then
+      call report(info, FUGE_ERR_WIDTH, 'the interval from '//text(left)//' to '//text(right) &
+                  //' has no length: left has to be less than right')
+    else if (max(abs(left), abs(right)) > LARGEST) then
+      call report(info, FUGE_ERR_OVERFLOW, 'the interval from '//text(left)//' to '//text(right) &
+                  //' is so far out that the cells would overflow: measure lengths in other units')
+    end if
   end subroutine check_interval
 
-  !> Refuse cells whose ends overflow, or are hardly more than rounding apart.
+  !> Refuse cells whose ends are hardly more than rounding apart.
   pure subroutine check_widths(left, right, ends, beyond, n, info)
     real(dp), intent(in) :: left, right
     integer, intent(in) :: ends(2), beyond(2), n
@@ -129,11 +134,6 @@ contains
 
     first = left - (right - left)*share(beyond(1), n, ends)
     last = right + (right - left)*share(beyond(2), n, ends(2:1:-1))
-    if (.not. (ieee_is_finite(first) .and. ieee_is_finite(last))) then
-      call report(info, FUGE_ERR_OVERFLOW, 'the cells from '//text(left)//' to '//text(right) &
-                  //' and beyond overflow: measure lengths in other units')
-      return
-    end if
     narrowest = (right - left)*min(share(1, n, ends), share(1, n, ends(2:1:-1)))
     if (narrowest > FEWEST_ROUNDINGS*spacing(max(abs(first), abs(last)))) return
     call report(info, FUGE_ERR_WIDTH, 'a cell of width '//text(narrowest)//' between '//text(left)//' and '// &

@@ -120,7 +120,7 @@ contains
     if (allocated(problem%modes)) then
       ! Motions are solved for together: each one that moves a point is rounded like the largest magnitude of its body.
       rigid_magnitude = rigid_magnitude + max(count(abs(problem%modes) > 0.0_dp, 2), 1) &
-                        *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included))
+                        *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included), ranks)
     end if
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
                                            .not. allocated(problem%modes), ranks)
@@ -215,7 +215,7 @@ contains
     body_force = largest
     ! Not by assignment, for which gfortran compares bounds that are not there yet.
     if (allocated(problem%modes)) then
-      allocate (body_forces, source=largest_of_bodies(problem%modes, abs(solution%force)))
+      allocate (body_forces, source=largest_of_bodies(problem%modes, abs(solution%force), ranks))
       allocate (loaded, source=is_loaded(problem))
     end if
     do k = 1, size(magnitude)
@@ -265,7 +265,7 @@ contains
         relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
     end do
     if (allocated(problem%modes)) then
-      violation = max(violation, imbalance_in_modes(problem, solution%force))
+      violation = max(violation, imbalance_in_modes(problem, solution%force, ranks))
     else if (.not. is_prescribed(problem, 1)) then
       sums = [sum(solution%force), sum(abs(solution%force))]
       call ranks%add(sums)
@@ -277,28 +277,33 @@ contains
   !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
   !> at least to a part of the largest force of the body, since along an axis without a load forces at tied points may be
   !> the rounding of those along the other axes.
-  pure function imbalance_in_modes(problem, force) result(violation)
+  function imbalance_in_modes(problem, force, ranks) result(violation)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:)
+    type(shared_ranks), intent(in) :: ranks
     real(dp) :: violation
-    real(dp) :: body_forces(size(force)), own, largest, imbalance
+    real(dp) :: body_forces(size(force)), own, largest, imbalance, sums(2), extremes(4)
     logical :: loaded(size(force))
     integer :: j
 
     violation = 0.0_dp
-    body_forces = largest_of_bodies(problem%modes, abs(force))
+    body_forces = largest_of_bodies(problem%modes, abs(force), ranks)
     loaded = is_loaded(problem)
     do j = 1, size(problem%modes, 2)
       if (is_prescribed(problem, j)) cycle
       associate (mode => problem%modes(:, j), resultant => problem%resultant(j))
-        own = maxval(body_forces, mask=abs(mode) > 0.0_dp)
-        largest = maxval(abs(force))
-        if (any(loaded .and. abs(mode) > 0.0_dp)) largest = own
-        largest = ROUNDINGS*epsilon(largest)*maxval(abs(mode))*largest
-        imbalance = max(abs(sum(mode*force) - resultant) - largest, 0.0_dp)
+        extremes = [maxval(body_forces, mask=abs(mode) > 0.0_dp), maxval(abs(force)), maxval(abs(mode)), &
+                    merge(1.0_dp, 0.0_dp, any(loaded .and. abs(mode) > 0.0_dp))]
+        call ranks%raise(extremes)
+        sums = [sum(mode*force), sum(abs(mode*force))]
+        call ranks%add(sums)
+        own = extremes(1)
+        largest = extremes(2)
+        if (extremes(4) > 0.0_dp) largest = own
+        largest = ROUNDINGS*epsilon(largest)*extremes(3)*largest
+        imbalance = max(abs(sums(1) - resultant) - largest, 0.0_dp)
         if (abs(resultant) > 0.0_dp) own = 0.0_dp
-        violation = max(violation, relative(imbalance, max(sum(abs(mode*force)), abs(resultant), &
-                                                           BESIDE*maxval(abs(mode))*own)))
+        violation = max(violation, relative(imbalance, max(sums(2), abs(resultant), BESIDE*extremes(3)*own)))
       end associate
     end do
   end function imbalance_in_modes

@@ -14,7 +14,7 @@ contains
   !> motions, the plays, and what the loads displace.
   !>
   !> `force` (n), not all zero, makes the terms `elastic` (n) of A f; loads that are smaller displace less. `included`
-  !> (n) marks the points that take part. `ranks` may share the points of a problem without modes and plays.
+  !> (n) marks the points that take part. `ranks` may share the points.
   function data_length(problem, force, elastic, included, ranks) result(length)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:), elastic(:)
@@ -28,7 +28,7 @@ contains
     load = 0.0_dp
     do j = 1, problem%mode_count()
       arm = 1.0_dp
-      if (allocated(problem%modes)) arm = maxval(abs(problem%modes(:, j)), mask=included)
+      if (allocated(problem%modes)) arm = ranks%largest(maxval(abs(problem%modes(:, j)), mask=included))
       if (.not. is_prescribed(problem, j)) then
         if (arm > 0.0_dp) load = max(load, abs(problem%resultant(j))/arm)
       else if (allocated(problem%modes)) then
@@ -45,20 +45,23 @@ contains
       if (.not. is_prescribed(problem, 1)) length = extremes(2) + extremes(3)
     end if
     if (allocated(problem%gap_upper)) length = max(length, &
-      maxval(problem%gap_upper, mask=included .and. problem%gap_upper < huge(length)))
+      ranks%largest(maxval(problem%gap_upper, mask=included .and. problem%gap_upper < huge(length))))
     length = length + min(load/ranks%total(sum(abs(force))), 1.0_dp)*extremes(4)
   end function data_length
 
   !> At each point, the largest of `values` (>= 0) among the points that some mode moves together
-  !> with it; 0 for a point that no mode moves.
-  pure function largest_of_bodies(modes, values) result(largest)
+  !> with it; 0 for a point that no mode moves. Ranks, `sharing`, may share the points.
+  function largest_of_bodies(modes, values, sharing) result(largest)
     real(dp), intent(in) :: modes(:, :), values(:)
-    real(dp) :: largest(size(values))
+    type(shared_ranks), intent(in), optional :: sharing
+    real(dp) :: largest(size(values)), of_mode(size(modes, 2))
     integer :: j
 
+    of_mode = [(maxval(values, mask=abs(modes(:, j)) > 0.0_dp), j=1, size(of_mode))]
+    if (present(sharing)) call sharing%raise(of_mode)
     largest = 0.0_dp
     do j = 1, size(modes, 2)
-      where (abs(modes(:, j)) > 0.0_dp) largest = max(largest, maxval(values, mask=abs(modes(:, j)) > 0.0_dp))
+      where (abs(modes(:, j)) > 0.0_dp) largest = max(largest, of_mode(j))
     end do
   end function largest_of_bodies
 

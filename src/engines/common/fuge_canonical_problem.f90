@@ -5,13 +5,15 @@
 !> carry is refused here.
 module fuge_canonical_problem
   use, intrinsic :: iso_c_binding, only: c_long_long
-  use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text, text
   use fuge_orthogonal_modes, only: bodies_of_modes, make_orthogonal, mode_change, mode_fault
   use fuge_problem_type, only: fuge_problem
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_ranks, only: shared_ranks
+  use fuge_shared_equilibrium, only: find_shared_equilibrium
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, &
+    FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
@@ -46,6 +48,8 @@ module fuge_canonical_problem
     real(dp), allocatable :: feasible_force(:)
     !> The paper's problem: one translation, one-sided, all points.
     logical :: plain = .false.
+    !> The ranks that share the points; the arrays are those of this one.
+    type(shared_ranks) :: ranks = shared_ranks()
     !> Number of the body of each point, (n), 0 for a point that no mode moves; not allocated for one body.
     integer, allocatable, private :: body(:)
     !> Positions of the free modes among all, and how to get from `modes` to those given.
@@ -75,13 +79,16 @@ module fuge_canonical_problem
 contains
 
   !> The canonical form of a checked problem, without its matrix. Errors: FUGE_ERR_MEMORY, FUGE_ERR_MODES for
-  !> linearly dependent modes, FUGE_ERR_NO_EQUILIBRIUM.
-  subroutine make_canonical(problem, canonical, info)
+  !> linearly dependent modes, FUGE_ERR_NO_EQUILIBRIUM. Ranks, `sharing`, may share the points: then all of them call
+  !> it, with the same errors, and FUGE_ERR_UNSUPPORTED for modes of several bodies.
+  subroutine make_canonical(problem, canonical, info, sharing)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(out) :: canonical
     type(fuge_info), intent(inout) :: info
+    type(shared_ranks), intent(in), optional :: sharing
     integer :: j, n, m, stat
 
+    if (present(sharing)) canonical%ranks = sharing
     n = problem%points()
     canonical%plain = problem%is_plain()
     allocate (canonical%gap(n), canonical%upper(n), canonical%excluded(n), stat=stat)
@@ -98,8 +105,9 @@ contains
     end if
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
-      return
     end if
+    call canonical%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     call apply_prescribed(problem, canonical)
     call collect_excluded(problem, canonical)
     if (.not. allocated(problem%modes)) then
@@ -166,7 +174,7 @@ contains
     type(mode_fault) :: fault
 
     call make_orthogonal(columns, canonical%excluded, canonical%modes, canonical%change, canonical%has_translation, &
-                         fault)
+                         fault, canonical%ranks)
     if (fault%stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
     else if (fault%idle > 0) then
@@ -326,18 +334,25 @@ contains
     allocate (canonical%feasible_force(size(canonical%gap)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium')
-      return
     end if
+    call canonical%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     canonical%feasible_force = 0.0_dp
     if (size(canonical%load) < 1) return
-    if (all(canonical%excluded)) then
+    if (canonical%ranks%everywhere(all(canonical%excluded))) then
       ! Without a load too: gaps could not be counted from any point.
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'all points are excluded: nothing resists the free motions; ' &
                   //'prescribe them, or let points take part')
       return
     end if
     call canonical%change%orthogonal_load(problem%resultant(canonical%free), canonical%load, rounding)
-    body = bodies_of_modes(canonical%modes)
+    body = bodies_of_modes(canonical%modes, canonical%ranks)
+    if (any(body > 1) .and. .not. canonical%ranks%is_alone()) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'mode '//index_text(canonical%free(maxloc(body, dim=1)))//' moves no ' &
+                  //'point that mode '//index_text(canonical%free(1))//' moves: ranks share one body, so solve each ' &
+                  //'body by itself, or all of them on one rank')
+      return
+    end if
     if (any(body > 1)) call number_points(body, canonical)
     remainder = 0.0_dp
     do j = 1, size(body)
@@ -377,13 +392,13 @@ contains
     pushes = any(abs(modes) > 0.0_dp, dim=2) .and. .not. canonical%excluded
     ! The orthogonal modes of a body share their rounding.
     noise = max(rounding(columns), epsilon(noise)*maxval(abs(canonical%load(columns))))
-    call find_equilibrium(modes, canonical%load(columns), pushes, pushes .and. canonical%upper < huge(1.0_dp), &
-                          force, rest, noise)
+    call find_shared_equilibrium(canonical%ranks, modes, canonical%load(columns), pushes, &
+                                 pushes .and. canonical%upper < huge(1.0_dp), force, rest, noise)
     if (any(abs(rest) > 0.0_dp)) then
       remainder(columns) = rest
       return
     end if
-    call move_to_edge(modes, noise, canonical%load, columns, force)
+    call move_to_edge(canonical%ranks, modes, noise, canonical%load, columns, force)
     canonical%feasible_force = canonical%feasible_force + force
   end subroutine balance_body
 
@@ -391,19 +406,21 @@ contains
   !> edge, where motions without resistance would grow: the load is then moved to the edge.
   !>
   !> `modes` (n, p) those in `columns` (p) with the `noise` (p) of their loads; `force` (n) carries them.
-  subroutine move_to_edge(modes, noise, load, columns, force)
+  subroutine move_to_edge(ranks, modes, noise, load, columns, force)
+    type(shared_ranks), intent(in) :: ranks
     real(dp), intent(in) :: modes(:, :), noise(:)
     integer, intent(in) :: columns(:)
     real(dp), intent(inout) :: load(:), force(:)
     real(dp) :: nearest(size(force)), carried(size(noise)), weight(size(noise)), rest(size(noise)), least
 
-    least = NO_FORCE*maxval(abs(force))
-    if (count(abs(force) > least) >= size(columns) .or. .not. all(noise > 0.0_dp)) return
+    least = NO_FORCE*ranks%largest(maxval(abs(force)))
+    if (ranks%total_count(count(abs(force) > least)) >= size(columns) .or. .not. all(noise > 0.0_dp)) return
     ! Loads with little rounding are met best.
     weight = minval(noise)/noise
-    call find_equilibrium(modes*spread(weight, 1, size(force)), load(columns)*weight, force > least, force < -least, &
-                          nearest, rest, noise*weight)
+    call find_shared_equilibrium(ranks, modes*spread(weight, 1, size(force)), load(columns)*weight, force > least, &
+                                 force < -least, nearest, rest, noise*weight)
     carried = matmul(nearest, modes)
+    call ranks%add(carried)
     if (.not. all(abs(load(columns) - carried) <= ROUNDINGS*noise)) return
     load(columns) = carried
     force = nearest
@@ -443,15 +460,20 @@ contains
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: translation, tilt
     type(fuge_info), intent(inout) :: info
-    real(dp) :: x(size(canonical%gap))
+    real(dp) :: x(size(canonical%gap)), extremes(4)
 
-    if (size(canonical%free) /= 2 .or. any(canonical%upper < huge(x) .and. .not. canonical%excluded)) return
+    if (size(canonical%free) /= 2) return
+    if (canonical%ranks%anywhere(any(canonical%upper < huge(x) .and. .not. canonical%excluded))) return
     associate (w => problem%resultant(canonical%free), unit => problem%modes(:, canonical%free(translation)))
-      if (.not. (minval(unit) > 0.0_dp .and. maxval(unit) <= minval(unit) .and. w(translation) > 0.0_dp)) return
+      extremes(1:2) = [-minval(unit), maxval(unit)]
+      call canonical%ranks%raise(extremes(1:2))
+      if (.not. (-extremes(1) > 0.0_dp .and. extremes(2) <= -extremes(1) .and. w(translation) > 0.0_dp)) return
       x = problem%modes(:, canonical%free(tilt))/unit
+      extremes(3:4) = [-minval(x, mask=.not. canonical%excluded), maxval(x, mask=.not. canonical%excluded)]
+      call canonical%ranks%raise(extremes(3:4))
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(tilt)/w(translation)) &
-                  //', but the points reach from '//text(minval(x, mask=.not. canonical%excluded))//' to ' &
-                  //text(maxval(x, mask=.not. canonical%excluded))//' only: move the load between them')
+                  //', but the points reach from '//text(-extremes(3))//' to ' &
+                  //text(extremes(4))//' only: move the load between them')
     end associate
   end subroutine report_line_of_action
 

@@ -12,7 +12,7 @@ module fuge_equilibrium
   implicit none
   private
 
-  public :: find_equilibrium
+  public :: closing_work, find_equilibrium, is_in_equilibrium, proves_no_equilibrium
 
   !> A remainder below this fraction of the resultant is rounding.
   real(dp), parameter :: NEGLIGIBLE = 1.0e-11_dp
@@ -35,7 +35,7 @@ contains
     logical, intent(in) :: pushes(:), pulls(:)
     real(dp), intent(out) :: force(:), remainder(:)
     real(dp), intent(in), optional :: rounding(:)
-    real(dp) :: work(size(force)), noise(size(resultant)), rest(size(resultant)), least
+    real(dp) :: work(size(force)), noise(size(resultant)), rest(size(resultant))
     integer :: state(size(force)), newest, iteration
 
     noise = epsilon(noise)*maxval(abs(resultant))
@@ -47,11 +47,7 @@ contains
       if (is_in_equilibrium(modes, resultant, noise, force, remainder)) exit
       ! The remainder is a difference, and so are these works.
       rest = noise + epsilon(noise)*matmul(abs(force), abs(modes))
-      work = matmul(modes, remainder)
-      least = max(NEGLIGIBLE*maxval(abs(remainder)), ROUNDINGS*maxval(rest))
-      where (abs(work) <= least*sum(abs(modes), dim=2)) work = 0.0_dp
-      where (.not. pulls) work = max(work, 0.0_dp)
-      where (.not. pushes) work = min(work, 0.0_dp)
+      work = closing_work(modes, remainder, rest, pushes, pulls)
       where (state /= FUGE_OPEN) work = 0.0_dp
       newest = maxloc(abs(work), dim=1)
       if (abs(work(newest)) <= 0.0_dp) then
@@ -65,6 +61,21 @@ contains
     ! Equilibrium holds, or is not decided; the certificate of the solve then decides.
     remainder = 0.0_dp
   end subroutine find_equilibrium
+
+  !> How much each point closes along the motion that is the remainder of the resultants, (n), where its force may have
+  !> that sign; 0 where that is rounding. `rest` (m) is the rounding of the remainder.
+  pure function closing_work(modes, remainder, rest, pushes, pulls) result(work)
+    real(dp), intent(in) :: modes(:, :), remainder(:), rest(:)
+    logical, intent(in) :: pushes(:), pulls(:)
+    real(dp) :: work(size(modes, 1))
+    real(dp) :: least
+
+    work = matmul(modes, remainder)
+    least = max(NEGLIGIBLE*maxval(abs(remainder)), ROUNDINGS*maxval(rest))
+    where (abs(work) <= least*sum(abs(modes), dim=2)) work = 0.0_dp
+    where (.not. pulls) work = max(work, 0.0_dp)
+    where (.not. pushes) work = min(work, 0.0_dp)
+  end function closing_work
 
   !> Is the remainder of each resultant no more than rounding of it and of its terms?
   pure function is_in_equilibrium(modes, resultant, noise, force, remainder) result(balanced)

@@ -6,6 +6,8 @@ module fuge_orthogonal_modes
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgesv
   use fuge_pivoted_qr, only: orthonormalise, orthonormalise_in_order
+  use fuge_ranks, only: shared_ranks
+  use fuge_shared_columns, only: orthonormalise_shared
   implicit none
   private
 
@@ -49,18 +51,21 @@ contains
   !> Modes of equal size that span the same motions and are orthogonal at the points that take part; the first is the
   !> constant 1 if that lies in the span of the modes of one body.
   !>
-  !> `columns` (n, m) the given modes; `excluded` (n). Out: `modes` (n, m), zero where excluded; `change`;
+  !> `columns` (n, m) the given modes; `excluded` (n); where `ranks` share the points, those of this rank. Out: `modes` (n, m), zero where excluded; `change`;
   !> `has_translation`: modes(:, 1) is the constant. All but `fault` are undefined if one was found.
-  subroutine make_orthogonal(columns, excluded, modes, change, has_translation, fault)
+  subroutine make_orthogonal(columns, excluded, modes, change, has_translation, fault, sharing)
     real(dp), intent(in) :: columns(:, :)
     logical, intent(in) :: excluded(:)
     real(dp), intent(out) :: modes(:, :)
     type(mode_change), intent(out) :: change
     logical, intent(out) :: has_translation
     type(mode_fault), intent(out) :: fault
+    type(shared_ranks), intent(in), optional :: sharing
+    type(shared_ranks) :: ranks
     real(dp) :: scaled(size(columns, 1), size(columns, 2))
     integer :: body(size(columns, 2)), j, m
 
+    if (present(sharing)) ranks = sharing
     m = size(columns, 2)
     has_translation = .false.
     modes = 0.0_dp
@@ -69,62 +74,76 @@ contains
     scaled = columns
     where (spread(excluded, 2, m)) scaled = 0.0_dp
     change%units = maxval(abs(scaled), dim=1)
+    call ranks%raise(change%units)
     if (any(.not. change%units > 0.0_dp)) then
       fault%idle = minloc(change%units, dim=1)
       return
     end if
     scaled = scaled/spread(change%units, 1, size(scaled, 1))
     change%coefficients = 0.0_dp
-    if (is_orthogonal(scaled)) then
-      call keep_modes(scaled, excluded, modes, change%coefficients, has_translation)
+    if (is_orthogonal(scaled, ranks)) then
+      call keep_modes(scaled, excluded, ranks, modes, change%coefficients, has_translation)
       return
     end if
-    body = bodies_of_modes(scaled)
+    body = bodies_of_modes(scaled, ranks)
     do j = 1, m
-      if (body(j) == j) call orthogonalise_body(scaled, excluded, body == j, modes, change%coefficients, &
+      if (body(j) == j) call orthogonalise_body(scaled, excluded, ranks, body == j, modes, change%coefficients, &
                                                 has_translation, fault)
       if (fault%found()) return
     end do
   end subroutine make_orthogonal
 
-  !> The modes of one body, marked in `member` (m).
-  subroutine orthogonalise_body(scaled, excluded, member, modes, coefficients, has_translation, fault)
+  !> The modes of one body, marked in `member` (m). The arguments are eight without the ranks, which tell nothing of
+  !> the modes.
+  subroutine orthogonalise_body(scaled, excluded, ranks, member, modes, coefficients, has_translation, fault)
     real(dp), intent(in) :: scaled(:, :)
     logical, intent(in) :: excluded(:), member(:)
+    type(shared_ranks), intent(in) :: ranks
     real(dp), intent(inout) :: modes(:, :), coefficients(:, :)
     logical, intent(inout) :: has_translation
     type(mode_fault), intent(inout) :: fault
-    real(dp) :: basis(size(scaled, 1), count(member)), points
+    real(dp) :: basis(size(scaled, 1), count(member)), products(count(member)**2), points
     integer :: columns(count(member)), order(count(member)), j, rank, replaced
 
     columns = pack([(j, j=1, size(member))], member)
     basis = scaled(:, columns)
-    call orthonormalise(basis, DEPENDENT, order, rank, fault%stat)
+    if (ranks%is_alone()) then
+      call orthonormalise(basis, DEPENDENT, order, rank, fault%stat)
+    else
+      call orthonormalise_shared(ranks, basis, DEPENDENT, .true., order, rank)
+    end if
     if (fault%stat /= 0) return
     if (rank < size(columns)) then
       fault%dependent = columns(order(rank + 1))
       return
     end if
-    call replace_by_constant(basis, excluded, replaced)
+    call replace_by_constant(basis, excluded, ranks, replaced)
     if (replaced > 0) then
       has_translation = .true.
       basis = cshift(basis, replaced - 1, dim=2)
-      call orthonormalise_in_order(basis, fault%stat)
+      if (ranks%is_alone()) then
+        call orthonormalise_in_order(basis, fault%stat)
+      else
+        call orthonormalise_shared(ranks, basis, 0.0_dp, .false., order, rank)
+      end if
       if (fault%stat /= 0) return
     end if
     ! A point that no mode of the body moves must stay so in spite of rounding: its force contributes to no resultant.
     where (spread(all(abs(scaled(:, columns)) <= 0.0_dp, dim=2), 2, size(columns))) basis = 0.0_dp
-    points = real(count(.not. excluded), dp)
+    points = ranks%total(real(count(.not. excluded), dp))
     basis = basis*sqrt(points)
     if (replaced > 0) basis(:, 1) = merge(0.0_dp, 1.0_dp, excluded)
     modes(:, columns) = basis
-    coefficients(columns, columns) = matmul(transpose(basis), scaled(:, columns))/points
+    products = reshape(matmul(transpose(basis), scaled(:, columns)), shape(products))
+    call ranks%add(products)
+    coefficients(columns, columns) = reshape(products, [size(columns), size(columns)])/points
   end subroutine orthogonalise_body
 
   !> Which modes belong together, (m): the number of the first mode of the body. Modes that move a common point belong
-  !> to one body. `modes` (n, m).
-  pure function bodies_of_modes(modes) result(body)
+  !> to one body. `modes` (n, m), where ranks, `sharing`, share the points those of this rank.
+  function bodies_of_modes(modes, sharing) result(body)
     real(dp), intent(in) :: modes(:, :)
+    type(shared_ranks), intent(in), optional :: sharing
     integer :: body(size(modes, 2))
     integer :: first, j, k, low, high
 
@@ -139,29 +158,63 @@ contains
         high = max(body(first), body(j))
         where (body == high) body = low
       end do
-      if (all(body == 1)) return
+      if (all(body == 1)) exit
     end do
+    if (.not. present(sharing)) return
+    if (.not. sharing%is_alone()) call join_bodies(sharing, body)
   end function bodies_of_modes
 
+  !> Join bodies that any of the ranks has found to be one.
+  subroutine join_bodies(ranks, body)
+    type(shared_ranks), intent(in) :: ranks
+    integer, intent(inout) :: body(:)
+    real(dp) :: joined(size(body)**2)
+    integer :: i, j, k
+
+    joined = [((merge(1.0_dp, 0.0_dp, body(i) == body(j)), i=1, size(body)), j=1, size(body))]
+    call ranks%raise(joined)
+    body = [(j, j=1, size(body))]
+    ! Each pass takes the least number one mode further.
+    do k = 1, size(body)
+      do j = 1, size(body)
+        body(j) = minval(body, mask=joined((j - 1)*size(body) + 1:j*size(body)) > 0.0_dp)
+      end do
+    end do
+  end subroutine join_bodies
+
   !> Are the columns orthogonal to each other?
-  pure function is_orthogonal(matrix) result(orthogonal)
+  function is_orthogonal(matrix, ranks) result(orthogonal)
     real(dp), intent(in) :: matrix(:, :)
+    type(shared_ranks), intent(in) :: ranks
     logical :: orthogonal
+    real(dp) :: inner, lengths(size(matrix, 2))
     integer :: i, j
 
+    lengths = [(length_of(matrix(:, j), ranks), j=1, size(matrix, 2))]
     orthogonal = .true.
     do j = 2, size(matrix, 2)
       do i = 1, j - 1
-        orthogonal = orthogonal .and. abs(dot_product(matrix(:, i), matrix(:, j))) &
-                     <= DEPENDENT*norm2(matrix(:, i))*norm2(matrix(:, j))
+        inner = ranks%total(dot_product(matrix(:, i), matrix(:, j)))
+        orthogonal = orthogonal .and. abs(inner) <= DEPENDENT*lengths(i)*lengths(j)
       end do
     end do
   end function is_orthogonal
 
+  !> The norm of the values of all ranks.
+  function length_of(values, ranks) result(length)
+    real(dp), intent(in) :: values(:)
+    type(shared_ranks), intent(in) :: ranks
+    real(dp) :: length
+
+    length = norm2(values)
+    if (.not. ranks%is_alone()) length = sqrt(ranks%total(length**2))
+  end function length_of
+
   !> Keep orthogonal modes, `scaled` (n, m), but for their size; a constant one becomes the first.
-  pure subroutine keep_modes(scaled, excluded, modes, coefficients, has_translation)
+  subroutine keep_modes(scaled, excluded, ranks, modes, coefficients, has_translation)
     real(dp), intent(in) :: scaled(:, :)
     logical, intent(in) :: excluded(:)
+    type(shared_ranks), intent(in) :: ranks
     real(dp), intent(inout) :: modes(:, :), coefficients(:, :)
     logical, intent(out) :: has_translation
     real(dp) :: unit
@@ -170,43 +223,47 @@ contains
     m = size(scaled, 2)
     first = 0
     do j = m, 1, -1
-      if (is_constant(scaled(:, j), excluded)) first = j
+      if (is_constant(scaled(:, j), excluded, ranks)) first = j
     end do
     has_translation = first > 0
     do j = 1, m
       ! A cyclic shift brings the constant mode to the front.
       position = modulo(j - max(first, 1), m) + 1
-      unit = norm2(scaled(:, j))/sqrt(real(count(.not. excluded), dp))
+      unit = length_of(scaled(:, j), ranks)/sqrt(ranks%total(real(count(.not. excluded), dp)))
       ! The constant is 1, not -1.
-      if (j == first .and. any(scaled(:, j) < 0.0_dp)) unit = -unit
+      if (ranks%anywhere(j == first .and. any(scaled(:, j) < 0.0_dp))) unit = -unit
       modes(:, position) = scaled(:, j)/unit
       if (j == first) modes(:, position) = merge(0.0_dp, 1.0_dp, excluded)
       coefficients(position, j) = unit
     end do
   end subroutine keep_modes
 
-  pure function is_constant(values, excluded)
+  function is_constant(values, excluded, ranks)
     real(dp), intent(in) :: values(:)
     logical, intent(in) :: excluded(:)
+    type(shared_ranks), intent(in) :: ranks
     logical :: is_constant
 
-    is_constant = minval(values, mask=.not. excluded) >= maxval(values, mask=.not. excluded)
+    is_constant = ranks%least(minval(values, mask=.not. excluded)) >= ranks%largest(maxval(values, mask=.not. excluded))
   end function is_constant
 
   !> Replace a column of an orthonormal basis by the constant vector if that lies in its span; `column` is 0 if it does
   !> not.
-  pure subroutine replace_by_constant(basis, excluded, column)
+  subroutine replace_by_constant(basis, excluded, ranks, column)
     real(dp), intent(inout) :: basis(:, :)
     logical, intent(in) :: excluded(:)
+    type(shared_ranks), intent(in) :: ranks
     integer, intent(out) :: column
     real(dp) :: ones(size(basis, 1)), components(size(basis, 2))
 
     ones = merge(0.0_dp, 1.0_dp, excluded)
     components = matmul(ones, basis)
+    call ranks%add(components)
     column = 0
-    if (maxval(abs(ones - matmul(basis, components))) > CONSTANT_TOLERANCE*real(size(basis, 1), dp)) return
+    if (ranks%largest(maxval(abs(ones - matmul(basis, components)))) &
+        > CONSTANT_TOLERANCE*ranks%total(real(size(basis, 1), dp))) return
     column = maxloc(abs(components), dim=1)
-    basis(:, column) = ones/sqrt(sum(ones))
+    basis(:, column) = ones/sqrt(ranks%total(sum(ones)))
   end subroutine replace_by_constant
 
   !> Motions in the given modes, (m), from `motion` (m) in the orthogonal ones.

@@ -3,10 +3,12 @@ module fuge_unresisted_motions
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
-  use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text
   use fuge_pivoted_qr, only: orthogonal_complement
+  use fuge_ranks, only: shared_ranks
+  use fuge_shared_columns, only: gather_spanning_rows
+  use fuge_shared_equilibrium, only: find_shared_equilibrium
   use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
@@ -36,16 +38,18 @@ contains
 
     motion = 0.0_dp
     loaded = carries_force(canonical, solution)
-    call find_unresisted_basis(canonical%modes, loaded, basis)
+    call find_unresisted_basis(canonical%modes, loaded, basis, canonical%ranks)
     associate (state => solution%state, gap => solution%gap)
       ! A point that touches without force resists in one sense only.
       resists_closing = loaded .or. ((state > FUGE_OPEN .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
       resists_opening = loaded .or. ((state < FUGE_OPEN .or. gap >= canonical%upper) .and. .not. canonical%excluded)
     end associate
     do j = 1, size(basis, 2)
-      call find_equilibrium(canonical%modes, basis(:, j), resists_closing, resists_opening, work, motion)
+      call find_shared_equilibrium(canonical%ranks, canonical%modes, basis(:, j), resists_closing, resists_opening, &
+                                   work, motion, epsilon(motion)*spread(maxval(abs(basis(:, j))), 1, size(motion)))
       if (any(abs(motion) > 0.0_dp)) return
-      call find_equilibrium(canonical%modes, -basis(:, j), resists_closing, resists_opening, work, motion)
+      call find_shared_equilibrium(canonical%ranks, canonical%modes, -basis(:, j), resists_closing, resists_opening, &
+                                   work, motion, epsilon(motion)*spread(maxval(abs(basis(:, j))), 1, size(motion)))
       if (any(abs(motion) > 0.0_dp)) return
     end do
   end subroutine find_unresisted_motion
@@ -66,7 +70,7 @@ contains
   end subroutine report_unresisted_motion
 
   !> Points (n) that are tied, or that carry more force than rounding makes.
-  pure function carries_force(canonical, solution) result(carries)
+  function carries_force(canonical, solution) result(carries)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     logical :: carries(size(solution%state))
@@ -78,24 +82,44 @@ contains
       scale = max(scale, abs(canonical%modes(:, j)*canonical%load(j)))
     end do
     ! Without a load of its own a body may be squeezed between stops; the loads may also nearly cancel at a point.
-    scale = max(scale, canonical%force_scale(solution%force))
+    if (canonical%ranks%is_alone()) then
+      scale = max(scale, canonical%force_scale(solution%force))
+    else
+      ! They share one body.
+      scale = max(scale, canonical%ranks%largest(maxval(abs(solution%force))))
+    end if
     carries = solution%state /= FUGE_OPEN .and. (abs(solution%force) > NO_FORCE*scale &
                                                  .or. .not. canonical%upper > 0.0_dp)
   end function carries_force
 
   !> An orthonormal basis of the motions q with R q = 0 at the points marked in `resists` (n).
   !>
-  !> `modes` R (n, m) with columns of about the same size; `basis` (m, number of such motions).
-  subroutine find_unresisted_basis(modes, resists, basis)
+  !> `modes` R (n, m) with columns of about the same size; `basis` (m, number of such motions). Where ranks, `sharing`,
+  !> share the points, the arguments are those of this rank, and all ranks call it.
+  subroutine find_unresisted_basis(modes, resists, basis, sharing)
     real(dp), intent(in) :: modes(:, :)
     logical, intent(in) :: resists(:)
     real(dp), allocatable, intent(out) :: basis(:, :)
+    type(shared_ranks), intent(in), optional :: sharing
+    type(shared_ranks) :: ranks
     real(dp) :: rows(size(modes, 2), count(resists))
+    real(dp), allocatable :: spanning(:, :)
     integer :: j, status
 
+    if (present(sharing)) ranks = sharing
     rows = transpose(modes(pack([(j, j=1, size(resists))], resists), :))
     ! Without memory no motion counts as unresisted.
-    call orthogonal_complement(rows, DEPENDENT, basis, status)
+    if (ranks%is_alone()) then
+      call orthogonal_complement(rows, DEPENDENT, basis, status)
+      return
+    end if
+    allocate (spanning(size(modes, 2), size(modes, 2)*ranks%members()))
+    call gather_spanning_rows(ranks, rows, spanning, status)
+    if (status == 0) then
+      call orthogonal_complement(spanning, DEPENDENT, basis, status)
+    else
+      allocate (basis(size(modes, 2), 0))
+    end if
   end subroutine find_unresisted_basis
 
   !> The motion (m) less its part in the `basis` of the unresisted ones.

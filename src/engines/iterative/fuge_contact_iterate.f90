@@ -142,6 +142,7 @@ contains
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
+    real(dp) :: largest(2)
 
     call clip_forces(scene, iterate)
     if (allocated(scene%modes)) then
@@ -153,8 +154,10 @@ contains
     if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
                                                        iterate%displacement, info)
     ! Forces to start from may be the rounding of those under another load.
-    if (scene%is_unloaded() .and. maxval(abs(iterate%force)) > 0.0_dp .and. .not. info%failed()) then
-      iterate%softness = max(iterate%softness, maxval(abs(iterate%displacement))/maxval(abs(iterate%force)))
+    if (scene%is_unloaded() .and. .not. info%failed()) then
+      largest = [maxval(abs(iterate%force)), maxval(abs(iterate%displacement))]
+      call scene%rows%ranks%raise(largest)
+      if (largest(1) > 0.0_dp) iterate%softness = max(iterate%softness, largest(2)/largest(1))
     end if
   end subroutine make_feasible
 
@@ -311,6 +314,7 @@ contains
       if (iterate%contact(k) .or. scene%play(k) >= huge(depth) .or. scene%gap(k) >= OUT_OF_REACH) cycle
       depth = max(depth, deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion) - scene%play(k))
     end do
+    depth = scene%rows%ranks%largest(depth)
   end function find_penetration
 
   !> The least magnitude as the certificate forms it, over the contact points: the size of the gap less the rigid
@@ -346,7 +350,7 @@ contains
   end subroutine find_least_magnitude
 
   !> The largest sum of the terms of a gap and a rigid displacement on the contact set.
-  pure function largest_term(scene, iterate) result(largest)
+  function largest_term(scene, iterate) result(largest)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: largest
@@ -358,6 +362,7 @@ contains
         largest = max(largest, abs(scene%gap(k)) + sum(abs(scene%modes(k, :)*iterate%rigid_motion)))
       end do
     end do
+    largest = scene%rows%ranks%largest(largest)
   end function largest_term
 
   !> Is the residual within `tolerance`, relative to the least magnitude, or rounding?
@@ -387,7 +392,7 @@ contains
   end function least_sum
 
   !> The least of `values` (n) over the segments, 0 if there are none.
-  pure function least_over(segments, values) result(least)
+  function least_over(segments, values) result(least)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: values(:)
     real(dp) :: least
@@ -397,11 +402,12 @@ contains
     do i = 1, size(segments%first)
       least = min(least, minval(values(segments%first(i):segments%last(i))))
     end do
+    least = segments%ranks%least(least)
   end function least_over
 
   !> Forces up to this one are rounding. Without a load there is none to compare them with: then those count that
   !> displace nothing beside the gaps.
-  pure function rounding_force(scene, iterate) result(rounding)
+  function rounding_force(scene, iterate) result(rounding)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: rounding
@@ -413,6 +419,7 @@ contains
     length = maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH)
     if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=scene%play < huge(length) &
                                                            .and. scene%gap < OUT_OF_REACH))
+    length = scene%rows%ranks%largest(length)
     if (.not. length > 0.0_dp) then
       ! Nothing asks for forces.
       rounding = huge(rounding)

@@ -154,7 +154,7 @@ contains
     integer :: j, stat
 
     if (self%depth == 0) return
-    if (self%rigid%fits(projection%rank, contact, CLOSE)) then
+    if (self%rigid%fits(segments%ranks, projection%rank, contact, CLOSE)) then
       call self%rigid%measure(segments, stat)
       if (stat == 0) return
     end if
@@ -166,8 +166,9 @@ contains
                              self%rigid%contact(size(contact)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(contact))//' points')
-      return
     end if
+    call segments%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     self%rigid%contact = contact
     do j = 1, projection%rank
       self%rigid%basis(:, j) = projection%basis(:, j)

@@ -3,10 +3,9 @@
 !> Most problems have one translation, free or prescribed, and one-sided contact everywhere: what else a scene has is
 !> allocated only where it has it.
 module fuge_contact_scene
-  use fuge_equilibrium, only: find_equilibrium
-  use fuge_grid_transfer, only: coarser_cells, restrict
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_shared_equilibrium, only: find_shared_equilibrium
   use fuge_shared_rows, only: shared_rows
   use fuge_shared_transfer, only: restrict_rows
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
@@ -32,7 +31,7 @@ module fuge_contact_scene
     real(dp), allocatable :: balance(:)
     !> The modes contain a translation, which absorbs the operator's datum.
     logical :: absorbs_datum = .false.
-    !> Which rows of the grid each rank has, where several share the points. Their scenes are simple.
+    !> Which rows of the grid each rank has, where several share the points.
     type(shared_rows) :: rows = shared_rows()
   contains
     procedure :: points
@@ -110,14 +109,14 @@ contains
     possible = .true.
     coarse%prescribed = scene%prescribed
     coarse%absorbs_datum = scene%absorbs_datum
+    if (present(rows)) coarse%rows = rows
     if (scene%is_simple()) then
-      if (present(rows)) coarse%rows = rows
       call restrict_rows(scene%rows, coarse%rows, finest, level, scene%gap, coarse%gap, info)
       return
     end if
-    call restrict_share(scene, finest, level, share, info)
-    if (.not. info%failed()) call restrict_part(scene, scene%gap, finest, level, share, coarse%gap, info)
-    if (.not. info%failed()) call restrict_play(scene, finest, level, share, coarse%play, info)
+    call restrict_share(scene, coarse%rows, finest, level, share, info)
+    if (.not. info%failed()) call restrict_part(scene, coarse%rows, scene%gap, finest, level, share, coarse%gap, info)
+    if (.not. info%failed()) call restrict_play(scene, finest, level, share, coarse, info)
     if (.not. info%failed()) call restrict_modes(scene, finest, level, share, coarse, info)
     if (info%failed()) return
     if (allocated(scene%excluded)) then
@@ -128,26 +127,28 @@ contains
   end subroutine coarser_scene
 
   !> `share`: the fraction of the points of each coarse cell that take part.
-  pure subroutine restrict_share(scene, finest, level, share, info)
+  subroutine restrict_share(scene, rows, finest, level, share, info)
     type(contact_scene), intent(in) :: scene
+    type(shared_rows), intent(in) :: rows
     integer, intent(in) :: finest(2), level
     real(dp), allocatable, intent(out) :: share(:)
     type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: taking_part(:)
     integer :: stat
 
-    if (allocated(scene%excluded)) then
-      call restrict(merge(0.0_dp, 1.0_dp, scene%excluded), finest, level, share, info)
-    else
-      allocate (share(product(coarser_cells(finest, level))), stat=stat)
-      if (stat == 0) share = 1.0_dp
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(product(coarser_cells(finest, level))) &
-                                 //' cells')
-    end if
+    allocate (taking_part(size(scene%gap)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(scene%gap))//' cells')
+    call scene%rows%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    taking_part = 1.0_dp
+    if (allocated(scene%excluded)) taking_part = merge(0.0_dp, 1.0_dp, scene%excluded)
+    call restrict_rows(scene%rows, rows, finest, level, taking_part, share, info)
   end subroutine restrict_share
 
   !> `coarse`: the means of `values` (n) over the points that take part, 0 in cells without any.
-  pure subroutine restrict_part(scene, values, finest, level, share, coarse, info)
+  subroutine restrict_part(scene, rows, values, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
+    type(shared_rows), intent(in) :: rows
     real(dp), intent(in), contiguous :: values(:)
     integer, intent(in) :: finest(2), level
     real(dp), intent(in) :: share(:)
@@ -155,33 +156,33 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (allocated(scene%excluded)) then
-      call restrict(merge(0.0_dp, values, scene%excluded), finest, level, coarse, info)
+      call restrict_rows(scene%rows, rows, finest, level, merge(0.0_dp, values, scene%excluded), coarse, info)
       if (.not. info%failed()) where (share > 0.0_dp) coarse = coarse/share
     else
-      call restrict(values, finest, level, coarse, info)
+      call restrict_rows(scene%rows, rows, finest, level, values, coarse, info)
     end if
   end subroutine restrict_part
 
   !> The mean play where all points of a cell have an upper stop, else huge.
-  pure subroutine restrict_play(scene, finest, level, share, play, info)
+  subroutine restrict_play(scene, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: finest(2), level
     real(dp), intent(in) :: share(:)
-    real(dp), allocatable, intent(out) :: play(:)
+    type(contact_scene), intent(inout) :: coarse
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: endless(:)
 
     if (.not. allocated(scene%play)) return
     associate (one_sided => scene%play >= huge(1.0_dp))
-      call restrict_part(scene, merge(1.0_dp, 0.0_dp, one_sided), finest, level, share, endless, info)
-      if (.not. info%failed()) call restrict_part(scene, merge(0.0_dp, scene%play, one_sided), finest, level, share, &
-                                                  play, info)
+      call restrict_part(scene, coarse%rows, merge(1.0_dp, 0.0_dp, one_sided), finest, level, share, endless, info)
+      if (.not. info%failed()) call restrict_part(scene, coarse%rows, merge(0.0_dp, scene%play, one_sided), finest, &
+                                                  level, share, coarse%play, info)
     end associate
-    if (.not. info%failed()) where (endless > 0.0_dp) play = huge(1.0_dp)
+    if (.not. info%failed()) where (endless > 0.0_dp) coarse%play = huge(1.0_dp)
   end subroutine restrict_play
 
   !> The mean displacement of each cell by a motion, and the same resultants.
-  pure subroutine restrict_modes(scene, finest, level, share, coarse, info)
+  subroutine restrict_modes(scene, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: finest(2), level
     real(dp), intent(in) :: share(:)
@@ -195,11 +196,12 @@ contains
               stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(size(share))//' cells')
-      return
     end if
+    call scene%rows%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     coarse%load = scene%load
     do j = 1, size(scene%load)
-      call restrict_part(scene, scene%modes(:, j), finest, level, share, mode, info)
+      call restrict_part(scene, coarse%rows, scene%modes(:, j), finest, level, share, mode, info)
       if (info%failed()) return
       coarse%modes(:, j) = mode
     end do
@@ -218,13 +220,15 @@ contains
     allocate (pushes(size(scene%gap)), pulls(size(scene%gap)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium on '//text(size(scene%gap))//' cells')
-      return
     end if
+    call scene%rows%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     pushes = .true.
     if (allocated(scene%excluded)) pushes = .not. scene%excluded
     pulls = .false.
     if (allocated(scene%play)) pulls = pushes .and. scene%play < huge(1.0_dp)
-    call find_equilibrium(scene%modes, scene%load, pushes, pulls, scene%balance, remainder)
+    call find_shared_equilibrium(scene%rows%ranks, scene%modes, scene%load, pushes, pulls, scene%balance, remainder, &
+                                 epsilon(remainder)*spread(maxval(abs(scene%load)), 1, size(remainder)))
     possible = .not. any(abs(remainder) > 0.0_dp)
   end subroutine find_balance
 

@@ -201,7 +201,7 @@ contains
     if (allocated(scene%modes) .and. .not. info%failed()) then
       call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
       ! With several modes a point without force may be the one that resists a motion.
-      iterate%tension_noise = max(tension_by_rounding(settings, iterate), rounding_force(scene, iterate))
+      iterate%tension_noise = max(tension_by_rounding(settings, scene, iterate), rounding_force(scene, iterate))
     end if
     if (info%failed()) return
     call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
@@ -278,13 +278,14 @@ contains
 
   !> Tensions up to this are rounding. They are taken out in the end, so that they may not displace by more than the
   !> tolerance allows.
-  pure function tension_by_rounding(settings, iterate) result(noise)
+  function tension_by_rounding(settings, scene, iterate) result(noise)
     type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: noise
     real(dp) :: largest
 
-    largest = maxval(abs(iterate%force))
+    largest = scene%rows%ranks%largest(maxval(abs(iterate%force)))
     noise = SAFETY**2*settings%tolerance*largest
     if (noise*iterate%softness > penetration_noise(settings, iterate)) then
       noise = max(penetration_noise(settings, iterate)/iterate%softness, ROUNDINGS*epsilon(noise)*largest)
@@ -394,7 +395,7 @@ contains
     state = states_of(iterate)
     ! Where the balance is at the other stop, or open, it decides.
     where (abs(force) > 0.0_dp) state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, force > 0.0_dp)
-    if (any(is_tensile(iterate%force, noise, state, tied))) then
+    if (scene%rows%ranks%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
       call step_to_blocking(iterate%force, noise, tied, state, force, 0, locked, scene%rows%ranks)
       iterate%force = force
     end if

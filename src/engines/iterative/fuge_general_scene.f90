@@ -27,18 +27,21 @@ module fuge_general_scene
 
 contains
 
-  !> The scene of a general problem. `canonical` belongs to it, without its matrix. Errors: FUGE_ERR_MEMORY,
-  !> FUGE_ERR_OVERFLOW.
+  !> The scene of a general problem, whose rows are set. `canonical` belongs to it, without its matrix. Errors:
+  !> FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW.
   subroutine set_general_scene(problem, canonical, scene, scaling, info)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
     type(contact_scene), intent(inout) :: scene
     type(scene_scaling), intent(out) :: scaling
     type(fuge_info), intent(inout) :: info
+    real(dp) :: least
 
     if (canonical%largest_load() > 0.0_dp) scaling%load = canonical%largest_load()
-    if (canonical%has_translation .and. .not. all(canonical%excluded)) then
-      scaling%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
+    if (canonical%has_translation) then
+      least = canonical%ranks%least(minval(canonical%gap, mask=.not. canonical%excluded))
+      ! Not where all points are excluded.
+      if (least < huge(least)) scaling%gap_datum = least
     end if
     scene%prescribed = .not. is_loaded_translation(problem, canonical)
     scene%absorbs_datum = canonical%has_translation
@@ -64,21 +67,25 @@ contains
   end subroutine set_general_scene
 
   !> Allocate what the scene has. Error: FUGE_ERR_MEMORY.
-  pure subroutine allocate_scene(canonical, scene, info)
+  subroutine allocate_scene(canonical, scene, info)
     type(canonical_problem), intent(in) :: canonical
     type(contact_scene), intent(inout) :: scene
     type(fuge_info), intent(inout) :: info
     integer :: m, n, stat
+    logical :: excludes, has_play
 
     n = size(canonical%gap)
     m = size(canonical%load)
+    excludes = canonical%ranks%anywhere(any(canonical%excluded))
+    has_play = canonical%ranks%anywhere(any(canonical%upper < huge(1.0_dp)))
     allocate (scene%gap(n), stat=stat)
-    if (stat == 0 .and. any(canonical%excluded)) allocate (scene%excluded(n), stat=stat)
-    if (stat == 0 .and. any(canonical%upper < huge(1.0_dp))) allocate (scene%play(n), stat=stat)
+    if (stat == 0 .and. excludes) allocate (scene%excluded(n), stat=stat)
+    if (stat == 0 .and. has_play) allocate (scene%play(n), stat=stat)
     if (stat == 0 .and. scene%prescribed .and. m > 0) then
       allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
     end if
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps and modes of '//text(n)//' points')
+    call canonical%ranks%agree(info)
   end subroutine allocate_scene
 
   !> No motion displaces the points marked in `excluded` (n).
@@ -93,25 +100,28 @@ contains
   end subroutine clear_rows
 
   !> Is there one free translation with a load, and no upper stop? Its forces push, and have the load for their sum.
-  pure function is_loaded_translation(problem, canonical) result(loaded)
+  function is_loaded_translation(problem, canonical) result(loaded)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
     logical :: loaded
 
-    loaded = size(canonical%load) == 1 .and. .not. (allocated(problem%modes) .or. any(canonical%upper < huge(1.0_dp)))
+    loaded = size(canonical%load) == 1 .and. .not. allocated(problem%modes)
+    if (loaded) loaded = .not. canonical%ranks%anywhere(any(canonical%upper < huge(1.0_dp)))
     if (loaded) loaded = canonical%load(1) > 0.0_dp
   end function is_loaded_translation
 
   !> Refuse gaps so large that their squares overflow, after division by the load if there is one (FUGE_ERR_OVERFLOW).
-  pure subroutine check_range(canonical, scaling, info)
+  subroutine check_range(canonical, scaling, info)
     type(canonical_problem), intent(in) :: canonical
     type(scene_scaling), intent(in) :: scaling
     type(fuge_info), intent(inout) :: info
+    real(dp) :: largest
     integer :: excess
 
-    if (all(canonical%excluded)) return
-    excess = exponent(maxval(abs(canonical%gap - scaling%gap_datum), mask=.not. canonical%excluded)) &
-             - exponent(scaling%load)
+    largest = canonical%ranks%largest(maxval(abs(canonical%gap - scaling%gap_datum), mask=.not. canonical%excluded))
+    ! All points are excluded.
+    if (largest < 0.0_dp) return
+    excess = exponent(largest) - exponent(scaling%load)
     if (2*excess <= LARGEST_EXPONENT) return
     if (canonical%largest_load() > 0.0_dp) then
       call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess) &
@@ -138,12 +148,12 @@ contains
     integer :: stat
 
     call allocate_solution(size(scene%gap), size(canonical%load), found, info)
-    if (info%failed()) return
-    allocate (motion(problem%mode_count()), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
-      return
+    if (.not. info%failed()) then
+      allocate (motion(problem%mode_count()), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
     end if
+    call canonical%ranks%agree(info)
+    if (info%failed()) return
     found%state = states_of(iterate)
     call drop_rounding(scene, found%state, iterate, info)
     if (info%failed()) return
@@ -155,7 +165,8 @@ contains
       found%motion = scaling%load*iterate%motion
     end if
     if (canonical%has_translation) then
-      found%motion(1) = (found%motion(1) + operator%datum()*sum(found%force)) + scaling%gap_datum
+      found%motion(1) = (found%motion(1) + operator%datum()*canonical%ranks%total(sum(found%force))) &
+                        + scaling%gap_datum
     end if
     call report_unresisted_motion(canonical, found, info)
     call canonical%to_given_modes(problem%prescribed_motion(), found%motion, motion)
@@ -182,10 +193,10 @@ contains
     call clear_rounding(scene, state, iterate, pulls)
     if (.not. (pulls .and. allocated(scene%modes))) return
     allocate (dropped, source=iterate%force, stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the forces of '//text(size(state))//' points')
-      return
-    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces of '//text(size(state))//' points')
+    segments%ranks = scene%rows%ranks
+    call segments%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     call segments%find(abs(dropped) > 0.0_dp, info)
     if (.not. info%failed()) call projection%set(scene%modes, segments, info)
     if (info%failed()) return
@@ -198,7 +209,7 @@ contains
   end subroutine drop_rounding
 
   !> Set forces to zero that are rounding, or that pull at their stop; `pulls` tells whether any of these did.
-  pure subroutine clear_rounding(scene, state, iterate, pulls)
+  subroutine clear_rounding(scene, state, iterate, pulls)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: state(:)
     type(contact_iterate), intent(inout) :: iterate
@@ -207,7 +218,8 @@ contains
     integer :: k
 
     pulls = .false.
-    least = max(ROUNDINGS*epsilon(least)*maxval(abs(iterate%force)), rounding_force(scene, iterate))
+    least = max(ROUNDINGS*epsilon(least)*scene%rows%ranks%largest(maxval(abs(iterate%force))), &
+                rounding_force(scene, iterate))
     do k = 1, size(state)
       if (abs(iterate%force(k)) <= least) iterate%force(k) = 0.0_dp
       if (iterate%force(k)*real(state(k), dp) < 0.0_dp .and. .not. scene%is_tied(k)) then
@@ -215,6 +227,7 @@ contains
         pulls = .true.
       end if
     end do
+    pulls = scene%rows%ranks%anywhere(pulls)
   end subroutine clear_rounding
 
   !> Gaps between the stops, in the units of the problem, as is the play `upper` (n); 0 at points that are excluded.
@@ -252,7 +265,7 @@ contains
     end if
     iterate%displacement = scaling%load*iterate%displacement
     if (scene%absorbs_datum .or. .not. scene%prescribed) then
-      iterate%displacement = iterate%displacement + operator%datum()*sum(found%force)
+      iterate%displacement = iterate%displacement + operator%datum()*canonical%ranks%total(sum(found%force))
     end if
     call canonical%set_excluded_gaps_from(iterate%displacement, problem%gap, motion, found%gap)
   end subroutine set_excluded_gaps

@@ -83,10 +83,12 @@ contains
     settings = coarse_settings
     settings%tolerance = options%tolerance
     settings%coarse_grid = .false.
+    call rows_of(operator, 0, scene%rows, info)
+    if (info%failed()) return
     if (is_general(problem)) then
       call set_general_scene(problem, canonical, scene, scaling, info)
     else
-      call set_simple_scene(operator, problem, scene, scaling, info)
+      call set_simple_scene(problem, scene, scaling, info)
     end if
     if (info%failed()) return
     call check_approach(operator, problem, scene, info)
@@ -217,18 +219,16 @@ contains
     iterate%converged = .false.
   end subroutine discard
 
-  !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points. Errors:
+  !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points; its rows are
+  !> set. Errors:
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
-  subroutine set_simple_scene(operator, problem, scene, scaling, info)
-    class(fuge_operator), intent(in) :: operator
+  subroutine set_simple_scene(problem, scene, scaling, info)
     type(fuge_problem), intent(in) :: problem
     type(contact_scene), intent(inout) :: scene
     type(scene_scaling), intent(out) :: scaling
     type(fuge_info), intent(inout) :: info
 
     scene%prescribed = .not. problem%is_plain()
-    call rows_of(operator, 0, scene%rows, info)
-    if (info%failed()) return
     call choose_scaling(problem, scene%rows%ranks, scaling)
     call check_range(problem, scene%rows%ranks, info)
     if (.not. info%failed()) call reduce_gap(problem%gap, scaling, scene%gap, info)
@@ -343,7 +343,7 @@ contains
     ! Without any motion there is none to change.
     if (problem%mode_count() < 1) return
     mean = scene%rows%ranks%total(sum(scene%gap))/real(scene%points(), dp)
-    largest = max(maxval(abs(scene%gap)), maxval(abs(problem%gap)))
+    largest = scene%rows%ranks%largest(max(maxval(abs(scene%gap)), maxval(abs(problem%gap))))
     if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), &
                                                       scene%rows%ranks%largest(maxval(abs(scene%gap))))
     if (mean > ROUNDINGS*epsilon(mean)*largest) return

@@ -48,8 +48,9 @@ contains
     if (.not. allocated(self%basis)) allocate (self%basis(size(modes, 1), m), self%coefficients(m, m), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(modes, 1))//' points')
-      return
     end if
+    call segments%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     self%rank = 0
     do j = 1, m
       call append(self, modes(:, j), j, segments)
@@ -66,7 +67,7 @@ contains
     integer :: i, pass, r
 
     ! Not that on the set, where all that is left of a mode may be rounding.
-    usual_size = maxval(abs(mode))*sqrt(real(segments%points, dp))
+    usual_size = segments%ranks%largest(maxval(abs(mode)))*sqrt(real(segments%points, dp))
     if (.not. usual_size > 0.0_dp) return
     r = self%rank + 1
     self%basis(:, r) = mode
@@ -170,10 +171,11 @@ contains
     real(dp), intent(in), contiguous :: modes(:, :), force(:)
     real(dp), intent(in) :: load(:)
     type(contact_segments), intent(in) :: segments
-    real(dp), intent(out) :: missing(:), terms(:)
+    real(dp), intent(out) :: missing(:)
+    real(dp), intent(out), contiguous :: terms(:)
     integer :: i, j, k
 
-    terms = abs(load)
+    terms = 0.0_dp
     do j = 1, size(load)
       missing(j) = load(j) - dot_over(segments, modes(:, j), force)
       do i = 1, size(segments%first)
@@ -182,6 +184,8 @@ contains
         end do
       end do
     end do
+    call segments%ranks%add(terms)
+    terms = terms + abs(load)
   end subroutine find_missing
 
 end module fuge_mode_projection

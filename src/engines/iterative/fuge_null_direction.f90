@@ -151,9 +151,10 @@ contains
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: length
 
-    length = scene%rows%ranks%largest(maxval(abs(scene%gap), mask=iterate%contact))
+    length = maxval(abs(scene%gap), mask=iterate%contact)
     if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=iterate%contact .and. iterate%at_upper))
     if (allocated(scene%balance)) length = max(length, iterate%softness*maxval(abs(scene%balance)))
+    length = scene%rows%ranks%largest(length)
     ! Under a load the forces do not grow together.
     if (.not. scene%prescribed) length = max(length, iterate%least_magnitude)
   end function length_of

@@ -8,6 +8,7 @@ module fuge_rigid_images
   use fuge_contact_segments, only: contact_segments, dot_over
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgesv
+  use fuge_ranks, only: shared_ranks
   implicit none
   private
 
@@ -29,17 +30,22 @@ module fuge_rigid_images
 contains
 
   !> Are there images of `rank` motions for a set that differs from `contact` (n) in at most the fraction `close` of its
-  !> points?
-  pure function fits(self, rank, contact, close)
+  !> points? `ranks` may share these.
+  function fits(self, ranks, rank, contact, close)
     class(rigid_images), intent(in) :: self
+    type(shared_ranks), intent(in) :: ranks
     integer, intent(in) :: rank
     logical, intent(in) :: contact(:)
     real(dp), intent(in) :: close
     logical :: fits
+    real(dp) :: counts(2)
 
     fits = allocated(self%images)
     if (fits) fits = size(self%images, 2) == rank
-    if (fits) fits = real(count(contact .neqv. self%contact), dp) <= close*real(count(contact), dp)
+    if (.not. fits) return
+    counts = real([count(contact .neqv. self%contact), count(contact)], dp)
+    call ranks%add(counts)
+    fits = counts(1) <= close*counts(2)
   end function fits
 
   !> Form B^T U on the set; `stat` is not 0 where memory is short, or where that is singular.
@@ -47,12 +53,13 @@ contains
     class(rigid_images), intent(inout) :: self
     type(contact_segments), intent(in) :: segments
     integer, intent(out) :: stat
-    real(dp), allocatable :: test(:)
+    real(dp) :: test(size(self%images, 2))
     integer :: i, j, r
 
     r = size(self%images, 2)
     if (allocated(self%products)) deallocate (self%products)
-    allocate (self%products(r, r), test(r), stat=stat)
+    allocate (self%products(r, r), stat=stat)
+    if (.not. segments%ranks%everywhere(stat == 0)) stat = max(stat, 1)
     if (stat /= 0) return
     do j = 1, r
       do i = 1, r

@@ -12,6 +12,7 @@ module fuge_set_derivative
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_solution
   use fuge_projected_gradients, only: run_projected_gradients
+  use fuge_shared_rows, only: rows_of
   use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
   use fuge_unresisted_motions, only: find_unresisted_basis, refuse_unresisted
   implicit none
@@ -44,18 +45,19 @@ contains
     integer :: n, stat
 
     n = size(state)
-    call set_scene(canonical, gap_change, load_change, scene, info)
+    call set_scene(operator, canonical, gap_change, load_change, scene, info)
     if (info%failed()) return
     if (allocated(scene%modes)) then
-      call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
+      call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted, canonical%ranks)
       call refuse_unresisted(scene%load, unresisted, info)
       if (info%failed()) return
     end if
     allocate (gap(n), motion(size(load_change)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(n)//' points')
-      return
     end if
+    call canonical%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     call start_iterate(iterate, scene, info=info)
     if (info%failed()) return
     iterate%contact = state /= FUGE_OPEN
@@ -69,7 +71,8 @@ contains
   end subroutine find_derivative_by_products
 
   !> The linear problem: gaps that the displacements must close on the set, and changes of the resultants.
-  subroutine set_scene(canonical, gap_change, load_change, scene, info)
+  subroutine set_scene(operator, canonical, gap_change, load_change, scene, info)
+    class(fuge_operator), intent(in) :: operator
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(contact_scene), intent(inout) :: scene
@@ -77,6 +80,8 @@ contains
     real(dp), allocatable :: load(:)
     integer :: m, n, stat
 
+    call rows_of(operator, 0, scene%rows, info)
+    if (info%failed()) return
     n = size(gap_change)
     call canonical%transform_change(gap_change, load_change, scene%gap, load)
     m = size(load)
@@ -86,8 +91,9 @@ contains
     allocate (scene%modes(n, m), scene%balance(n), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
-      return
     end if
+    call canonical%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     scene%modes = canonical%modes
     scene%balance = 0.0_dp
     call move_alloc(load, scene%load)
@@ -166,7 +172,7 @@ contains
       iterate%displacement = iterate%displacement + matmul(scene%modes, iterate%rigid_motion)
     end if
     if (canonical%has_translation) then
-      associate (by_datum => operator%datum()*sum(iterate%force))
+      associate (by_datum => operator%datum()*canonical%ranks%total(sum(iterate%force)))
         free_motion(1) = free_motion(1) + by_datum
         iterate%displacement = iterate%displacement + by_datum
       end associate

@@ -110,7 +110,7 @@ contains
       if (.not. is_prescribed(problem, j)) then
         step%resultant(j) = problem%resultant(j)
       else if (allocated(problem%modes)) then
-        step%resultant(j) = dot_product(problem%modes(:, j), solution%force)
+        step%resultant(j) = ranks%total(dot_product(problem%modes(:, j), solution%force))
       else
         step%resultant(j) = ranks%total(sum(solution%force))
       end if

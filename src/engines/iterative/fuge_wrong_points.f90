@@ -65,6 +65,7 @@ contains
         wrong = wrong + 1
       end if
     end do
+    wrong = scene%rows%ranks%total_count(wrong)
   end function count_wrong_points
 
   !> Does the force of point `k`, in contact, pull away from its stop?
@@ -242,6 +243,7 @@ contains
       if (.not. iterate%contact(k)) cycle
       if (is_tensile(scene, iterate, k)) tension = max(tension, abs(iterate%force(k)))
     end do
+    tension = scene%rows%ranks%largest(tension)
   end function greatest_tension
 
   !> Are the forces accurate enough to tell which of them will be tensile: is their error below the fraction `decisive`
@@ -263,7 +265,9 @@ contains
         if (.not. scene%is_tied(k)) tension(1) = max(tension(1), tension_of(iterate, k, &
                                                                              iterate%force(k) - iterate%work(k)))
       end do
-      decided = force_error(1) <= decisive*tension(1)
+      extremes = [force_error(1), tension(1)]
+      call scene%rows%ranks%raise(extremes)
+      decided = extremes(1) <= decisive*extremes(2)
       return
     end if
     do i = 1, size(iterate%segments%first)

@@ -1,0 +1,141 @@
+!> Equilibrium where ranks share the points: fuge_equilibrium at few points, to which each rank offers those of its own
+!> that the remainder of the resultants closes most.
+module fuge_shared_equilibrium
+  use fuge_equilibrium, only: closing_work, find_equilibrium, is_in_equilibrium, proves_no_equilibrium
+  use fuge_kinds, only: dp
+  use fuge_ranks, only: shared_ranks
+  implicit none
+  private
+
+  public :: find_shared_equilibrium
+
+  !> Points that are offered, at most: some for each mode, and some more.
+  integer, parameter :: OFFERS_PER_MODE = 20, MORE_OFFERS = 200
+
+  !> The points that have been offered, with their rows of the modes, (m, :), on all ranks.
+  type :: offered_points
+    integer :: count = 0
+    real(dp), allocatable :: rows(:, :), force(:)
+    logical, allocatable :: pushes(:), pulls(:)
+    !> The number of the point where it is this rank's, else 0.
+    integer, allocatable :: own(:)
+  end type offered_points
+
+contains
+
+  !> As find_equilibrium, with the arguments of the points of this rank; all `ranks` call it.
+  subroutine find_shared_equilibrium(ranks, modes, resultant, pushes, pulls, force, remainder, rounding)
+    type(shared_ranks), intent(in) :: ranks
+    real(dp), intent(in) :: modes(:, :), resultant(:), rounding(:)
+    logical, intent(in) :: pushes(:), pulls(:)
+    real(dp), intent(out) :: force(:)
+    real(dp), intent(out), contiguous :: remainder(:)
+    type(offered_points) :: offered
+    real(dp) :: rest(size(resultant))
+    integer :: iteration, k, most
+    logical :: balanced, found, has_all
+
+    has_all = ranks%total_count(size(force)) == size(force)
+    remainder = 0.0_dp
+    if (has_all .or. ranks%is_alone()) then
+      call find_equilibrium(modes, resultant, pushes, pulls, force, remainder, rounding)
+    end if
+    if (ranks%anywhere(has_all)) then
+      ! One rank has all points, as of coarse grids.
+      call ranks%take_from_least(merge(0.0_dp, 1.0_dp, has_all), remainder)
+      return
+    end if
+    force = 0.0_dp
+    remainder = resultant
+    most = OFFERS_PER_MODE*(size(resultant) + 1) + MORE_OFFERS
+    allocate (offered%rows(size(resultant), most), offered%force(most), offered%pushes(most), offered%pulls(most), &
+              offered%own(most))
+    do iteration = 1, most
+      call judge(offered, resultant, rounding, remainder, rest, balanced)
+      if (balanced) exit
+      call offer(ranks, modes, remainder, rest, pushes, pulls, offered, found)
+      if (.not. found) then
+        if (ranks%everywhere(proves_no_equilibrium(modes, rest, pushes, pulls, remainder))) return
+        exit
+      end if
+      call solve_offered(resultant, rounding, offered, remainder)
+    end do
+    do k = 1, offered%count
+      if (offered%own(k) > 0) force(offered%own(k)) = offered%force(k)
+    end do
+    ! Equilibrium holds, or is not decided; the certificate of the solve then decides.
+    remainder = 0.0_dp
+  end subroutine find_shared_equilibrium
+
+  !> Are the forces at the offered points in equilibrium? `rest` (m) is the rounding of the remainder.
+  subroutine judge(offered, resultant, rounding, remainder, rest, balanced)
+    type(offered_points), intent(in) :: offered
+    real(dp), intent(in) :: resultant(:), rounding(:), remainder(:)
+    real(dp), intent(out) :: rest(:)
+    logical, intent(out) :: balanced
+    integer :: k
+
+    rest = rounding
+    do k = 1, offered%count
+      rest = rest + epsilon(rest)*abs(offered%rows(:, k)*offered%force(k))
+    end do
+    balanced = is_in_equilibrium(transpose(offered%rows(:, :offered%count)), resultant, rounding, &
+                                 offered%force(:offered%count), remainder)
+  end subroutine judge
+
+  !> Offer the point of all ranks that closes most along the remainder, unless it has been offered; `found` if there is
+  !> one.
+  subroutine offer(ranks, modes, remainder, rest, pushes, pulls, offered, found)
+    type(shared_ranks), intent(in) :: ranks
+    real(dp), intent(in) :: modes(:, :), remainder(:), rest(:)
+    logical, intent(in) :: pushes(:), pulls(:)
+    type(offered_points), intent(inout) :: offered
+    logical, intent(out) :: found
+    real(dp) :: chosen(size(remainder) + 3), key, work(size(modes, 1))
+    integer :: k, newest
+
+    work = abs(closing_work(modes, remainder, rest, pushes, pulls))
+    do k = 1, offered%count
+      if (offered%own(k) > 0) work(offered%own(k)) = 0.0_dp
+    end do
+    newest = maxloc(work, dim=1)
+    key = huge(key)
+    chosen = 0.0_dp
+    if (newest > 0) then
+      if (work(newest) > 0.0_dp) then
+        key = -work(newest)
+        chosen = [modes(newest, :), merge(1.0_dp, 0.0_dp, pushes(newest)), merge(1.0_dp, 0.0_dp, pulls(newest)), &
+                  real(ranks%number(), dp)]
+      end if
+    end if
+    found = ranks%anywhere(key < huge(key))
+    call ranks%take_from_least(key, chosen)
+    if (.not. found) return
+    associate (n => offered%count, m => size(remainder))
+      n = n + 1
+      offered%rows(:, n) = chosen(:m)
+      offered%pushes(n) = chosen(m + 1) > 0.0_dp
+      offered%pulls(n) = chosen(m + 2) > 0.0_dp
+      offered%own(n) = merge(newest, 0, abs(chosen(m + 3) - real(ranks%number(), dp)) <= 0.0_dp)
+      offered%force(n) = 0.0_dp
+    end associate
+  end subroutine offer
+
+  !> Forces at the offered points that come nearest to the resultants, and what these lack.
+  subroutine solve_offered(resultant, rounding, offered, remainder)
+    real(dp), intent(in) :: resultant(:), rounding(:)
+    type(offered_points), intent(inout) :: offered
+    real(dp), intent(out) :: remainder(:)
+    integer :: k
+
+    associate (n => offered%count)
+      call find_equilibrium(transpose(offered%rows(:, :n)), resultant, offered%pushes(:n), offered%pulls(:n), &
+                            offered%force(:n), remainder, rounding)
+      remainder = resultant
+      do k = 1, n
+        remainder = remainder - offered%force(k)*offered%rows(:, k)
+      end do
+    end associate
+  end subroutine solve_offered
+
+end module fuge_shared_equilibrium
