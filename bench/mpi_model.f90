@@ -73,7 +73,7 @@ contains
     k = 0
     do while (n <= largest)
       k = k + 1
-      call time_products(MPI_COMM_SELF, n, times)
+      call time_products(MPI_COMM_SELF, n, n, times)
       logs(k) = log(real(n, dp))/log(2.0_dp)
       product_times(k) = times(1)/real(n, dp)**2
       preconditioning_times(k) = times(2)/real(n, dp)**2
@@ -90,10 +90,11 @@ contains
     end if
   end subroutine measure_work
 
-  ! Least times of a product and of a preconditioning of n x n cells that the ranks of `comm` share; the greatest of all.
-  subroutine time_products(comm, n, times)
+  ! Least times of a product and of a preconditioning of nx x ny cells that the ranks of `comm` share; the
+  ! greatest of all.
+  subroutine time_products(comm, nx, ny, times)
     type(MPI_Comm), intent(in) :: comm
-    integer, intent(in) :: n
+    integer, intent(in) :: nx, ny
     real(dp), intent(out) :: times(2)
     type(fuge_mpi_halfspace_operator) :: surface
     type(fuge_info) :: info
@@ -101,11 +102,11 @@ contains
     real(dp) :: start
     integer :: k, status
 
-    call surface%set(n, n, 1.0_dp, 1.0_dp, 1.0_dp, comm, info)
+    call surface%set(nx, ny, 1.0_dp, 1.0_dp, 1.0_dp, comm, info)
     call stop_on(info)
     allocate (x(surface%points()), y(surface%points()), source=1.0_dp)
     times = huge(times)
-    do k = 1, max(4096/n, 1) + 3
+    do k = 1, max(4096/nx, 1) + 3
       call MPI_Barrier(MPI_COMM_WORLD)
       start = MPI_Wtime()
       call surface%apply(x, y, status)
@@ -198,20 +199,21 @@ contains
     integer, intent(in) :: largest
     type(machine), intent(in) :: here
     type(fuge_info) :: info
-    real(dp) :: alone, expected(2), messages, seconds, times(2)
+    real(dp) :: alone, expected(2), messages, part(2), seconds, times(2)
     integer :: n
 
     if (rank == 0) write (*, '(a)') 'Shared by the ranks: n, product, modelled, its messages alone, %; preconditioning, ' &
-      //'modelled, ms'
+      //'modelled; product of n x n/P cells on each rank alone, ms'
     n = 2*LEAST
     do while (n <= largest)
-      call time_products(MPI_COMM_WORLD, n, times)
+      call time_products(MPI_COMM_SELF, n, max(n/ranks, 1), part)
+      call time_products(MPI_COMM_WORLD, n, n, times)
       alone = 2.0_dp*exchange_time(MPI_COMM_WORLD, sent_numbers(n, ranks, .true.), 5)
       messages = 2.0_dp*sent_numbers(n, ranks, .true.)*real(ranks - 1, dp)*here%number
       expected = [at(here%product, n), at(here%preconditioning, n)]*real(n, dp)**2/real(ranks, dp) &
                  + [messages, 0.5_dp*messages]
-      if (rank == 0) write (*, '(i7,3f10.2,f7.1,2f10.2)') n, 1.0e3_dp*[times(1), expected(1), alone], &
-        100.0_dp*alone/times(1), 1.0e3_dp*[times(2), expected(2)]
+      if (rank == 0) write (*, '(i7,3f10.2,f7.1,3f10.2)') n, 1.0e3_dp*[times(1), expected(1), alone], &
+        100.0_dp*alone/times(1), 1.0e3_dp*[times(2), expected(2), part(1)]
       n = 2*n
     end do
     n = min(largest, 2048)

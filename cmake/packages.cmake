@@ -45,12 +45,12 @@ forces, the gaps and the rigid approach, from an influence matrix or by
 fast Fourier transforms on half-planes and half-spaces, exactly and with
 a certificate.")
 
-# Module files can be read by compilers of the same module version.
+# The package of the compiler brings the commands gfortran and cc. Compilers of another version may do if they read the
+# same version of module files.
 set(for_fortran)
 if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU" AND CMAKE_Fortran_COMPILER_VERSION VERSION_GREATER_EQUAL 8
     AND CMAKE_Fortran_COMPILER_VERSION VERSION_LESS 15)
-  string(REGEX MATCH "^[0-9]+" major "${CMAKE_Fortran_COMPILER_VERSION}")
-  set(for_fortran ", gfortran-${major} | gfortran-mod-15")
+  set(for_fortran ", gfortran | gfortran-mod-15")
 endif()
 
 # fuge_package(name SECTION .. ABOUT .. [DEPENDS .. ] [RECOMMENDS ..] [FOR_ALL] FILES pattern ..)

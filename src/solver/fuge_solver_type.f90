@@ -104,16 +104,17 @@ contains
     self%history = fuge_history()
     self%has_solution = .false.
     self%last_report = fuge_info()
-    call check_options(chosen, info)
-    if (info%failed()) return
     ranks = operator%ranks()
+    call check_options(chosen, info)
+    call ranks%agree(info)
+    if (info%failed()) return
     if (ranks%total_count(operator%points()) < 1) then
       call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before the solve')
       return
     end if
     call check_problem(problem, operator%points(), info)
     call ranks%agree(info)
-    if (.not. (ranks%is_alone() .or. info%failed())) call check_shared_problem(problem, ranks, info)
+    if (.not. (ranks%is_alone() .or. info%failed())) call check_shared_problem(problem, chosen, ranks, info)
     if (info%failed()) return
 
     if (is_unloaded(problem)) then
@@ -142,10 +143,11 @@ contains
     end if
   end subroutine solve
 
-  !> Refuse loads, motions and kinds of problems that differ between the ranks that share the points
+  !> Refuse loads, motions, kinds of problems and options that differ between the ranks that share the points
   !> (FUGE_ERR_OPTION).
-  subroutine check_shared_problem(problem, ranks, info)
+  subroutine check_shared_problem(problem, options, ranks, info)
     type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
     type(shared_ranks), intent(in) :: ranks
     type(fuge_info), intent(inout) :: info
     real(dp) :: kind_of(6)
@@ -158,6 +160,8 @@ contains
                   //'ranks: allocate them on all or on none, also where a rank has no points')
     else if (differ(controls(problem), ranks)) then
       call report(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs between the ranks')
+    else if (differ([real([options%method, options%max_iterations], dp), options%tolerance], ranks)) then
+      call report(info, FUGE_ERR_OPTION, 'method, max_iterations or tolerance of the options differs between the ranks')
     end if
   end subroutine check_shared_problem
 

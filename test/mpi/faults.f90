@@ -128,6 +128,10 @@ contains
     call solver%solve(operator, problem, solution, info)
     call expect(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs')
     call set_gaps(operator, problem)
+    call solver%solve(operator, problem, solution, info, fuge_options(tolerance=merge(2.0_dp, 1.0e-8_dp, rank == 1)))
+    call expect(info, FUGE_ERR_OPTION, 'rank 1: tolerance = ')
+    call solver%solve(operator, problem, solution, info, fuge_options(tolerance=merge(1.0e-6_dp, 1.0e-8_dp, rank == 1)))
+    call expect(info, FUGE_ERR_OPTION, 'tolerance of the options differs')
     ! On one rank only.
     if (rank == 1) allocate (problem%gap_upper(operator%points()), source=1.0_dp)
     call solver%solve(operator, problem, solution, info)

@@ -39,7 +39,7 @@ for name in ("recipe.yaml", "meta.yaml"):
     expect(f"cmake >={least_cmake}" in text, f"{name}: not CMake {least_cmake}")
     for needed in ("fftw", "liblapack", "libblas", "suitesparse", "compiler('fortran')", "compiler('c')"):
         expect(needed in text, f"{name}: {needed} is missing")
-    expect("license: BSD-3-Clause" in text and "GPL" in text, f"{name}: licences")
+    expect("license: BSD-3-Clause AND GPL-2.0-or-later\n" in text, f"{name}: licences")
 
 
 
