@@ -1,6 +1,14 @@
 /* Communicators of C as Fortran knows them. */
 #include "fuge_mpi.h"
 
+/* 0 while MPI is not running, which the procedures below find out before they use the communicator. */
+static int fortran_handle(MPI_Comm comm) {
+  int begun = 0, ended = 0;
+  MPI_Initialized(&begun);
+  MPI_Finalized(&ended);
+  return begun && !ended ? (int)MPI_Comm_c2f(comm) : 0;
+}
+
 int fuge_operator_halfspace_comm(int nx, int ny, double spacing_x, double spacing_y, double e_star, int element,
                                  int boundary, int comm, fuge_operator **op, char *message, size_t len);
 
@@ -10,7 +18,7 @@ __attribute__((visibility("default")))
 #endif
 int fuge_operator_halfspace_mpi(int nx, int ny, double spacing_x, double spacing_y, double e_star, int element,
                                 int boundary, MPI_Comm comm, fuge_operator **op, char *message, size_t len) {
-  return fuge_operator_halfspace_comm(nx, ny, spacing_x, spacing_y, e_star, element, boundary, (int)MPI_Comm_c2f(comm),
+  return fuge_operator_halfspace_comm(nx, ny, spacing_x, spacing_y, e_star, element, boundary, fortran_handle(comm),
                                       op, message, len);
 }
 
@@ -22,5 +30,5 @@ __attribute__((visibility("default")))
 #endif
 int fuge_operator_halfplane_mpi(int n, double spacing, double e_star, int element, int boundary, MPI_Comm comm,
                                 fuge_operator **op, char *message, size_t len) {
-  return fuge_operator_halfplane_comm(n, spacing, e_star, element, boundary, (int)MPI_Comm_c2f(comm), op, message, len);
+  return fuge_operator_halfplane_comm(n, spacing, e_star, element, boundary, fortran_handle(comm), op, message, len);
 }

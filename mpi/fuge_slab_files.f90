@@ -53,6 +53,8 @@ contains
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(operator%points())//' values')
     call ranks%agree(info)
     if (stat /= 0 .or. info%failed()) return
+    call require_file(path, 'read', 'cannot be opened', ranks, info)
+    if (info%failed()) return
     call MPI_File_open(operator%comm(), path, MPI_MODE_RDONLY, MPI_INFO_NULL, file, error)
     if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be opened')
     call ranks%agree(info)
@@ -88,6 +90,10 @@ contains
                                                        //'of this rank have '//text(operator%points()))
     call ranks%agree(info)
     if (info%failed()) return
+    if (ranks%number() == 0) call create_file(path, info)
+    call ranks%agree(info)
+    if (.not. info%failed()) call require_file(path, 'write', 'cannot be opened for writing', ranks, info)
+    if (info%failed()) return
     call MPI_File_open(operator%comm(), path, ior(MPI_MODE_CREATE, MPI_MODE_WRONLY), MPI_INFO_NULL, file, error)
     if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be opened for writing')
     call ranks%agree(info)
@@ -111,6 +117,31 @@ contains
     end if
     call ranks%agree(info)
   end subroutine fuge_mpi_write_rows
+
+  !> Create the file, unless it exists.
+  subroutine create_file(path, info)
+    character(len=*), intent(in) :: path
+    type(fuge_info), intent(inout) :: info
+    integer :: status, unit
+
+    open (newunit=unit, file=path, action='write', access='stream', iostat=status)
+    if (status == 0) close (unit, iostat=status)
+    if (status /= 0) call report(info, FUGE_ERR_FILE, path//' cannot be opened for writing')
+  end subroutine create_file
+
+  !> Refuse a file that a rank cannot open for this `action` (FUGE_ERR_FILE, on all ranks): where some can and some
+  !> cannot, MPI_File_open would wait without end.
+  subroutine require_file(path, action, reason, ranks, info)
+    character(len=*), intent(in) :: path, action, reason
+    type(shared_ranks), intent(in) :: ranks
+    type(fuge_info), intent(inout) :: info
+    integer :: status, unit
+
+    open (newunit=unit, file=path, status='old', action=action, access='stream', iostat=status)
+    if (status == 0) close (unit, iostat=status)
+    if (status /= 0) call report(info, FUGE_ERR_FILE, path//' '//reason)
+    call ranks%agree(info)
+  end subroutine require_file
 
   subroutine require_grid(operator, info)
     class(shared_operator), intent(in) :: operator

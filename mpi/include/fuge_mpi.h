@@ -47,8 +47,8 @@ int fuge_operator_halfplane_mpi(int n, double spacing, double e_star, int elemen
 int fuge_operator_rows(const fuge_operator *op, int *first, int *rows, char *message, size_t len);
 
 /* Read values (nx*rows of this rank) from a file of numpy, .npy, an array (ny, nx) of doubles, (n,) of a half-plane, or
- * write one: all ranks together, each its own rows.  FUGE_ERR_FILE, FUGE_ERR_SIZE for another shape,
- * FUGE_ERR_UNSUPPORTED for an operator of fuge.h; on all ranks, values unchanged. */
+ * write one: all ranks together, each its own rows; path and values are not NULL on any rank.  FUGE_ERR_FILE,
+ * FUGE_ERR_SIZE for another shape, FUGE_ERR_UNSUPPORTED for an operator of fuge.h; on all ranks, values unchanged. */
 int fuge_mpi_read_rows(const char *path, const fuge_operator *op, double *values, char *message, size_t len);
 int fuge_mpi_write_rows(const char *path, const fuge_operator *op, const double *values, char *message, size_t len);
 

@@ -5,7 +5,6 @@ module fuge_solver_type
   use fuge_certificate, only: find_violation, fuge_violation
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
-  use fuge_data_scales, only: is_prescribed
   use fuge_force_error, only: estimate_force_error
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
@@ -23,6 +22,7 @@ module fuge_solver_type
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_sensitivity, only: find_derivative
   use fuge_set_derivative, only: find_derivative_by_products
+  use fuge_shared_problem, only: check_shared_problem, differ
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_SIZE, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_UNSUPPORTED, FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
@@ -122,9 +122,9 @@ contains
       if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
     else
       call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
-      if (self%found_factor .and. any(info%status == [FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED])) then
-        ! The matrix may have changed since it was factored, although the operator was not set again.
+      if (is_misled(self, info%status)) then
         self%factor = kkt_factor()
+        call self%steps%forget()
         candidate = fuge_solution()
         info = fuge_info()
         call solve_and_certify(self, operator, problem, chosen, relay, candidate, info)
@@ -143,55 +143,21 @@ contains
     end if
   end subroutine solve
 
-  !> Refuse loads, motions, kinds of problems and options that differ between the ranks that share the points
-  !> (FUGE_ERR_OPTION).
-  subroutine check_shared_problem(problem, options, ranks, info)
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_options), intent(in) :: options
-    type(shared_ranks), intent(in) :: ranks
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: kind_of(6)
+  !> Has what was kept of the last solve perhaps misled this one, which ended with `status`?
+  !>
+  !> The matrix may have changed since it was factored, although the operator was not set again, and the start of an
+  !> iteration may have been so large that it left its rounding behind.
+  pure function is_misled(self, status)
+    type(fuge_solver), intent(in) :: self
+    integer, intent(in) :: status
+    logical :: is_misled
 
-    kind_of = real([problem%mode_count(), merge(1, 0, allocated(problem%modes)), &
-                    merge(1, 0, allocated(problem%gap_upper)), merge(1, 0, allocated(problem%excluded)), &
-                    merge(1, 0, allocated(problem%prescribed)), merge(1, 0, problem%is_plain())], dp)
-    if (differ(kind_of, ranks)) then
-      call report(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded or prescribed are not allocated alike on all ' &
-                  //'ranks: allocate them on all or on none, also where a rank has no points')
-    else if (differ(controls(problem), ranks)) then
-      call report(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs between the ranks')
-    else if (differ([real([options%method, options%max_iterations], dp), options%tolerance], ranks)) then
-      call report(info, FUGE_ERR_OPTION, 'method, max_iterations or tolerance of the options differs between the ranks')
+    if (self%solved_by_products) then
+      is_misled = self%steps%started_warm .and. status == FUGE_WARN_RESIDUAL
+    else
+      is_misled = self%found_factor .and. any(status == [FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED])
     end if
-  end subroutine check_shared_problem
-
-  !> Do the `values`, as many on each, differ between the ranks?
-  function differ(values, ranks)
-    real(dp), intent(in) :: values(:)
-    type(shared_ranks), intent(in) :: ranks
-    logical :: differ
-    real(dp) :: extremes(2*size(values))
-
-    extremes = [values, -values]
-    call ranks%raise(extremes)
-    differ = any(abs(extremes(:size(values)) + extremes(size(values) + 1:)) > 0.0_dp)
-  end function differ
-
-  !> Of each mode 1 and the motion where that is prescribed, else 0 and the resultant, (2 m).
-  pure function controls(problem)
-    type(fuge_problem), intent(in) :: problem
-    real(dp) :: controls(2*problem%mode_count())
-    integer :: j
-
-    controls = 0.0_dp
-    do j = 1, problem%mode_count()
-      if (is_prescribed(problem, j)) then
-        controls(2*j - 1:2*j) = [1.0_dp, problem%motion(j)]
-      else
-        controls(2*j) = problem%resultant(j)
-      end if
-    end do
-  end function controls
+  end function is_misled
 
   !> One solve by the engine that the options choose, and its certificate.
   subroutine solve_and_certify(self, operator, problem, options, monitor, solution, info)

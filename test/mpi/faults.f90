@@ -52,7 +52,7 @@ program faults
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use fuge, dp => fuge_dp
   use failing_ranks, only: cancelling_monitor, failing_operator
-  use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator
+  use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator, fuge_mpi_read_rows, fuge_mpi_write_rows
   use mpi_f08
   implicit none
 
@@ -87,6 +87,7 @@ contains
     call refuse_grids()
     call refuse_problems()
     call fail_products()
+    call refuse_files()
     call cancel()
     call fail_line()
     call solve_after_all()
@@ -131,7 +132,9 @@ contains
     call solver%solve(operator, problem, solution, info, fuge_options(tolerance=merge(2.0_dp, 1.0e-8_dp, rank == 1)))
     call expect(info, FUGE_ERR_OPTION, 'rank 1: tolerance = ')
     call solver%solve(operator, problem, solution, info, fuge_options(tolerance=merge(1.0e-6_dp, 1.0e-8_dp, rank == 1)))
-    call expect(info, FUGE_ERR_OPTION, 'tolerance of the options differs')
+    call expect(info, FUGE_ERR_OPTION, 'method, max_iterations, keep_history or tolerance of the options differs')
+    call solver%solve(operator, problem, solution, info, fuge_options(keep_history=rank == 1))
+    call expect(info, FUGE_ERR_OPTION, 'method, max_iterations, keep_history or tolerance of the options differs')
     ! On one rank only.
     if (rank == 1) allocate (problem%gap_upper(operator%points()), source=1.0_dp)
     call solver%solve(operator, problem, solution, info)
@@ -153,6 +156,28 @@ contains
     call expect(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load')
     if (allocated(solution%force)) failures = failures + 1
   end subroutine refuse_problems
+
+  ! A file that one rank cannot open.
+  subroutine refuse_files()
+    type(fuge_mpi_halfspace_operator) :: operator
+    type(fuge_problem) :: problem
+    real(dp), allocatable :: values(:)
+    type(fuge_info) :: info
+    character(len=*), parameter :: PATH = 'faults.npy'
+    character(len=:), allocatable :: own_path
+
+    own_path = PATH
+    if (rank == 1) own_path = 'no_such_folder/'//PATH
+    call operator%set(NX, NY, 1.0_dp, 1.0_dp, 1.0_dp, MPI_COMM_WORLD, info)
+    call set_gaps(operator, problem)
+    call fuge_mpi_write_rows(own_path, operator, problem%gap, info)
+    call expect(info, FUGE_ERR_FILE, 'rank 1: no_such_folder/'//PATH//' cannot be opened for writing')
+    call fuge_mpi_write_rows(PATH, operator, problem%gap, info)
+    call expect(info, FUGE_DONE, '')
+    call fuge_mpi_read_rows(own_path, operator, values, info)
+    call expect(info, FUGE_ERR_FILE, 'rank 1: no_such_folder/'//PATH//' cannot be opened')
+    if (allocated(values)) failures = failures + 1
+  end subroutine refuse_files
 
   subroutine fail_products()
     type(failing_operator) :: operator

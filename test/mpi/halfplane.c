@@ -25,6 +25,9 @@ int main(int argc, char **argv) {
   fuge_solver *solver = NULL;
   FILE *file;
 
+  status = fuge_operator_halfplane_mpi(N, 1.0 / N, 1.0, FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message,
+                                       sizeof message);
+  expect(status == FUGE_ERR_CALL_ORDER && !op, "before MPI runs", message);
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   status = fuge_operator_halfplane_mpi(N, 0.0, 1.0, FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message, sizeof message);
