@@ -25,7 +25,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     info%residual = max(info%residual, wrong_sign)
-    if (max(info%residual, error) > DEFAULTS%tolerance .and. ROUNDINGS*rounding > error) then
+    if (max(info%residual, error) > DEFAULTS%tolerance .and. ROUNDINGS*rounding > max(info%residual, error)) then
       call report(info, FUGE_WARN_RESIDUAL, 'the estimated error is '//text(error) &
                   //': the contact is so narrow that the rounding of its positions matters; put x = 0 into the contact')
     else if (info%residual <= DEFAULTS%tolerance .and. undecided > DEFAULTS%tolerance) then
