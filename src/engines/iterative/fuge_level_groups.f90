@@ -1,8 +1,9 @@
 !> Groups of cells of one level that are one cell of the next, on a line that ranks may share: sums and means over them.
 module fuge_level_groups
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_shared_rows, only: shared_rows
-  use fuge_status, only: fuge_info
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -43,7 +44,7 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: collected(:), part(:)
     integer, dimension(0:fine%ranks%members() - 1) :: first, last
-    integer :: begin, k, me
+    integer :: begin, k, me, stat
 
     if (is_local(fine)) then
       do k = 1, size(sums)
@@ -53,13 +54,20 @@ contains
     end if
     call find_groups(fine, first, last)
     me = fine%ranks%number()
-    allocate (part(last(me) - first(me) + 1), source=0.0_dp)
-    begin = fine%first(me) - GROUP*(first(me) - 1) - 1
-    do k = 1, size(values)
-      associate (group_sum => part((begin + k - 1)/GROUP + 1))
-        group_sum = group_sum + values(k)
-      end associate
-    end do
+    allocate (part(last(me) - first(me) + 1), stat=stat)
+    if (stat /= 0) then
+      ! The ranks agree on errors where they collect.
+      call report(info, FUGE_ERR_MEMORY, 'no memory for groups of '//text(size(values))//' cells')
+      allocate (part(0))
+    else
+      part = 0.0_dp
+      begin = fine%first(me) - GROUP*(first(me) - 1) - 1
+      do k = 1, size(values)
+        associate (group_sum => part((begin + k - 1)/GROUP + 1))
+          group_sum = group_sum + values(k)
+        end associate
+      end do
+    end if
     call coarse%collect(1, part, first, last, collected, info)
     if (.not. info%failed()) sums = collected
   end subroutine sum_over_groups
@@ -70,10 +78,19 @@ contains
     real(dp), intent(in), contiguous :: weight(:), fine_values(:), coarse_weight(:)
     real(dp), intent(inout), contiguous :: means(:)
     type(fuge_info), intent(inout) :: info
-    integer :: begin, finish, k
+    real(dp), allocatable :: weighted(:)
+    integer :: begin, finish, k, stat
 
     if (.not. is_local(fine)) then
-      call sum_over_groups(fine, coarse, weight*fine_values, means, info)
+      allocate (weighted(size(fine_values)), stat=stat)
+      if (stat /= 0) then
+        call report(info, FUGE_ERR_MEMORY, 'no memory for means of '//text(size(fine_values))//' cells')
+        allocate (weighted(0))
+      else
+        weighted = weight*fine_values
+      end if
+      call sum_over_groups(fine, coarse, weighted, means, info)
+      if (info%failed()) return
       where (coarse_weight > 0.0_dp)
         means = means/coarse_weight
       else where

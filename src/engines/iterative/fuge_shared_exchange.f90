@@ -36,9 +36,10 @@ contains
       call exchange_extrapolated(tensile, penetrating, measure, contact)
     else
       call fetch_neighbours(rows, tensile, penetrating, measure, contact, first, part, info)
-      if (info%failed() .or. size(contact) == 0) return
+      if (info%failed()) return
       own = rows%own()
-      call exchange_part(part, own(1) - first(rows%ranks%number()), contact)
+      if (size(contact) > 0) call exchange_part(part, own(1) - first(rows%ranks%number()), contact, info)
+      call rows%ranks%agree(info)
     end if
   end subroutine exchange_in_line
 
@@ -78,15 +79,23 @@ contains
     call rows%fetch(2, values, first, last, part, info)
   end subroutine fetch_neighbours
 
-  !> Exchange the cells of `part`, and take from it those of this rank, which begin behind `before` others.
-  pure subroutine exchange_part(part, before, contact)
+  !> Exchange the cells of `part`, and take from it those of this rank, which begin behind `before` others. Error:
+  !> FUGE_ERR_MEMORY.
+  pure subroutine exchange_part(part, before, contact, info)
     real(dp), intent(in), contiguous :: part(:)
     integer, intent(in) :: before
     logical, intent(inout) :: contact(:)
-    logical :: tensile(size(part)/2), penetrating(size(part)/2), all_contact(size(part)/2)
-    real(dp) :: measure(size(part)/2)
-    integer :: k
+    type(fuge_info), intent(inout) :: info
+    logical, allocatable :: tensile(:), penetrating(:), all_contact(:)
+    real(dp), allocatable :: measure(:)
+    integer :: k, n, stat
 
+    n = size(part)/2
+    allocate (tensile(n), penetrating(n), all_contact(n), measure(n), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(n)//' points')
+      return
+    end if
     do k = 1, size(measure)
       associate (state => part(2*k - 1))
         tensile(k) = abs(state - TENSILE_STATE) <= 0.0_dp
