@@ -158,7 +158,7 @@ contains
       if (line(:6) == 'VmHWM:') read (line(7:index(line, 'kB') - 1), *) kilobytes
     end do
     close (unit)
-    write (*, '(a,i4,a,f9.3,a,f7.2,a)') 'rank ', rank, ': at most ', kilobytes/1048576.0_dp, ' GB, ', &
+    write (*, '(a,i4,a,f9.3,a,f7.2,a)') 'rank ', rank, ': at most ', 1.024e-6_dp*real(kilobytes, dp), ' GB, ', &
       128.0_dp*real(kilobytes, dp)*ranks/real(n, dp)**2, ' arrays of its share'
   end subroutine report_memory
 

@@ -1,7 +1,7 @@
 # fuge_write_reference(root file): the public Fortran interface as a page, from the docstrings of the source in `root`.
 #
 # What fuge.f90 passes on, folder by folder: procedures with their arguments, types with their public components and
-# procedures, constants with their values; then fuge_sparse. The form of the sources is that of the house: a docstring
+# procedures, constants with their values; then fuge_sparse and fuge_mpi. The form of the sources is that of the house: a docstring
 # is lines `!> ...` right before what it is about.
 
 # CMake takes these characters as its own: others stand for them.
@@ -201,6 +201,12 @@ function(fuge_write_reference root file)
   endforeach()
   string(APPEND page "\n## The module fuge_sparse\n\n")
   fuge_describe_module("${root}/sparse/fuge_sparse.f90" fuge_sparse_stiffness)
+  string(APPEND page "${described}\n## The module fuge_mpi\n\n")
+  fuge_describe_module("${root}/mpi/fuge_slab_halfspace.f90" fuge_mpi_halfspace_operator)
+  string(APPEND page "${described}")
+  fuge_describe_module("${root}/mpi/fuge_line_halfplane.f90" fuge_mpi_halfplane_operator)
+  string(APPEND page "${described}")
+  fuge_describe_module("${root}/mpi/fuge_slab_files.f90" fuge_mpi_read_rows fuge_mpi_write_rows)
   fuge_show("${page}${described}" page)
   string(REGEX REPLACE "\n\n\n+" "\n\n" page "${page}")
   file(WRITE "${file}" "${page}")

@@ -10,14 +10,18 @@ module fuge_line_halfplane
   use fuge_line_cells, only: active_ranks, first_cells
   use fuge_line_kernel, only: compute_kernels, line_kernel
   use fuge_line_transform, only: line_transform
+  use fuge_memory, only: check_memory
   use fuge_operator_type, only: fuge_operator
-  use fuge_rank_communicator, only: free_communicator, rank_communicator, split_communicator
+  use fuge_rank_communicator, only: free_communicator, members_here, rank_communicator, split_communicator
   use fuge_ranks, only: shared_ranks
   use fuge_shared_operator, only: owns, shared_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
   use mpi_f08, only: MPI_Comm
   implicit none
   private
+
+  !> Two buffers, factors of the transform and two spectra take so many bytes for each cell of the circle.
+  real(dp), parameter :: LINE_BYTES = 64.0_dp
 
   !> What several ranks need for products.
   type :: shared_parts
@@ -113,7 +117,7 @@ contains
   subroutine prepare(operator, info)
     type(fuge_mpi_halfplane_operator), intent(inout), target :: operator
     type(fuge_info), intent(inout) :: info
-    integer :: active, first(0:operator%group%members()), length, me, stat
+    integer :: active, first(0:operator%group%members()), here, length, me, stat
     real(dp) :: datum(1)
 
     operator%owner = c_loc(operator%measured)
@@ -123,6 +127,9 @@ contains
     first = first_cells(operator%line%cells, length, operator%group%members())
     if (first(me + 1) > first(me)) operator%own = [first(me), first(me + 1) - 1]
     active = active_ranks(operator%line%cells, length, operator%group%members())
+    here = members_here(operator%group, active)
+    if (me < active) call check_memory(LINE_BYTES*real(length, dp)*real(here, dp)/real(active, dp), &
+                                       'the part of the ranks on this machine', info)
     stat = 0
     if (active > 1 .and. me < active) allocate (operator%shared, stat=stat)
     if (active == 1 .and. me < active) allocate (operator%whole, stat=stat)

@@ -14,7 +14,7 @@ module fuge_line_kernel
 
   !> The spectrum of an even kernel, of the waves of this rank.
   type, public :: line_kernel
-    !> What goes once round the circle counts nothing.
+    !> Transforms are twisted: what has gone once round the circle is imaginary, and is dropped.
     logical :: twisted = .false.
     !> (m, own waves): of the wave k + n l in row l + 1 of the column for k, divided by the length.
     real(dp), allocatable :: spectrum(:, :)

@@ -5,12 +5,13 @@ module fuge_rank_communicator
   use fuge_ranks, only: rank_group
   use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_MESSAGE_LENGTH
   use mpi_f08, only: MPI_Allreduce, MPI_Alltoallv, MPI_Bcast, MPI_Comm, MPI_Comm_dup, MPI_Comm_free, MPI_Comm_rank, &
-    MPI_Comm_size, MPI_Comm_split, MPI_Finalized, MPI_Initialized, operator(/=), MPI_CHARACTER, MPI_COMM_NULL, &
-    MPI_DOUBLE_PRECISION, MPI_IN_PLACE, MPI_INTEGER, MPI_LAND, MPI_LOGICAL, MPI_MAX, MPI_MIN, MPI_SUM, MPI_UNDEFINED
+    MPI_Comm_size, MPI_Comm_split, MPI_Comm_split_type, MPI_Finalized, MPI_Initialized, operator(/=), MPI_CHARACTER, &
+    MPI_COMM_NULL, MPI_COMM_TYPE_SHARED, MPI_DOUBLE_PRECISION, MPI_IN_PLACE, MPI_INFO_NULL, MPI_INTEGER, MPI_LAND, &
+    MPI_LOGICAL, MPI_MAX, MPI_MIN, MPI_SUM, MPI_UNDEFINED
   implicit none
   private
 
-  public :: check_mpi, free_communicator, mpi_is_running, new_communicator, split_communicator
+  public :: check_mpi, free_communicator, members_here, new_communicator, split_communicator
 
   !> A communicator of its own, so that messages do not mix with those of the caller.
   type, extends(rank_group), public :: rank_communicator
@@ -60,6 +61,19 @@ contains
     call MPI_Comm_rank(own, group%rank)
     call MPI_Comm_size(own, group%size)
   end subroutine new_communicator
+
+  !> How many of the first `count` ranks of `group` share the memory of this one; all ranks of it call.
+  function members_here(group, count) result(members)
+    type(rank_communicator), intent(in) :: group
+    integer, intent(in) :: count
+    integer :: members
+    type(MPI_Comm) :: here
+
+    call MPI_Comm_split_type(group%comm(), MPI_COMM_TYPE_SHARED, group%rank, MPI_INFO_NULL, here)
+    members = merge(1, 0, group%rank < count)
+    call MPI_Allreduce(MPI_IN_PLACE, members, 1, MPI_INTEGER, MPI_SUM, here)
+    call MPI_Comm_free(here)
+  end function members_here
 
   !> A group of the first `count` ranks of `whole`, which all of them call; on the others it has no communicator.
   subroutine split_communicator(whole, count, part)

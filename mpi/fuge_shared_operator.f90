@@ -6,6 +6,7 @@ module fuge_shared_operator
   use fuge_operator_type, only: fuge_operator
   use fuge_rank_communicator, only: check_mpi, free_communicator, new_communicator, rank_communicator
   use fuge_ranks, only: shared_ranks
+  use fuge_shared_problem, only: differ
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_SIZE
   use mpi_f08, only: MPI_Comm
@@ -110,13 +111,10 @@ contains
     real(dp), intent(in) :: numbers(:)
     character(len=*), intent(in) :: which
     type(fuge_info), intent(inout) :: info
-    real(dp) :: extremes(2*size(numbers))
 
     call self%group%agree(info)
     if (info%failed()) return
-    extremes = [numbers, -numbers]
-    call self%group%raise(extremes)
-    if (any(abs(extremes(:size(numbers)) + extremes(size(numbers) + 1:)) > 0.0_dp)) then
+    if (differ(numbers, self%ranks())) then
       call report(info, FUGE_ERR_OPTION, 'the grid differs between the ranks: pass the same '//which &
                   //' and options on all of them')
     end if

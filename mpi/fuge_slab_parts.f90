@@ -7,7 +7,7 @@ module fuge_slab_parts
   use fuge_kinds, only: dp
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
-  use fuge_rank_communicator, only: free_communicator, rank_communicator, split_communicator
+  use fuge_rank_communicator, only: free_communicator, members_here, rank_communicator, split_communicator
   use fuge_slab_convolution, only: slab_kernel
   use fuge_slab_plan, only: slab_plan
   use fuge_slab_rows, only: active_ranks
@@ -54,14 +54,16 @@ contains
     type(rank_communicator), intent(in) :: group
     logical, intent(in) :: measured
     type(fuge_info), intent(inout) :: info
-    integer :: active, length(2), stat
+    integer :: active, here, length(2), stat
 
     active = active_ranks(surface%cells, group%members())
+    here = members_here(group, active)
     call circle_of(surface, length, info)
     if (info%failed()) return
     stat = 0
     if (group%number() < active) then
-      call check_memory(bytes_needed(surface, length)/real(active, dp), 'the part of a rank', info)
+      call check_memory(bytes_needed(surface, length)*real(here, dp)/real(active, dp), &
+                        'the part of the ranks on this machine', info)
       if (active > 1) then
         allocate (parts%shared, stat=stat)
       else

@@ -69,7 +69,8 @@ contains
     end do
     call allocate_line(most(1), self%memory(1), self%by_rows, status(1))
     call allocate_line(most(2), self%memory(2), self%by_columns, status(2))
-    call allocate_values(2*max(maxval(length), 2*self%all_pairs) + 2, COLUMNS + 2, self%memory(3), self%lines, status(3))
+    call allocate_values(2*max(maxval(length), 2*self%all_pairs) + 2, COLUMNS + 2, self%memory(3), self%lines, &
+                         status(3))
     if (any(status /= 0)) call report(info, FUGE_ERR_MEMORY, 'no memory for transforms of '//text(length(1))//' by ' &
                                       //text(length(2))//' values')
   end subroutine set

@@ -131,7 +131,7 @@ contains
       call expect(info%status >= 0, name//': '//trim(info%message))
       if (info%failed()) return
       if (my_rank() == 0) call whole_solver%solve(whole, whole_problem, expected, whole_info)
-      call check_solution(name, accuracy, info, solution, whole_info, expected)
+      call check_solution(name, accuracy, 0, info, solution, whole_info, expected)
       problem%resultant = 1.1_dp*problem%resultant
       if (my_rank() == 0) whole_problem%resultant = problem%resultant
     end do

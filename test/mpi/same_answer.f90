@@ -110,7 +110,7 @@ contains
       call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
       if (info%failed()) return
       if (my_rank() == 0) call whole_solver%solve(whole, whole_problem, expected, whole_info)
-      call check_solution(name, 1.0e-12_dp, info, solution, whole_info, expected)
+      call check_solution(name, 1.0e-12_dp, 0, info, solution, whole_info, expected)
       problem%resultant = [1.1_dp*load]
       whole_problem%resultant = problem%resultant
       if (k == 2) then

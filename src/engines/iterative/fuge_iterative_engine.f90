@@ -220,8 +220,7 @@ contains
   end subroutine discard
 
   !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points; its rows are
-  !> set. Errors:
-  !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  !> set. Errors: FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   subroutine set_simple_scene(problem, scene, scaling, info)
     type(fuge_problem), intent(in) :: problem
     type(contact_scene), intent(inout) :: scene

@@ -7,7 +7,7 @@ class Fuge(CMakePackage):
     """Frictionless contact of elastic bodies: forces, gaps and the rigid approach, from an influence matrix or by
     fast Fourier transforms on half-planes and half-spaces, exactly and with a certificate."""
 
-    license("BSD-3-Clause", checked_by="fuge")
+    license("BSD-3-Clause")
 
     version("0.1.0")
 
@@ -18,6 +18,7 @@ class Fuge(CMakePackage):
     variant("mpi", default=False, when="+fftw", description="Surfaces over MPI")
 
     depends_on("c", type="build")
+    depends_on("cxx", type="build")
     depends_on("fortran", type="build")
     depends_on("cmake@3.20:", type="build")
     depends_on("pkgconfig", type="build")
