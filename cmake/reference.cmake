@@ -1,8 +1,8 @@
 # fuge_write_reference(root file): the public Fortran interface as a page, from the docstrings of the source in `root`.
 #
 # What fuge.f90 passes on, folder by folder: procedures with their arguments, types with their public components and
-# procedures, constants with their values; then fuge_sparse and fuge_mpi. The form of the sources is that of the house: a docstring
-# is lines `!> ...` right before what it is about.
+# procedures, constants with their values; then fuge_sparse and fuge_mpi. The form of the sources is that of the house:
+# a docstring is lines `!> ...` right before what it is about.
 
 # CMake takes these characters as its own: others stand for them.
 string(ASCII 1 fuge_bracket)

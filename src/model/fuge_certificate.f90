@@ -120,7 +120,8 @@ contains
     if (allocated(problem%modes)) then
       ! Motions are solved for together: each one that moves a point is rounded like the largest magnitude of its body.
       rigid_magnitude = rigid_magnitude + max(count(abs(problem%modes) > 0.0_dp, 2), 1) &
-                        *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included), ranks)
+                        *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included), &
+                                           ranks)
     end if
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
                                            .not. allocated(problem%modes), ranks)

@@ -128,7 +128,8 @@ contains
       call report(info, FUGE_ERR_OPTION, 'threads = '//text(new_plan%threads)//': use 1 or more')
     else if (.not. HAS_FFTW) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'this library was built without FFTW (FUGE_WITH_FFTW=OFF), which ' &
-                  //'operators by FFT and stresses on grids need: build it with FFTW, or use a matrix, or stresses at points')
+                  //'operators by FFT and stresses on grids need: build it with FFTW, or use a matrix, or stresses ' &
+                  //'at points')
     else
       call make_plans(new_plan, info)
     end if

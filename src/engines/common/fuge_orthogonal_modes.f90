@@ -51,9 +51,9 @@ contains
   !> Modes of equal size that span the same motions and are orthogonal at the points that take part; the first is the
   !> constant 1 if that lies in the span of the modes of one body.
   !>
-  !> `columns` (n, m) the given modes; `excluded` (n); where ranks, `sharing`, share the points, those of this rank. Out:
-  !> `modes` (n, m), zero where excluded; `change`; `has_translation`: modes(:, 1) is the constant. All but `fault` are
-  !> undefined if one was found.
+  !> `columns` (n, m) the given modes; `excluded` (n); where ranks, `sharing`, share the points, those of this rank.
+  !> Out: `modes` (n, m), zero where excluded; `change`; `has_translation`: modes(:, 1) is the constant. All but
+  !> `fault` are undefined if one was found.
   subroutine make_orthogonal(columns, excluded, modes, change, has_translation, fault, sharing)
     real(dp), intent(in) :: columns(:, :)
     logical, intent(in) :: excluded(:)
