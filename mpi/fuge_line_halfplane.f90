@@ -3,7 +3,6 @@ module fuge_line_halfplane
   use, intrinsic :: iso_c_binding, only: c_loc, c_null_ptr, c_ptr
   use fuge_convolution, only: convolution_kernel
   use fuge_fft, only: fft_plan
-  use fuge_grid_store, only: grid_store
   use fuge_halfplane_line, only: check_line, circle_of, coarsened, count_coarser, halfplane_line, least_magnitude
   use fuge_halfplane_spectra, only: compute_line_spectra
   use fuge_kinds, only: dp
@@ -53,7 +52,6 @@ module fuge_line_halfplane
     !> Of these one is associated, on ranks that have cells.
     type(shared_parts), pointer :: shared => null()
     type(whole_parts), pointer :: whole => null()
-    type(grid_store) :: coarser
     !> Address of the variable that owns the parts.
     type(c_ptr) :: owner = c_null_ptr
   contains
@@ -68,7 +66,7 @@ module fuge_line_halfplane
     procedure :: precondition
     procedure :: grid
     procedure :: coarsen
-    procedure :: kept_coarser
+    procedure :: new_coarser
     procedure :: first_rows
     procedure, private :: copy
     generic :: assignment(=) => copy
@@ -354,32 +352,25 @@ contains
     done = .not. info%failed()
   end function set_wider
 
-  !> As `coarsen`, but the wider cells are kept for the next solve. All ranks call it.
-  subroutine kept_coarser(self, levels, coarse)
+  !> As for `shared_operator`.
+  subroutine new_coarser(self, levels, wider)
     class(fuge_mpi_halfplane_operator), intent(in) :: self
     integer, intent(in) :: levels
-    class(fuge_operator), pointer, intent(out) :: coarse
-    type(fuge_mpi_halfplane_operator), pointer :: wider
-    integer :: k, stat
+    class(shared_operator), pointer, intent(out) :: wider
+    type(fuge_mpi_halfplane_operator), pointer :: made
+    logical :: done
+    integer :: stat
 
-    nullify (coarse)
-    k = self%coarser%place(levels)
-    if (.not. self%agreed(merge(0, 1, k > 0))) return
-    if (.not. associated(self%coarser%grid(k)%operator)) then
-      allocate (wider, stat=stat)
-      if (.not. self%agreed(stat)) then
-        if (stat == 0) deallocate (wider)
-        return
-      end if
-      if (.not. set_wider(self, coarsened(self%line, levels), wider)) then
-        deallocate (wider)
-        return
-      end if
-      call wider%coarser%refer_to(self%coarser, k)
-      self%coarser%grid(k)%operator => wider
+    nullify (wider)
+    allocate (made, stat=stat)
+    done = self%agreed(stat)
+    if (done) done = set_wider(self, coarsened(self%line, levels), made)
+    if (done) then
+      wider => made
+    else if (stat == 0) then
+      deallocate (made)
     end if
-    coarse => self%coarser%grid(k)%operator
-  end subroutine kept_coarser
+  end subroutine new_coarser
 
   !> As for `fuge_operator`.
   subroutine first_rows(self, levels, first)

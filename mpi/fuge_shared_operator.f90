@@ -1,6 +1,7 @@
 !> What operators have in common whose cells the ranks of an MPI communicator share.
 module fuge_shared_operator
   use, intrinsic :: iso_c_binding, only: c_associated, c_loc, c_null_ptr, c_ptr
+  use fuge_grid_store, only: grid_store
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
@@ -21,10 +22,14 @@ module fuge_shared_operator
     logical :: measured = .false.
     !> All ranks; coarser grids refer to those of the finest one.
     type(rank_communicator), pointer :: group => null()
+    !> Wider cells for the solves.
+    type(grid_store) :: coarser
     !> Address of the variable that owns the group.
     type(c_ptr), private :: group_owner = c_null_ptr
   contains
     procedure(find_rows), deferred :: own_rows
+    procedure(make_wider), deferred :: new_coarser
+    procedure :: kept_coarser
     procedure :: comm
     procedure :: ranks
     procedure :: apply_with_magnitude
@@ -43,6 +48,15 @@ module fuge_shared_operator
       class(shared_operator), intent(in) :: self
       integer :: rows(2)
     end function find_rows
+
+    !> An operator of cells 2**levels times as wide, levels >= 1, for the same ranks, which all call it; none without
+    !> memory on any of them.
+    subroutine make_wider(self, levels, wider)
+      import :: shared_operator
+      class(shared_operator), intent(in) :: self
+      integer, intent(in) :: levels
+      class(shared_operator), pointer, intent(out) :: wider
+    end subroutine make_wider
   end interface
 
 contains
@@ -119,6 +133,26 @@ contains
                   //' and options on all of them')
     end if
   end subroutine check_same
+
+  !> As `coarsen`, but the wider cells are kept for the next solve. All ranks call it.
+  subroutine kept_coarser(self, levels, coarse)
+    class(shared_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    class(fuge_operator), pointer, intent(out) :: coarse
+    class(shared_operator), pointer :: wider
+    integer :: k
+
+    nullify (coarse)
+    k = self%coarser%place(levels)
+    if (.not. self%agreed(merge(0, 1, k > 0))) return
+    if (.not. associated(self%coarser%grid(k)%operator)) then
+      call self%new_coarser(levels, wider)
+      if (.not. associated(wider)) return
+      call wider%coarser%refer_to(self%coarser, k)
+      self%coarser%grid(k)%operator => wider
+    end if
+    coarse => self%coarser%grid(k)%operator
+  end subroutine kept_coarser
 
   !> The communicator of the operator, a duplicate of that of `set`; only after `set`.
   function comm(self)

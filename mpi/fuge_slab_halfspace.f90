@@ -1,7 +1,6 @@
 !> The elastic half-space on a uniform grid of rectangles whose rows the ranks of an MPI communicator share.
 module fuge_slab_halfspace
   use, intrinsic :: iso_c_binding, only: c_loc, c_null_ptr, c_ptr
-  use fuge_grid_store, only: grid_store
   use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_grid, only: check_grid, coarsened, complete, count_coarser, halfspace_grid, least_magnitude, &
     periodic
@@ -28,7 +27,6 @@ module fuge_slab_halfspace
     type(halfspace_grid) :: surface
     !> What products need.
     type(slab_parts), pointer :: parts => null()
-    type(grid_store) :: coarser
     !> Address of the variable that owns the parts.
     type(c_ptr) :: owner = c_null_ptr
   contains
@@ -42,7 +40,7 @@ module fuge_slab_halfspace
     procedure :: precondition
     procedure :: grid
     procedure :: coarsen
-    procedure :: kept_coarser
+    procedure :: new_coarser
     procedure :: free_rim
     procedure :: window
     procedure :: first_rows
@@ -293,32 +291,25 @@ contains
     if (set_smaller(self, surface, smaller)) call move_alloc(smaller, part)
   end subroutine window
 
-  !> As `coarsen`, but the wider cells are kept for the next solve. All ranks call it.
-  subroutine kept_coarser(self, levels, coarse)
+  !> As for `shared_operator`.
+  subroutine new_coarser(self, levels, wider)
     class(fuge_mpi_halfspace_operator), intent(in) :: self
     integer, intent(in) :: levels
-    class(fuge_operator), pointer, intent(out) :: coarse
-    type(fuge_mpi_halfspace_operator), pointer :: wider
-    integer :: k, stat
+    class(shared_operator), pointer, intent(out) :: wider
+    type(fuge_mpi_halfspace_operator), pointer :: made
+    logical :: done
+    integer :: stat
 
-    nullify (coarse)
-    k = self%coarser%place(levels)
-    if (.not. self%agreed(merge(0, 1, k > 0))) return
-    if (.not. associated(self%coarser%grid(k)%operator)) then
-      allocate (wider, stat=stat)
-      if (.not. self%agreed(stat)) then
-        if (stat == 0) deallocate (wider)
-        return
-      end if
-      if (.not. set_smaller(self, coarsened(self%surface, levels), wider)) then
-        deallocate (wider)
-        return
-      end if
-      call wider%coarser%refer_to(self%coarser, k)
-      self%coarser%grid(k)%operator => wider
+    nullify (wider)
+    allocate (made, stat=stat)
+    done = self%agreed(stat)
+    if (done) done = set_smaller(self, coarsened(self%surface, levels), made)
+    if (done) then
+      wider => made
+    else if (stat == 0) then
+      deallocate (made)
     end if
-    coarse => self%coarser%grid(k)%operator
-  end subroutine kept_coarser
+  end subroutine new_coarser
 
   !> As for `fuge_operator`.
   subroutine first_rows(self, levels, first)
