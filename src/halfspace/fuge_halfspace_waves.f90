@@ -183,8 +183,8 @@ contains
                size(along_x, 1), 0.0_dp, kernel, size(kernel, 1))
   end subroutine multiply
 
-  !> The sums of a periodic direction of `n` cells at the values `t` of t/h: `sums` (0:m, size(t)), of the waves
-  !> 0 .. n/2, or as many distances as there is room for; with or without the wave 0, the `constant`.
+  !> The sums of a periodic direction of `n` cells at the values `t` of t/h: `sums` (0:m, size(t)), of the waves 0 .. m,
+  !> m <= n/2, or of the distances 0 .. m; with or without the wave 0, the `constant`.
   subroutine fill_circle(n, waves, t, element, constant, sums, stat)
     integer, intent(in) :: n, element
     logical, intent(in) :: waves, constant
@@ -203,7 +203,7 @@ contains
       if (.not. constant) round(0, k) = 0.0_dp
     end do
     if (waves) then
-      sums = round
+      sums = round(:ubound(sums, 1), :)
       return
     end if
     call plan%set([n, 1], [n, 1], info, .false.)

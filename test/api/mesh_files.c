@@ -124,7 +124,8 @@ static void test_write(void) {
   const char *const names[2] = {"u", "body"};
   const char *const same[2] = {"u", "u"};
   const int components[2] = {2, 1}, elements[2] = {0, 1};
-  double u[20], body[4] = {1., 1., 2., 2.};
+  /* Of the elements; without `elements` it is read as a field of the five nodes of one body. */
+  double u[20], body[5] = {1., 1., 2., 2., 0.};
   const double *const fields[2] = {u, body};
   const double *const missing[2] = {u, NULL};
   fuge_mesh *mesh = NULL, *joined = NULL, *none = NULL;

@@ -43,7 +43,7 @@ contains
     character(len=*), intent(in) :: name
     integer, intent(in) :: dimensions
     type(block), intent(out) :: made
-    real(dp) :: origin(3), side
+    real(dp) :: origin(3), place(3), side
     integer :: e, i, j, l, n(3), node
 
     made%dimensions = dimensions
@@ -62,7 +62,8 @@ contains
       do j = 0, n(2) - 1
         do i = 0, n(1) - 1
           node = node + 1
-          made%position(:, node) = origin(:dimensions) + side*real([i, j, l], dp)
+          place = side*real([i, j, l], dp)
+          made%position(:, node) = origin(:dimensions) + place(:dimensions)
           made%number(node) = merge(10 + modulo(37*node, 101), 1000 - 3*node, made%is_upper)
           if (i == 0 .or. j == 0 .or. (l == 0 .and. dimensions == 3)) cycle
           e = e + 1
