@@ -240,7 +240,7 @@ contains
 
     surface%node = mesh%node
     surface%face = mesh%edge
-    surface%dof = reshape([(k, k=1, size(mesh%node))], shape(mesh%node))
+    allocate (surface%dof, source=reshape([(k, k=1, size(mesh%node))], shape(mesh%node)))
   end subroutine set_surface
 
   !> Solve for one approach. The displacements by that of the far side, b, have been found for 1 mm and are in

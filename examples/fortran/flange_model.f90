@@ -129,7 +129,7 @@ contains
 
     surface%node = mesh%node
     surface%face = faces_level(mesh, z, upwards)
-    surface%dof = reshape([(k, k=1, size(mesh%node))], shape(mesh%node))
+    allocate (surface%dof, source=reshape([(k, k=1, size(mesh%node))], shape(mesh%node)))
   end subroutine set_surface
 
   !> Pressure on the bore, and on the lid at the end of the tube, whose thrust the wall of the tube carries. The lower

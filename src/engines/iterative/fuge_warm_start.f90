@@ -249,7 +249,7 @@ contains
     if (any(abs(self%before%fingerprint - sums) > 0.0_dp)) return
     before = controls(problem, self%before%resultant, self%before%motion)
     ! The motions of the last two solves may be far apart where the new one only has resultants, and vice versa.
-    if (any(abs(before) > scale*sqrt(huge(steps)))) return
+    if (any(abs(before)/sqrt(huge(steps)) > scale)) return
     before = last/scale - before/scale
     extrapolate = norm2(before) > sqrt(epsilon(steps))*norm2(new)
     if (.not. extrapolate) return

@@ -52,7 +52,8 @@ contains
     select type (operator)
     class is (fuge_dense_operator)
       call check_start(operator, problem, info)
-      if (.not. info%failed() .and. load > 0.0_dp) call check_matrix(operator, load, info)
+      if (info%failed()) return
+      if (load > 0.0_dp) call check_matrix(operator, load, info)
       if (.not. info%failed()) call set_problem(gap, 0.0_dp, problem, info)
       line%last = load
       if (info%failed()) return
