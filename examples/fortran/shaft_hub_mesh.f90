@@ -154,7 +154,7 @@ contains
     body%inside%node = body%node
     body%outside%node = body%node
     allocate (body%inside%dof(2, size(body%node, 2)))
-    allocate (body%inside%dof, source=reshape([(k, k=1, size(body%node))], shape(body%node)))
+    body%inside%dof = reshape([(k, k=1, size(body%node))], shape(body%node))
     body%outside%dof = body%inside%dof
   end subroutine copy_nodes
 
