@@ -43,6 +43,9 @@ module fuge_contact_scene
 
   !> No displacement closes this gap.
   real(dp), parameter, public :: OUT_OF_REACH = 0.01_dp*huge(1.0_dp)
+  !> A mode whose means over the cells are below this fraction of it varies within cells only: what is left of it may be
+  !> rounding, which would count as a mode like any other.
+  real(dp), parameter :: LEFT_OF_MODE = 0.1_dp
 
 contains
 
@@ -181,7 +184,7 @@ contains
     if (.not. info%failed()) where (endless > 0.0_dp) coarse%play = huge(1.0_dp)
   end subroutine restrict_play
 
-  !> The mean displacement of each cell by a motion, and the same resultants.
+  !> The mean displacement of each cell by a motion, none where the motion is one within cells, and the same resultants.
   subroutine restrict_modes(scene, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: finest(2), level
@@ -189,6 +192,7 @@ contains
     type(contact_scene), intent(inout) :: coarse
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: mode(:)
+    real(dp) :: sizes(2)
     integer :: j, stat
 
     if (.not. allocated(scene%modes)) return
@@ -203,7 +207,9 @@ contains
     do j = 1, size(scene%load)
       call restrict_part(scene, coarse%rows, scene%modes(:, j), finest, level, share, mode, info)
       if (info%failed()) return
-      coarse%modes(:, j) = mode
+      sizes = [maxval(abs(scene%modes(:, j))), maxval(abs(mode))]
+      call scene%rows%ranks%raise(sizes)
+      coarse%modes(:, j) = merge(mode, 0.0_dp, sizes(2) > LEFT_OF_MODE*sizes(1))
     end do
   end subroutine restrict_modes
 

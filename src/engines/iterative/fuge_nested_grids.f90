@@ -11,9 +11,10 @@ module fuge_nested_grids
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_shared_transfer, only: prolong_to
-  use fuge_status, only: composed_message, fuge_info, report
+  use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
 
@@ -41,8 +42,9 @@ contains
   !>
   !> `settings` those of a coarser grid; `reduced_gap` (n) of the finest grid and `start`, scaled as in contact_iterate.
   !> `start` in: the forces of grid first + 1, or unallocated; out: those of grid `last`, or of the last one before it
-  !> that the operator has; unallocated if it has none. `work` counts in units of a cell. Errors: those of
-  !> find_contact_set, FUGE_ERR_MEMORY.
+  !> that the operator has; unallocated if it has none, or if the search on the last one failed. `work` counts in units
+  !> of a cell. Errors: those of find_contact_set, but FUGE_ERR_ITERATION_LIMIT only if the limit of `settings` is
+  !> reached, and no FUGE_ERR_NOT_DEFINITE; FUGE_ERR_MEMORY.
   subroutine nested_iteration(operator, settings, scene, first, last, monitor, start, work, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -55,31 +57,48 @@ contains
     class(fuge_operator), allocatable :: coarse
     class(fuge_operator), pointer :: kept
     type(fuge_info) :: coarse_info
+    type(search_settings) :: coarse_settings
     integer :: finest(2), cells(2), k
 
     finest = operator%grid()
+    coarse_settings = settings
     do k = first, last, -1
       cells = coarser_cells(finest, k)
       coarse_info = fuge_info(iterations=info%iterations)
+      ! What a coarse grid spends in vain, the finer ones must not lack.
+      coarse_settings%limit = min(settings%limit, info%iterations + iteration_limit(fuge_options(), product(cells)))
       call operator%kept_coarser(k, kept)
       if (associated(kept)) then
         if (any(kept%grid() /= cells)) cycle
-        call solve_on_grid(kept, settings, scene, finest, k, monitor, start, coarse_info)
+        call solve_on_grid(kept, coarse_settings, scene, finest, k, monitor, start, coarse_info)
       else
         call operator%coarsen(k, coarse)
         if (.not. allocated(coarse)) cycle
         if (any(coarse%grid() /= cells)) cycle
-        call solve_on_grid(coarse, settings, scene, finest, k, monitor, start, coarse_info)
+        call solve_on_grid(coarse, coarse_settings, scene, finest, k, monitor, start, coarse_info)
       end if
       info%iterations = coarse_info%iterations
       call work%add(product(cells), coarse_info)
-      if (coarse_info%failed()) then
+      if (is_left(coarse_info, settings%limit)) then
+        if (allocated(start)) deallocate (start)
+      else if (coarse_info%failed()) then
         call report(info, coarse_info%status, 'on the grid of '//text(product(cells))//' points: ' &
                     //composed_message(coarse_info))
         return
       end if
     end do
   end subroutine nested_iteration
+
+  !> Is a grid left whose search ended with `info`? It only provides a start, which a finer grid can do without. Not at
+  !> the `limit` of all grids together.
+  pure function is_left(info, limit) result(left)
+    type(fuge_info), intent(in) :: info
+    integer, intent(in) :: limit
+    logical :: left
+
+    left = info%status == FUGE_ERR_NOT_DEFINITE &
+           .or. (info%status == FUGE_ERR_ITERATION_LIMIT .and. info%iterations < limit)
+  end function is_left
 
   !> Add the products and preconditionings of `info`, made on `cells` cells.
   pure subroutine add_work(self, cells, info)
