@@ -6,6 +6,7 @@ module fuge_solver_type
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_force_error, only: estimate_force_error
+  use fuge_force_level, only: judge_force_level
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
   use fuge_iterated_set, only: iterated_set
@@ -172,6 +173,13 @@ contains
     self%found_factor = .false.
     self%solved_by_products = .false.
     call run_engine(self, operator, problem, options, monitor, solution, info)
+    if (.not. info%failed()) then
+      if (.not. self%solved_by_products) then
+        call judge_force_level(operator, self%canonical, problem%gap, self%state, options%tolerance, info)
+      else if (self%last_is_general) then
+        call judge_force_level(operator, self%canonical, problem%gap, self%last%state, options%tolerance, info)
+      end if
+    end if
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
   end subroutine solve_and_certify
 

@@ -1,0 +1,104 @@
+!> The level of the forces on a surface that equal forces do not displace, such as a periodic one.
+!>
+!> Where no free motion takes them up, equal forces may be added to those of a solution in which all gaps are closed.
+!> Such a solution is on the verge: the stops leave the mean gap no room, and beyond them no forces hold the motions.
+module fuge_force_level
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_complete_contact, only: equal_forces_displace_nothing
+  use fuge_contact_states, only: FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NO_EQUILIBRIUM
+  implicit none
+  private
+
+  public :: judge_force_level
+
+  !> The resultant of equal forces in a mode is rounding below this fraction of its terms.
+  real(dp), parameter :: NO_RESULTANT = 1.0e-12_dp
+  !> So are this many units in the last place of the largest length, times the root of the number of points, of a mean.
+  real(dp), parameter :: ROUNDINGS = 4.0_dp
+
+contains
+
+  !> Warn where equal forces may be added to those of a solution (FUGE_WARN_NOT_UNIQUE), and refuse motions that leave
+  !> the mean gap beyond the stops by more than `tolerance` of the lengths (FUGE_ERR_NO_EQUILIBRIUM): what an engine
+  !> returns then are equal forces as large as rounding lets them become.
+  !>
+  !> `canonical` that of the problem with the initial `gap` (n), `state` (n) of its solution. Errors also: those of
+  !> equal_forces_displace_nothing.
+  subroutine judge_force_level(operator, canonical, gap, state, tolerance, info)
+    class(fuge_operator), intent(in) :: operator
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: gap(:), tolerance
+    integer, intent(in) :: state(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: beyond, largest
+
+    if (.not. equal_forces_have_no_resultant(canonical)) return
+    call find_room(canonical, gap, state, beyond, largest)
+    if (.not. beyond >= 0.0_dp) return
+    if (.not. equal_forces_displace_nothing(operator, info)) return
+    if (beyond > tolerance*largest) then
+      info%force_error = 0.0_dp
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
+                  //'bring the mean gap between the stops, beyond which it is by '//text(beyond) &
+                  //': prescribe other motions, or resultants, or change the gaps')
+    else
+      call report(info, FUGE_WARN_NOT_UNIQUE, 'all points are at their stops, and equal forces displace nothing ' &
+                  //'(a periodic surface): they may be added to the forces, which are one of many possible; gaps ' &
+                  //'and motions are unique')
+    end if
+  end subroutine judge_force_level
+
+  !> Do all points take part, and have equal forces on them no resultant in any free mode?
+  function equal_forces_have_no_resultant(canonical) result(none)
+    type(canonical_problem), intent(in) :: canonical
+    logical :: none
+    real(dp) :: sums(2*size(canonical%load))
+    integer :: m
+
+    none = .false.
+    if (canonical%plain .or. canonical%has_translation) return
+    if (canonical%ranks%anywhere(any(canonical%excluded))) return
+    m = size(canonical%load)
+    sums(:m) = sum(canonical%modes, dim=1)
+    sums(m + 1:) = sum(abs(canonical%modes), dim=1)
+    call canonical%ranks%add(sums)
+    none = all(abs(sums(:m)) <= NO_RESULTANT*sums(m + 1:))
+  end function equal_forces_have_no_resultant
+
+  !> How far the mean gap is `beyond` the stops, negative where they leave it room; `largest` length.
+  !>
+  !> Displacements have the mean 0 here, so that the mean gap is that of the initial ones less the prescribed motions.
+  !> It is between 0 and the mean play, and where all points are in contact it is the mean of their stops.
+  subroutine find_room(canonical, gap, state, beyond, largest)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: gap(:)
+    integer, intent(in) :: state(:)
+    real(dp), intent(out) :: beyond, largest
+    real(dp) :: extremes(1), rounding, sums(3)
+    logical :: complete, two_sided
+    integer :: points
+
+    associate (upper => canonical%upper, ranks => canonical%ranks)
+      points = ranks%total_count(size(gap))
+      two_sided = ranks%everywhere(all(upper < huge(1.0_dp)))
+      complete = ranks%everywhere(all(state /= FUGE_OPEN))
+      extremes = max(maxval(abs(gap)), maxval(abs(canonical%gap)), maxval(upper, mask=upper < huge(1.0_dp)))
+      call ranks%raise(extremes)
+      largest = extremes(1)
+      sums = [sum(canonical%gap), sum(upper, mask=upper < huge(1.0_dp)), sum(upper, mask=state == FUGE_AT_UPPER_STOP)]
+      call ranks%add(sums)
+    end associate
+    sums = sums/real(points, dp)
+    rounding = ROUNDINGS*epsilon(rounding)*largest*sqrt(real(points, dp))
+    beyond = -sums(1)
+    if (two_sided) beyond = max(beyond, sums(1) - sums(2))
+    if (complete .and. abs(sums(1) - sums(3)) <= rounding) beyond = max(beyond, 0.0_dp)
+    ! A mean just within the stops may be one at them.
+    if (beyond >= -rounding) beyond = max(beyond, 0.0_dp)
+  end subroutine find_room
+
+end module fuge_force_level
