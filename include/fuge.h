@@ -514,7 +514,8 @@ int fuge_set_approach(fuge_solver *s, double approach);
  *   modes      in  R, n x m, column-major; length per unit of the motion
  *   resultant  in  w, m; force times length per unit of the motion.  Both may be NULL
  *                  if m = 0
- * FUGE_ERR_SIZE for m < 0, FUGE_ERR_MODES for m > n. */
+ * FUGE_ERR_SIZE for m < 0, FUGE_ERR_MODES for m > n; where ranks share a grid, for m above the
+ * number of all its cells. */
 int fuge_set_modes(fuge_solver *s, int m, const double *modes, const double *resultant);
 
 /* Prescribe the motion of mode 0 .. m-1 (FUGE_ERR_SIZE for another), or change its value. */

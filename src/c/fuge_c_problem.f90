@@ -11,6 +11,7 @@ module fuge_c_problem
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: check_load, check_play
+  use fuge_ranks, only: shared_ranks
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_SIZE
   implicit none
   private
@@ -119,7 +120,7 @@ contains
     type(fuge_info) :: info
 
     call find_solver(solver, handle, info)
-    if (.not. info%failed()) call check_mode_count(m, points_of(handle), info)
+    if (.not. info%failed()) call check_mode_count(m, points_of_all_ranks(handle), info)
     if (.not. info%failed()) call copy_matrix(modes, points_of(handle), int(m), r, info)
     if (.not. info%failed()) call copy_array(resultant, int(m), 'resultant', w, info)
     if (.not. info%failed()) call check_finite(w, 'resultant', info)
@@ -199,6 +200,17 @@ contains
 
     n = handle%operator%operator%points()
   end function points_of
+
+  !> As points_of, and where ranks share a grid all its cells: one rank may have fewer than there are modes.
+  function points_of_all_ranks(handle) result(n)
+    type(solver_handle), intent(in) :: handle
+    integer :: n
+    type(shared_ranks) :: ranks
+
+    n = points_of(handle)
+    ranks = handle%operator%operator%ranks()
+    if (.not. ranks%is_alone()) n = product(handle%operator%operator%grid())
+  end function points_of_all_ranks
 
   !> Back to one free translation, without a load yet.
   pure subroutine reset_motions(handle)

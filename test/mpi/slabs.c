@@ -15,6 +15,64 @@ static void expect(int true, const char *what, const char *message) {
   printf("rank %d, not as expected: %s: %s\n", rank, what, message);
 }
 
+/* The motions of a tilted ball on nx x ny cells, of which `op` has these rows on this rank of comm. */
+static void press_tilted(fuge_operator *op, MPI_Comm comm, int nx, int ny, int first, int rows, double *motion,
+                         const char *what) {
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
+  const double w[3] = {0.01, 0.0002, -0.0001};
+  double load[3] = {0, 0, 0};
+  int all = 0, k, n = nx * rows, status;
+  double *gap = malloc(sizeof *gap * (size_t)(n + 1)), *modes = malloc(sizeof *modes * (size_t)(3 * n + 1));
+  fuge_solver *solver = NULL;
+
+  for (k = 0; k < n; k++) {
+    modes[k] = 1.0;
+    modes[n + k] = (k % nx + 0.5) / nx - 0.5;
+    modes[2 * n + k] = (first + k / nx + 0.5) / ny - 0.5;
+    gap[k] = 0.5 * (pow(modes[n + k], 2) + pow(modes[2 * n + k], 2));
+  }
+  status = fuge_solver_new(op, NULL, &solver, message, sizeof message);
+  if (status == FUGE_DONE) status = fuge_set_gap(solver, gap, NULL);
+  if (status == FUGE_DONE) status = fuge_set_modes(solver, 3, modes, w);
+  fuge_solver_message(solver, message, sizeof message);
+  expect(status == FUGE_DONE, what, message);
+  MPI_Allreduce(&status, &all, 1, MPI_INT, MPI_MIN, comm);
+  if (all == FUGE_DONE) {
+    status = fuge_solve(solver);
+    fuge_solver_message(solver, message, sizeof message);
+    expect(status == FUGE_DONE, what, message);
+    fuge_get_motion(solver, motion);
+    fuge_get_resultant(solver, load);
+    for (k = 0; k < 3; k++) expect(fabs(load[k] - w[k]) < 1e-12, what, "resultant");
+  }
+  status = fuge_set_modes(solver, nx * ny + 1, modes, w);
+  expect(status == FUGE_ERR_MODES, what, "more modes than points");
+  fuge_solver_free(&solver);
+  free(gap);
+  free(modes);
+}
+
+/* Tilts of grids of which ranks have fewer points than there are modes, or none. */
+static void tilt(int nx, int ny, const char *what) {
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
+  double motion[3] = {0, 0, 0}, expected[3] = {0, 0, 0};
+  int first = 0, k, rows = 0;
+  fuge_operator *op = NULL, *whole = NULL;
+
+  fuge_operator_halfspace_mpi(nx, ny, 1.0 / nx, 1.0 / nx, 1.0, FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message,
+                              sizeof message);
+  fuge_operator_rows(op, &first, &rows, message, sizeof message);
+  press_tilted(op, MPI_COMM_WORLD, nx, ny, first, rows, motion, what);
+  if (rank == 0) {
+    fuge_operator_halfspace(nx, ny, 1.0 / nx, 1.0 / nx, 1.0, FUGE_MEAN, FUGE_FREE, &whole, message, sizeof message);
+    press_tilted(whole, MPI_COMM_SELF, nx, ny, 0, ny, expected, what);
+  }
+  MPI_Bcast(expected, 3, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  for (k = 0; k < 3; k++) expect(fabs(motion[k] - expected[k]) < 1e-10 * fabs(expected[0]), what, "motion");
+  fuge_operator_free(&op);
+  fuge_operator_free(&whole);
+}
+
 int main(int argc, char **argv) {
   char message[FUGE_MESSAGE_LENGTH + 1] = "", first_bytes[200];
   const char *path = "slabs_heights.npy", *forces = "slabs_forces.npy";
@@ -104,6 +162,9 @@ int main(int argc, char **argv) {
   status = fuge_mpi_read_rows(path, op, read, message, sizeof message);
   expect(status == FUGE_ERR_SIZE && strstr(message, "(131, 150)") != NULL, "another shape", message);
   fuge_operator_free(&op);
+
+  tilt(25, 5, "a tilt, all points on one rank");
+  tilt(2, 8193, "a tilt, two points on the last rank with any");
 
   free(gap);
   free(read);
