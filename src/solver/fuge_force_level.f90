@@ -57,14 +57,16 @@ contains
     type(canonical_problem), intent(in) :: canonical
     logical :: none
     real(dp) :: sums(2*size(canonical%load))
-    integer :: m
+    integer :: j, m
 
     none = .false.
     if (canonical%plain .or. canonical%has_translation) return
     if (canonical%ranks%anywhere(any(canonical%excluded))) return
     m = size(canonical%load)
-    sums(:m) = sum(canonical%modes, dim=1)
-    sums(m + 1:) = sum(abs(canonical%modes), dim=1)
+    do j = 1, m
+      sums(j) = sum(canonical%modes(:, j))
+      sums(m + j) = sum(abs(canonical%modes(:, j)))
+    end do
     call canonical%ranks%add(sums)
     none = all(abs(sums(:m)) <= NO_RESULTANT*sums(m + 1:))
   end function equal_forces_have_no_resultant

@@ -108,6 +108,8 @@ contains
     end if
     call canonical%ranks%agree(info)
     if (stat /= 0 .or. info%failed()) return
+    call allocate_rows(problem, canonical, info)
+    if (info%failed()) return
     call apply_prescribed(problem, canonical)
     call collect_excluded(problem, canonical)
     if (.not. allocated(problem%modes)) then
@@ -115,7 +117,7 @@ contains
       canonical%modes = 1.0_dp
       if (m == 1) canonical%load = problem%resultant
     else if (m > 0) then
-      call orthogonalise(problem%modes(:, canonical%free), canonical, info)
+      call orthogonalise(problem%modes, canonical, info)
     end if
     if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info)
   end subroutine make_canonical
@@ -134,17 +136,32 @@ contains
     self%load = problem%resultant
   end subroutine set_again
 
+  !> Allocate the parts of R that are kept. Error: FUGE_ERR_MEMORY.
+  subroutine allocate_rows(problem, canonical, info)
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(inout) :: canonical
+    type(fuge_info), intent(inout) :: info
+    integer :: excluded, m, n, stat
+
+    n = problem%points()
+    m = problem%mode_count()
+    excluded = count(canonical%excluded)
+    allocate (canonical%prescribed(m), canonical%excluded_points(excluded), canonical%excluded_rows(excluded, m), &
+              stat=stat)
+    if (stat == 0 .and. allocated(problem%prescribed)) allocate (canonical%prescribed_modes(n, m), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+    call canonical%ranks%agree(info)
+  end subroutine allocate_rows
+
   !> Subtract the displacements by the prescribed motions from the gaps.
   pure subroutine apply_prescribed(problem, canonical)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
     integer :: j
 
-    allocate (canonical%prescribed(problem%mode_count()))
     canonical%prescribed = .false.
     if (.not. allocated(problem%prescribed)) return
     canonical%prescribed = problem%prescribed
-    allocate (canonical%prescribed_modes(problem%points(), problem%mode_count()))
     canonical%prescribed_modes = 0.0_dp
     do j = 1, problem%mode_count()
       if (.not. problem%prescribed(j)) cycle
@@ -158,21 +175,34 @@ contains
   pure subroutine collect_excluded(problem, canonical)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
-    integer :: k
+    integer :: k, row
 
-    canonical%excluded_points = pack([(k, k=1, size(canonical%excluded))], canonical%excluded)
-    allocate (canonical%excluded_rows(size(canonical%excluded_points), problem%mode_count()))
     canonical%excluded_rows = 1.0_dp
-    if (allocated(problem%modes)) canonical%excluded_rows = problem%modes(canonical%excluded_points, :)
+    row = 0
+    do k = 1, size(canonical%excluded)
+      if (.not. canonical%excluded(k)) cycle
+      row = row + 1
+      canonical%excluded_points(row) = k
+      if (allocated(problem%modes)) canonical%excluded_rows(row, :) = problem%modes(k, :)
+    end do
   end subroutine collect_excluded
 
-  !> Replace the free modes `columns` (n, m) by orthogonal ones.
-  subroutine orthogonalise(columns, canonical, info)
-    real(dp), intent(in) :: columns(:, :)
+  !> Replace the free ones of the `modes` (n, all) by orthogonal ones.
+  subroutine orthogonalise(modes, canonical, info)
+    real(dp), intent(in) :: modes(:, :)
     type(canonical_problem), intent(inout) :: canonical
     type(fuge_info), intent(inout) :: info
     type(mode_fault) :: fault
+    real(dp), allocatable :: columns(:, :)
+    integer :: j, stat
 
+    allocate (columns(size(modes, 1), size(canonical%free)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(size(modes, 1))//' points')
+    call canonical%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    do j = 1, size(canonical%free)
+      columns(:, j) = modes(:, canonical%free(j))
+    end do
     call make_orthogonal(columns, canonical%excluded, canonical%modes, canonical%change, canonical%has_translation, &
                          fault, canonical%ranks)
     if (fault%stat /= 0) then
@@ -356,7 +386,8 @@ contains
     if (any(body > 1)) call number_points(body, canonical)
     remainder = 0.0_dp
     do j = 1, size(body)
-      if (body(j) == j) call balance_body(body == j, rounding, canonical, remainder)
+      if (body(j) == j) call balance_body(body == j, rounding, canonical, remainder, info)
+      if (info%failed()) return
     end do
     if (any(abs(remainder) > 0.0_dp)) call report_no_equilibrium(problem, canonical, remainder, info)
   end subroutine require_equilibrium
@@ -376,49 +407,73 @@ contains
 
   !> Find forces in equilibrium with the loads on one body, whose modes are marked in `member` (m).
   !>
-  !> `rounding` (m) is that of the loads; `remainder` (m) gets the proof that there are no such forces.
-  subroutine balance_body(member, rounding, canonical, remainder)
+  !> `rounding` (m) is that of the loads; `remainder` (m) gets the proof that there are no such forces. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine balance_body(member, rounding, canonical, remainder, info)
     logical, intent(in) :: member(:)
     real(dp), intent(in) :: rounding(:)
     type(canonical_problem), intent(inout) :: canonical
     real(dp), intent(inout) :: remainder(:)
-    real(dp) :: modes(size(canonical%gap), count(member)), force(size(canonical%gap))
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: modes(:, :), force(:)
     real(dp), dimension(count(member)) :: rest, noise
-    logical :: pushes(size(force))
-    integer :: columns(count(member)), j
+    logical, allocatable :: pushes(:), pulls(:)
+    integer :: columns(count(member)), j, n, stat
 
+    n = size(canonical%gap)
+    allocate (modes(n, size(columns)), force(n), pushes(n), pulls(n), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium of '//text(n)//' points')
+    call canonical%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     columns = pack([(j, j=1, size(member))], member)
     modes = canonical%modes(:, columns)
-    pushes = any(abs(modes) > 0.0_dp, dim=2) .and. .not. canonical%excluded
+    do j = 1, n
+      pushes(j) = any(abs(modes(j, :)) > 0.0_dp) .and. .not. canonical%excluded(j)
+    end do
+    pulls = pushes .and. canonical%upper < huge(1.0_dp)
     ! The orthogonal modes of a body share their rounding.
     noise = max(rounding(columns), epsilon(noise)*maxval(abs(canonical%load(columns))))
-    call find_shared_equilibrium(canonical%ranks, modes, canonical%load(columns), pushes, &
-                                 pushes .and. canonical%upper < huge(1.0_dp), force, rest, noise)
+    call find_shared_equilibrium(canonical%ranks, modes, canonical%load(columns), pushes, pulls, force, rest, noise)
     if (any(abs(rest) > 0.0_dp)) then
       remainder(columns) = rest
       return
     end if
-    call move_to_edge(canonical%ranks, modes, noise, canonical%load, columns, force)
-    canonical%feasible_force = canonical%feasible_force + force
+    call move_to_edge(canonical%ranks, modes, noise, canonical%load, columns, force, info)
+    if (.not. info%failed()) canonical%feasible_force = canonical%feasible_force + force
   end subroutine balance_body
 
   !> Fewer points than modes carry a load at the edge of what the contact can carry. Rounding may take it beyond the
   !> edge, where motions without resistance would grow: the load is then moved to the edge.
   !>
-  !> `modes` (n, p) those in `columns` (p) with the `noise` (p) of their loads; `force` (n) carries them.
-  subroutine move_to_edge(ranks, modes, noise, load, columns, force)
+  !> `modes` (n, p) those in `columns` (p) with the `noise` (p) of their loads; `force` (n) carries them. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine move_to_edge(ranks, modes, noise, load, columns, force, info)
     type(shared_ranks), intent(in) :: ranks
     real(dp), intent(in) :: modes(:, :), noise(:)
     integer, intent(in) :: columns(:)
     real(dp), intent(inout) :: load(:), force(:)
-    real(dp) :: nearest(size(force)), carried(size(noise)), weight(size(noise)), rest(size(noise)), least
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: nearest(:), weighted(:, :)
+    logical, allocatable :: pushes(:), pulls(:)
+    real(dp) :: carried(size(noise)), weight(size(noise)), rest(size(noise)), least
+    integer :: j, stat
 
     least = NO_FORCE*ranks%largest(maxval(abs(force)))
     if (ranks%total_count(count(abs(force) > least)) >= size(columns) .or. .not. all(noise > 0.0_dp)) return
+    associate (n => size(force))
+      allocate (nearest(n), weighted(n, size(noise)), pushes(n), pulls(n), stat=stat)
+    end associate
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the load of '//text(size(force))//' points')
+    call ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     ! Loads with little rounding are met best.
     weight = minval(noise)/noise
-    call find_shared_equilibrium(ranks, modes*spread(weight, 1, size(force)), load(columns)*weight, force > least, &
-                                 force < -least, nearest, rest, noise*weight)
+    do j = 1, size(noise)
+      weighted(:, j) = modes(:, j)*weight(j)
+    end do
+    pushes = force > least
+    pulls = force < -least
+    call find_shared_equilibrium(ranks, weighted, load(columns)*weight, pushes, pulls, nearest, rest, noise*weight)
     carried = matmul(nearest, modes)
     call ranks%add(carried)
     if (.not. all(abs(load(columns) - carried) <= ROUNDINGS*noise)) return
@@ -460,7 +515,8 @@ contains
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: translation, tilt
     type(fuge_info), intent(inout) :: info
-    real(dp) :: x(size(canonical%gap)), extremes(4)
+    real(dp) :: extremes(4), x
+    integer :: k
 
     if (size(canonical%free) /= 2) return
     if (canonical%ranks%anywhere(any(canonical%upper < huge(x) .and. .not. canonical%excluded))) return
@@ -468,8 +524,12 @@ contains
       extremes(1:2) = [-minval(unit), maxval(unit)]
       call canonical%ranks%raise(extremes(1:2))
       if (.not. (-extremes(1) > 0.0_dp .and. extremes(2) <= -extremes(1) .and. w(translation) > 0.0_dp)) return
-      x = problem%modes(:, canonical%free(tilt))/unit
-      extremes(3:4) = [-minval(x, mask=.not. canonical%excluded), maxval(x, mask=.not. canonical%excluded)]
+      extremes(3:4) = -huge(x)
+      do k = 1, size(unit)
+        if (canonical%excluded(k)) cycle
+        x = problem%modes(k, canonical%free(tilt))/unit(k)
+        extremes(3:4) = max(extremes(3:4), [-x, x])
+      end do
       call canonical%ranks%raise(extremes(3:4))
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(tilt)/w(translation)) &
                   //', but the points reach from '//text(-extremes(3))//' to ' &

@@ -12,7 +12,7 @@ module fuge_equilibrium
   implicit none
   private
 
-  public :: closing_work, find_equilibrium, is_in_equilibrium, proves_no_equilibrium
+  public :: find_equilibrium, find_newest, is_in_equilibrium, proves_no_equilibrium
 
   !> A remainder below this fraction of the resultant is rounding.
   real(dp), parameter :: NEGLIGIBLE = 1.0e-11_dp
@@ -22,6 +22,17 @@ module fuge_equilibrium
   real(dp), parameter :: PROOF = 1.0e-10_dp
   !> Points whose rows of the modes agree to this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-13_dp
+  !> Points that are looked at together.
+  integer, parameter :: BLOCK_SIZE = 512
+
+  !> The points that carry the resultant, in their order: some for each mode.
+  type :: active_points
+    integer, allocatable :: point(:), state(:)
+    real(dp), allocatable :: force(:)
+  contains
+    procedure :: insert
+    procedure :: drop_open
+  end type active_points
 
 contains
 
@@ -35,32 +46,82 @@ contains
     logical, intent(in) :: pushes(:), pulls(:)
     real(dp), intent(out) :: force(:), remainder(:)
     real(dp), intent(in), optional :: rounding(:)
-    real(dp) :: work(size(force)), noise(size(resultant)), rest(size(resultant))
-    integer :: state(size(force)), newest, iteration
+    real(dp) :: noise(size(resultant)), rest(size(resultant)), work
+    type(active_points) :: active
+    integer :: iteration, j, newest
 
     noise = epsilon(noise)*maxval(abs(resultant))
     if (present(rounding)) noise = rounding
     force = 0.0_dp
-    state = FUGE_OPEN
+    allocate (active%point(0), active%state(0), active%force(0))
     remainder = resultant
     do iteration = 1, 20*(size(modes, 2) + 1) + size(force)
       if (is_in_equilibrium(modes, resultant, noise, force, remainder)) exit
       ! The remainder is a difference, and so are these works.
-      rest = noise + epsilon(noise)*matmul(abs(force), abs(modes))
-      work = closing_work(modes, remainder, rest, pushes, pulls)
-      where (state /= FUGE_OPEN) work = 0.0_dp
-      newest = maxloc(abs(work), dim=1)
-      if (abs(work(newest)) <= 0.0_dp) then
+      rest = noise + [(epsilon(noise)*sum(abs(force*modes(:, j))), j=1, size(rest))]
+      call find_newest(modes, remainder, rest, pushes, pulls, active%point, newest, work)
+      if (newest == 0) then
         if (proves_no_equilibrium(modes, rest, pushes, pulls, remainder)) return
         exit
       end if
-      state(newest) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, work(newest) > 0.0_dp)
-      call solve_least_squares(modes, resultant, state, force)
-      remainder = resultant - matmul(force, modes)
+      call active%insert(newest, merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, work > 0.0_dp))
+      call solve_least_squares(modes(active%point, :), resultant, active)
+      force(active%point) = active%force
+      call active%drop_open()
+      remainder = resultant - [(dot_product(force, modes(:, j)), j=1, size(resultant))]
     end do
     ! Equilibrium holds, or is not decided; the certificate of the solve then decides.
     remainder = 0.0_dp
   end subroutine find_equilibrium
+
+  !> Point number `newest` becomes active, with the state `state` and without a force.
+  pure subroutine insert(self, newest, state)
+    class(active_points), intent(inout) :: self
+    integer, intent(in) :: newest, state
+    integer :: before
+
+    before = count(self%point < newest)
+    self%point = [self%point(:before), newest, self%point(before + 1:)]
+    self%state = [self%state(:before), state, self%state(before + 1:)]
+    self%force = [self%force(:before), 0.0_dp, self%force(before + 1:)]
+  end subroutine insert
+
+  !> Points whose state is open are not active any more.
+  pure subroutine drop_open(self)
+    class(active_points), intent(inout) :: self
+
+    self%point = pack(self%point, self%state /= FUGE_OPEN)
+    self%force = pack(self%force, self%state /= FUGE_OPEN)
+    self%state = pack(self%state, self%state /= FUGE_OPEN)
+  end subroutine drop_open
+
+  !> The point that closes most along the remainder, `newest`, of those that are not `taken`, and its `work` with the
+  !> sign that its force has; 0 if none closes. In blocks, so that no array of all points is needed.
+  pure subroutine find_newest(modes, remainder, rest, pushes, pulls, taken, newest, work)
+    real(dp), intent(in) :: modes(:, :), remainder(:), rest(:)
+    logical, intent(in) :: pushes(:), pulls(:)
+    integer, intent(in) :: taken(:)
+    integer, intent(out) :: newest
+    real(dp), intent(out) :: work
+    real(dp) :: works(BLOCK_SIZE)
+    integer :: before, k, points
+
+    newest = 0
+    work = 0.0_dp
+    do before = 0, size(modes, 1) - 1, BLOCK_SIZE
+      points = min(BLOCK_SIZE, size(modes, 1) - before)
+      associate (a => before + 1, b => before + points)
+        works(:points) = closing_work(modes(a:b, :), remainder, rest, pushes(a:b), pulls(a:b))
+      end associate
+      do k = 1, size(taken)
+        if (taken(k) > before .and. taken(k) <= before + points) works(taken(k) - before) = 0.0_dp
+      end do
+      k = maxloc(abs(works(:points)), dim=1)
+      if (.not. abs(works(k)) > abs(work)) cycle
+      newest = before + k
+      work = works(k)
+    end do
+  end subroutine find_newest
 
   !> How much each point closes along the motion that is the remainder of the resultants, (n), where its force may have
   !> that sign; 0 where that is rounding. `rest` (m) is the rounding of the remainder.
@@ -110,53 +171,53 @@ contains
     end do
   end function proves_no_equilibrium
 
-  !> Inner loop of Lawson and Hanson: least-squares forces at the active points, of which those whose force would
-  !> change its sign are dropped, the first blocking one first.
-  subroutine solve_least_squares(modes, resultant, state, force)
-    real(dp), intent(in) :: modes(:, :), resultant(:)
-    integer, intent(inout) :: state(:)
-    real(dp), intent(inout) :: force(:)
-    real(dp) :: target(size(force)), step_length
+  !> Inner loop of Lawson and Hanson: least-squares forces at the active points, whose rows of the modes are `rows`
+  !> (:, m), of which those whose force would change its sign become open, the first blocking one first.
+  subroutine solve_least_squares(rows, resultant, active)
+    real(dp), intent(in) :: rows(:, :), resultant(:)
+    type(active_points), intent(inout) :: active
+    real(dp) :: target(size(active%force)), step_length
     integer :: blocking
 
     do
-      call solve_on_active(modes, resultant, state, target)
-      call find_blocking(force, target, state /= FUGE_OPEN .and. target*state <= 0.0_dp, step_length, blocking)
+      call solve_on_active(rows, resultant, active%state, target)
+      call find_blocking(active%force, target, active%state /= FUGE_OPEN .and. target*active%state <= 0.0_dp, &
+                         step_length, blocking)
       if (blocking == 0) exit
-      force = force + step_length*(target - force)
+      active%force = active%force + step_length*(target - active%force)
       ! One point is dropped in each pass, so the loop ends.
-      state(blocking) = FUGE_OPEN
-      force(blocking) = 0.0_dp
+      active%state(blocking) = FUGE_OPEN
+      active%force(blocking) = 0.0_dp
     end do
-    force = target
+    active%force = target
   end subroutine solve_least_squares
 
   !> Least-squares forces at the active points, refined once.
-  subroutine solve_on_active(modes, resultant, state, force)
-    real(dp), intent(in) :: modes(:, :), resultant(:)
+  subroutine solve_on_active(rows, resultant, state, force)
+    real(dp), intent(in) :: rows(:, :), resultant(:)
     integer, intent(in) :: state(:)
     real(dp), intent(out) :: force(:)
     real(dp) :: correction(size(force))
 
-    call find_least_squares(modes, resultant, state, force)
-    call find_least_squares(modes, resultant - matmul(force, modes), state, correction)
+    call find_least_squares(rows, resultant, state, force)
+    call find_least_squares(rows, resultant - matmul(force, rows), state, correction)
     force = force + correction
   end subroutine solve_on_active
 
   !> The forces at the active points that come nearest to a resultant, those of least squares.
-  subroutine find_least_squares(modes, resultant, state, force)
-    real(dp), intent(in) :: modes(:, :), resultant(:)
+  subroutine find_least_squares(rows, resultant, state, force)
+    real(dp), intent(in) :: rows(:, :), resultant(:)
     integer, intent(in) :: state(:)
     real(dp), intent(out) :: force(:)
-    real(dp) :: matrix(size(modes, 2), count(state /= FUGE_OPEN))
-    real(dp) :: right(max(size(modes, 2), count(state /= FUGE_OPEN)))
-    real(dp) :: work(64*(size(modes, 2) + count(state /= FUGE_OPEN)) + 64)
+    real(dp) :: matrix(size(rows, 2), count(state /= FUGE_OPEN))
+    real(dp) :: right(max(size(rows, 2), count(state /= FUGE_OPEN)))
+    real(dp) :: work(64*(size(rows, 2) + count(state /= FUGE_OPEN)) + 64)
     integer :: points(count(state /= FUGE_OPEN)), order(count(state /= FUGE_OPEN)), k, p, m, rank, info
 
-    m = size(modes, 2)
+    m = size(rows, 2)
     points = pack([(k, k=1, size(state))], state /= FUGE_OPEN)
     p = size(points)
-    matrix = transpose(modes(points, :))
+    matrix = transpose(rows(points, :))
     right = 0.0_dp
     right(:m) = resultant
     order = 0

@@ -7,7 +7,7 @@ module fuge_orthogonal_modes
   use fuge_lapack, only: dgesv
   use fuge_pivoted_qr, only: orthonormalise, orthonormalise_in_order
   use fuge_ranks, only: shared_ranks
-  use fuge_shared_columns, only: orthonormalise_shared
+  use fuge_shared_columns, only: orthonormalise_shared, swap_columns
   implicit none
   private
 
@@ -63,24 +63,28 @@ contains
     type(mode_fault), intent(out) :: fault
     type(shared_ranks), intent(in), optional :: sharing
     type(shared_ranks) :: ranks
-    real(dp) :: scaled(size(columns, 1), size(columns, 2))
+    real(dp), allocatable :: scaled(:, :)
     integer :: body(size(columns, 2)), j, m
 
     if (present(sharing)) ranks = sharing
     m = size(columns, 2)
     has_translation = .false.
     modes = 0.0_dp
-    allocate (change%coefficients(m, m), change%units(m), stat=fault%stat)
+    allocate (change%coefficients(m, m), change%units(m), scaled(size(columns, 1), m), stat=fault%stat)
+    call share_fault(ranks, fault)
     if (fault%stat /= 0) return
-    scaled = columns
-    where (spread(excluded, 2, m)) scaled = 0.0_dp
-    change%units = maxval(abs(scaled), dim=1)
+    do j = 1, m
+      scaled(:, j) = merge(0.0_dp, columns(:, j), excluded)
+      change%units(j) = maxval(abs(scaled(:, j)))
+    end do
     call ranks%raise(change%units)
     if (any(.not. change%units > 0.0_dp)) then
       fault%idle = minloc(change%units, dim=1)
       return
     end if
-    scaled = scaled/spread(change%units, 1, size(scaled, 1))
+    do j = 1, m
+      scaled(:, j) = scaled(:, j)/change%units(j)
+    end do
     change%coefficients = 0.0_dp
     if (is_orthogonal(scaled, ranks)) then
       call keep_modes(scaled, excluded, ranks, modes, change%coefficients, has_translation)
@@ -94,6 +98,14 @@ contains
     end do
   end subroutine make_orthogonal
 
+  !> No rank has memory where one has none.
+  subroutine share_fault(ranks, fault)
+    type(shared_ranks), intent(in) :: ranks
+    type(mode_fault), intent(inout) :: fault
+
+    if (ranks%anywhere(fault%stat /= 0)) fault%stat = 1
+  end subroutine share_fault
+
   !> The modes of one body, marked in `member` (m). The arguments are eight without the ranks, which tell nothing of
   !> the modes.
   subroutine orthogonalise_body(scaled, excluded, ranks, member, modes, coefficients, has_translation, fault)
@@ -103,11 +115,17 @@ contains
     real(dp), intent(inout) :: modes(:, :), coefficients(:, :)
     logical, intent(inout) :: has_translation
     type(mode_fault), intent(inout) :: fault
-    real(dp) :: basis(size(scaled, 1), count(member)), products(count(member)**2), points
-    integer :: columns(count(member)), order(count(member)), j, rank, replaced
+    real(dp), allocatable :: basis(:, :)
+    real(dp) :: products(count(member)**2), points
+    integer :: columns(count(member)), order(count(member)), i, j, rank, replaced
 
+    allocate (basis(size(scaled, 1), size(columns)), stat=fault%stat)
+    call share_fault(ranks, fault)
+    if (fault%stat /= 0) return
     columns = pack([(j, j=1, size(member))], member)
-    basis = scaled(:, columns)
+    do j = 1, size(columns)
+      basis(:, j) = scaled(:, columns(j))
+    end do
     if (ranks%is_alone()) then
       call orthonormalise(basis, DEPENDENT, order, rank, fault%stat)
     else
@@ -121,7 +139,11 @@ contains
     call replace_by_constant(basis, excluded, ranks, replaced)
     if (replaced > 0) then
       has_translation = .true.
-      basis = cshift(basis, replaced - 1, dim=2)
+      do i = 1, replaced - 1
+        do j = 1, size(columns) - 1
+          call swap_columns(j, j + 1, basis)
+        end do
+      end do
       if (ranks%is_alone()) then
         call orthonormalise_in_order(basis, fault%stat)
       else
@@ -130,12 +152,14 @@ contains
       if (fault%stat /= 0) return
     end if
     ! A point that no mode of the body moves must stay so in spite of rounding: its force contributes to no resultant.
-    where (spread(all(abs(scaled(:, columns)) <= 0.0_dp, dim=2), 2, size(columns))) basis = 0.0_dp
+    do j = 1, size(basis, 1)
+      if (all(abs(scaled(j, columns)) <= 0.0_dp)) basis(j, :) = 0.0_dp
+    end do
     points = ranks%total(real(count(.not. excluded), dp))
     basis = basis*sqrt(points)
     if (replaced > 0) basis(:, 1) = merge(0.0_dp, 1.0_dp, excluded)
     modes(:, columns) = basis
-    products = reshape(matmul(transpose(basis), scaled(:, columns)), shape(products))
+    products = [((dot_product(basis(:, i), scaled(:, columns(j))), i=1, size(columns)), j=1, size(columns))]
     call ranks%add(products)
     coefficients(columns, columns) = reshape(products, [size(columns), size(columns)])/points
   end subroutine orthogonalise_body
@@ -255,16 +279,19 @@ contains
     logical, intent(in) :: excluded(:)
     type(shared_ranks), intent(in) :: ranks
     integer, intent(out) :: column
-    real(dp) :: ones(size(basis, 1)), components(size(basis, 2))
+    real(dp) :: components(size(basis, 2)), rest
+    integer :: j, k
 
-    ones = merge(0.0_dp, 1.0_dp, excluded)
-    components = matmul(ones, basis)
+    components = [(sum(basis(:, j), mask=.not. excluded), j=1, size(components))]
     call ranks%add(components)
+    rest = 0.0_dp
+    do k = 1, size(basis, 1)
+      rest = max(rest, abs(merge(0.0_dp, 1.0_dp, excluded(k)) - dot_product(basis(k, :), components)))
+    end do
     column = 0
-    if (ranks%largest(maxval(abs(ones - matmul(basis, components)))) &
-        > CONSTANT_TOLERANCE*ranks%total(real(size(basis, 1), dp))) return
+    if (ranks%largest(rest) > CONSTANT_TOLERANCE*ranks%total(real(size(basis, 1), dp))) return
     column = maxloc(abs(components), dim=1)
-    basis(:, column) = ones/sqrt(ranks%total(sum(ones)))
+    basis(:, column) = merge(0.0_dp, 1.0_dp, excluded)/sqrt(ranks%total(real(count(.not. excluded), dp)))
   end subroutine replace_by_constant
 
   !> Motions in the given modes, (m), from `motion` (m) in the orthogonal ones.

@@ -6,7 +6,7 @@ module fuge_shared_columns
   implicit none
   private
 
-  public :: gather_spanning_rows, orthonormalise_shared
+  public :: gather_spanning_rows, orthonormalise_shared, swap_columns
 
 contains
 
@@ -22,7 +22,7 @@ contains
     real(dp), intent(in) :: tolerance
     logical, intent(in) :: pivoted
     integer, intent(out) :: order(:), rank
-    real(dp) :: lengths(size(matrix, 2)), first, column(size(matrix, 1))
+    real(dp) :: lengths(size(matrix, 2)), first
     integer :: j, k, next, number
 
     order = [(j, j=1, size(order))]
@@ -34,9 +34,7 @@ contains
       next = k
       if (pivoted) next = k - 1 + maxloc(lengths(k:), dim=1)
       if (next /= k) then
-        column = matrix(:, k)
-        matrix(:, k) = matrix(:, next)
-        matrix(:, next) = column
+        call swap_columns(k, next, matrix)
         number = order(k)
         order(k) = order(next)
         order(next) = number
@@ -49,6 +47,20 @@ contains
       call project_rest(ranks, k, matrix)
     end do
   end subroutine orthonormalise_shared
+
+  !> Exchange the columns number `i` and `j`.
+  pure subroutine swap_columns(i, j, matrix)
+    integer, intent(in) :: i, j
+    real(dp), intent(inout), contiguous :: matrix(:, :)
+    real(dp) :: value
+    integer :: k
+
+    do k = 1, size(matrix, 1)
+      value = matrix(k, i)
+      matrix(k, i) = matrix(k, j)
+      matrix(k, j) = value
+    end do
+  end subroutine swap_columns
 
   !> Take from the columns behind number `k` what they have of those up to it.
   subroutine project_rest(ranks, k, matrix)
@@ -70,26 +82,28 @@ contains
   end subroutine project_rest
 
   !> `spanning` (m, m ranks), the same on all ranks: columns that span what the columns of `rows` (m, :) of all ranks
-  !> span, of the size of these. `stat` is not 0 without memory.
+  !> span, of the size of these. `stat` is not 0 without memory on any of the ranks.
   subroutine gather_spanning_rows(ranks, rows, spanning, stat)
     type(shared_ranks), intent(in) :: ranks
     real(dp), intent(in) :: rows(:, :)
     real(dp), intent(out) :: spanning(:, :)
     integer, intent(out) :: stat
-    real(dp) :: factors(size(rows, 2), size(rows, 1)), tau(min(size(rows, 1), size(rows, 2)))
-    real(dp) :: values(size(spanning))
+    real(dp), allocatable :: factors(:, :)
+    real(dp) :: tau(min(size(rows, 1), size(rows, 2))), values(size(spanning))
     integer :: begin, k, m, order(size(rows, 1))
 
     m = size(rows, 1)
-    factors = transpose(rows)
-    stat = 0
-    if (size(tau) > 0) call factorise_pivoted(factors, tau, order, stat)
     spanning = 0.0_dp
     begin = m*ranks%number()
-    do k = 1, size(tau)
-      ! Row k of R, its columns in their old places.
-      spanning(order(k:), begin + k) = factors(k, k:)
-    end do
+    allocate (factors(size(rows, 2), m), stat=stat)
+    if (stat == 0) then
+      factors = transpose(rows)
+      if (size(tau) > 0) call factorise_pivoted(factors, tau, order, stat)
+      do k = 1, size(tau)
+        ! Row k of R, its columns in their old places.
+        spanning(order(k:), begin + k) = factors(k, k:)
+      end do
+    end if
     values = reshape(spanning, shape(values))
     call ranks%add(values)
     spanning = reshape(values, shape(spanning))

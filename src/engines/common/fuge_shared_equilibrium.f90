@@ -1,7 +1,7 @@
 !> Equilibrium where ranks share the points: fuge_equilibrium at few points, to which each rank offers those of its own
 !> that the remainder of the resultants closes most.
 module fuge_shared_equilibrium
-  use fuge_equilibrium, only: closing_work, find_equilibrium, is_in_equilibrium, proves_no_equilibrium
+  use fuge_equilibrium, only: find_equilibrium, find_newest, is_in_equilibrium, proves_no_equilibrium
   use fuge_kinds, only: dp
   use fuge_ranks, only: shared_ranks
   implicit none
@@ -91,22 +91,16 @@ contains
     logical, intent(in) :: pushes(:), pulls(:)
     type(offered_points), intent(inout) :: offered
     logical, intent(out) :: found
-    real(dp) :: chosen(size(remainder) + 3), key, work(size(modes, 1))
-    integer :: k, newest
+    real(dp) :: chosen(size(remainder) + 3), key, work
+    integer :: newest
 
-    work = abs(closing_work(modes, remainder, rest, pushes, pulls))
-    do k = 1, offered%count
-      if (offered%own(k) > 0) work(offered%own(k)) = 0.0_dp
-    end do
-    newest = maxloc(work, dim=1)
+    call find_newest(modes, remainder, rest, pushes, pulls, offered%own(:offered%count), newest, work)
     key = huge(key)
     chosen = 0.0_dp
     if (newest > 0) then
-      if (work(newest) > 0.0_dp) then
-        key = -work(newest)
-        chosen = [modes(newest, :), merge(1.0_dp, 0.0_dp, pushes(newest)), merge(1.0_dp, 0.0_dp, pulls(newest)), &
-                  real(ranks%number(), dp)]
-      end if
+      key = -abs(work)
+      chosen = [modes(newest, :), merge(1.0_dp, 0.0_dp, pushes(newest)), merge(1.0_dp, 0.0_dp, pulls(newest)), &
+                real(ranks%number(), dp)]
     end if
     found = ranks%anywhere(key < huge(key))
     call ranks%take_from_least(key, chosen)

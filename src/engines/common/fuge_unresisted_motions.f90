@@ -4,12 +4,12 @@ module fuge_unresisted_motions
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_number_text, only: index_text
+  use fuge_number_text, only: index_text, text
   use fuge_pivoted_qr, only: orthogonal_complement
   use fuge_ranks, only: shared_ranks
   use fuge_shared_columns, only: gather_spanning_rows
   use fuge_shared_equilibrium, only: find_shared_equilibrium
-  use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
 
@@ -26,18 +26,23 @@ module fuge_unresisted_motions
 contains
 
   !> A motion (m) of the bodies that changes no force of the solution, or zero if there is none: the
-  !> motion of the solution is unique then.
-  subroutine find_unresisted_motion(canonical, solution, motion)
+  !> motion of the solution is unique then. Error: FUGE_ERR_MEMORY.
+  subroutine find_unresisted_motion(canonical, solution, motion, info)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     real(dp), intent(out) :: motion(:)
-    real(dp), allocatable :: basis(:, :)
-    real(dp) :: work(size(solution%state))
-    logical, dimension(size(solution%state)) :: loaded, resists_closing, resists_opening
-    integer :: j
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: basis(:, :), work(:)
+    logical, allocatable, dimension(:) :: loaded, resists_closing, resists_opening
+    integer :: j, n, stat
 
     motion = 0.0_dp
-    loaded = carries_force(canonical, solution)
+    n = size(solution%state)
+    allocate (work(n), loaded(n), resists_closing(n), resists_opening(n), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+    call canonical%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    call mark_loaded(canonical, solution, work, loaded)
     call find_unresisted_basis(canonical%modes, loaded, basis, canonical%ranks)
     associate (state => solution%state, gap => solution%gap)
       ! A point that touches without force resists in one sense only.
@@ -54,7 +59,7 @@ contains
     end do
   end subroutine find_unresisted_motion
 
-  !> Warn of a motion that the contact does not resist, by the mode that dominates it.
+  !> Warn of a motion that the contact does not resist, by the mode that dominates it. Error: FUGE_ERR_MEMORY.
   subroutine report_unresisted_motion(canonical, solution, info)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
@@ -62,19 +67,19 @@ contains
     real(dp) :: motion(size(canonical%load))
 
     if (size(motion) < 1) return
-    call find_unresisted_motion(canonical, solution, motion)
-    if (.not. any(abs(motion) > 0.0_dp)) return
+    call find_unresisted_motion(canonical, solution, motion, info)
+    if (info%failed() .or. .not. any(abs(motion) > 0.0_dp)) return
     call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not resist motion ' &
                 //index_text(canonical%dominant_mode(motion)) &
                 //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
   end subroutine report_unresisted_motion
 
-  !> Points (n) that are tied, or that carry more force than rounding makes.
-  function carries_force(canonical, solution) result(carries)
+  !> Points that are tied, or that carry more force than rounding makes, are `loaded` (n); `scale` (n) is work space.
+  subroutine mark_loaded(canonical, solution, scale, loaded)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
-    logical :: carries(size(solution%state))
-    real(dp) :: scale(size(solution%state))
+    real(dp), intent(out) :: scale(:)
+    logical, intent(out) :: loaded(:)
     integer :: j
 
     scale = 0.0_dp
@@ -82,15 +87,14 @@ contains
       scale = max(scale, abs(canonical%modes(:, j)*canonical%load(j)))
     end do
     ! Without a load of its own a body may be squeezed between stops; the loads may also nearly cancel at a point.
-    if (canonical%ranks%is_alone()) then
+    if (canonical%has_bodies()) then
       scale = max(scale, canonical%force_scale(solution%force))
     else
-      ! They share one body.
       scale = max(scale, canonical%ranks%largest(maxval(abs(solution%force))))
     end if
-    carries = solution%state /= FUGE_OPEN .and. (abs(solution%force) > NO_FORCE*scale &
-                                                 .or. .not. canonical%upper > 0.0_dp)
-  end function carries_force
+    loaded = solution%state /= FUGE_OPEN .and. (abs(solution%force) > NO_FORCE*scale &
+                                                .or. .not. canonical%upper > 0.0_dp)
+  end subroutine mark_loaded
 
   !> An orthonormal basis of the motions q with R q = 0 at the points marked in `resists` (n).
   !>
@@ -102,25 +106,42 @@ contains
     real(dp), allocatable, intent(out) :: basis(:, :)
     type(shared_ranks), intent(in), optional :: sharing
     type(shared_ranks) :: ranks
-    real(dp) :: rows(size(modes, 2), count(resists))
-    real(dp), allocatable :: spanning(:, :)
-    integer :: j, status
+    real(dp), allocatable :: rows(:, :), spanning(:, :)
+    integer :: m, status
 
     if (present(sharing)) ranks = sharing
-    rows = transpose(modes(pack([(j, j=1, size(resists))], resists), :))
+    m = size(modes, 2)
+    allocate (rows(m, count(resists)), spanning(m, m*ranks%members()), stat=status)
+    if (ranks%everywhere(status == 0)) then
+      call pack_rows(modes, resists, rows)
+      if (ranks%is_alone()) then
+        call orthogonal_complement(rows, DEPENDENT, basis, status)
+        return
+      end if
+      call gather_spanning_rows(ranks, rows, spanning, status)
+      if (status == 0) then
+        call orthogonal_complement(spanning, DEPENDENT, basis, status)
+        return
+      end if
+    end if
     ! Without memory no motion counts as unresisted.
-    if (ranks%is_alone()) then
-      call orthogonal_complement(rows, DEPENDENT, basis, status)
-      return
-    end if
-    allocate (spanning(size(modes, 2), size(modes, 2)*ranks%members()))
-    call gather_spanning_rows(ranks, rows, spanning, status)
-    if (status == 0) then
-      call orthogonal_complement(spanning, DEPENDENT, basis, status)
-    else
-      allocate (basis(size(modes, 2), 0))
-    end if
+    allocate (basis(m, 0))
   end subroutine find_unresisted_basis
+
+  !> The rows of the `modes` (n, m) at the points `marked` (n), as the columns of `rows`.
+  pure subroutine pack_rows(modes, marked, rows)
+    real(dp), intent(in) :: modes(:, :)
+    logical, intent(in) :: marked(:)
+    real(dp), intent(out) :: rows(:, :)
+    integer :: column, k
+
+    column = 0
+    do k = 1, size(marked)
+      if (.not. marked(k)) cycle
+      column = column + 1
+      rows(:, column) = modes(k, :)
+    end do
+  end subroutine pack_rows
 
   !> The motion (m) less its part in the `basis` of the unresisted ones.
   pure function without_unresisted(motion, basis) result(rest)

@@ -240,7 +240,8 @@ contains
     call project_residual(scene, iterate)
     call project_residual(scene, iterate)
     iterate%penetration = find_penetration(scene, iterate)
-    call find_least_magnitude(operator, scene, iterate)
+    call find_least_magnitude(operator, scene, iterate, info)
+    if (info%failed()) return
     if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
   end subroutine evaluate_iterate
 
@@ -318,30 +319,40 @@ contains
   end function find_penetration
 
   !> The least magnitude as the certificate forms it, over the contact points: the size of the gap less the rigid
-  !> displacement plus the magnitude of the elastic one. Without contact 0, because nothing is rounded.
-  subroutine find_least_magnitude(operator, scene, iterate)
+  !> displacement plus the magnitude of the elastic one. Without contact 0, because nothing is rounded. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine find_least_magnitude(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
-    real(dp), allocatable :: rigid(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: elastic(:), rigid(:)
     real(dp) :: offset
-    integer :: j
+    integer :: j, stat
 
+    if (iterate%prescribed .or. allocated(scene%modes)) then
+      allocate (elastic(size(scene%gap)), rigid(size(scene%gap)), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(scene%gap)) &
+                                 //' points')
+      call scene%rows%ranks%agree(info)
+      if (stat /= 0 .or. info%failed()) return
+    end if
     offset = 0.0_dp
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
     if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%ranks%total(sum(iterate%force))
     if (allocated(scene%modes)) then
-      allocate (rigid(size(scene%gap)))
       rigid = 0.0_dp
       do j = 1, size(iterate%rigid_motion)
         rigid = rigid + iterate%rigid_motion(j)*scene%modes(:, j)
       end do
       iterate%rounding = ROUNDINGS*epsilon(offset)*largest_term(scene, iterate)
-      call operator%magnitude(iterate%force, (iterate%displacement + rigid) - offset, iterate%work)
+      elastic = (iterate%displacement + rigid) - offset
+      call operator%magnitude(iterate%force, elastic, iterate%work)
       iterate%work = abs((scene%gap - rigid) + offset) + iterate%work
       iterate%least_magnitude = least_over(iterate%segments, iterate%work)
     else if (iterate%prescribed) then
-      call operator%magnitude(iterate%force, iterate%displacement - offset, iterate%work)
+      elastic = iterate%displacement - offset
+      call operator%magnitude(iterate%force, elastic, iterate%work)
       iterate%least_magnitude = least_sum(iterate%segments, offset, scene%gap, iterate%work)
     else
       call operator%magnitude(iterate%force, iterate%displacement, iterate%work)

@@ -148,7 +148,7 @@ contains
     call restrict_rows(scene%rows, rows, finest, level, taking_part, share, info)
   end subroutine restrict_share
 
-  !> `coarse`: the means of `values` (n) over the points that take part, 0 in cells without any.
+  !> `coarse`: the means of `values` (n) over the points that take part, 0 in cells without any. Error: FUGE_ERR_MEMORY.
   subroutine restrict_part(scene, rows, values, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     type(shared_rows), intent(in) :: rows
@@ -157,30 +157,42 @@ contains
     real(dp), intent(in) :: share(:)
     real(dp), allocatable, intent(out) :: coarse(:)
     type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: taking_part(:)
+    integer :: stat
 
     if (allocated(scene%excluded)) then
-      call restrict_rows(scene%rows, rows, finest, level, merge(0.0_dp, values, scene%excluded), coarse, info)
+      allocate (taking_part(size(values)), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(values))//' cells')
+      call scene%rows%ranks%agree(info)
+      if (stat /= 0 .or. info%failed()) return
+      taking_part = merge(0.0_dp, values, scene%excluded)
+      call restrict_rows(scene%rows, rows, finest, level, taking_part, coarse, info)
       if (.not. info%failed()) where (share > 0.0_dp) coarse = coarse/share
     else
       call restrict_rows(scene%rows, rows, finest, level, values, coarse, info)
     end if
   end subroutine restrict_part
 
-  !> The mean play where all points of a cell have an upper stop, else huge.
+  !> The mean play where all points of a cell have an upper stop, else huge. Error: FUGE_ERR_MEMORY.
   subroutine restrict_play(scene, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: finest(2), level
     real(dp), intent(in) :: share(:)
     type(contact_scene), intent(inout) :: coarse
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: endless(:)
+    real(dp), allocatable :: endless(:), play(:)
+    integer :: stat
 
     if (.not. allocated(scene%play)) return
-    associate (one_sided => scene%play >= huge(1.0_dp))
-      call restrict_part(scene, coarse%rows, merge(1.0_dp, 0.0_dp, one_sided), finest, level, share, endless, info)
-      if (.not. info%failed()) call restrict_part(scene, coarse%rows, merge(0.0_dp, scene%play, one_sided), finest, &
-                                                  level, share, coarse%play, info)
-    end associate
+    allocate (play(size(scene%play)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the play of '//text(size(scene%play))//' cells')
+    call scene%rows%ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    play = merge(1.0_dp, 0.0_dp, scene%play >= huge(1.0_dp))
+    call restrict_part(scene, coarse%rows, play, finest, level, share, endless, info)
+    if (info%failed()) return
+    play = merge(0.0_dp, scene%play, scene%play >= huge(1.0_dp))
+    call restrict_part(scene, coarse%rows, play, finest, level, share, coarse%play, info)
     if (.not. info%failed()) where (endless > 0.0_dp) coarse%play = huge(1.0_dp)
   end subroutine restrict_play
 

@@ -323,7 +323,10 @@ contains
     tied = scene%tied_points()
     newest = 0
     call make_feasible(operator, scene, iterate, info)
-    if (allocated(scene%modes) .and. .not. info%failed()) call step_from_balance(scene, tied, iterate)
+    if (allocated(scene%modes) .and. .not. info%failed()) then
+      call step_from_balance(scene, tied, feasible, noise, locked, state, iterate)
+      locked = .false.
+    end if
     call choose_contact(scene, iterate)
     if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
     do while (.not. info%failed())
@@ -380,14 +383,14 @@ contains
   end subroutine join_contact
 
   !> Forces with the resultants but perhaps of the wrong sign become feasible ones: a step towards them from
-  !> scene%balance, until the first force changes its sign.
-  subroutine step_from_balance(scene, tied, iterate)
+  !> scene%balance, until the first force changes its sign. `force`, `noise`, `locked` and `state` (n) are work space.
+  subroutine step_from_balance(scene, tied, force, noise, locked, state, iterate)
     type(contact_scene), intent(in) :: scene
     logical, intent(in) :: tied(:)
+    real(dp), intent(out) :: force(:), noise(:)
+    logical, intent(out) :: locked(:)
+    integer, intent(out) :: state(:)
     type(contact_iterate), intent(inout) :: iterate
-    real(dp) :: force(size(tied)), noise(size(tied))
-    logical :: locked(size(tied))
-    integer :: state(size(tied))
 
     force = scene%balance
     noise = 0.0_dp

@@ -169,6 +169,7 @@ contains
                         + scaling%gap_datum
     end if
     call report_unresisted_motion(canonical, found, info)
+    if (info%failed()) return
     call canonical%to_given_modes(problem%prescribed_motion(), found%motion, motion)
     if (allocated(scene%excluded)) call set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, &
                                                          iterate, found)

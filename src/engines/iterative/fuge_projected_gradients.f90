@@ -71,7 +71,8 @@ contains
       iterate%converged = is_accurate(iterate, tolerance)
       if (.not. iterate%converged .and. measured_again(scene, iteration, limit)) then
         ! The forces at the start may have been others, even none.
-        call find_least_magnitude(operator, scene, iterate)
+        call find_least_magnitude(operator, scene, iterate, info)
+        if (info%failed()) return
         iterate%converged = is_accurate(iterate, tolerance)
       end if
       if (iterate%converged .or. iteration == limit) return
