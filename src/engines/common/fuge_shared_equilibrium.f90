@@ -3,12 +3,18 @@
 module fuge_shared_equilibrium
   use fuge_equilibrium, only: find_equilibrium, find_newest, is_in_equilibrium, proves_no_equilibrium
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   use fuge_ranks, only: shared_ranks
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
 
-  public :: find_shared_equilibrium
+  public :: find_shared_equilibrium, move_to_edge
 
+  !> A load may miss the edge of what the contact can carry by so many units in its last place.
+  real(dp), parameter :: ROUNDINGS = 16.0_dp
+  !> A force below this fraction of the largest may be due to such rounding.
+  real(dp), parameter :: NO_FORCE = 1.0e-10_dp
   !> Points that are offered, at most: some for each mode, and some more.
   integer, parameter :: OFFERS_PER_MODE = 20, MORE_OFFERS = 200
 
@@ -131,5 +137,44 @@ contains
       end do
     end associate
   end subroutine solve_offered
+
+  !> Fewer points than modes carry a load at the edge of what the contact can carry. Rounding may take it beyond the
+  !> edge, where motions without resistance would grow: the load is then moved to the edge.
+  !>
+  !> `modes` (n, p) those in `columns` (p) with the `noise` (p) of their loads; `force` (n) carries them. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine move_to_edge(ranks, modes, noise, load, columns, force, info)
+    type(shared_ranks), intent(in) :: ranks
+    real(dp), intent(in) :: modes(:, :), noise(:)
+    integer, intent(in) :: columns(:)
+    real(dp), intent(inout) :: load(:), force(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: nearest(:), weighted(:, :)
+    logical, allocatable :: pushes(:), pulls(:)
+    real(dp) :: carried(size(noise)), weight(size(noise)), rest(size(noise)), least
+    integer :: j, stat
+
+    least = NO_FORCE*ranks%largest(maxval(abs(force)))
+    if (ranks%total_count(count(abs(force) > least)) >= size(columns) .or. .not. all(noise > 0.0_dp)) return
+    associate (n => size(force))
+      allocate (nearest(n), weighted(n, size(noise)), pushes(n), pulls(n), stat=stat)
+    end associate
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the load of '//text(size(force))//' points')
+    call ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    ! Loads with little rounding are met best.
+    weight = minval(noise)/noise
+    do j = 1, size(noise)
+      weighted(:, j) = modes(:, j)*weight(j)
+    end do
+    pushes = force > least
+    pulls = force < -least
+    call find_shared_equilibrium(ranks, weighted, load(columns)*weight, pushes, pulls, nearest, rest, noise*weight)
+    carried = matmul(nearest, modes)
+    call ranks%add(carried)
+    if (.not. all(abs(load(columns) - carried) <= ROUNDINGS*noise)) return
+    load(columns) = carried
+    force = nearest
+  end subroutine move_to_edge
 
 end module fuge_shared_equilibrium
