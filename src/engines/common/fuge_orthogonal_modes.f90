@@ -116,7 +116,7 @@ contains
     logical, intent(inout) :: has_translation
     type(mode_fault), intent(inout) :: fault
     real(dp), allocatable :: basis(:, :)
-    real(dp) :: products(count(member)**2), points
+    real(dp) :: own_coefficients(count(member), count(member)), points
     integer :: columns(count(member)), order(count(member)), i, j, rank, replaced
 
     allocate (basis(size(scaled, 1), size(columns)), stat=fault%stat)
@@ -159,10 +159,42 @@ contains
     basis = basis*sqrt(points)
     if (replaced > 0) basis(:, 1) = merge(0.0_dp, 1.0_dp, excluded)
     modes(:, columns) = basis
-    products = [((dot_product(basis(:, i), scaled(:, columns(j))), i=1, size(columns)), j=1, size(columns))]
-    call ranks%add(products)
-    coefficients(columns, columns) = reshape(products, [size(columns), size(columns)])/points
+    call find_coefficients(scaled, columns, basis, points, ranks, own_coefficients, fault)
+    coefficients(columns, columns) = own_coefficients
   end subroutine orthogonalise_body
+
+  !> The `columns` of `scaled` as basis*coefficients, (m, m). Sums over many points are rounded, which would make a tilt
+  !> of a large motion: so what the first coefficients leave of the columns is expressed too.
+  subroutine find_coefficients(scaled, columns, basis, points, ranks, coefficients, fault)
+    real(dp), intent(in) :: scaled(:, :), basis(:, :), points
+    integer, intent(in) :: columns(:)
+    type(shared_ranks), intent(in) :: ranks
+    real(dp), intent(out) :: coefficients(:, :)
+    type(mode_fault), intent(inout) :: fault
+    real(dp), allocatable :: remainder(:, :)
+    real(dp) :: change(size(columns), size(columns)), products(size(columns)**2)
+    integer :: i, j, pass
+
+    coefficients = 0.0_dp
+    allocate (remainder(size(basis, 1), size(columns)), stat=fault%stat)
+    call share_fault(ranks, fault)
+    if (fault%stat /= 0) return
+    do j = 1, size(columns)
+      remainder(:, j) = scaled(:, columns(j))
+    end do
+    do pass = 1, 2
+      products = [((dot_product(basis(:, i), remainder(:, j)), i=1, size(columns)), j=1, size(columns))]
+      call ranks%add(products)
+      change = reshape(products, shape(change))/points
+      coefficients = coefficients + change
+      if (pass == 2) exit
+      do j = 1, size(columns)
+        do i = 1, size(columns)
+          remainder(:, j) = remainder(:, j) - basis(:, i)*change(i, j)
+        end do
+      end do
+    end do
+  end subroutine find_coefficients
 
   !> Which modes belong together, (m): the number of the first mode of the body. Modes that move a common point belong
   !> to one body. `modes` (n, m), where ranks, `sharing`, share the points those of this rank.
@@ -255,8 +287,8 @@ contains
       ! A cyclic shift brings the constant mode to the front.
       position = modulo(j - max(first, 1), m) + 1
       unit = length_of(scaled(:, j), ranks)/sqrt(ranks%total(real(count(.not. excluded), dp)))
-      ! The constant is 1, not -1.
-      if (ranks%anywhere(j == first .and. any(scaled(:, j) < 0.0_dp))) unit = -unit
+      ! The constant is 1, not -1 or its rounding.
+      if (j == first) unit = merge(-1.0_dp, 1.0_dp, ranks%anywhere(any(scaled(:, j) < 0.0_dp)))
       modes(:, position) = scaled(:, j)/unit
       if (j == first) modes(:, position) = merge(0.0_dp, 1.0_dp, excluded)
       coefficients(position, j) = unit
