@@ -7,14 +7,13 @@
 !> where alpha is badly conditioned, even so small a gap takes a large force to close.
 module fuge_force_error
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_compensated_sums, only: difference_rounding
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
-  use fuge_data_scales, only: is_prescribed
   use fuge_displacements, only: add_elastic_displacement, displacement_terms, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: solve_set
+  use fuge_motion_rounding, only: exact_modes, gap_rounding_at, load_rounding, mode_rounding_at
   use fuge_problem_type, only: fuge_problem
   use fuge_refinement_error, only: as_rounding, LARGEST, RANDOM_SIGNS
   implicit none
@@ -78,11 +77,15 @@ contains
     real(dp) :: known(size(solution%force)), load(size(motion)), force_change(size(solution%force))
     real(dp) :: free_motion(size(canonical%load))
     real(dp), allocatable :: gap_change(:), load_change(:)
+    logical :: exact(size(motion))
+    integer :: k
 
     error = 0.0_dp
+    exact = exact_modes(problem)
     allocate (length(size(solution%force)))
-    call rounding_of_modes(problem, motion, solution%force, length, load)
-    known = rounding_of_gaps(problem)
+    length = [(mode_rounding_at(problem, exact, motion, k), k=1, size(length))]
+    load = load_rounding(problem, exact, solution%force)
+    known = [(gap_rounding_at(problem, k), k=1, size(known))]
     if (.not. (any(length > 0.0_dp) .or. any(load > 0.0_dp) .or. any(abs(known) > 0.0_dp))) then
       deallocate (length)
       return
@@ -99,25 +102,6 @@ contains
     ! Also where it is NaN.
     if (.not. error <= LARGEST) error = LARGEST
   end subroutine error_by_modes
-
-  !> How much the last digits of the modes change gaps, `length` (n), and resultants, `load` (m).
-  pure subroutine rounding_of_modes(problem, motion, force, length, load)
-    type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: motion(:), force(:)
-    real(dp), intent(out) :: length(:), load(:)
-    integer :: j
-
-    length = 0.0_dp
-    load = 0.0_dp
-    if (.not. allocated(problem%modes)) return
-    do j = 1, size(motion)
-      associate (mode => problem%modes(:, j))
-        if (has_one_value(mode)) cycle
-        length = length + epsilon(length)*abs(mode*motion(j))
-        if (.not. is_prescribed(problem, j)) load(j) = epsilon(load)*sum(abs(mode*force))
-      end associate
-    end do
-  end subroutine rounding_of_modes
 
   !> A bound of the change of a force by changes of the gaps up to `length` and of the canonical loads by `load_change`:
   !> before refinement the forces had the error that rounding makes of all terms of the equations, and these changes are
@@ -154,36 +138,6 @@ contains
     bound = roundings*max(solution%unrefined_error/(UNREFINED*epsilon(bound)), maxval(abs(solution%force)))
     if (.not. bound <= LARGEST) bound = LARGEST
   end function bound_by_refinement
-
-  !> What is lost when prescribed motions are subtracted from the gaps one after the other, (n); the rounding of the
-  !> products is not included.
-  pure function rounding_of_gaps(problem) result(rounding)
-    type(fuge_problem), intent(in) :: problem
-    real(dp) :: rounding(size(problem%gap))
-    real(dp) :: gap(size(problem%gap)), displacement(size(problem%gap)), rest(size(problem%gap))
-    integer :: j
-
-    rounding = 0.0_dp
-    gap = problem%gap
-    do j = 1, problem%mode_count()
-      if (.not. is_prescribed(problem, j)) cycle
-      displacement = problem%motion(j)
-      if (allocated(problem%modes)) displacement = problem%motion(j)*problem%modes(:, j)
-      rest = gap - displacement
-      rounding = rounding + difference_rounding(gap, displacement, rest)
-      gap = rest
-    end do
-  end function rounding_of_gaps
-
-  !> Are all entries of the mode 0 or one other value?
-  pure function has_one_value(mode)
-    real(dp), intent(in) :: mode(:)
-    logical :: has_one_value
-    real(dp) :: largest
-
-    largest = mode(maxloc(abs(mode), dim=1))
-    has_one_value = all(abs(mode) <= 0.0_dp .or. abs(mode - largest) <= 0.0_dp)
-  end function has_one_value
 
   !> The largest change of a force if an open point whose gap is within rounding were in contact after all, an estimate:
   !> for few such points two solves each.

@@ -66,6 +66,7 @@ module fuge_canonical_problem
     procedure :: force_scale
     procedure :: has_bodies
     procedure :: transform_change
+    procedure :: largest_loads
     procedure :: set_excluded_gaps
     procedure :: set_excluded_gaps_from
     procedure :: dominant_mode
@@ -318,6 +319,23 @@ contains
     allocate (load(size(self%free)))
     call self%change%orthogonal_load(load_change(self%free), load)
   end subroutine transform_change
+
+  !> The largest loads of the canonical problem for resultants up to `load` (m), of any sign.
+  function largest_loads(self, load) result(largest)
+    class(canonical_problem), intent(in) :: self
+    real(dp), intent(in) :: load(:)
+    real(dp) :: largest(size(self%free))
+    real(dp) :: unit(size(self%free)), change(size(self%free))
+    integer :: j
+
+    largest = 0.0_dp
+    do j = 1, size(largest)
+      unit = 0.0_dp
+      unit(j) = load(self%free(j))
+      call self%change%orthogonal_load(unit, change)
+      largest = largest + abs(change)
+    end do
+  end function largest_loads
 
   !> Set the gaps c = g + A f - R q at the excluded points, of `gap` g (n), `force` (n) and all motions (m), or of
   !> changes of these.

@@ -15,7 +15,7 @@ module fuge_contact_iterate
   private
 
   public :: clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
-    find_penetration, is_accurate, make_feasible, project_residual, rounding_force, start_iterate
+    find_penetration, is_accurate, largest_term, make_feasible, project_residual, rounding_force, start_iterate
 
   !> Units in the last place by which gaps less rigid displacements may be rounded.
   real(dp), parameter :: ROUNDINGS = 2.0_dp
@@ -364,13 +364,15 @@ contains
   function largest_term(scene, iterate) result(largest)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
-    real(dp) :: largest
+    real(dp) :: largest, rigid
     integer :: i, k
 
     largest = 0.0_dp
+    rigid = abs(iterate%motion)
     do i = 1, size(iterate%segments%first)
       do k = iterate%segments%first(i), iterate%segments%last(i)
-        largest = max(largest, abs(scene%gap(k)) + sum(abs(scene%modes(k, :)*iterate%rigid_motion)))
+        if (allocated(scene%modes)) rigid = sum(abs(scene%modes(k, :)*iterate%rigid_motion))
+        largest = max(largest, abs(scene%gap(k)) + rigid)
       end do
     end do
     largest = scene%rows%ranks%largest(largest)

@@ -15,7 +15,7 @@ module fuge_iterative_engine
   use fuge_engine_messages, only: report_closed_gap, SINGULAR_ON_CONTACT
   use fuge_general_scene, only: assemble_general, set_general_scene
   use fuge_iterated_set, only: iterated_set
-  use fuge_iteration_error, only: estimated_force_error
+  use fuge_iteration_error, only: estimated_force_error, find_rounding
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
@@ -26,6 +26,7 @@ module fuge_iterative_engine
   use fuge_ranks, only: shared_ranks
   use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
+  use fuge_set_compliance, only: probe_compliance
   use fuge_shared_rows, only: rows_of
   use fuge_shared_transfer, only: prolong_to
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
@@ -74,6 +75,7 @@ contains
     type(scene_scaling) :: scaling
     type(search_settings) :: coarse_settings, settings
     integer :: coarse_products, fine_products
+    real(dp) :: pair_compliance, length, force
     logical :: repeated
     type(shared_ranks) :: ranks
 
@@ -110,8 +112,9 @@ contains
     else
       call history%record_cold(iterate%start_error, options%tolerance, coarse_products, fine_products)
     end if
-    call judge_forces(operator, scene, iterate, repeated, info)
+    call find_compliance(operator, scene, iterate, pair_compliance, repeated, info)
     if (info%failed()) return
+    last%least_compliance = iterate%least_compliance
     if (is_general(problem)) then
       call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
     else
@@ -119,36 +122,44 @@ contains
     end if
     if (info%failed()) return
     if (repeated) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
+    call find_rounding(problem, canonical, scene, scaling%load, iterate, solution, length, force)
+    info%force_error = estimated_force_error(iterate, pair_compliance, length, force)
     last%tolerance = options%tolerance
     ! The history needs memory of its own.
     call discard(iterate)
     call history%store(problem, scene%rows%ranks, solution)
   end subroutine solve_by_iteration
 
-  !> Estimate the error of the forces, and whether two points are `repeated`: then they are not unique. Errors: those of
-  !> the operator.
-  subroutine judge_forces(operator, scene, iterate, repeated, info)
+  !> The least compliance of the contact set, by which errors of the forces are judged: iterate%least_compliance and
+  !> `pair_compliance` of the operator; and whether two points are `repeated`: then the forces are not unique. Errors:
+  !> those of the operator, FUGE_ERR_MEMORY.
+  subroutine find_compliance(operator, scene, iterate, pair_compliance, repeated, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), intent(out) :: pair_compliance
     logical, intent(out) :: repeated
     type(fuge_info), intent(inout) :: info
-    real(dp) :: compliance
+    logical :: enough, preconditioned
     integer :: pair(2)
 
+    repeated = .false.
     if (allocated(scene%modes)) then
-      compliance = operator%least_pair_compliance(iterate%contact, scene%modes)
+      pair_compliance = operator%least_pair_compliance(iterate%contact, scene%modes)
     else
-      compliance = operator%least_pair_compliance(iterate%contact, reshape([real(dp) ::], [size(scene%gap), 0]))
+      pair_compliance = operator%least_pair_compliance(iterate%contact, reshape([real(dp) ::], [size(scene%gap), 0]))
     end if
-    info%force_error = estimated_force_error(iterate, compliance)
-    repeated = .not. compliance > 0.0_dp
-    ! A preconditioner is close to an inverse.
-    if (compliance < huge(compliance)) return
-    if (operator%has_preconditioner()) return
+    preconditioned = operator%has_preconditioner()
+    ! On a grid the preconditioner is close to an inverse, and what conjugate gradients have found is enough.
+    enough = preconditioned .and. iterate%least_compliance > 0.0_dp
+    if (enough) enough = all(operator%grid() > 0)
+    if (.not. enough) call probe_compliance(operator, scene, iterate, info)
+    if (info%failed()) return
+    repeated = .not. pair_compliance > 0.0_dp
+    if (preconditioned .or. pair_compliance < huge(pair_compliance)) return
     call find_repeated_points(operator, scene, iterate, pair, info)
     repeated = pair(1) > 0
-  end subroutine judge_forces
+  end subroutine find_compliance
 
   !> Keep the contact set for derivatives, and what conjugate gradients found on it. A start that needs no step tells
   !> nothing of the operator: the last solve on the same set does. Error: FUGE_ERR_MEMORY.

@@ -31,6 +31,7 @@ module fuge_mode_projection
     procedure :: subtract
     procedure :: motion
     procedure :: correct_resultants
+    procedure :: largest_force
   end type mode_projection
 
 contains
@@ -165,6 +166,25 @@ contains
     call find_missing(modes, load, segments, force, missing, terms)
     possible = all(abs(missing) <= NEGLIGIBLE*max(terms, maxval(abs(load))))
   end subroutine correct_resultants
+
+  !> The largest of the least forces on the set that make resultants up to `load` (m), of any sign: a bound.
+  function largest_force(self, segments, load) result(force)
+    class(mode_projection), intent(in) :: self
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in) :: load(:)
+    real(dp) :: force
+    real(dp) :: parts(self%rank)
+    integer :: i, k
+
+    force = 0.0_dp
+    parts = [(sum(load*abs(self%coefficients(:, i))), i=1, self%rank)]
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i)
+        force = max(force, sum(parts*abs(self%basis(k, :self%rank))))
+      end do
+    end do
+    force = segments%ranks%largest(force)
+  end function largest_force
 
   !> What `force` (n) lacks of the resultants, and the sizes of their terms, (m).
   subroutine find_missing(modes, load, segments, force, missing, terms)

@@ -19,7 +19,7 @@ module fuge_projected_gradients
   implicit none
   private
 
-  public :: run_projected_gradients
+  public :: precondition_residual, run_projected_gradients, update_direction
 
   !> The contact set can be judged once the errors of the forces are below this fraction of the
   !> largest tension, or those of the gaps below this fraction of the deepest penetration.
