@@ -14,9 +14,9 @@ module fuge_equilibrium
 
   public :: find_equilibrium, find_newest, is_in_equilibrium, proves_no_equilibrium
 
-  !> A remainder below this fraction of the resultant is rounding.
+  !> A point whose work is below this fraction of the largest possible one does not close along the remainder.
   real(dp), parameter :: NEGLIGIBLE = 1.0e-11_dp
-  !> So many units in the last place of the resultant, too.
+  !> A remainder of so many units in the last place of a resultant, or of its terms, is rounding.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
   !> A closing displacement below this fraction of its terms counts as zero.
   real(dp), parameter :: PROOF = 1.0e-10_dp
@@ -146,8 +146,9 @@ contains
 
     balanced = .true.
     do j = 1, size(resultant)
-      balanced = balanced .and. abs(remainder(j)) <= max(ROUNDINGS*noise(j), &
-                                               NEGLIGIBLE*max(abs(resultant(j)), sum(abs(modes(:, j)*force))))
+      ! Where one resultant is rounded by more, least squares spread that over all.
+      balanced = balanced .and. abs(remainder(j)) <= ROUNDINGS*max(maxval(noise), epsilon(noise)*abs(resultant(j)), &
+                                                                   epsilon(noise)*sum(abs(modes(:, j)*force)))
     end do
   end function is_in_equilibrium
 

@@ -13,8 +13,9 @@ module fuge_mode_projection
   !> A mode is a combination of the others on the set if its remainder is below this fraction: modes about a far-away
   !> point have lost digits when they were made orthogonal.
   real(dp), parameter :: DEPENDENT = 1.0e-10_dp
-  !> What is missing in a resultant is rounding below this fraction of its terms.
-  real(dp), parameter :: NEGLIGIBLE = 1.0e-11_dp
+  !> What is missing in a resultant is rounding up to so many units in the last place of its terms, times the root of
+  !> their number.
+  real(dp), parameter :: ROUNDINGS = 8.0_dp
 
   !> Set it for a contact set; it belongs to that set only.
   type, public :: mode_projection
@@ -164,7 +165,8 @@ contains
       call self%subtract_on(segments, parts, force)
     end do
     call find_missing(modes, load, segments, force, missing, terms)
-    possible = all(abs(missing) <= NEGLIGIBLE*max(terms, maxval(abs(load))))
+    possible = all(abs(missing) <= ROUNDINGS*epsilon(missing)*sqrt(real(segments%points, dp)) &
+                   *max(terms, maxval(abs(load))))
   end subroutine correct_resultants
 
   !> The largest of the least forces on the set that make resultants up to `load` (m), of any sign: a bound.
