@@ -42,6 +42,8 @@ module fuge_contact_iterate
     real(dp), allocatable :: rigid_motion(:)
     !> Largest magnitude of gap plus displacement less motion on the contact set.
     real(dp) :: residual_norm = huge(1.0_dp)
+    !> With modes: the largest residual norm since the last projection of the residual.
+    real(dp) :: unprojected = 0.0_dp
     !> Deepest penetration of an open point, 0 if none penetrates.
     real(dp) :: penetration = 0.0_dp
     !> Residuals are compared with this length: the least magnitude at a contact point, as in the
@@ -294,6 +296,7 @@ contains
       call iterate%projection%subtract(parts, iterate%displacement)
       iterate%rigid_motion = iterate%rigid_motion + iterate%projection%motion(parts)
       iterate%residual_norm = max_abs_over(iterate%segments, iterate%residual)
+      iterate%unprojected = iterate%residual_norm
       return
     end if
     mean = 0.0_dp

@@ -14,7 +14,7 @@ module fuge_null_direction
   implicit none
   private
 
-  public :: find_softness, leave_null_direction, stores_no_energy
+  public :: find_softness, largest_energy, leave_null_direction, stores_no_energy
 
   !> So many units in the last place of the terms of an energy are none.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
@@ -64,11 +64,17 @@ contains
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: curvature
     logical :: none
-    real(dp) :: largest
 
-    largest = max_abs_over(iterate%segments, iterate%direction)
-    none = abs(curvature) <= ROUNDINGS*epsilon(largest)*iterate%softness*largest*total_force(iterate)
+    none = abs(curvature) <= ROUNDINGS*epsilon(curvature)*largest_energy(iterate)
   end function stores_no_energy
+
+  !> The energy that forces as large as those of the search direction could store, after `find_softness`.
+  function largest_energy(iterate) result(energy)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: energy
+
+    energy = iterate%softness*max_abs_over(iterate%segments, iterate%direction)*total_force(iterate)
+  end function largest_energy
 
   !> The sum of the magnitudes of the forces of the search direction.
   function total_force(iterate) result(total)

@@ -5,13 +5,13 @@
 !> modes the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
-    find_least_magnitude, find_penetration, is_accurate
+    find_least_magnitude, find_penetration, is_accurate, project_residual
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, max_abs_over
+  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, dot_over, max_abs_over, sum_over
   use fuge_contact_step, only: step_over
   use fuge_kinds, only: dp
-  use fuge_null_direction, only: find_softness, leave_null_direction, stores_no_energy
+  use fuge_null_direction, only: find_softness, largest_energy, leave_null_direction, stores_no_energy
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_DEFINITE
@@ -32,6 +32,8 @@ module fuge_projected_gradients
   integer, parameter :: EXTRA_ITERATIONS = 20
   !> Upper limit in any case: an operator that needs more needs a preconditioner.
   integer, parameter :: MAX_ITERATIONS = 20000
+  !> With modes the residual is projected anew whenever it has fallen to this fraction.
+  real(dp), parameter :: SMALL = 1.0e-3_dp
   !> A negative energy below this fraction of the magnitude of its terms is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-10_dp
 
@@ -185,7 +187,7 @@ contains
       call take_step(scene, step_length, total/real(iterate%segments%points, dp), iterate)
       if (allocated(scene%modes)) iterate%rigid_motion = iterate%rigid_motion - step_length*rigid_motion
     else
-      call check_curvature(iterate, curvature, info)
+      call check_curvature(operator, scene, iterate, info)
     end if
   end subroutine advance_along_direction
 
@@ -201,9 +203,11 @@ contains
     rigid_motion = iterate%projection%motion(parts)
   end subroutine remove_rigid_motion
 
-  !> Subtract `step_length` times the search direction from the forces, and update what follows
-  !> from them. `mean` is that of the displacements by the direction over the contact set; 0 if the
-  !> motion is prescribed.
+  !> Subtract `step_length` times the search direction from the forces, and update what follows from them. `mean` is
+  !> that of the displacements by the direction over the contact set; 0 if the motion is prescribed.
+  !>
+  !> The residual gains rigid motions by the rounding of lengths that were larger before. They are removed with each
+  !> step of one translation, and with modes as soon as the residual has become small.
   subroutine take_step(scene, step_length, mean, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: step_length, mean
@@ -215,6 +219,10 @@ contains
                    iterate%work, iterate%force, iterate%displacement, iterate%residual, total, iterate%residual_norm, &
                    iterate%penetration)
     if (allocated(scene%play)) iterate%penetration = find_penetration(scene, iterate)
+    if (allocated(scene%modes)) then
+      iterate%unprojected = max(iterate%unprojected, iterate%residual_norm)
+      if (iterate%residual_norm < SMALL*iterate%unprojected) call project_residual(scene, iterate)
+    end if
     if (iterate%prescribed) return
     ! What rounding leaves of the mean would grow, and without a preconditioner change the sum of the forces.
     rest = total/real(iterate%segments%points, dp)
@@ -236,22 +244,43 @@ contains
                 //text(energy)//': the preconditioner of the operator is not positive definite')
   end subroutine check_preconditioner_energy
 
-  !> The search direction has no positive curvature: either its displacements are nothing but
-  !> rounding, or the operator is not positive definite (FUGE_ERR_NOT_DEFINITE).
-  subroutine check_curvature(iterate, curvature, info)
-    type(contact_iterate), intent(in) :: iterate
-    real(dp), intent(in) :: curvature
+  !> The search direction has no positive curvature: either it or its displacements are nothing but rounding, or the
+  !> operator is not positive definite (FUGE_ERR_NOT_DEFINITE).
+  !>
+  !> On forces with a resultant the operator may well be negative, and late directions may have such forces by rounding:
+  !> the direction loses its resultants, and its energy is judged anew.
+  subroutine check_curvature(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
-    real(dp) :: length, force
+    real(dp) :: curvature
 
-    ! Where the operator is singular, the displacements by the direction are rounding errors of
-    ! iterate%displacement.
-    length = max(iterate%segments%ranks%largest(maxval(abs(iterate%displacement))), &
-                 max_abs_over(iterate%segments, iterate%work))
-    force = max_abs_over(iterate%segments, iterate%direction)
-    if (curvature >= -ROUNDING*length*force*max(1.0_dp, real(iterate%segments%points, dp)*force)) return
+    call remove_resultants(scene, iterate)
+    call compute_displacement(operator, counts_datum(scene, iterate), iterate%direction, iterate%work, info)
+    if (.not. info%failed()) call find_softness(operator, scene, iterate, info)
+    if (info%failed()) return
+    curvature = dot_over(iterate%segments, iterate%direction, iterate%work)
+    if (curvature >= -ROUNDING*largest_energy(iterate)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces on the contact store the ' &
                 //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
   end subroutine check_curvature
+
+  !> Take the resultants in free motions out of the search direction.
+  subroutine remove_resultants(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), allocatable :: parts(:)
+    real(dp) :: mean, largest_ignored
+
+    if (allocated(scene%modes)) then
+      allocate (parts(size(iterate%rigid_motion)))
+      call iterate%projection%components(iterate%segments, iterate%direction, parts)
+      call iterate%projection%subtract_on(iterate%segments, parts, iterate%direction)
+    else if (.not. iterate%prescribed) then
+      mean = sum_over(iterate%segments, iterate%direction)/real(iterate%segments%points, dp)
+      call center_over(iterate%segments, mean, iterate%direction, largest_ignored)
+    end if
+  end subroutine remove_resultants
 
 end module fuge_projected_gradients
