@@ -22,6 +22,10 @@ module fuge_certificate
   real(dp), parameter :: BESIDE = 1.0e-2_dp
   !> Forces dwarf the data if the terms of their displacements exceed the lengths of the data by one over this factor.
   real(dp), parameter :: DWARFED = 1.0e-6_dp
+  !> Violations of the gap equation above this may be those of rounding alone.
+  real(dp), parameter :: SUSPECT = 1.0e-10_dp
+  !> A magnitude below this fraction of the displacement by the largest forces is no scale.
+  real(dp), parameter :: NO_SCALE = 256.0_dp*epsilon(1.0_dp)
   !> Lengths left open count as resolved up to this fraction of the data.
   real(dp), parameter :: RESOLVED = 1.0e-3_dp
 
@@ -60,7 +64,7 @@ contains
   !> How far a solution violates equations (9), (10) and (11).
   !>
   !> `operator` with n points; `problem` and `solution` in the same units; out: `violation`, huge
-  !> where a force is not finite. One product A f.
+  !> where a force is not finite. One product A f, and another one where lengths may be rounding.
   !>
   !> With d the datum of the operator, lengths at point k are compared with the magnitude
   !> |gap_k - (R q)_k + d sum f| + sum_j |A_kj - d| |f_j|: the depth to which the point is pressed,
@@ -123,12 +127,63 @@ contains
                         *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included), &
                                            ranks)
     end if
-    violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
-                                           .not. allocated(problem%modes), ranks)
-    call contact_violations(problem, solution, magnitude, included, ranks, violation)
     violation%equilibrium = equilibrium_violation(problem, solution, ranks)
     violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, ranks)
+    call contact_violations(problem, solution, magnitude, included, ranks, violation)
+    violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
+                                           .not. allocated(problem%modes), ranks)
+    if (.not. violation%gap_equation > SUSPECT) return
+    call take_out_rounding(operator, problem, solution%force, elastic, included, magnitude, rigid_magnitude, error, &
+                           info)
+    violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
+                                           .not. allocated(problem%modes), ranks)
   end subroutine find_violation
+
+  !> Where all forces that displace a point are zero but for rounding, so is its magnitude, with which nothing can be
+  !> compared. There the error becomes smaller by the rounding of forces as large as the largest one of the body (M.
+  !> Arioli, J. W. Demmel, I. S. Duff, SIAM Journal on Matrix Analysis and Applications 10, 1989), and everywhere by that
+  !> of the motions, which follow from all displacements of the body.
+  !>
+  !> `elastic` (n) are the terms of A f. One more product; if it fails, nothing changes. The arguments are more than
+  !> eight because each length has terms of its own.
+  subroutine take_out_rounding(operator, problem, force, elastic, included, magnitude, rigid_magnitude, error, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:), elastic(:), magnitude(:), rigid_magnitude(:)
+    logical, intent(in) :: included(:)
+    real(dp), intent(inout) :: error(:)
+    type(fuge_info), intent(inout) :: info
+    type(fuge_info) :: product_info
+    type(shared_ranks) :: ranks
+    real(dp), dimension(size(force)) :: largest, of_bodies, rounding, terms
+
+    ranks = operator%ranks()
+    largest = ranks%largest(maxval(abs(force)))
+    if (allocated(problem%modes)) largest = largest_of_bodies(problem%modes, abs(force), ranks)
+    where (.not. included) largest = 0.0_dp
+    call multiply_with_magnitude(operator, largest, of_bodies, terms, product_info)
+    info%products = info%products + product_info%products
+    if (product_info%failed()) return
+    where (.not. included .or. magnitude > NO_SCALE*terms) terms = 0.0_dp
+    rounding = NO_SCALE*terms
+    ! Where no force displaces a point, its rigid gap may be the rounding of the gap and the motions.
+    where (elastic <= 0.0_dp .and. magnitude <= NO_SCALE*(abs(problem%gap) + rigid_magnitude))
+      rounding = NO_SCALE*(abs(problem%gap) + rigid_magnitude)
+    end where
+    terms = merge(terms + elastic, 0.0_dp, included)
+    largest = ranks%largest(maxval(terms + rigid_magnitude, mask=included))
+    if (allocated(problem%modes)) then
+      of_bodies = largest_of_bodies(problem%modes, terms, ranks)
+      ! A body that no force displaces has no lengths of its own.
+      where (of_bodies > 0.0_dp) largest = of_bodies
+    end if
+    rounding = rounding + 2.0_dp*epsilon(error)*largest
+    where (abs(error) <= rounding)
+      error = 0.0_dp
+    else where
+      error = error - sign(rounding, error)
+    end where
+  end subroutine take_out_rounding
 
   !> R q less the displacement by the `datum`, (n), and the magnitude of its terms.
   subroutine find_rigid_displacement(problem, solution, datum, ranks, rigid_displacement, rigid_magnitude)
