@@ -89,13 +89,18 @@ contains
         progress%refine_now = .true.
         call refine_working_set(canonical, set, factor, solution)
       end if
-      if (all(set%violation <= SIGN_TOLERANCE)) exit
-      if (is_noise(set, progress, factor)) exit
+      if (all(set%violation <= SIGN_TOLERANCE)) then
+        if (progress%stalls_left < 0 .or. canonical%is_carried_by(solution%force)) exit
+        ! Soft springs carry the rest of the load, because the motions that it causes close no gap.
+        progress%stalls_left = -1
+      else
+        if (is_noise(set, progress, factor)) exit
+        call count_progress(set%violation > SIGN_TOLERANCE, solution%state == FUGE_OPEN, progress)
+      end if
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
         return
       end if
-      call count_progress(set%violation > SIGN_TOLERANCE, solution%state == FUGE_OPEN, progress)
       if (progress%stalls_left < 0) then
         call run_primal_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
         if (status /= FUGE_DONE) return

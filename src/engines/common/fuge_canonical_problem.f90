@@ -5,6 +5,7 @@
 !> carry is refused here.
 module fuge_canonical_problem
   use, intrinsic :: iso_c_binding, only: c_long_long
+  use fuge_equilibrium, only: is_in_equilibrium
   use fuge_kinds, only: dp
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text, text
@@ -63,6 +64,7 @@ module fuge_canonical_problem
     procedure :: is_tied
     procedure :: to_given_modes
     procedure :: largest_load
+    procedure :: is_carried_by
     procedure :: force_scale
     procedure :: has_bodies
     procedure :: transform_change
@@ -257,6 +259,24 @@ contains
     load = 0.0_dp
     if (size(self%load) > 0) load = maxval(abs(self%load))
   end function largest_load
+
+  !> Are these forces (n) in equilibrium with the load?
+  pure function is_carried_by(self, force) result(carried)
+    class(canonical_problem), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    logical :: carried
+    real(dp) :: noise(size(self%load)), of_bodies(size(force))
+    integer :: j
+
+    carried = self%plain
+    if (carried) return
+    of_bodies = 0.0_dp
+    do j = 1, size(self%load)
+      of_bodies = merge(max(of_bodies, abs(self%load(j))), of_bodies, abs(self%modes(:, j)) > 0.0_dp)
+    end do
+    noise = [(epsilon(noise)*maxval(of_bodies, mask=abs(self%modes(:, j)) > 0.0_dp), j=1, size(noise))]
+    carried = is_in_equilibrium(self%modes, self%load, noise, force, self%load - matmul(force, self%modes))
+  end function is_carried_by
 
   !> Are there several bodies, of which each may have a load of its own?
   pure function has_bodies(self)
