@@ -21,6 +21,10 @@ module fuge_block_pivoting
 
   !> Block exchanges with points that join, and without a new minimum of wrong points, before single exchanges begin.
   integer, parameter, public :: MAX_STALLS = 3
+  !> Forces on a singular contact below this fraction of the largest one of the body are rounding.
+  real(dp), parameter :: IDLE_FORCE = 1.0e-10_dp
+  !> A length below this fraction of its terms is rounding.
+  real(dp), parameter :: NO_LENGTH = 16.0_dp*epsilon(1.0_dp)
   !> A large ratio of the pivots raises the violations that count as rounding.
   real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
   !> Ratio of the pivots above which signs are judged after refinement only.
@@ -192,7 +196,10 @@ contains
     real(dp) :: given(size(solution%force))
 
     given = solution%force
-    if (factor%regularisation > 0.0_dp) call set%refine(canonical, factor, 0.0_dp, solution)
+    if (factor%regularisation > 0.0_dp) then
+      call set%refine(canonical, factor, 0.0_dp, solution)
+      call solve_without_idle(canonical, set, solution)
+    end if
     call set%estimate_error(canonical, factor, solution)
     solution%violation = maxval(set%violation)
     associate (upper => canonical%upper, state => solution%state, force => solution%force, motion => solution%motion)
@@ -211,5 +218,57 @@ contains
       if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + canonical%datum*canonical%load(1)
     end associate
   end subroutine remove_rounding
+
+  !> Solve anew without the points of a singular contact whose forces are rounding, if they stay at their stops: these
+  !> forces, or what is taken from them where they pull, would displace the others.
+  subroutine solve_without_idle(canonical, set, solution)
+    type(canonical_problem), intent(in) :: canonical
+    type(working_set), intent(in) :: set
+    type(contact_solution), intent(inout) :: solution
+    type(contact_solution) :: trial
+    type(working_set) :: loaded
+    type(kkt_factor) :: factor
+    logical :: idle(size(solution%state))
+    integer :: attempt, status
+
+    trial = solution
+    do attempt = 1, MAX_STALLS
+      where (canonical%upper > 0.0_dp .and. &
+             trial%state*trial%force <= IDLE_FORCE*canonical%force_scale(trial%force)) trial%state = FUGE_OPEN
+      idle = solution%state /= trial%state
+      if (.not. any(idle)) return
+      call loaded%start(canonical, trial%state, status)
+      if (status /= FUGE_DONE) return
+      call loaded%mark(canonical, trial%state)
+      call factor%set(canonical, loaded%contact, status)
+      if (status /= FUGE_DONE) return
+      call loaded%solve(canonical, factor, trial)
+      call loaded%refine(canonical, factor, factor%regularisation, trial)
+      call loaded%refine(canonical, factor, 0.0_dp, trial)
+      call loaded%measure(canonical, .true., trial)
+      if (all(idle .or. loaded%violation <= SIGN_TOLERANCE)) exit
+    end do
+    if (any(loaded%violation > SIGN_TOLERANCE .and. .not. idle)) return
+    if (.not. (canonical%is_carried_by(trial%force) .and. stays_closed(canonical, idle, solution, trial))) return
+    solution%force = trial%force
+    solution%motion = trial%motion
+    if (canonical%has_translation) then
+      solution%motion(1) = solution%motion(1) + (loaded%gap_datum - set%gap_datum)
+    end if
+  end subroutine solve_without_idle
+
+  !> Are the gaps of the `idle` points (n) in `trial` still those of their stops in `solution`, but for rounding?
+  pure function stays_closed(canonical, idle, solution, trial) result(closed)
+    type(canonical_problem), intent(in) :: canonical
+    logical, intent(in) :: idle(:)
+    type(contact_solution), intent(in) :: solution, trial
+    logical :: closed
+    real(dp) :: stop_distance(size(idle)), length
+
+    stop_distance = trial%gap
+    where (solution%state < FUGE_OPEN) stop_distance = trial%gap - canonical%upper
+    length = canonical%survey%largest()*sum(abs(trial%force))
+    closed = all(abs(stop_distance) <= NO_LENGTH*(length + abs(canonical%gap)) .or. .not. idle)
+  end function stays_closed
 
 end module fuge_block_pivoting

@@ -23,6 +23,10 @@ module fuge_kkt_factor
   real(dp), parameter :: SOFT_SPRING = 1.0e-14_dp
   !> A pivot below this fraction of its diagonal, for each point of the base set, is rounding.
   real(dp), parameter :: PIVOT_TOLERANCE = 16.0_dp*epsilon(1.0_dp)
+  !> A pivot below this fraction of its diagonal may be rounding that the pivots before it have made larger.
+  real(dp), parameter :: SUSPECT = 1.0e-10_dp
+  !> An energy below this fraction of its terms is rounding, which no refinement overcomes.
+  real(dp), parameter :: ENERGY_TOLERANCE = 4.0_dp*epsilon(1.0_dp)
   !> Regularisations tried where alpha is singular, relative to its range.
   real(dp), parameter :: REGULARISATIONS(3) = [1.0e-12_dp, 1.0e-11_dp, 1.0e-10_dp]
 
@@ -38,6 +42,8 @@ module fuge_kkt_factor
     real(dp), allocatable :: modes(:, :)
     !> Cholesky factor of alpha - datum + augmentation R R^T on the base set, the regularisation on its diagonal.
     real(dp), allocatable :: lower(:, :)
+    !> Diagonal of the matrix that was factored, one for each point of the base set.
+    real(dp), allocatable :: diagonal(:)
     !> Taken out of all of alpha where the first mode is a translation. It changes the motion only, and so does the
     !> augmentation along the modes.
     real(dp), public :: datum = 0.0_dp
@@ -96,7 +102,7 @@ contains
       end if
     end if
     self%stamp = canonical%stamp
-    call factorise(self, canonical%alpha, canonical%modes, canonical%has_translation, contact, status)
+    call factorise(self, canonical, contact, status)
     if (status /= FUGE_DONE) return
     call update_borders(self, canonical%alpha, contact, singular)
     if (singular) then
@@ -128,40 +134,42 @@ contains
   end function is_set
 
   !> Take the contact set as the new base set and factor its block.
-  subroutine factorise(self, alpha, modes, has_translation, contact, status)
+  subroutine factorise(self, canonical, contact, status)
     class(kkt_factor), intent(inout) :: self
-    real(dp), intent(in), contiguous :: alpha(:, :), modes(:, :)
-    logical, intent(in) :: has_translation, contact(:)
+    type(canonical_problem), intent(in) :: canonical
+    logical, intent(in) :: contact(:)
     integer, intent(out) :: status
     integer, parameter :: DATUMS = 10
     real(dp) :: nearest_to_zero, range
     integer :: attempt
-    logical :: is_definite, is_gathered
+    logical :: is_definite, is_gathered, augments
 
-    call choose_base_set(self, modes, contact, status)
+    call choose_base_set(self, canonical%modes, contact, status)
     if (status /= FUGE_DONE) return
     self%datum = 0.0_dp
     self%augmentation = 0.0_dp
-    call gather_block(self, alpha, nearest_to_zero, range)
+    call gather_block(self, canonical%alpha, nearest_to_zero, range)
+    if (.not. range > 0.0_dp) range = stand_in_compliance(canonical)
+    ! For one translation the datum is enough; for other modes alpha is augmented too.
+    augments = size(canonical%modes, 2) > merge(1, 0, canonical%has_translation)
     ! Any datum that makes the block positive definite is right; alpha's own is taken if it does.
     is_gathered = .true.
-    if (abs(nearest_to_zero) <= range .or. .not. has_translation) then
-      call factor_base_set(self, alpha, 0.0_dp, is_gathered, is_definite)
+    if (abs(nearest_to_zero) <= range .or. .not. canonical%has_translation) then
+      call factor_base_set(self, canonical%alpha, 0.0_dp, is_gathered, is_definite)
       if (is_definite) return
     end if
     do attempt = 0, DATUMS - 1
-      if (has_translation) self%datum = nearest_to_zero - range*real(8**attempt - 1, dp)
-      ! For one translation the datum is enough; for other modes alpha is augmented too.
-      if (size(modes, 2) > merge(1, 0, has_translation) .and. (attempt > 0 .or. .not. has_translation)) then
+      if (canonical%has_translation) self%datum = nearest_to_zero - range*real(8**attempt - 1, dp)
+      if (augments .and. (attempt > 0 .or. .not. canonical%has_translation)) then
         self%augmentation = range*real(8**attempt, dp)
       end if
-      call factor_base_set(self, alpha, 0.0_dp, is_gathered, is_definite)
+      call factor_base_set(self, canonical%alpha, 0.0_dp, is_gathered, is_definite)
       if (is_definite) return
     end do
-    if (has_translation) self%datum = nearest_to_zero - range
-    self%augmentation = merge(range, 0.0_dp, size(modes, 2) > merge(1, 0, has_translation))
+    if (canonical%has_translation) self%datum = nearest_to_zero - range
+    self%augmentation = merge(range, 0.0_dp, augments)
     do attempt = 1, size(REGULARISATIONS)
-      call factor_base_set(self, alpha, REGULARISATIONS(attempt)*range, is_gathered, is_definite)
+      call factor_base_set(self, canonical%alpha, REGULARISATIONS(attempt)*range, is_gathered, is_definite)
       if (is_definite) return
     end do
     call deallocate_all(self)
@@ -178,8 +186,8 @@ contains
     m = count(contact)
     limit = FEWEST_BORDERS + m/POINTS_PER_BORDER + size(modes, 2)
     call deallocate_all(self)
-    allocate (self%base_set(m), self%position(size(contact)), self%lower(m, m), self%border(m, limit), &
-              self%keys(limit), self%schur(limit, limit), self%pivots(limit), &
+    allocate (self%base_set(m), self%position(size(contact)), self%lower(m, m), self%diagonal(m), &
+              self%border(m, limit), self%keys(limit), self%schur(limit, limit), self%pivots(limit), &
               self%modes(size(modes, 1), size(modes, 2)), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) then
@@ -201,6 +209,7 @@ contains
     if (allocated(self%position)) deallocate (self%position)
     if (allocated(self%modes)) deallocate (self%modes)
     if (allocated(self%lower)) deallocate (self%lower)
+    if (allocated(self%diagonal)) deallocate (self%diagonal)
     if (allocated(self%border)) deallocate (self%border)
     if (allocated(self%keys)) deallocate (self%keys)
     if (allocated(self%schur)) deallocate (self%schur)
@@ -214,7 +223,7 @@ contains
     real(dp), intent(in) :: regularisation
     logical, intent(inout) :: is_gathered
     logical, intent(out) :: is_definite
-    real(dp) :: diagonal(size(self%base_set)), largest, least_ignored, range_ignored
+    real(dp) :: largest, least_ignored, range_ignored
     integer :: j, m, info
 
     m = size(self%base_set)
@@ -226,7 +235,7 @@ contains
         self%lower(j:, j) = self%lower(j:, j) + augmentation_entries(self, self%base_set(j:), self%base_set(j))
       end if
       self%lower(j, j) = self%lower(j, j) + regularisation
-      diagonal(j) = self%lower(j, j)
+      self%diagonal(j) = self%lower(j, j)
     end do
     self%regularisation = regularisation
     self%pivot_ratio = 1.0_dp
@@ -235,12 +244,31 @@ contains
     call dpotrf('L', m, self%lower, m, info)
     is_definite = info == 0
     if (.not. is_definite) return
-    largest = maxval(diagonal)
+    largest = maxval(self%diagonal)
     do j = 1, m
-      is_definite = is_definite .and. self%lower(j, j)**2 > PIVOT_TOLERANCE*real(m, dp)*diagonal(j)
+      is_definite = is_definite .and. self%lower(j, j)**2 > PIVOT_TOLERANCE*real(m, dp)*self%diagonal(j)
       if (is_definite) self%pivot_ratio = max(self%pivot_ratio, largest/self%lower(j, j)**2)
     end do
+    if (is_definite) is_definite = .not. least_pivot_is_rounding(self)
   end subroutine factor_base_set
+
+  !> Is the least pivot of the base set the rounding of the terms of an energy? It is the energy of a force of 1 at its
+  !> point and the forces that this one asks for at the points before it, which may be far larger.
+  function least_pivot_is_rounding(self) result(rounding)
+    class(kkt_factor), intent(in) :: self
+    logical :: rounding
+    real(dp) :: force(size(self%base_set)), pivots(size(self%base_set))
+    integer :: j
+
+    pivots = [(self%lower(j, j)**2/self%diagonal(j), j=1, size(pivots))]
+    j = minloc(pivots, dim=1)
+    rounding = .false.
+    if (pivots(j) > SUSPECT) return
+    force = 0.0_dp
+    force(j) = self%lower(j, j)
+    call dtrsv('L', 'T', 'N', j, self%lower, size(force), force, 1)
+    rounding = self%lower(j, j)**2 <= ENERGY_TOLERANCE*sum(self%diagonal(:j)*force(:j)**2)
+  end function least_pivot_is_rounding
 
   !> The augmentation's entries in the given rows of a column of alpha.
   pure function augmentation_entries(self, rows, column) result(added)
@@ -255,8 +283,32 @@ contains
     end do
   end function augmentation_entries
 
+  !> A compliance for a block that has none: the largest of alpha, or where alpha is zero one by which the loads displace
+  !> as much as the least gap or play; 1 without loads or lengths.
+  pure function stand_in_compliance(canonical) result(compliance)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp) :: compliance
+    real(dp) :: datum, length
+    integer :: k
+
+    compliance = canonical%survey%largest()
+    if (compliance > 0.0_dp) return
+    compliance = 1.0_dp
+    datum = 0.0_dp
+    if (canonical%has_translation) datum = minval(canonical%gap, mask=.not. canonical%excluded)
+    length = huge(length)
+    do k = 1, size(canonical%gap)
+      if (canonical%excluded(k)) cycle
+      if (abs(canonical%gap(k) - datum) > 0.0_dp) length = min(length, abs(canonical%gap(k) - datum))
+      if (canonical%upper(k) > 0.0_dp) length = min(length, canonical%upper(k))
+    end do
+    if (length < huge(length) .and. canonical%largest_load() > 0.0_dp) then
+      compliance = max(length/canonical%largest_load(), tiny(compliance)/epsilon(compliance)**2)
+    end if
+  end function stand_in_compliance
+
   !> Gather the block of the base set; its coefficient that is nearest to zero, and the range of its coefficients.
-  !> Equal coefficients, as of a single point, have a range of their own size.
+  !> Equal coefficients, as of a single point, have a range of their own size, which is 0 for no compliance at all.
   pure subroutine gather_block(self, alpha, nearest_to_zero, range)
     class(kkt_factor), intent(inout) :: self
     real(dp), intent(in), contiguous :: alpha(:, :)
@@ -275,7 +327,7 @@ contains
     end if
     range = most - least
     if (.not. range > 0.0_dp) then
-      range = merge(abs(least), 1.0_dp, abs(least) > 0.0_dp)
+      range = abs(least)
       most = least
       least = least - range
     end if

@@ -13,6 +13,8 @@ module fuge_kkt_solution
 
   !> An expected correction below this fraction of the largest force is left out.
   real(dp), parameter :: EXACT_ENOUGH = 0.1_dp*epsilon(1.0_dp)
+  !> A correction of the forces below this fraction of the largest is rounding.
+  real(dp), parameter :: NO_CHANGE = 8.0_dp*epsilon(1.0_dp)
   integer, parameter :: REFINEMENTS = 10
   !> A first correction beyond this fraction of the largest force shows a condition with which the rounding of
   !> residuals counts.
@@ -147,6 +149,7 @@ contains
     real(dp), intent(inout), contiguous :: force(:), motion(:)
     real(dp) :: change, last, largest
     integer :: points, step
+    logical :: settled
 
     call list_points(contact, arrays%points, points)
     last = maxval(abs(force))
@@ -159,13 +162,17 @@ contains
       change = maxval(abs(arrays%correction))
       arrays%changes(step) = change
       arrays%corrections = step
-      arrays%taken = change < 0.5_dp*last .or. (step == 1 .and. change <= huge(change))
+      arrays%taken = change <= 0.5_dp*last .or. (step == 1 .and. change <= huge(change))
+      ! With a regularised factor forces may be exact before the motions are.
+      settled = factor%regularisation > 0.0_dp .and. change <= NO_CHANGE*maxval(abs(force))
+      arrays%taken = arrays%taken .or. settled
       if (.not. arrays%taken) exit
       force = force + arrays%correction
       call change_datum(factor%datum - canonical%datum, arrays%missing, arrays%shift)
       motion = motion + arrays%shift
       largest = maxval(abs(force))
       ! Corrections shrink by about the same factor each time, so that of the last one tells the next.
+      if (settled .and. any(abs(arrays%shift) > epsilon(change)*maxval(abs(motion)))) cycle
       if (change <= EXACT_ENOUGH*largest) exit
       if (last > 0.0_dp) then
         if (change*(change/last) <= EXACT_ENOUGH*largest) exit

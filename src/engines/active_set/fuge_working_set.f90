@@ -206,20 +206,26 @@ contains
     solution%unrefined_error = self%arrays%changes(1)
   end subroutine estimate_error
 
-  !> Does the problem have no length at all, neither gaps nor plays nor displacements?
+  !> Does nothing on the contact have a length, neither the gaps that displacements have to close nor displacements, and
+  !> does no open point need a motion?
   pure function has_no_length(self, canonical)
     class(working_set), intent(in) :: self
     type(canonical_problem), intent(in) :: canonical
     logical :: has_no_length
     integer :: k, n
 
-    n = size(self%reduced_gap)
-    has_no_length = .true.
+    n = size(self%contact)
+    has_no_length = any(self%contact)
     do k = 1, n
       if (canonical%excluded(k)) cycle
-      has_no_length = abs(self%reduced_gap(k)) <= 0.0_dp
-      if (canonical%upper(k) < huge(1.0_dp)) has_no_length = has_no_length .and. canonical%upper(k) <= 0.0_dp
-      if (has_no_length) has_no_length = all(abs(canonical%alpha(:n, k) - canonical%datum) <= 0.0_dp)
+      if (self%contact(k)) then
+        has_no_length = abs(self%gap_at_stops(k)) <= 0.0_dp
+        if (has_no_length) has_no_length = all(abs(canonical%alpha(:n, k) - canonical%datum) <= 0.0_dp &
+                                               .or. .not. self%contact)
+      else
+        has_no_length = self%reduced_gap(k) + self%elastic(k) >= 0.0_dp &
+                        .and. self%reduced_gap(k) + self%elastic(k) <= canonical%upper(k)
+      end if
       if (.not. has_no_length) return
     end do
   end function has_no_length

@@ -19,7 +19,7 @@ module fuge_unbounded_forces
   !> Forces dwarf the data if the terms of displacements exceed the gaps, and those of resultants the loads, by one over
   !> this factor.
   real(dp), parameter :: DWARFED = 1.0e-6_dp
-  !> A length below this fraction of the largest gap or play is rounding.
+  !> A length below this fraction of the largest gap, play or displacement by a load is rounding.
   real(dp), parameter :: NO_LENGTH = 1.0e-10_dp
   !> Unbounded forces that differ by less than this fraction are equal ones and what the gaps ask for.
   real(dp), parameter :: ALIKE = 1.0e-3_dp
@@ -78,17 +78,23 @@ contains
     logical, intent(in) :: contact(:)
     real(dp), intent(in) :: length(:), motion(:)
     logical :: has_no_force(size(length))
-    real(dp) :: rest(size(length)), largest
+    real(dp) :: rest(size(length)), terms(size(length)), largest
     integer :: j
 
     rest = length
-    if (canonical%has_translation) rest = rest + canonical%datum*canonical%load(1)
+    terms = abs(length)
+    if (canonical%has_translation) then
+      rest = rest + canonical%datum*canonical%load(1)
+      terms = terms + abs(canonical%datum*canonical%load(1))
+    end if
     do j = 1, size(motion)
       rest = rest - canonical%modes(:, j)*motion(j)
+      terms = terms + abs(canonical%modes(:, j)*motion(j))
     end do
     largest = max(maxval(abs(canonical%gap), mask=.not. canonical%excluded), &
-                  maxval(canonical%upper, mask=canonical%upper < huge(largest) .and. .not. canonical%excluded))
-    has_no_force = contact .and. abs(rest) > NO_LENGTH*largest
+                  maxval(canonical%upper, mask=canonical%upper < huge(largest) .and. .not. canonical%excluded), &
+                  (canonical%survey%most - canonical%survey%least)*canonical%largest_load())
+    has_no_force = contact .and. abs(rest) > NO_LENGTH*largest + ROUNDINGS*epsilon(largest)*terms
     do j = 1, size(length)
       if (.not. contact(j)) cycle
       has_no_force = has_no_force .and. abs(canonical%alpha(:size(length), j) - canonical%datum) <= 0.0_dp
