@@ -2,11 +2,11 @@
 !>
 !> It takes the place of src/numerics/fuge_fftw_planner.f90. MKL needs no lock but that of `fuge_fft`.
 module fuge_fftw_planner
-  use, intrinsic :: iso_c_binding, only: c_int
+  use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_ptr
   implicit none
   private
 
-  public :: fftw_make_planner_thread_safe, fftw_planner_nthreads
+  public :: fftw_make_planner_thread_safe, fftw_planner_nthreads, fftw_threads_set_callback
 
 contains
 
@@ -19,5 +19,10 @@ contains
 
     threads = 1
   end function fftw_planner_nthreads
+
+  pure subroutine fftw_threads_set_callback(run, data)
+    type(c_funptr), intent(in) :: run
+    type(c_ptr), intent(in) :: data
+  end subroutine fftw_threads_set_callback
 
 end module fuge_fftw_planner

@@ -15,8 +15,33 @@ void fuge_unlock(int which) { ReleaseSRWLockExclusive(&locks[which]); }
 
 static pthread_mutex_t locks[5] = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER,
                                    PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER};
+static pthread_once_t fork_once = PTHREAD_ONCE_INIT;
 
-void fuge_lock(int which) { pthread_mutex_lock(&locks[which]); }
+/* A process waits with its fork until no thread holds a lock: a child has none of those threads, and what they were
+ * changing would stay half done.  Plans are made while the grids are locked, hence those first. */
+static const int order[5] = {2, 0, 1, 3, 4};
+
+static void acquire_all(void)
+{
+  int k;
+
+  for (k = 0; k < 5; ++k) pthread_mutex_lock(&locks[order[k]]);
+}
+
+static void release_all(void)
+{
+  int k;
+
+  for (k = 4; k >= 0; --k) pthread_mutex_unlock(&locks[order[k]]);
+}
+
+static void prepare_forks(void) { pthread_atfork(acquire_all, release_all, release_all); }
+
+void fuge_lock(int which)
+{
+  pthread_once(&fork_once, prepare_forks);
+  pthread_mutex_lock(&locks[which]);
+}
 
 void fuge_unlock(int which) { pthread_mutex_unlock(&locks[which]); }
 

@@ -83,3 +83,43 @@ void fuge_run_in_threads(int parts, fuge_task task, void *data)
   }
   free(shares);
 }
+
+/* Jobs that lie one after the other in memory, `bytes` each. */
+typedef struct {
+  void *(*work)(char *job);
+  char *first;
+  size_t bytes;
+} job_list;
+
+static void run_job(int part, int parts, void *data)
+{
+  const job_list *jobs = data;
+
+  (void)parts;
+  jobs->work(jobs->first + (size_t)part * jobs->bytes);
+}
+
+/* Do `count` jobs at once, as FFTW calls it. */
+void fuge_run_jobs(void *(*work)(char *job), char *first, size_t bytes, int count, void *unused)
+{
+  job_list jobs;
+
+  (void)unused;
+  jobs.work = work;
+  jobs.first = first;
+  jobs.bytes = bytes;
+  fuge_run_in_threads(count, run_job, &jobs);
+}
+
+/* Let every child that this process forks begin with `action`: that of the first call, later ones change nothing.
+ * Calls must not overlap. */
+void fuge_begin_children_with(void (*action)(void))
+{
+#if defined(_WIN32)
+  (void)action;
+#else
+  static int registered;
+
+  if (!registered) registered = pthread_atfork(NULL, NULL, action) == 0;
+#endif
+}

@@ -1,10 +1,10 @@
 !> Threads for work that can be done in parts.
 module fuge_threads
-  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_ptr, c_size_t
   implicit none
   private
 
-  public :: run_in_threads
+  public :: begin_children_with, run_in_threads, run_jobs
 
   abstract interface
     !> Do part 0 .. `parts` - 1 of what `data` describes.
@@ -24,6 +24,23 @@ module fuge_threads
       type(c_funptr), intent(in), value :: task
       type(c_ptr), intent(in), value :: data
     end subroutine start_threads
+
+    !> Do `count` jobs at once, each in a thread of its own, as FFTW calls it: `work` with the address of each job, of
+    !> `bytes` from `first` on.
+    subroutine run_jobs(work, first, bytes, count, unused) bind(c, name='fuge_run_jobs')
+      import :: c_int, c_ptr, c_funptr, c_size_t
+      type(c_funptr), intent(in), value :: work
+      type(c_ptr), intent(in), value :: first, unused
+      integer(c_size_t), intent(in), value :: bytes
+      integer(c_int), intent(in), value :: count
+    end subroutine run_jobs
+
+    !> Let every child that this process forks begin with `action`, a procedure of C without arguments: that of the
+    !> first call, later ones change nothing. Calls must not overlap.
+    subroutine begin_children_with(action) bind(c, name='fuge_begin_children_with')
+      import :: c_funptr
+      type(c_funptr), intent(in), value :: action
+    end subroutine begin_children_with
   end interface
 
 contains

@@ -10,17 +10,22 @@
 !> on, covers neither its initialisation nor its number of threads, so this module has a lock for
 !> them. A host program that plans transforms in another thread at the same time must call
 !> fftw_make_planner_thread_safe before it starts threads.
+!>
+!> FFTW keeps its threads for the next transform. A process that is forked has none of them and would wait for them for
+!> ever, so there `fuge_threads` starts threads for each transform.
 module fuge_fft
-  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t, c_associated
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_ptr, c_ptr, &
+    c_size_t
   use fuge_fftw, only: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, &
     fftw_init_threads, fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, &
     fftw_plan_r2c, fftw_plan_with_nthreads, FFTW_ESTIMATE, FFTW_FORWARD, FFTW_MEASURE, FFTW_NO_BUFFERING, HAS_FFTW
-  use fuge_fftw_planner, only: fftw_make_planner_thread_safe, fftw_planner_nthreads
+  use fuge_fftw_planner, only: fftw_make_planner_thread_safe, fftw_planner_nthreads, fftw_threads_set_callback
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_PLANNER
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
+  use fuge_threads, only: begin_children_with, run_jobs
   implicit none
   private
 
@@ -144,6 +149,7 @@ contains
 
     call lock(LOCK_PLANNER)
     initialised = fftw_init_threads() /= 0
+    if (initialised) call begin_children_with(c_funloc(replace_threads))
     if (initialised) call plan_both_directions(plan)
     call unlock(LOCK_PLANNER)
     if (.not. initialised) then
@@ -156,6 +162,11 @@ contains
                   //text(3.0_dp*real(buffer_bytes(plan), dp))//' bytes')
     end if
   end subroutine make_plans
+
+  !> Let this process, which has just been forked, start threads of its own for each transform.
+  subroutine replace_threads() bind(c, name='')
+    call fftw_threads_set_callback(c_funloc(run_jobs), c_null_ptr)
+  end subroutine replace_threads
 
   !> Create both plans while the planner is locked; a plan is null without memory.
   subroutine plan_both_directions(plan)
@@ -220,12 +231,14 @@ contains
     self%length = 0
   end subroutine free
 
-  !> Destroy plans that exist.
+  !> Destroy plans that exist, under the lock of the planner: FFTW's own would stay locked in a child forked meanwhile.
   subroutine destroy(forward, backward)
     type(c_ptr), intent(in) :: forward, backward
 
+    call lock(LOCK_PLANNER)
     if (c_associated(forward)) call fftw_destroy_plan(forward)
     if (c_associated(backward)) call fftw_destroy_plan(backward)
+    call unlock(LOCK_PLANNER)
   end subroutine destroy
 
   !> Does this variable own the plans? A bitwise copy does not.

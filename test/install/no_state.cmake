@@ -1,5 +1,5 @@
 # The library has no variables that all threads would share, but for constants that the compiler does not
-# mark as such, the locks, and the number that tells matrices apart, under one of them.
+# mark as such, the locks, and under them the number that tells matrices apart and what is prepared for forks.
 # cmake -DNM=nm -DARCHIVE=libfuge.a -P no_state.cmake
 #
 # gfortran makes such variables of `save`, of local variables with a value to begin with, and of the length
@@ -8,7 +8,7 @@ cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
 set(constants "__fuge_.*_MOD___(vtab|def_init)_.*" "__fuge_c_general_MOD_(k|meanings|version)")
-set(locks "locks|last_stamp")
+set(locks "locks|last_stamp|fork_once|registered(\\.[0-9]+)?")
 
 run("nm" "${NM}" "${ARCHIVE}")
 string(REGEX MATCHALL "[0-9a-f]+ [bBdDC] [^\n]+" variables "${output}")
