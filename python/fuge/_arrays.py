@@ -21,7 +21,7 @@ def number(name: str, value: Any) -> float:
     try:
         if isinstance(value, (str, bytes)):
             raise TypeError
-        return float(value)
+        return float(array(name, value) if isinstance(value, np.ma.MaskedArray) else value)
     except TypeError:
         raise TypeError(f"{name} must be a real number, not {type(value).__name__}") from None
 
@@ -57,8 +57,24 @@ def check_shape(name: str, found: tuple[int, ...], *wanted: tuple[int | None, ..
         raise error(Status.ERR_SIZE, f"{name} has the shape {_described(found)}, but must have {shapes}")
 
 
+def _is_masked(value: Any) -> bool:
+    if isinstance(value, (list, tuple)):
+        return any(map(_is_masked, value))
+    return isinstance(value, np.ma.MaskedArray) and bool(np.any(np.ma.getmask(value)))
+
+
+def array(name: str, value: ArrayLike) -> NDArray[Any]:
+    """An array of any type; not a masked one with masked elements, whose values numpy would take without a word."""
+    if _is_masked(value):
+        raise error(
+            Status.ERR_NOT_FINITE,
+            f"{name} has masked elements, which are no numbers: replace them (numpy.ma.filled) or leave them out",
+        )
+    return np.asarray(value)
+
+
 def _real(name: str, value: ArrayLike) -> NDArray[Any]:
-    found = np.asarray(value)
+    found = array(name, value)
     if found.dtype.kind not in "iuf":
         raise TypeError(f"{name} must hold real numbers, not {found.dtype}")
     return found
@@ -106,7 +122,7 @@ def symmetric(name: str, value: ArrayLike) -> Doubles:
 
 def integers(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Ints:
     """An array of C ints in C order."""
-    found = np.asarray(value)
+    found = array(name, value)
     if found.size == 0 and found.dtype.kind == "f":
         found = found.astype(np.intc)
     if found.dtype.kind not in "iu":
@@ -120,7 +136,7 @@ def integers(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> In
 
 def flags(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Ints:
     """Booleans as C ints."""
-    found = np.asarray(value)
+    found = array(name, value)
     if found.dtype.kind != "b":
         raise TypeError(f"{name} must hold booleans, not {found.dtype}")
     check_shape(name, found.shape, *shapes)

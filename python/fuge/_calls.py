@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import signal
 import threading
 from contextlib import contextmanager
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fuge import _library
-from fuge._arrays import vector
+from fuge._arrays import doubles, vector
 from fuge._library import function
 from fuge.errors import Status, error, finish
 
@@ -155,16 +156,33 @@ class Handle:
                     other._users -= 1
                     other._release()
 
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        raise TypeError(f"cannot copy or pickle the {self.name}: it is in the memory of the library")
+
     def __del__(self) -> None:
         # Nobody can be using it: a call holds a reference.
         self._closed = True
         self._release()
 
 
+# A child has no thread that could release the lock.
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(
+        before=Handle._counting.acquire,
+        after_in_parent=Handle._counting.release,
+        after_in_child=Handle._counting.release,
+    )
+
+
 class Owner:
     """An object that owns a handle: ``close()``, and a context manager."""
 
     _handle: Handle
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """Refuse copies and pickles: the memory is the library's."""
+        name = type(self).__name__
+        raise TypeError(f"cannot copy or pickle {name!r} object: it is in the memory of the library; make another one")
 
     def close(self) -> None:
         """Free the memory of the library now; otherwise that happens when the object is no longer used.
@@ -207,14 +225,23 @@ def _keep(exception: BaseException) -> int:
     return 1
 
 
+def _read_only(address: Any, n: int) -> NDArray[np.float64]:
+    """A copy of an array of the library, whose memory may be gone after the call.
+
+    It is read-only, so that a callback that means to change the library's numbers fails.
+    """
+    values = np.array(np.ctypeslib.as_array(address, (n,)))
+    values.flags.writeable = False
+    return values
+
+
 def product_callback(apply: Callable[[NDArray[np.float64]], Any]) -> Any:
     """A C function that calls ``apply(forces)`` and checks what it returns."""
 
     def called(n: int, f: Any, u: Any, user: Any) -> int:
         try:
             _check_interrupt()
-            # A copy: the memory is the library's, and gone after the call.
-            result = apply(np.array(np.ctypeslib.as_array(f, (n,))))
+            result = apply(_read_only(f, n))
             np.ctypeslib.as_array(u, (n,))[:] = vector("the result of the operator's function", result, n)
             return 0
         except BaseException as exception:
@@ -245,12 +272,11 @@ def profile_callback(profile: Callable[[NDArray[np.float64]], Any]) -> Any:
     def called(n: int, x: Any, gap: Any, slope: Any, user: Any) -> int:
         try:
             _check_interrupt()
-            places = np.array(np.ctypeslib.as_array(x, (n,)))
-            values = profile(places)
+            values = profile(_read_only(x, n))
             if not (isinstance(values, (tuple, list)) and len(values) == 2):
                 raise TypeError("the profile has to return two arrays, gap and slope")
             for place, value in zip((gap, slope), values):
-                np.ctypeslib.as_array(place, (n,))[:] = np.asarray(value, dtype=np.float64)
+                np.ctypeslib.as_array(place, (n,))[:] = doubles("the result of the profile", value)
             return 0
         except BaseException as exception:
             return _keep(exception)

@@ -79,7 +79,7 @@ def compressed(name: str, matrix: Any) -> CompressedColumns:
     if columns[0] != 0 or np.any(columns[1:] < columns[:-1]):
         raise error(Status.ERR_SIZE, f"{name}.column must begin with 0 and not decrease")
     entries = int(columns[-1])
-    rows, values = np.asarray(row), np.asarray(value)
+    rows, values = _arrays.array(f"{name}.row", row), _arrays.array(f"{name}.value", value)
     if rows.ndim != 1 or values.ndim != 1 or min(rows.size, values.size) < entries:
         raise error(Status.ERR_SIZE, f"{name} has fewer rows or values than its {entries} entries")
     return CompressedColumns(
@@ -92,5 +92,5 @@ def compressed(name: str, matrix: Any) -> CompressedColumns:
 
 def stacked(name: str, value: ArrayLike) -> NDArray[Any]:
     """An array of one or two dimensions, one row for each point."""
-    found = np.asarray(value)
+    found = _arrays.array(name, value)
     return found.reshape(-1, 1) if found.ndim == 1 else found

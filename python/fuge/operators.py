@@ -182,8 +182,8 @@ class CallbackOperator(Operator):
     n : int
         Number of contact points.
     apply : callable
-        ``apply(f)`` returns the n displacements by the n forces f. It has to be linear, symmetric and the same in
-        all calls. An exception in it ends the solve, and is raised there.
+        ``apply(f)`` returns the n displacements by the n forces f, which are read-only. It has to be linear, symmetric
+        and the same in all calls. An exception in it ends the solve, and is raised there.
     preconditioner : callable, optional
         An approximate inverse, from n lengths to n forces: linear, symmetric and positive definite.
     diagonal : array_like, shape (n,), optional

@@ -240,8 +240,8 @@ class Solver(Owner):
         InputError
             A shape does not fit, a gap is not finite, or gap_upper is negative.
         """
-        shape = np.shape(gap) or self.operator.grid or (self.n,)
         values = self._points("gap", gap)
+        shape = np.shape(gap) or self.operator.grid or (self.n,)
         upper = None if gap_upper is None else self._points("gap_upper", gap_upper)
         self._call("fuge_set_gap", values, upper)
         self._shape = shape
@@ -274,7 +274,7 @@ class Solver(Owner):
         resultant : array_like, shape (m,)
             Resultant of the forces for each motion: the sum of the forces times the column.
         """
-        found = np.asarray(modes)
+        found = _arrays.array("modes", modes)
         grid = self.operator.grid
         if grid is not None and found.shape[:-1] == grid:
             found = found.reshape(self.n, found.shape[-1])
@@ -371,7 +371,7 @@ class Solver(Owner):
         gaps = None if gap_change is None else self._points("gap_change", gap_change)
         loads = None
         if load_change is not None:
-            loads = _arrays.vector("load_change", np.atleast_1d(np.asarray(load_change)), m)
+            loads = _arrays.vector("load_change", np.atleast_1d(_arrays.array("load_change", load_change)), m)
         force, gap, motion = np.empty(self._shape), np.empty(self._shape), np.empty(m)
         with interruptible():
             self._call("fuge_get_derivatives", gaps, loads, force, gap, motion)
@@ -404,7 +404,7 @@ class Solver(Owner):
             The operator has no matrix.
         """
         m = self.mode_count
-        end = _arrays.vector("finish", np.atleast_1d(np.asarray(finish)), m)
+        end = _arrays.vector("finish", np.atleast_1d(_arrays.array("finish", finish)), m)
         return collect_path(self.n, m, lambda *results: self._call("fuge_follow_path", end, *results))
 
     def _contact(self, pointer: ctypes.c_void_p, message: str) -> Contact:
@@ -429,9 +429,10 @@ class Solver(Owner):
 
     def _points(self, name: str, value: ArrayLike) -> NDArray[np.float64]:
         """One value for each point; a number for all."""
-        if np.ndim(value) == 0:
-            return _arrays.spread(name, value, self.n)
-        return _arrays.doubles(name, value, *self._shapes()).reshape(-1)
+        found = _arrays.array(name, value)
+        if found.ndim == 0:
+            return _arrays.spread(name, found, self.n)
+        return _arrays.doubles(name, found, *self._shapes()).reshape(-1)
 
 
 def info_of(report: InfoStruct) -> Info:

@@ -48,7 +48,7 @@ def _area(
 def _at_depths(
     name: str, arguments: list[Any], depth: ArrayLike, grid: tuple[int, ...], components: int
 ) -> NDArray[np.float64]:
-    depths = _arrays.vector("depth", np.atleast_1d(np.asarray(depth)))
+    depths = _arrays.vector("depth", np.atleast_1d(_arrays.array("depth", depth)))
     result = np.empty((depths.size, *grid, components))
     call(name, *arguments, depths.size, depths, result)
     return result

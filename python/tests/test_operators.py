@@ -211,6 +211,18 @@ class Callback(unittest.TestCase):
         fuge.solve(fuge.CallbackOperator(self.n, apply), self.gap, 2.0)
         self.assertTrue(all(np.isfinite(f).all() for f in kept))
 
+    def test_forces_are_read_only(self):
+        def scale(f):
+            f *= 2.0
+            return self.alpha @ f
+
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            fuge.solve(fuge.CallbackOperator(self.n, scale), self.gap, 2.0)
+        operator = fuge.CallbackOperator(self.n, lambda f: self.alpha @ f, preconditioner=scale)
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            fuge.solve(operator, self.gap, 2.0)
+        self.same(fuge.CallbackOperator(self.n, lambda f: self.alpha @ f))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,9 +1,12 @@
 """Problems and solvers: known answers, warm starts, derivatives, paths, and what refuses bad data."""
 
+import copy
 import gc
+import pickle
 import signal
 import threading
 import unittest
+from unittest import mock
 import warnings
 
 import numpy as np
@@ -379,6 +382,63 @@ class Solvers(unittest.TestCase):
         for thread in threads:
             thread.join()
         self.assertEqual(bad, [])
+
+
+class Copies(unittest.TestCase):
+    """What is in the memory of the library is neither copied nor pickled."""
+
+    def test_copies_and_pickles_are_refused(self):
+        solver = fuge.Solver(ALPHA.copy())
+        punch = fuge.solve_round_punch(lambda r: (r**2, 2 * r), 1.0, 1.0, load=0.1)
+        with mock.patch("sys.unraisablehook") as ignored:
+            for owner in (solver, solver.operator, punch, [solver]):
+                for make in (copy.copy, copy.deepcopy, pickle.dumps):
+                    if make is copy.copy and owner == [solver]:
+                        continue
+                    with self.assertRaisesRegex(TypeError, "copy or pickle '.*make another one"):
+                        make(owner)
+            with self.assertRaisesRegex(TypeError, "copy or pickle the solver"):
+                copy.deepcopy(solver._handle)
+            gc.collect()
+        ignored.assert_not_called()
+        solver.set_gap(GAP)
+        solver.set_load(2.0)
+        # Answers are arrays of Python.
+        contact = solver.solve()
+        for other in (copy.deepcopy(contact), pickle.loads(pickle.dumps(contact))):
+            np.testing.assert_array_equal(other.force, contact.force)
+
+
+class MaskedArrays(unittest.TestCase):
+    """Masked elements have no value; numpy.asarray would take the one behind the mask."""
+
+    def test_masked_elements_are_refused(self):
+        x, width, gap, e_star = barrel(n=8)
+        solver = fuge.Solver(fuge.halfplane_matrix(x, width, e_star, "mean"))
+        masked = np.ma.masked_greater(gap, gap[5])
+        calls = (
+            lambda: solver.set_gap(masked),
+            lambda: solver.set_gap(gap, masked),
+            lambda: solver.set_gap(list(masked)),
+            lambda: solver.set_load(np.ma.masked),
+            lambda: solver.set_load(np.ma.array(1.0, mask=True)),
+            lambda: solver.set_modes([[value] for value in masked], [1.0]),
+            lambda: solver.set_modes(masked.reshape(8, 1), [1.0]),
+            lambda: solver.set_excluded(np.ma.array(gap > 0.0, mask=x > 0.0)),
+            lambda: fuge.DenseOperator(np.ma.array(np.eye(2), mask=[[True, False], [False, False]])),
+            lambda: fuge.DenseOperator([masked[:2], masked[6:]]),
+            lambda: fuge.CallbackOperator(8, lambda f: f, diagonal=masked),
+            lambda: fuge.solve(fuge.CallbackOperator(8, lambda f: np.ma.array(f, mask=x > 0.0)), gap, 1.0),
+            lambda: fuge.Body(np.eye(8)).fix(np.ma.array([1, 2], mask=[False, True])),
+            lambda: fuge.solve_round_punch(lambda r: (np.ma.masked_less(r**2, 2.0), 2 * r), 1.0, 1.0, load=0.1),
+        )
+        for k, call in enumerate(calls):
+            with self.subTest(k), self.assertRaisesRegex(fuge.InputError, "masked elements"):
+                call()
+
+    def test_no_element_is_masked(self):
+        contact = fuge.solve(np.ma.array(ALPHA), np.ma.masked_less(GAP, -1.0), 2.0)
+        np.testing.assert_allclose(contact.force, [2, 0], atol=TOLERANCE)
 
 
 if __name__ == "__main__":
