@@ -233,13 +233,16 @@ contains
     if (self%has(name)) file = self%path(self%position(name))
   end function file
 
-  !> The path that option k names: a relative one in a job file begins at its folder.
-  pure function path(self, k)
+  !> The path that option k names, after the first `skipped` characters of its value (default 0): a relative one in a
+  !> job file begins at its folder.
+  pure function path(self, k, skipped)
     class(arguments), intent(in) :: self
     integer, intent(in) :: k
+    integer, intent(in), optional :: skipped
     character(len=:), allocatable :: path
 
     path = self%settings(k)%value
+    if (present(skipped)) path = path(skipped + 1:)
     if (index(path, '/') /= 1) path = self%settings(k)%folder//path
   end function path
 

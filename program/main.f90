@@ -4,14 +4,15 @@ program fuge_program
   use, intrinsic :: iso_c_binding, only: c_int
   use, intrinsic :: iso_fortran_env, only: error_unit
   use chosen_stiffness, only: STORAGE
+  use chosen_transforms, only: TRANSFORMS
   use command_line, only: arguments
   use fuge, only: fuge_info, FUGE_VERSION
   use matrix_problem, only: solve_body, solve_influence
   use mesh_problem, only: solve_meshes
   use option_checks, only: check_options, WITH_ALPHA, WITH_MATRICES, WITH_MESHES
-  use option_table, only: print_help
+  use option_table, only: HELP
   use progress_log, only: progress
-  use text_table, only: check_path
+  use text_table, only: table
   implicit none
 
   interface
@@ -32,17 +33,31 @@ contains
 
     call given%read(info)
     if (info%failed()) then
-      call give_up(info)
+      continue
     else if (given%has('help')) then
-      call print_help()
+      call print_lines(HELP, info)
     else if (given%has('version')) then
-      print '(2a)', 'fuge ', FUGE_VERSION
-      print '(a)', STORAGE
+      call print_lines([character(len=80) :: 'fuge '//FUGE_VERSION, TRANSFORMS, STORAGE], info)
     else
       call solve(given, info)
-      if (info%failed()) call give_up(info)
     end if
+    if (info%failed()) call give_up(info)
   end subroutine run
+
+  !> Error: FUGE_ERR_FILE if standard output does not take all.
+  subroutine print_lines(lines, info)
+    character(len=*), intent(in) :: lines(:)
+    type(fuge_info), intent(inout) :: info
+    type(table) :: output
+    integer :: k
+
+    call output%create('', info)
+    if (info%failed()) return
+    do k = 1, size(lines)
+      call output%put(lines(k))
+    end do
+    call output%finish(info)
+  end subroutine print_lines
 
   subroutine solve(given, info)
     type(arguments), intent(in) :: given
@@ -51,8 +66,6 @@ contains
     integer :: kind
 
     call check_options(given, kind, info)
-    if (.not. info%failed()) call check_path(given%file('output'), info)
-    if (.not. info%failed()) call check_path(given%file('field'), info)
     if (info%failed()) return
     call log%start(given%has('verbose'))
     select case (kind)

@@ -5,6 +5,7 @@ module mesh_body
     FUGE_ERR_MEMORY
   use number_index, only: index_of_numbers
   use number_words, only: number_text
+  use option_checks, only: check_input
   use progress_log, only: progress
   implicit none
   private
@@ -185,6 +186,7 @@ contains
     integer :: status
 
     call fuge_read_mesh(given%path(body%mesh_option), body%mesh, info)
+    if (.not. info%failed()) call check_included(given, body%mesh, info)
     if (info%failed()) return
     call log%say('mesh of '//body%name//': '//number_text(size(body%mesh%node))//' nodes, ' &
                  //number_text(size(body%mesh%element))//' elements')
@@ -205,6 +207,22 @@ contains
     info%status = FUGE_ERR_MEMORY
     info%message = 'no memory for '//what
   end subroutine refuse_memory
+
+  !> Refuse results that would overwrite a file that the mesh includes.
+  subroutine check_included(given, mesh, info)
+    type(arguments), intent(in) :: given
+    type(fuge_mesh), intent(in) :: mesh
+    type(fuge_info), intent(inout) :: info
+    integer :: begin, length
+
+    begin = 1
+    do while (begin <= len(mesh%paths))
+      length = index(mesh%paths(begin:), achar(0)) - 1
+      call check_input(given, mesh%paths(begin:begin + length - 1), 'the same file as of --mesh or of an *INCLUDE in it', &
+                       info)
+      begin = begin + length + 1
+    end do
+  end subroutine check_included
 
   subroutine read_matrix(given, body, log, info)
     type(arguments), intent(in) :: given

@@ -1,11 +1,12 @@
 !> Which options of the program `fuge` go together.
 module option_checks
   use command_line, only: arguments, refuse
+  use file_access, only: prepare_file, remove_file, same_file
   use fuge, only: fuge_info
   implicit none
   private
 
-  public :: check_options
+  public :: check_input, check_options
 
   !> What is asked for.
   integer, parameter, public :: WITH_ALPHA = 1, WITH_MATRICES = 2, WITH_MESHES = 3
@@ -18,13 +19,15 @@ module option_checks
     'loads', 'matrix', 'mesh', 'node-to-face', 'normals', 'pair', 'pressure', 'reach', 'support', 'supports', 'tied']
   character(len=12), parameter :: NOT_ALPHA(2) = [character(len=12) :: 'field', 'rows']
 
-  !> Options whose value is a path.
-  character(len=12), parameter :: WITH_FILES(15) = [character(len=12) :: 'alpha', 'contact', 'external', 'field', &
-    'fixed', 'gap', 'loads', 'mesh', 'modes', 'output', 'play', 'resultant', 'rows', 'stiffness', 'supports']
+  !> Options whose value is the path of an input, or of a result.
+  character(len=12), parameter :: WITH_FILES(13) = [character(len=12) :: 'alpha', 'contact', 'external', 'fixed', &
+    'gap', 'loads', 'mesh', 'modes', 'play', 'resultant', 'rows', 'stiffness', 'supports']
+  character(len=*), parameter :: RESULTS(2) = ['output', 'field ']
 
 contains
 
-  !> Find out what is asked for, and refuse what does not go with it. Error: FUGE_ERR_OPTION.
+  !> Find out what is asked for, and refuse what does not go with it, and results where nothing can be written.
+  !> Errors: FUGE_ERR_OPTION, FUGE_ERR_FILE.
   subroutine check_options(given, kind, info)
     type(arguments), intent(in) :: given
     integer, intent(out) :: kind
@@ -44,8 +47,7 @@ contains
     if (kind /= WITH_MATRICES) call check_absent(given, ONLY_MATRICES, '--stiffness without --mesh', info)
     if (kind /= WITH_MESHES) call check_absent(given, ONLY_MESHES, NEEDED(WITH_MESHES), info)
     if (kind == WITH_ALPHA) call check_absent(given, NOT_ALPHA, NEEDED(WITH_MATRICES), info)
-    if (.not. info%failed()) call check_results(given, 'output', info)
-    if (.not. info%failed()) call check_results(given, 'field', info)
+    if (.not. info%failed()) call check_results(given, info)
   end subroutine check_options
 
   subroutine check_matrices(given, kind, info)
@@ -87,33 +89,75 @@ contains
     call check_absent(given, [character(len=12) :: 'gap', 'approach'], '--alpha or --contact', info)
   end subroutine check_meshes
 
-  !> Refuse a result that would overwrite an input, or the other result.
-  subroutine check_results(given, name, info)
+  !> Refuse results that would overwrite an input, or each other. A result that does not exist is made for a moment,
+  !> because only then its names can be compared. Errors: FUGE_ERR_OPTION; FUGE_ERR_FILE for a place where nothing can
+  !> be written.
+  subroutine check_results(given, info)
     type(arguments), intent(in) :: given
-    character(len=*), intent(in) :: name
     type(fuge_info), intent(inout) :: info
-    character(len=:), allocatable :: own, other
-    integer :: at, k
+    logical :: made(size(RESULTS))
+    integer :: k
 
-    at = given%position(name)
-    if (at == 0) return
-    own = given%path(at)
-    if (allocated(given%job)) then
-      if (own == given%job) call refuse(given%settings(at)%place//': it is the job file', info)
-    end if
+    made = .false.
+    if (allocated(given%job)) call check_input(given, given%job, 'it is the job file', info)
     do k = 1, given%count
-      if (k == at .or. index(own, '/dev/') == 1) cycle
-      other = given%path(k)
-      if (any(given%settings(k)%name == [character(len=12) :: 'loads', 'supports'])) then
-        if (index(given%settings(k)%value, '=') > 0) &
-          other = given%settings(k)%folder//given%settings(k)%value(index(given%settings(k)%value, '=') + 1:)
-      end if
-      if (given%settings(k)%name == 'stiffness' .and. own == other(:max(len(other) - 4, 0))//'.dof') other = own
-      if (own /= other .or. all(given%settings(k)%name /= WITH_FILES)) cycle
-      call refuse(given%settings(at)%place//': the same file as of --'//trim(given%settings(k)%name), info)
-      return
+      if (any(given%settings(k)%name == WITH_FILES)) call check_option(given, k, info)
+    end do
+    do k = 1, size(RESULTS)
+      if (given%has(RESULTS(k)) .and. .not. info%failed()) call prepare_file(given%file(RESULTS(k)), made(k), info)
+    end do
+    if (given%has('field') .and. .not. info%failed()) call check_input(given, given%file('field'), &
+                                                                       'the same file as of --field', info, 'field')
+    do k = 1, size(RESULTS)
+      if (made(k)) call remove_file(given%file(RESULTS(k)))
     end do
   end subroutine check_results
+
+  !> Refuse results that would overwrite the file of option k, or another that is read with it.
+  subroutine check_option(given, k, info)
+    type(arguments), intent(in) :: given
+    integer, intent(in) :: k
+    type(fuge_info), intent(inout) :: info
+    character(len=:), allocatable :: path, reason
+
+    path = given%path(k)
+    reason = 'the same file as of --'//trim(given%settings(k)%name)
+    call check_input(given, path, reason, info)
+    if (given%settings(k)%name == 'stiffness') &
+      call check_input(given, path(:max(len(path) - 4, 0))//'.dof', reason, info)
+    if (any(given%settings(k)%name == [character(len=12) :: 'loads', 'supports'])) &
+      call check_input(given, given%path(k, index(given%settings(k)%value, '=')), reason, info)
+  end subroutine check_option
+
+  !> Refuse a result, but for the one of the option `own`, in the file at `path`: `reason`. Without --output that is
+  !> standard output.
+  subroutine check_input(given, path, reason, info, own)
+    type(arguments), intent(in) :: given
+    character(len=*), intent(in) :: path, reason
+    type(fuge_info), intent(inout) :: info
+    character(len=*), intent(in), optional :: own
+    character(len=:), allocatable :: result
+    logical :: is_same
+    integer :: at, k
+
+    do k = 1, size(RESULTS)
+      if (info%failed()) return
+      if (present(own)) then
+        if (own == RESULTS(k)) cycle
+      end if
+      at = given%position(RESULTS(k))
+      result = given%file(RESULTS(k))
+      if (at > 0 .and. len_trim(result) == 0) then
+        call refuse(given%settings(at)%place//' needs a path', info)
+      else if (at > 0) then
+        is_same = same_file(result, path)
+        if (result == path .and. index(path, '/dev/') /= 1) is_same = .true.
+        if (is_same) call refuse(given%settings(at)%place//': '//reason, info)
+      else if (RESULTS(k) == 'output') then
+        if (same_file('', path)) call refuse('standard output: '//reason//', use --output', info)
+      end if
+    end do
+  end subroutine check_input
 
   !> Refuse an option that is given again without meshes.
   subroutine check_single(given, name, info)

@@ -3,7 +3,7 @@ module option_table
   implicit none
   private
 
-  public :: may_repeat, option_number, print_help, takes_value
+  public :: may_repeat, option_number, takes_value
 
   !> The names of the options, after two hyphens.
   character(len=12), parameter, public :: OPTION_NAMES(35) = [character(len=12) :: &
@@ -18,7 +18,8 @@ module option_table
     'body', 'clearance', 'crease', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
     'normals', 'pair', 'play', 'pressure', 'reach', 'rows', 'stiffness', 'support', 'supports', 'tied']
 
-  character(len=*), parameter :: HELP(65) = [character(len=96) :: &
+  !> What `fuge --help` prints.
+  character(len=*), parameter, public :: HELP(65) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
     '', &
     '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
@@ -79,7 +80,7 @@ module option_table
     '  --output FILE           table of forces, gaps, pressures; without it on standard output', &
     '  --field FILE            displacements: .vtu for ParaView (meshes), or a table', &
     '  --verbose               each step, with its time, on standard error', &
-    '  --version               version, and how stiffness matrices are stored', &
+    '  --version               version, and the libraries in it with their licences', &
     '  --help', &
     '', &
     'Units are yours, as long as they agree. Tables are CSV with comments after #. Exit status 0:', &
@@ -112,11 +113,5 @@ contains
 
     may_repeat = any(REPEATED == OPTION_NAMES(which))
   end function may_repeat
-
-  subroutine print_help()
-    integer :: k
-
-    print '(a)', (trim(HELP(k)), k=1, size(HELP))
-  end subroutine print_help
 
 end module option_table

@@ -1,5 +1,6 @@
 !> Lines of a file: job files and tables of supports and loads.
 module text_lines
+  use file_access, only: is_endless
   use fuge, only: fuge_info, FUGE_ERR_FILE
   use number_words, only: number_text
   implicit none
@@ -33,6 +34,11 @@ contains
 
     self%path = path
     self%number = 0
+    if (is_endless(path)) then
+      info%status = FUGE_ERR_FILE
+      info%message = '"'//path//'" is a device or a folder: a file with lines is needed'
+      return
+    end if
     open (newunit=self%unit, file=path, status='old', action='read', iostat=status, iomsg=reason)
     if (status == 0) return
     self%unit = -1

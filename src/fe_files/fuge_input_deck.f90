@@ -10,8 +10,8 @@ module fuge_input_deck
 
   public :: upper_case
 
-  !> Files that include each other.
-  integer, parameter :: MOST_FILES = 16
+  !> Files that include each other, and inclusions in all: files that include others twice double them.
+  integer, parameter :: MOST_FILES = 16, MOST_INCLUDED = 10000
   !> Most parameters of a keyword line that are looked at.
   integer, parameter :: MOST_PARAMETERS = 24
   !> Longest value of a parameter: a path.
@@ -24,6 +24,9 @@ module fuge_input_deck
   type, public :: input_deck
     type(text_file) :: file(MOST_FILES)
     integer :: depth = 0
+    integer, private :: included = 0
+    !> Paths of all files, each once and ended by achar(0).
+    character(len=:), allocatable :: paths
     !> Folder of the first file, with / at its end, for paths of included files.
     character(len=:), allocatable :: folder
     !> The keyword of the last keyword line, in upper case, without *.
@@ -64,6 +67,7 @@ contains
 
     self%folder = path(:scan(path, '/\', back=.true.))
     self%depth = 1
+    self%paths = trim(path)//achar(0)
     call self%file(1)%load(path, info)
   end subroutine open
 
@@ -78,15 +82,26 @@ contains
       call self%refuse('*INCLUDE needs INPUT = and a path', info)
     else if (self%depth == MOST_FILES) then
       call self%refuse('more than '//text(MOST_FILES)//' files include each other: does one include itself?', info)
+    else if (self%included == MOST_INCLUDED) then
+      call self%refuse('more than '//text(MOST_INCLUDED)//' files are included: do they include each other twice?', info)
+    else if (scan(path(1:1), '/\') > 0 .or. index(path, ':') == 2) then
+      call enter(self, trim(path), info)
     else
-      self%depth = self%depth + 1
-      if (scan(path(1:1), '/\') > 0 .or. index(path, ':') == 2) then
-        call self%file(self%depth)%load(trim(path), info)
-      else
-        call self%file(self%depth)%load(self%folder//trim(path), info)
-      end if
+      call enter(self, self%folder//trim(path), info)
     end if
   end subroutine include
+
+  !> Load an included file. Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
+  subroutine enter(deck, path, info)
+    class(input_deck), intent(inout) :: deck
+    character(len=*), intent(in) :: path
+    type(fuge_info), intent(inout) :: info
+
+    deck%depth = deck%depth + 1
+    deck%included = deck%included + 1
+    if (index(achar(0)//deck%paths, achar(0)//path//achar(0)) == 0) deck%paths = deck%paths//path//achar(0)
+    call deck%file(deck%depth)%load(path, info)
+  end subroutine enter
 
   !> Report that the present line cannot be used (FUGE_ERR_FILE).
   pure subroutine refuse(self, reason, info)

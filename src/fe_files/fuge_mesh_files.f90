@@ -48,7 +48,9 @@ contains
       return
     end if
     call finish_mesh(draft, found, info)
-    if (.not. info%failed()) call move_mesh(found, mesh)
+    if (info%failed()) return
+    call move_alloc(deck%paths, found%paths)
+    call move_mesh(found, mesh)
   end subroutine fuge_read_mesh
 
   !> Read all lines.

@@ -59,6 +59,8 @@ module fuge_mesh_type
     type(fuge_mesh_set), allocatable :: element_set(:)
     !> Surfaces of faces.
     type(fuge_mesh_surface), allocatable :: surface(:)
+    !> Paths of the file and of those that it includes, each once and ended by achar(0); not allocated without a file.
+    character(len=:), allocatable :: paths
   end type fuge_mesh
 
 contains
@@ -76,6 +78,7 @@ contains
     call move_alloc(from%node_set, to%node_set)
     call move_alloc(from%element_set, to%element_set)
     call move_alloc(from%surface, to%surface)
+    call move_alloc(from%paths, to%paths)
   end subroutine move_mesh
 
 end module fuge_mesh_type

@@ -1,11 +1,13 @@
 /* A file that is written and closed without fail: on a full disk gfortran's run-time library keeps the
- * descriptor and the buffer of a file whose close has failed.  fuge_text_writer.f90 has the interfaces. */
+ * descriptor and the buffer of a file whose close has failed.  fuge_text_writer.f90 has the interfaces. And
+ * what can be read as a whole, for fuge_text_reader.f90. */
 #define _XOPEN_SOURCE 600
 #include <errno.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 #if !defined(_WIN32)
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -60,4 +62,18 @@ void fuge_output_reason(int error, char *text, size_t length)
   if (known > length) known = length;
   memcpy(text, reason, known);
   memset(text + known, ' ', length - known);
+}
+
+/* Is there something else than a regular file at `path`: a device, a pipe, a folder?  Of those that Fortran opens it
+ * may find no size, or none of an endless one. */
+int fuge_input_is_special(const char *path)
+{
+#if defined(_WIN32)
+  (void)path;
+  return 0;
+#else
+  struct stat found;
+
+  return stat(path, &found) == 0 && !S_ISREG(found.st_mode);
+#endif
 }

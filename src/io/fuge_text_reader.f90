@@ -1,5 +1,6 @@
 !> A text file that is loaded as a whole and read line by line.
 module fuge_text_reader
+  use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_FILES
@@ -33,6 +34,15 @@ module fuge_text_reader
     procedure :: rewind
     procedure :: refuse
   end type text_file
+
+  interface
+    !> Not 0: there is a device, a pipe or a folder. (fuge_output_file.c)
+    function input_is_special(path) bind(c, name='fuge_input_is_special') result(special)
+      import :: c_char, c_int
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int) :: special
+    end function input_is_special
+  end interface
 
 contains
 
@@ -77,6 +87,9 @@ contains
     self%content = ''
     if (len_trim(path) == 0) then
       call report(info, FUGE_ERR_FILE, 'the path is blank: pass the path of a file')
+      return
+    else if (input_is_special(trim(path)//c_null_char) /= 0_c_int) then
+      call report(info, FUGE_ERR_FILE, self%name//' is a device, a pipe or a folder: only a regular file can be read')
       return
     end if
     reason = ''

@@ -1,0 +1,9 @@
+!> By what library Fourier transforms are made.
+module chosen_transforms
+  implicit none
+  private
+
+  !> What `fuge --version` says.
+  character(len=*), parameter, public :: TRANSFORMS = 'transforms: by FFTW (GPL, version 2 or later)'
+
+end module chosen_transforms

@@ -1,0 +1,9 @@
+!> By what library Fourier transforms are made: by none.
+module chosen_transforms
+  implicit none
+  private
+
+  !> What `fuge --version` says.
+  character(len=*), parameter, public :: TRANSFORMS = 'transforms: none, built without FFTW'
+
+end module chosen_transforms

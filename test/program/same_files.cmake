@@ -1,0 +1,97 @@
+# No result of the program overwrites one of its inputs, under whatever name, and none is lost without an error.
+# cmake -DPROGRAM=fuge -DDATA=folder of two_nodes_alpha.mtx .. -DSAMPLE=folder of lower.inp .. -DFOLDER=scratch -P same_files.cmake
+cmake_minimum_required(VERSION 3.20)
+
+file(REMOVE_RECURSE "${FOLDER}")
+file(MAKE_DIRECTORY "${FOLDER}/within")
+foreach(name IN ITEMS alpha gap)
+  file(COPY_FILE "${DATA}/two_nodes_${name}.mtx" "${FOLDER}/${name}.mtx")
+endforeach()
+foreach(name IN ITEMS lower upper)
+  foreach(ending IN ITEMS inp sti dof)
+    file(COPY_FILE "${SAMPLE}/${name}.${ending}" "${FOLDER}/${name}.${ending}")
+  endforeach()
+endforeach()
+file(WRITE "${FOLDER}/outer.inp" "*INCLUDE, INPUT=inner.inp\n")
+file(WRITE "${FOLDER}/inner.inp" "** The mesh\n*INCLUDE, INPUT=lower.inp\n")
+file(WRITE "${FOLDER}/loads.csv" "TOP,y,-1\n")
+file(WRITE "${FOLDER}/job.txt" "alpha alpha.mtx\ngap gap.mtx\nload 2\n")
+execute_process(COMMAND sh -c "ln -s alpha.mtx soft.mtx && ln -s soft.mtx softer.mtx && ln alpha.mtx hard.mtx && \
+  ln gap.mtx hard_gap.mtx && ln inner.inp hard.inp && ln loads.csv hard.csv && ln -s new.csv other.csv && \
+  ln -s ../lower.dof within/names" WORKING_DIRECTORY "${FOLDER}" COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB before RELATIVE "${FOLDER}" "${FOLDER}/*")
+
+# refuses(message arguments..): by sh, so that standard output may be a file; all files stay as they are.
+function(refuses message)
+  list(JOIN ARGN " " arguments)
+  execute_process(COMMAND sh -c "cat *.* within/* | cksum" WORKING_DIRECTORY "${FOLDER}" OUTPUT_VARIABLE sum_before
+    ERROR_QUIET)
+  execute_process(COMMAND sh -c "'${PROGRAM}' ${arguments}" WORKING_DIRECTORY "${FOLDER}"
+    RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  execute_process(COMMAND sh -c "cat *.* within/* | cksum" WORKING_DIRECTORY "${FOLDER}" OUTPUT_VARIABLE sum_after
+    ERROR_QUIET)
+  if(NOT status EQUAL 1 OR NOT errors MATCHES "${message}")
+    message(SEND_ERROR "fuge ${arguments}: exit status ${status}, \"${errors}\", expected \"${message}\"")
+  elseif(NOT sum_after STREQUAL sum_before)
+    message(SEND_ERROR "fuge ${arguments}: files have changed")
+  endif()
+endfunction()
+
+set(alpha --alpha alpha.mtx --gap gap.mtx --load 2)
+foreach(name IN ITEMS alpha.mtx ./alpha.mtx within/../alpha.mtx ${FOLDER}/alpha.mtx soft.mtx softer.mtx hard.mtx)
+  refuses("${name}: the same file as of --alpha" ${alpha} "--output '${name}'")
+endforeach()
+refuses("hard_gap.mtx: the same file as of --gap" ${alpha} --output hard_gap.mtx)
+refuses("job.txt: it is the job file" job.txt --output ./job.txt)
+refuses("standard output: the same file as of --gap, use --output" ${alpha} >> hard_gap.mtx)
+refuses("standard output: it is the job file" job.txt >> job.txt)
+
+set(meshes --mesh lower.inp --stiffness lower.sti --mesh upper.inp --stiffness upper.sti --pair lower.FACE:upper.FACE
+  --support lower.BOTTOM:xy)
+refuses("--output ./new.csv: the same file as of --field" ${meshes} --output ./new.csv --field new.csv)
+refuses("--output other.csv: the same file as of --field" ${meshes} --output other.csv --field new.csv)
+refuses("standard output: the same file as of --field" ${meshes} --field new.csv > new.csv)
+file(REMOVE "${FOLDER}/new.csv")
+refuses("within/names: the same file as of --stiffness" ${meshes} --field within/names)
+refuses("hard.csv: the same file as of --loads" ${meshes} --loads upper=loads.csv --field hard.csv)
+refuses("needs a path" ${meshes} --field "''")
+set(loaded ${meshes} --support upper.TOP:x --load upper.TOP:y=-1)
+list(TRANSFORM meshes REPLACE "^lower.inp$" "outer.inp")
+refuses("inner.inp: the same file as of --mesh or of an" ${meshes} --output ./inner.inp)
+refuses("hard.inp: the same file as of --mesh or of an" ${meshes} --output hard.inp)
+refuses("lower.inp: the same file as of --mesh or of an" ${meshes} --field ./lower.inp)
+refuses("standard output: the same file as of --mesh or of an" ${meshes} >> lower.inp)
+
+if(EXISTS /dev/full)
+  refuses("standard output cannot be written" ${alpha} > /dev/full)
+  refuses("standard output cannot be written" ${loaded} > /dev/full)
+  refuses("standard output cannot be written" --help > /dev/full)
+  refuses("standard output cannot be written" --version > /dev/full)
+  refuses("standard output cannot be written" ${alpha} >&-)
+  refuses("\"/dev/full\" cannot be written" ${loaded} --field /dev/full)
+  refuses("/dev/zero\" is a device or a folder" ${loaded} --loads /dev/zero)
+endif()
+file(GLOB after RELATIVE "${FOLDER}" "${FOLDER}/*")
+if(NOT after STREQUAL before)
+  message(SEND_ERROR "the files were ${before}, and are ${after}")
+endif()
+
+# What is no input may be replaced, a device be several results.
+foreach(arguments IN ITEMS "--output other.csv" "--output new.csv" "--output within/a.csv" "> within/b.csv"
+    "--output /dev/null" "--output /dev/stdout" "| cat > within/c.csv")
+  list(JOIN alpha " " words)
+  execute_process(COMMAND sh -c "'${PROGRAM}' ${words} ${arguments}" WORKING_DIRECTORY "${FOLDER}"
+    RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE errors)
+  if(NOT status EQUAL 0)
+    message(SEND_ERROR "fuge ${arguments}: exit status ${status}, ${errors}")
+  endif()
+endforeach()
+foreach(name IN ITEMS new.csv within/a.csv within/b.csv within/c.csv)
+  file(READ "${FOLDER}/${name}" table)
+  if(NOT table MATCHES "point,force,gap\n1, *2\\.")
+    message(SEND_ERROR "${name}: ${table}")
+  endif()
+endforeach()
+if(NOT IS_SYMLINK "${FOLDER}/other.csv")
+  message(SEND_ERROR "the link other.csv was replaced")
+endif()
