@@ -329,29 +329,18 @@ contains
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: elastic(:), rigid(:)
+    real(dp), allocatable :: elastic(:)
     real(dp) :: offset
-    integer :: j, stat
 
-    if (iterate%prescribed .or. allocated(scene%modes)) then
-      allocate (elastic(size(scene%gap)), rigid(size(scene%gap)), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(scene%gap)) &
-                                 //' points')
-      call scene%rows%ranks%agree(info)
-      if (stat /= 0 .or. info%failed()) return
-    end if
+    if (iterate%prescribed .or. allocated(scene%modes)) call new_lengths(scene, elastic, info)
+    if (info%failed()) return
     offset = 0.0_dp
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
     if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%ranks%total(sum(iterate%force))
     if (allocated(scene%modes)) then
-      rigid = 0.0_dp
-      do j = 1, size(iterate%rigid_motion)
-        rigid = rigid + iterate%rigid_motion(j)*scene%modes(:, j)
-      end do
       iterate%rounding = ROUNDINGS*epsilon(offset)*largest_term(scene, iterate)
-      elastic = (iterate%displacement + rigid) - offset
-      call operator%magnitude(iterate%force, elastic, iterate%work)
-      iterate%work = abs((scene%gap - rigid) + offset) + iterate%work
+      call add_magnitudes(operator, scene, offset, iterate, elastic, info)
+      if (info%failed()) return
       iterate%least_magnitude = least_over(iterate%segments, iterate%work)
     else if (iterate%prescribed) then
       elastic = iterate%displacement - offset
@@ -362,6 +351,42 @@ contains
       iterate%least_magnitude = least_sum(iterate%segments, -iterate%motion, scene%gap, iterate%work)
     end if
   end subroutine find_least_magnitude
+
+  !> Room for a length at each point, (n). Error: FUGE_ERR_MEMORY.
+  subroutine new_lengths(scene, lengths, info)
+    type(contact_scene), intent(in) :: scene
+    real(dp), allocatable, intent(out) :: lengths(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (lengths(size(scene%gap)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(scene%gap)) &
+                               //' points')
+    call scene%rows%ranks%agree(info)
+  end subroutine new_lengths
+
+  !> The magnitudes of scenes with modes, in iterate%work (n). On return `elastic` (n) has the displacement without its
+  !> rigid part. Error: FUGE_ERR_MEMORY.
+  subroutine add_magnitudes(operator, scene, offset, iterate, elastic, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: offset
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), intent(out) :: elastic(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: rigid(:)
+    integer :: j
+
+    call new_lengths(scene, rigid, info)
+    if (info%failed()) return
+    rigid = 0.0_dp
+    do j = 1, size(iterate%rigid_motion)
+      rigid = rigid + iterate%rigid_motion(j)*scene%modes(:, j)
+    end do
+    elastic = (iterate%displacement + rigid) - offset
+    call operator%magnitude(iterate%force, elastic, iterate%work)
+    iterate%work = abs((scene%gap - rigid) + offset) + iterate%work
+  end subroutine add_magnitudes
 
   !> The largest sum of the terms of a gap and a rigid displacement on the contact set.
   function largest_term(scene, iterate) result(largest)
