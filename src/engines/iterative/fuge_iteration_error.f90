@@ -3,8 +3,8 @@
 !>
 !> The residual is a backward error: where the operator is nearly singular on the contact, small residuals belong to
 !> large errors. Divided by the smallest value of Lanczos, the preconditioned residual bounds the error in the norm of
-!> the preconditioner (doc/theory.md). What rounding leaves of gaps and motions under a light load is such a residual too,
-!> although the equations may hold exactly with it.
+!> the preconditioner (doc/theory.md). What rounding leaves of gaps and motions under a light load is such a residual
+!> too, although the equations may hold exactly with it.
 module fuge_iteration_error
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_iterate, only: contact_iterate, largest_term
@@ -25,8 +25,8 @@ contains
   !> `iterate` as evaluated last, so that iterate%work holds the magnitudes of the displacements, which rounding goes
   !> with. What the preconditioner would make of the residual follows from what it made of those before;
   !> `pair_compliance` as least_pair_compliance of fuge_operator, because conjugate gradients do not see forces that
-  !> hardly displace anything; `length` and `force` as from `find_rounding`. Costs two passes over the contact, and no
-  !> product.
+  !> hardly displace anything; `length` and `force` as from `find_rounding`. Costs two passes over the contact, and
+  !> no product.
   function estimated_force_error(iterate, pair_compliance, length, force) result(error)
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: pair_compliance, length, force
@@ -45,7 +45,8 @@ contains
       ! Forces that follow from equilibrium alone take no step.
       return
     end if
-    open = max(iterate%residual_norm, iterate%penetration) + epsilon(error)*max_abs_over(iterate%segments, iterate%work) + length
+    open = max(iterate%residual_norm, iterate%penetration) + length &
+           + epsilon(error)*max_abs_over(iterate%segments, iterate%work)
     if (open < compliance*largest) then
       error = min(max(open/compliance/largest, epsilon(error)) + force/largest, 1.0_dp)
     else

@@ -75,8 +75,6 @@ contains
     type(scene_scaling) :: scaling
     type(search_settings) :: coarse_settings, settings
     integer :: coarse_products, fine_products
-    real(dp) :: pair_compliance, length, force
-    logical :: repeated
     type(shared_ranks) :: ranks
 
     history%started_warm = .false.
@@ -112,9 +110,31 @@ contains
     else
       call history%record_cold(iterate%start_error, options%tolerance, coarse_products, fine_products)
     end if
-    call find_compliance(operator, scene, iterate, pair_compliance, repeated, info)
+    call assemble_with_error(operator, problem, canonical, scene, scaling, iterate, solution, info)
     if (info%failed()) return
     last%least_compliance = iterate%least_compliance
+    last%tolerance = options%tolerance
+    ! The history needs memory of its own.
+    call discard(iterate)
+    call history%store(problem, scene%rows%ranks, solution)
+  end subroutine solve_by_iteration
+
+  !> The solution in the units of the problem, and the estimated error of its forces; a warning where two points are
+  !> repeated, so that forces are not unique. Errors: FUGE_ERR_MEMORY, those of the operator.
+  subroutine assemble_with_error(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: pair_compliance, length, force
+    logical :: repeated
+
+    call find_compliance(operator, scene, iterate, pair_compliance, repeated, info)
+    if (info%failed()) return
     if (is_general(problem)) then
       call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
     else
@@ -124,11 +144,7 @@ contains
     if (repeated) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
     call find_rounding(problem, canonical, scene, scaling%load, iterate, solution, length, force)
     info%force_error = estimated_force_error(iterate, pair_compliance, length, force)
-    last%tolerance = options%tolerance
-    ! The history needs memory of its own.
-    call discard(iterate)
-    call history%store(problem, scene%rows%ranks, solution)
-  end subroutine solve_by_iteration
+  end subroutine assemble_with_error
 
   !> The least compliance of the contact set, by which errors of the forces are judged: iterate%least_compliance and
   !> `pair_compliance` of the operator; and whether two points are `repeated`: then the forces are not unique. Errors:
