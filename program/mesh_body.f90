@@ -218,8 +218,8 @@ contains
     begin = 1
     do while (begin <= len(mesh%paths))
       length = index(mesh%paths(begin:), achar(0)) - 1
-      call check_input(given, mesh%paths(begin:begin + length - 1), 'the same file as of --mesh or of an *INCLUDE in it', &
-                       info)
+      call check_input(given, mesh%paths(begin:begin + length - 1), &
+                       'the same file as of --mesh or of an *INCLUDE in it', info)
       begin = begin + length + 1
     end do
   end subroutine check_included

@@ -83,7 +83,7 @@ contains
     else if (self%depth == MOST_FILES) then
       call self%refuse('more than '//text(MOST_FILES)//' files include each other: does one include itself?', info)
     else if (self%included == MOST_INCLUDED) then
-      call self%refuse('more than '//text(MOST_INCLUDED)//' files are included: do they include each other twice?', info)
+      call self%refuse('more than '//text(MOST_INCLUDED)//' files are included: do they include others twice?', info)
     else if (scan(path(1:1), '/\') > 0 .or. index(path, ':') == 2) then
       call enter(self, trim(path), info)
     else

@@ -1,9 +1,11 @@
 !> A mesh while its file is read: labels as the file has them, with the lines where they stand, until all are known.
 module fuge_mesh_draft
+  use fuge_draft_sets, only: draft_set, draft_sets, labels_in_range, GENERATED
   use fuge_element_faces, only: is_shell
   use fuge_integer_list, only: integer_list
   use fuge_kinds, only: dp
-  use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set, NAME_LENGTH, TYPE_LENGTH
+  use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set
+  use fuge_name_table, only: name_table
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
@@ -12,105 +14,26 @@ module fuge_mesh_draft
 
   public :: finish_mesh
 
-  !> Length of the name of a file in a message.
-  integer, parameter, public :: FILE_LENGTH = 104
   !> In place of a number of a face: SNEG and SPOS of shells; the numbers 1 and 2 in the mesh.
   integer, parameter, public :: FACE_SNEG = -1, FACE_SPOS = -2
-  !> In place of a line: a label that GENERATE made, which need not exist.
-  integer, parameter, public :: GENERATED = 0
-
-  !> Members of a set or faces of a surface.
-  type, public :: draft_set
-    character(len=NAME_LENGTH) :: name = ''
-    !> Label, face (of a surface only), line and file of each member.
-    type(integer_list) :: label, face, line, file
-  end type draft_set
-
-  !> Sets of one kind.
-  type, public :: draft_sets
-    integer :: count = 0
-    type(draft_set), allocatable :: set(:)
-  contains
-    procedure :: named
-    procedure :: known
-  end type draft_sets
-
   !> A mesh in labels.
   type, public :: mesh_draft
     type(row_table) :: nodes, elements
     real(dp), allocatable :: position(:, :)
     !> For each element its type, an index in `types`, its line and file, and where its nodes begin in `connection`.
     type(integer_list) :: element_type, element_line, element_file, first, connection
-    integer :: types_count = 0
-    character(len=TYPE_LENGTH), allocatable :: types(:)
+    type(name_table) :: types
     type(draft_sets) :: node_sets, element_sets, surfaces
-    !> Names of the files, for messages.
-    integer :: files_count = 0
-    character(len=FILE_LENGTH), allocatable :: files(:)
+    !> Names of the files, for messages, and the number of the last one.
+    type(name_table) :: files
+    integer, private :: last_file = 0
     integer :: status = 0
   contains
     procedure :: add_node
-    procedure :: type_number
     procedure :: file_number
   end type mesh_draft
 
 contains
-
-  !> The number of the set with a name, a new one if there is none.
-  pure subroutine named(self, name, number, status)
-    class(draft_sets), intent(inout) :: self
-    character(len=*), intent(in) :: name
-    integer, intent(out) :: number
-    integer, intent(inout) :: status
-    type(draft_set), allocatable :: longer(:)
-    integer :: k
-
-    number = self%known(name)
-    if (number > 0 .or. status /= 0) return
-    if (.not. allocated(self%set)) then
-      allocate (self%set(8), stat=status)
-    else if (self%count == size(self%set)) then
-      allocate (longer(2*self%count), stat=status)
-      if (status /= 0) return
-      do k = 1, self%count
-        call move_set(self%set(k), longer(k))
-      end do
-      call move_alloc(longer, self%set)
-    end if
-    if (status /= 0) return
-    self%count = self%count + 1
-    self%set(self%count)%name = name
-    number = self%count
-  end subroutine named
-
-  pure subroutine move_set(from, to)
-    type(draft_set), intent(inout) :: from, to
-
-    to%name = from%name
-    call move_list(from%label, to%label)
-    call move_list(from%face, to%face)
-    call move_list(from%line, to%line)
-    call move_list(from%file, to%file)
-  end subroutine move_set
-
-  pure subroutine move_list(from, to)
-    type(integer_list), intent(inout) :: from, to
-
-    to%count = from%count
-    call move_alloc(from%item, to%item)
-  end subroutine move_list
-
-  !> The number of the set with a name, 0 if there is none.
-  pure function known(self, name) result(number)
-    class(draft_sets), intent(in) :: self
-    character(len=*), intent(in) :: name
-    integer :: number
-
-    do number = self%count, 1, -1
-      if (self%set(number)%name == name) return
-    end do
-    number = 0
-  end function known
 
   !> Add a node; `is_new` is false if there is one with its label, and then nothing changes.
   pure subroutine add_node(self, label, position, is_new)
@@ -136,40 +59,18 @@ contains
     if (self%status == 0) self%position(:, number) = position
   end subroutine add_node
 
-  !> The number of a type of elements, a new one if it is new; without memory `status` is set.
-  pure subroutine type_number(self, name, number)
-    class(mesh_draft), intent(inout) :: self
-    character(len=*), intent(in) :: name
-    integer, intent(out) :: number
-    character(len=TYPE_LENGTH), allocatable :: longer(:)
-
-    do number = 1, self%types_count
-      if (self%types(number) == name) return
-    end do
-    if (self%status == 0) allocate (longer(self%types_count + 1), stat=self%status)
-    if (self%status /= 0) return
-    if (self%types_count > 0) longer(:self%types_count) = self%types
-    longer(number) = name
-    call move_alloc(longer, self%types)
-    self%types_count = number
-  end subroutine type_number
-
   !> The number of a file, a new one if it is new; without memory `status` is set.
   pure subroutine file_number(self, name, number)
     class(mesh_draft), intent(inout) :: self
     character(len=*), intent(in) :: name
     integer, intent(out) :: number
-    character(len=FILE_LENGTH), allocatable :: longer(:)
 
-    do number = 1, self%files_count
-      if (self%files(number) == name) return
-    end do
-    if (self%status == 0) allocate (longer(self%files_count + 1), stat=self%status)
-    if (self%status /= 0) return
-    if (self%files_count > 0) longer(:self%files_count) = self%files
-    longer(number) = name
-    call move_alloc(longer, self%files)
-    self%files_count = number
+    number = self%last_file
+    if (number > 0) then
+      if (self%files%name(number) == name) return
+    end if
+    call self%files%number_of(name, number, self%status)
+    self%last_file = number
   end subroutine file_number
 
   !> The mesh with places instead of labels. Errors: FUGE_ERR_FILE with the line of a label that is not defined;
@@ -183,12 +84,12 @@ contains
     call finish_nodes(draft, mesh, status)
     if (status == 0) call finish_elements(draft, mesh, info, status)
     if (info%failed()) return
-    if (status == 0) allocate (mesh%node_set(draft%node_sets%count), mesh%element_set(draft%element_sets%count), &
-                               mesh%surface(draft%surfaces%count), stat=status)
+    if (status == 0) allocate (mesh%node_set(draft%node_sets%count()), mesh%element_set(draft%element_sets%count()), &
+                               mesh%surface(draft%surfaces%count()), stat=status)
     if (status == 0) then
       call finish_sets(draft, draft%nodes, draft%node_sets, 'node', mesh%node_set, info, status)
       call finish_sets(draft, draft%elements, draft%element_sets, 'element', mesh%element_set, info, status)
-      do k = 1, draft%surfaces%count
+      do k = 1, draft%surfaces%count()
         call finish_surface(draft, k, mesh, info, status)
       end do
     end if
@@ -221,7 +122,7 @@ contains
       mesh%first(n + 1) = all_nodes + 1
       do e = 1, n
         mesh%element(e) = draft%elements%node(e)
-        mesh%element_type(e) = draft%types(draft%element_type%item(e))
+        mesh%element_type(e) = trim(draft%types%name(draft%element_type%item(e)))
         mesh%first(e) = draft%first%item(e)
       end do
       do e = 1, n
@@ -243,7 +144,7 @@ contains
     character(len=*), intent(in) :: what, owner
     type(fuge_info), intent(inout) :: info
 
-    call report(info, FUGE_ERR_FILE, trim(draft%files(file))//', line '//text(line)//': '//what//' '//text(label) &
+    call report(info, FUGE_ERR_FILE, trim(draft%files%name(file))//', line '//text(line)//': '//what//' '//text(label) &
                 //owner//' is not defined in any file')
   end subroutine undefined
 
@@ -263,7 +164,7 @@ contains
     allocate (owner(table%count), stat=status)
     if (status /= 0) return
     owner = 0
-    do k = 1, drafts%count
+    do k = 1, drafts%count()
       call finish_set(draft, table, drafts%set(k), what, k, owner, sets(k), info, status)
       if (status /= 0 .or. info%failed()) return
     end do
@@ -280,17 +181,22 @@ contains
     type(fuge_mesh_set), intent(inout) :: set
     type(fuge_info), intent(inout) :: info
     integer, intent(inout) :: status
-    type(integer_list) :: member
-    integer :: i, place
+    type(integer_list) :: labels, member
+    integer :: i, j, place
 
     set%name = from%name
     do i = 1, from%label%count
+      if (from%line%item(i) == GENERATED) then
+        call labels_in_range(table, from%label%item(i), from%face%item(i), from%file%item(i), labels, status)
+        do j = 1, labels%count
+          call take_member(table%place_of(labels%item(j), 0), k, owner, member, status)
+        end do
+        cycle
+      end if
       place = table%place_of(from%label%item(i), 0)
       if (place > 0) then
-        if (owner(place) == k) cycle
-        owner(place) = k
-        call member%append(place, status)
-      else if (from%line%item(i) /= GENERATED) then
+        call take_member(place, k, owner, member, status)
+      else
         call undefined(draft, from%file%item(i), from%line%item(i), what, from%label%item(i), ' of the set ' &
                        //trim(from%name), info)
         return
@@ -299,6 +205,17 @@ contains
     if (status == 0) allocate (set%member(member%count), stat=status)
     if (status == 0 .and. member%count > 0) set%member = member%item(:member%count)
   end subroutine finish_set
+
+  !> Add a member to set k unless it is in it.
+  pure subroutine take_member(place, k, owner, member, status)
+    integer, intent(in) :: place, k
+    integer, intent(inout) :: owner(:), status
+    type(integer_list), intent(inout) :: member
+
+    if (owner(place) == k) return
+    owner(place) = k
+    call member%append(place, status)
+  end subroutine take_member
 
   !> Places of the elements of the faces of surface k.
   pure subroutine finish_surface(draft, k, mesh, info, status)
@@ -341,7 +258,7 @@ contains
     if (is_shell(mesh%element_type(element))) then
       mesh%surface(k)%face(i) = -mesh%surface(k)%face(i)
     else
-      call report(info, FUGE_ERR_FILE, trim(draft%files(file))//', line '//text(line)//': element ' &
+      call report(info, FUGE_ERR_FILE, trim(draft%files%name(file))//', line '//text(line)//': element ' &
                   //text(mesh%element(element))//' of type '//trim(mesh%element_type(element)) &
                   //' has no faces SPOS and SNEG, which shells have')
     end if

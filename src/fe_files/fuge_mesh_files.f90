@@ -1,8 +1,9 @@
 !> Meshes from input files of Abaqus and CalculiX: what both programs have in common.
 module fuge_mesh_files
+  use fuge_draft_sets, only: draft_sets
   use fuge_element_faces, only: nodes_of_type
   use fuge_input_deck, only: input_deck, upper_case, LINE_DATA, LINE_END, LINE_KEYWORD, VALUE_LENGTH
-  use fuge_mesh_draft, only: draft_sets, finish_mesh, mesh_draft
+  use fuge_mesh_draft, only: finish_mesh, mesh_draft
   use fuge_mesh_lines, only: add_element_nodes, mesh_block, read_element_line, read_node_line, read_set_line, &
     read_surface_line
   use fuge_mesh_type, only: fuge_mesh, move_mesh, NAME_LENGTH, TYPE_LENGTH
@@ -116,7 +117,7 @@ contains
     if (block%missing == 0) return
     call deck%refuse('element '//text(draft%elements%node(draft%elements%count))//' above has '//text(block%missing) &
                      //' nodes less than the '//text(block%nodes)//' of its type ' &
-                     //trim(draft%types(block%element_type)), info)
+                     //trim(draft%types%name(block%element_type)), info)
   end subroutine check_last_element
 
   !> A keyword: what are the data lines under it?
@@ -227,7 +228,7 @@ contains
     if (element_type == '' .or. len_trim(element_type) > TYPE_LENGTH) then
       call deck%refuse('*ELEMENT needs TYPE = and a type of at most '//text(TYPE_LENGTH)//' characters', info)
     else
-      call draft%type_number(trim(element_type), block%element_type)
+      call draft%types%number_of(trim(element_type), block%element_type, draft%status)
       block%nodes = nodes_of_type(trim(element_type))
     end if
   end subroutine choose_type

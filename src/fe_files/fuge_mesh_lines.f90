@@ -1,12 +1,14 @@
 !> The data lines of an input file of Abaqus or CalculiX: nodes, elements, members of sets, faces of surfaces.
 module fuge_mesh_lines
+  use fuge_draft_sets, only: draft_set, draft_sets, labels_in_range, GENERATED
   use fuge_entry_fields, only: read_label, read_value
   use fuge_input_deck, only: upper_case
   use fuge_integer_list, only: integer_list
   use fuge_kinds, only: dp
-  use fuge_mesh_draft, only: draft_sets, mesh_draft, FACE_SNEG, FACE_SPOS, GENERATED
+  use fuge_mesh_draft, only: mesh_draft, FACE_SNEG, FACE_SPOS
   use fuge_mesh_type, only: NAME_LENGTH
   use fuge_number_text, only: text
+  use fuge_row_table, only: row_table
   use fuge_text_columns, only: begin_columns, next_column, SEPARATOR_COMMA
   use fuge_text_fields, only: quoted
   implicit none
@@ -81,11 +83,7 @@ contains
     integer, intent(in) :: label, face, line
     integer, intent(inout) :: status
 
-    if (block%set == 0) return
-    call sets%set(block%set)%label%append(label, status)
-    call sets%set(block%set)%face%append(face, status)
-    call sets%set(block%set)%line%append(line, status)
-    call sets%set(block%set)%file%append(block%file, status)
+    if (block%set > 0) call sets%set(block%set)%append(label, face, line, block%file, status)
   end subroutine add_member
 
   !> An element, label and nodes, or more nodes of the last one.
@@ -109,7 +107,7 @@ contains
       if (allocated(reason)) return
       if (block%nodes > 0 .and. block%missing == 0) then
         reason = 'more than '//text(block%nodes)//' nodes of element ' &
-          //text(draft%elements%node(draft%elements%count))//' of type '//trim(draft%types(block%element_type))
+          //text(draft%elements%node(draft%elements%count))//' of type '//trim(draft%types%name(block%element_type))
         return
       end if
       call draft%connection%append(label, draft%status)
@@ -162,7 +160,7 @@ contains
           reason = 'the set '//quoted(line(first:last))//' is not defined above'
           return
         end if
-        if (other /= block%set) call add_all(sets, other, block, 0, status)
+        if (other /= block%set) call add_all(sets, other, block, status)
       else
         call read_label(line(first:last), what, 1, huge(1), label, reason)
         if (allocated(reason)) return
@@ -192,17 +190,24 @@ contains
   end function known_set
 
   !> Add all members of another set.
-  pure subroutine add_all(sets, other, block, face, status)
+  pure subroutine add_all(sets, other, block, status)
     type(draft_sets), intent(inout) :: sets
-    integer, intent(in) :: other, face
+    integer, intent(in) :: other
     type(mesh_block), intent(in) :: block
     integer, intent(inout) :: status
-    integer :: i, line
+    integer :: count, first, i, label
 
-    do i = 1, sets%set(other)%label%count
-      line = merge(GENERATED, block%line, sets%set(other)%line%item(i) == GENERATED)
-      call add_member(sets, block, sets%set(other)%label%item(i), face, line, status)
+    count = sets%set(other)%label%count
+    call sets%set(block%set)%begin_taking(other, 0, count, 0, first, status)
+    do i = first, count
       if (status /= 0) return
+      label = sets%set(other)%label%item(i)
+      if (sets%set(other)%line%item(i) == GENERATED) then
+        call sets%set(block%set)%append(label, sets%set(other)%face%item(i), GENERATED, sets%set(other)%file%item(i), &
+                                        status)
+      else
+        call sets%set(block%set)%append(label, 0, block%line, block%file, status)
+      end if
     end do
   end subroutine add_all
 
@@ -227,9 +232,7 @@ contains
     else if ((range(2) - range(1))/range(3) >= MOST_GENERATED) then
       reason = 'more than '//text(MOST_GENERATED)//' members from '//text(range(1))//' to '//text(range(2))
     else
-      do i = 0, (range(2) - range(1))/range(3)
-        call add_member(sets, block, range(1) + i*range(3), 0, GENERATED, status)
-      end do
+      call sets%set(block%set)%append(range(1), range(2), GENERATED, range(3), status)
     end if
   end subroutine generate_members
 
@@ -239,29 +242,63 @@ contains
     type(mesh_block), intent(in) :: block
     type(mesh_draft), intent(inout) :: draft
     character(len=:), allocatable, intent(out) :: reason
-    integer :: element, k, last, number, p
+    type(integer_list) :: elements
+    integer :: first, k, number, p
 
     number = draft%element_sets%known(name)
     if (number == 0) then
       reason = 'the element set '//quoted(name)//' is not defined above'
       return
     end if
-    do k = 1, draft%element_sets%set(number)%label%count
-      associate (label => draft%element_sets%set(number)%label%item(k))
-        element = draft%elements%place_of(label, 0)
-        if (element == 0) then
-          if (draft%element_sets%set(number)%line%item(k) == GENERATED) cycle
-          reason = 'element '//text(label)//' of the set '//quoted(name)//' is not defined above'
-          return
-        end if
-      end associate
-      last = draft%connection%count
-      if (element < draft%first%count) last = draft%first%item(element + 1) - 1
-      do p = draft%first%item(element), last
+    associate (from => draft%element_sets%set(number))
+      call draft%node_sets%set(block%set)%begin_taking(-number, 0, from%label%count, draft%elements%count, first, &
+                                                       draft%status)
+      call find_elements(draft%elements, from, first, elements, draft%status)
+    end associate
+    do k = 1, elements%count
+      if (draft%status /= 0) return
+      number = draft%elements%place_of(elements%item(k), 0)
+      if (number == 0) then
+        reason = 'element '//text(elements%item(k))//' of the set '//quoted(name)//' is not defined above'
+        return
+      end if
+      do p = draft%first%item(number), last_connection(draft, number)
         call add_member(draft%node_sets, block, draft%connection%item(p), 0, block%line, draft%status)
       end do
     end do
   end subroutine add_element_nodes
+
+  !> Where the nodes of element number `element` end.
+  pure function last_connection(draft, element) result(last)
+    type(mesh_draft), intent(in) :: draft
+    integer, intent(in) :: element
+    integer :: last
+
+    last = draft%connection%count
+    if (element < draft%first%count) last = draft%first%item(element + 1) - 1
+  end function last_connection
+
+  !> Labels of the members of a set of elements from member `first` on; of ranges only those in the `table`.
+  pure subroutine find_elements(table, from, first, labels, status)
+    type(row_table), intent(in) :: table
+    type(draft_set), intent(in) :: from
+    integer, intent(in) :: first
+    type(integer_list), intent(out) :: labels
+    integer, intent(inout) :: status
+    type(integer_list) :: found
+    integer :: i, k
+
+    do k = first, from%label%count
+      if (from%line%item(k) /= GENERATED) then
+        call labels%append(from%label%item(k), status)
+        cycle
+      end if
+      call labels_in_range(table, from%label%item(k), from%face%item(k), from%file%item(k), found, status)
+      do i = 1, found%count
+        call labels%append(found%item(i), status)
+      end do
+    end do
+  end subroutine find_elements
 
   !> The number of a face: S1 to S6, SPOS or SNEG.
   pure subroutine read_face(field, face, reason)
@@ -308,11 +345,25 @@ contains
       reason = 'the element set '//quoted(line(first:last))//' is not defined above'
       return
     end if
-    do k = 1, draft%element_sets%set(other)%label%count
-      label = draft%element_sets%set(other)%label%item(k)
-      if (draft%elements%place_of(label, 0) == 0 .and. draft%element_sets%set(other)%line%item(k) == GENERATED) cycle
-      call add_member(draft%surfaces, block, label, face, block%line, draft%status)
-    end do
+    call add_faces(other, face, block, draft)
   end subroutine read_surface_line
+
+  !> Add a face of each element of a set to the surface of a block.
+  pure subroutine add_faces(number, face, block, draft)
+    integer, intent(in) :: number, face
+    type(mesh_block), intent(in) :: block
+    type(mesh_draft), intent(inout) :: draft
+    type(integer_list) :: elements
+    integer :: first, k
+
+    associate (from => draft%element_sets%set(number))
+      call draft%surfaces%set(block%set)%begin_taking(number, face, from%label%count, draft%elements%count, first, &
+                                                      draft%status)
+      call find_elements(draft%elements, from, first, elements, draft%status)
+    end associate
+    do k = 1, elements%count
+      call add_member(draft%surfaces, block, elements%item(k), face, block%line, draft%status)
+    end do
+  end subroutine add_faces
 
 end module fuge_mesh_lines

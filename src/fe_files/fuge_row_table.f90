@@ -9,7 +9,7 @@ module fuge_row_table
   !> Largest direction: a node may have 1 to 6 for displacements and rotations, and more for other quantities.
   integer, parameter, public :: LARGEST_DIRECTION = 9999
   !> Number of slots at first, a power of two like all later ones.
-  integer, parameter :: FIRST_SLOTS = 1024
+  integer, parameter :: FIRST_SLOTS = 64
   !> Slots of a block, 16, as a power of two.
   integer, parameter :: BLOCK_BITS = 4
   !> An odd factor that spreads the blocks over the slots (D. E. Knuth, The Art of Computer Programming,
@@ -26,6 +26,7 @@ module fuge_row_table
     procedure :: number_of
     procedure :: place_of
     procedure :: sort
+    procedure :: move_to
     procedure, private :: grow
     procedure, private :: slot_of
   end type row_table
@@ -88,6 +89,17 @@ contains
       if (place > size(self%slot)) place = 1
     end do
   end function slot_of
+
+  !> Move the names to another table; nothing is copied.
+  pure subroutine move_to(self, other)
+    class(row_table), intent(inout) :: self
+    type(row_table), intent(inout) :: other
+
+    other%count = self%count
+    call move_alloc(self%node, other%node)
+    call move_alloc(self%direction, other%direction)
+    call move_alloc(self%slot, other%slot)
+  end subroutine move_to
 
   !> Double the memory.
   pure subroutine grow(self, status)

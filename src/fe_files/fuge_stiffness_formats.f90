@@ -7,7 +7,7 @@ module fuge_stiffness_formats
   implicit none
   private
 
-  public :: recognise_format
+  public :: is_binary_op4, recognise_format
 
   !> Format of a file with a stiffness matrix: recognised by its content.
   integer, parameter, public :: FUGE_STIFFNESS_ANY = 0
@@ -25,6 +25,18 @@ module fuge_stiffness_formats
   integer, parameter, public :: FUGE_STIFFNESS_OP4 = 5
 
 contains
+
+  !> Does a loaded file begin as a binary one of OUTPUT4: with the length of its first record, six words of 4 or of 8
+  !> bytes, in 4 or 8 bytes?
+  pure function is_binary_op4(file) result(op4)
+    type(text_file), intent(in) :: file
+    logical :: op4
+    character(len=3), parameter :: ZEROS = repeat(achar(0), 3)
+    character(len=4) :: length
+
+    length = file%content(:min(4, len(file%content)))
+    op4 = any(length == [achar(24)//ZEROS, ZEROS//achar(24), achar(48)//ZEROS, ZEROS//achar(48), ZEROS//achar(0)])
+  end function is_binary_op4
 
   !> The format of a loaded file, whose lines are before the first one again.
   pure subroutine recognise_format(file, format)

@@ -21,6 +21,9 @@ module fuge_matrix_market_reader
   !> Least number of bytes of an entry, its line feed included.
   integer(int64), parameter :: SHORTEST_ENTRY = 6_int64, SHORTEST_VALUE = 2_int64
 
+  !> Columns, or places of a dense matrix, that need not have entries.
+  integer(int64), parameter :: EMPTY_ROOM = 10000000_int64
+
   !> A Matrix Market file that is read entry by entry.
   type :: matrix_file
     type(text_file) :: file
@@ -39,7 +42,8 @@ contains
   !>
   !> `matrix` (rows, columns) is allocated afresh, with zeros where a coordinate file has no
   !> entry, in the unit of the file.
-  !> Errors, `matrix` unchanged: FUGE_ERR_FILE with file, line and reason; FUGE_ERR_MEMORY.
+  !> Errors, `matrix` unchanged: FUGE_ERR_FILE with file, line and reason, also for 10^7 places and more of which most
+  !> rows or columns have no entry; FUGE_ERR_MEMORY.
   subroutine fuge_read_matrix(path, matrix, info)
     character(len=*), intent(in) :: path
     real(dp), allocatable, intent(inout) :: matrix(:, :)
@@ -49,6 +53,8 @@ contains
     integer :: status
 
     call open_matrix(path, source, info)
+    if (.not. info%failed()) call check_room(source, real(source%layout%rows, dp)*real(source%layout%columns, dp), &
+                                             real(source%layout%entries, dp)**2, info)
     if (info%failed()) return
     allocate (entries(source%layout%rows, source%layout%columns), stat=status)
     if (status /= 0) then
@@ -66,7 +72,8 @@ contains
   !> `column`(j + 1) - 1, rows ascending, each once; `column` has one element more than the
   !> matrix has columns. Zeros of an array file are left out, those of a coordinate file kept.
   !> The three arrays are allocated afresh.
-  !> Errors, outputs unchanged: FUGE_ERR_FILE with file, line and reason; FUGE_ERR_MEMORY.
+  !> Errors, outputs unchanged: FUGE_ERR_FILE with file, line and reason, also for more than 10^7 rows or columns with
+  !> entries for less than a tenth of them; FUGE_ERR_MEMORY.
   subroutine fuge_read_sparse(path, rows, column, row, value, info)
     character(len=*), intent(in) :: path
     integer, intent(inout) :: rows
@@ -79,6 +86,8 @@ contains
     integer :: overflow, status
 
     call open_matrix(path, source, info)
+    if (.not. info%failed()) call check_room(source, real(max(source%layout%rows, source%layout%columns), dp), &
+                                             10.0_dp*real(source%layout%entries, dp), info)
     if (info%failed()) return
     call triplets%reserve(entries_of_both_triangles(source%layout), status)
     if (status == 0) then
@@ -173,6 +182,18 @@ contains
     end do
     call refuse_end(source, info)
   end subroutine check_length
+
+  !> Refuse sizes that need `room` for more places than EMPTY_ROOM and than the entries let expect, `filled`: the memory
+  !> would be that of a line with sizes, and not of the file.
+  pure subroutine check_room(source, room, filled, info)
+    type(matrix_file), intent(in) :: source
+    real(dp), intent(in) :: room, filled
+    type(fuge_info), intent(inout) :: info
+
+    if (room <= max(real(EMPTY_ROOM, dp), filled)) return
+    call source%file%refuse('most of '//text(source%layout%rows)//' rows and '//text(source%layout%columns) &
+                            //' columns have none of the entries: are the sizes right?', info)
+  end subroutine check_room
 
   !> Advance to the next line that is neither blank nor a comment; `exists` is false at the end
   !> of the file.

@@ -14,8 +14,8 @@
 !> FFTW keeps its threads for the next transform. A process that is forked has none of them and would wait for them for
 !> ever, so there `fuge_threads` starts threads for each transform.
 module fuge_fft
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_ptr, c_ptr, &
-    c_size_t
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_ptr, &
+    c_ptr, c_size_t
   use fuge_fftw, only: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, &
     fftw_init_threads, fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, &
     fftw_plan_r2c, fftw_plan_with_nthreads, FFTW_ESTIMATE, FFTW_FORWARD, FFTW_MEASURE, FFTW_NO_BUFFERING, HAS_FFTW
