@@ -12,9 +12,10 @@ module fuge_equilibrium
   implicit none
   private
 
-  public :: find_equilibrium, find_newest, is_in_equilibrium, proves_no_equilibrium
+  public :: find_equilibrium, find_newest, is_in_equilibrium, is_negligible, proves_no_equilibrium
 
-  !> A point whose work is below this fraction of the largest possible one does not close along the remainder.
+  !> A point whose work is below this fraction of the largest possible one does not close along the remainder. A remainder
+  !> below this fraction of a resultant, or of its terms, may be the rounding of the data that the resultant was made of.
   real(dp), parameter :: NEGLIGIBLE = 1.0e-11_dp
   !> A remainder of so many units in the last place of a resultant, or of its terms, is rounding.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
@@ -46,7 +47,8 @@ contains
     logical, intent(in) :: pushes(:), pulls(:)
     real(dp), intent(out) :: force(:), remainder(:)
     real(dp), intent(in), optional :: rounding(:)
-    real(dp) :: noise(size(resultant)), rest(size(resultant)), work
+    real(dp), dimension(size(resultant)) :: noise, rest, terms
+    real(dp) :: work
     type(active_points) :: active
     integer :: iteration, j, newest
 
@@ -58,9 +60,11 @@ contains
     do iteration = 1, 20*(size(modes, 2) + 1) + size(force)
       if (is_in_equilibrium(modes, resultant, noise, force, remainder)) exit
       ! The remainder is a difference, and so are these works.
-      rest = noise + [(epsilon(noise)*sum(abs(force*modes(:, j))), j=1, size(rest))]
+      terms = [(sum(abs(force*modes(:, j))), j=1, size(terms))]
+      rest = noise + epsilon(noise)*terms
       call find_newest(modes, remainder, rest, pushes, pulls, active%point, newest, work)
       if (newest == 0) then
+        if (is_negligible(remainder, resultant, terms)) exit
         if (proves_no_equilibrium(modes, rest, pushes, pulls, remainder)) return
         exit
       end if
@@ -151,6 +155,14 @@ contains
                                                                    epsilon(noise)*sum(abs(modes(:, j)*force)))
     end do
   end function is_in_equilibrium
+
+  !> Is what no point can carry of each resultant a fraction of it, or of its `terms` (m), that proves nothing?
+  pure function is_negligible(remainder, resultant, terms) result(proves_nothing)
+    real(dp), intent(in) :: remainder(:), resultant(:), terms(:)
+    logical :: proves_nothing
+
+    proves_nothing = all(abs(remainder) <= NEGLIGIBLE*max(abs(resultant), terms))
+  end function is_negligible
 
   !> Does no point close along the motion, which is the remainder of the resultants, while these do work?
   pure function proves_no_equilibrium(modes, noise, pushes, pulls, motion) result(proves)

@@ -1,7 +1,7 @@
 !> Equilibrium where ranks share the points: fuge_equilibrium at few points, to which each rank offers those of its own
 !> that the remainder of the resultants closes most.
 module fuge_shared_equilibrium
-  use fuge_equilibrium, only: find_equilibrium, find_newest, is_in_equilibrium, proves_no_equilibrium
+  use fuge_equilibrium, only: find_equilibrium, find_newest, is_in_equilibrium, is_negligible, proves_no_equilibrium
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_ranks, only: shared_ranks
@@ -61,6 +61,7 @@ contains
       if (balanced) exit
       call offer(ranks, modes, remainder, rest, pushes, pulls, offered, found)
       if (.not. found) then
+        if (is_negligible(remainder, resultant, (rest - rounding)/epsilon(rest))) exit
         if (ranks%everywhere(proves_no_equilibrium(modes, rest, pushes, pulls, remainder))) return
         exit
       end if

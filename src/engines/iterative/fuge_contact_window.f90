@@ -66,9 +66,10 @@ contains
   !> `coarse_settings` those of coarser grids, `settings` those of the finest one; `scene` a simple
   !> one; `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the
   !> finest grid, otherwise unchanged, because the window would be too large or the operator has none, nor that coarser
-  !> grid. Errors: those of find_contact_set, FUGE_ERR_MEMORY.
+  !> grid; `least_compliance` as in contact_iterate, which a whole grid that needs no step cannot tell, 0 if not `solved`.
+  !> Eleven arguments: two settings and three results. Errors: those of find_contact_set, FUGE_ERR_MEMORY.
   subroutine solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, &
-                             info)
+                             least_compliance, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: coarse_settings, settings
     type(contact_scene), intent(in) :: scene
@@ -77,6 +78,7 @@ contains
     real(dp), allocatable, intent(inout) :: start(:)
     type(shared_work), intent(inout) :: work
     logical, intent(out) :: solved
+    real(dp), intent(out) :: least_compliance
     type(fuge_info), intent(inout) :: info
     class(fuge_operator), allocatable :: part
     type(cell_box) :: box
@@ -86,6 +88,7 @@ contains
     logical :: grown
 
     solved = .false.
+    least_compliance = 0.0_dp
     finest = operator%grid()
     call rows_of(operator, level, rows, info)
     if (info%failed()) return
@@ -99,7 +102,8 @@ contains
       if (.not. allocated(part)) return
       call rows_of(part, 0, rows, info)
       if (info%failed()) return
-      call solve_on_part(part, rows, coarse_settings, settings, box, scene, monitor, force, work, info)
+      call solve_on_part(part, rows, coarse_settings, settings, box, scene, monitor, force, least_compliance, work, &
+                         info)
       if (info%failed()) return
       call grow(box, rows, force, grown)
       if (.not. grown) exit
@@ -178,8 +182,9 @@ contains
   end function is_worthwhile
 
   !> Solve on the window `part`, of the rows `rows`: nested iteration on its own coarser grids, then to the tolerance.
-  !> `force`: those of its cells.
-  subroutine solve_on_part(part, rows, coarse_settings, settings, box, scene, monitor, force, work, info)
+  !> `force`: those of its cells; `least_compliance` as in contact_iterate.
+  subroutine solve_on_part(part, rows, coarse_settings, settings, box, scene, monitor, force, least_compliance, work, &
+                           info)
     class(fuge_operator), intent(in) :: part
     type(shared_rows), intent(in) :: rows
     type(search_settings), intent(in) :: coarse_settings, settings
@@ -187,6 +192,7 @@ contains
     type(contact_scene), intent(in) :: scene
     class(fuge_monitor), intent(inout) :: monitor
     real(dp), allocatable, intent(out) :: force(:)
+    real(dp), intent(out) :: least_compliance
     type(shared_work), intent(inout) :: work
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
@@ -208,6 +214,7 @@ contains
     part_info%products = info%products
     part_info%preconditionings = info%preconditionings
     info = part_info
+    least_compliance = iterate%least_compliance
     if (.not. info%failed()) call move_alloc(iterate%force, force)
   end subroutine solve_on_part
 

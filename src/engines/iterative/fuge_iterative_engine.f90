@@ -281,7 +281,8 @@ contains
     call nested_iteration(operator, coarse_settings, scene, coarsest_level(operator), max(level, 1), monitor, &
                           start, work, info)
     if (level > 0 .and. allocated(start) .and. .not. info%failed()) then
-      call solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, info)
+      call solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, &
+                           iterate%least_compliance, info)
     end if
     if (.not. (solved .or. info%failed())) then
       call nested_iteration(operator, coarse_settings, scene, level - 1, 1, monitor, start, work, info)
