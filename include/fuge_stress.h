@@ -277,9 +277,9 @@ int fuge_mean_stress(int points, const double *tensor, double *value, char *mess
  *
  * Uniform pressure jumps from cell to cell, and close to the surface the stresses follow the cells
  * rather than the contact.  On strips, rectangles and rings the search therefore takes the middles
- * of cells at the surface, and below it depths from a quarter of the (lesser) width of a cell on:
- * what may lie between is not resolved by the cells.  Under hats, smooth and round punches it takes
- * all depths.
+ * of cells at the surface, beside rectangles and rings also those of equal cells next to them, and
+ * below the surface depths from a quarter of the (lesser) width of a cell on: what may lie between
+ * is not resolved by the cells.  Under hats, smooth and round punches it takes all depths.
  *
  * Where the pressure of the contact is infinite so is the stress, and any number found would be one
  * of the grid: then location is FUGE_PEAK_SINGULAR, value +infinity, place that edge or tip and

@@ -15,7 +15,7 @@ module fuge_peak_climb
   implicit none
   private
 
-  public :: climb
+  public :: climb, fit, stencil
 
   !> Steps of the stencil over the length of a start: the first one, and the last one if the values of its stencil
   !> differ by less than NEARLY_SAME of the largest. Where they do not, as at a cusp of the stress at the rim of a
@@ -29,7 +29,7 @@ module fuge_peak_climb
   real(dp), parameter :: LEAST_CURVATURE = 1.0e-6_dp
   integer, parameter :: MOST_ROUNDS = 120
   !> Points of a stencil with two and with three axes.
-  integer, parameter :: ALL_POINTS(2:3) = [9, 19]
+  integer, parameter, public :: ALL_POINTS(2:3) = [9, 19]
   !> Without those of mixed derivatives, in the first round, from which few go on.
   integer, parameter :: FEW_POINTS(2:3) = [5, 7]
 
@@ -40,22 +40,27 @@ module fuge_peak_climb
     !> What it may reach, as far as the model knows.
     real(dp) :: promise = huge(1.0_dp)
     logical :: active = .true.
+    !> 1 where the stress is curved equally along all axes, 0 on a ridge.
+    real(dp) :: flatness = 1.0_dp
   end type climber
 
 contains
 
-  !> The start that leads to the largest value, moved to its maximum. `axes` of the surface: 1 on a line, the
-  !> coordinates being x and z, or 2. Errors: those of the field, FUGE_ERR_MEMORY.
-  subroutine climb(field, axes, measure, starts, best, info)
+  !> The start that leads to the largest value, moved to its maximum, and how flat that is: 1 if it is curved equally along
+  !> all axes, 0 on a ridge. `axes` of the surface: 1 on a line, the coordinates being x and z, or 2. Errors: those of
+  !> the field, FUGE_ERR_MEMORY.
+  subroutine climb(field, axes, measure, starts, best, flatness, info)
     class(stress_field), intent(inout) :: field
     integer, intent(in) :: axes, measure
     type(peak_start), intent(in) :: starts(:)
     type(peak_start), intent(out) :: best
+    real(dp), intent(out) :: flatness
     type(fuge_info), intent(inout) :: info
     type(climber), allocatable :: climbers(:)
     integer, allocatable :: active(:)
     integer :: count, k, round, stat
 
+    flatness = 1.0_dp
     allocate (climbers(size(starts)), active(size(starts)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(starts))//' starts of the search')
@@ -77,7 +82,9 @@ contains
       if (info%failed()) return
       call drop_losers(climbers)
     end do
-    best = climbers(maxloc(climbers%best%value, dim=1))%best
+    k = maxloc(climbers%best%value, dim=1)
+    best = climbers(k)%best
+    flatness = climbers(k)%flatness
   end subroutine climb
 
   pure function climber_from(start) result(new)
@@ -111,7 +118,7 @@ contains
       first = (k - 1)*points
       associate (one => climbers(active(k)))
         one%middle(3) = max(one%middle(3), one%best%least_depth + one%step)
-        place(:, first + 1:first + points) = stencil(axes, points, one)
+        place(:, first + 1:first + points) = stencil(axes, points, one%middle, one%step, one%best%least_depth)
       end associate
     end do
     call evaluate_measure(field, measure, place, value, normal, info)
@@ -123,28 +130,28 @@ contains
   end subroutine advance
 
   !> The middle, two neighbours on each axis and, unless there are `FEW_POINTS`, four in the plane of each pair of axes.
-  pure function stencil(axes, points, one) result(place)
+  pure function stencil(axes, points, middle, step, least_depth) result(place)
     integer, intent(in) :: axes, points
-    type(climber), intent(in) :: one
+    real(dp), intent(in) :: middle(3), step, least_depth
     real(dp) :: place(3, points)
     integer :: i, j, k
 
     k = 1
-    place = spread(one%middle, 2, points)
+    place = spread(middle, 2, points)
     do i = 1, axes
-      place(coordinate(i, axes), k + 1) = one%middle(coordinate(i, axes)) + one%step
-      place(coordinate(i, axes), k + 2) = one%middle(coordinate(i, axes)) - one%step
+      place(coordinate(i, axes), k + 1) = middle(coordinate(i, axes)) + step
+      place(coordinate(i, axes), k + 2) = middle(coordinate(i, axes)) - step
       k = k + 2
     end do
     do i = 1, axes - 1
       do j = i + 1, axes
         if (k == points) exit
-        place(coordinate(i, axes), k + 1:k + 4) = one%middle(coordinate(i, axes)) + one%step*[1, 1, -1, -1]
-        place(coordinate(j, axes), k + 1:k + 4) = one%middle(coordinate(j, axes)) + one%step*[1, -1, 1, -1]
+        place(coordinate(i, axes), k + 1:k + 4) = middle(coordinate(i, axes)) + step*[1, 1, -1, -1]
+        place(coordinate(j, axes), k + 1:k + 4) = middle(coordinate(j, axes)) + step*[1, -1, 1, -1]
         k = k + 4
       end do
     end do
-    place(3, :) = max(place(3, :), one%best%least_depth)
+    place(3, :) = max(place(3, :), least_depth)
   end function stencil
 
   !> Of the axes of a search the last one is z.
@@ -174,6 +181,7 @@ contains
       one%active = one%best%value - minval(value) > NEARLY_SAME*one%best%value .and. one%step > one%least_step
     if (.not. one%active) return
     call fit(axes, value, gradient, hessian)
+    one%flatness = flatness_of(hessian)
     room = (one%middle(3) - one%best%least_depth)/one%step
     offset = best_offset(gradient, hessian, room)
     gain = dot_product(gradient, offset) + 0.5_dp*dot_product(offset, matmul(hessian, offset))
@@ -220,6 +228,31 @@ contains
       end do
     end do
   end subroutine fit
+
+  !> The product of the curvatures of a maximum over that of equal ones with the same sum; 0 where it is no maximum.
+  pure function flatness_of(hessian) result(flatness)
+    real(dp), intent(in) :: hessian(:, :)
+    real(dp) :: flatness
+    real(dp) :: a(size(hessian, 1), size(hessian, 1)), mean
+    integer :: i, j, n
+
+    n = size(hessian, 1)
+    flatness = 0.0_dp
+    mean = 0.0_dp
+    do i = 1, n
+      mean = mean - hessian(i, i)/real(n, dp)
+    end do
+    if (.not. mean > 0.0_dp) return
+    a = -hessian/mean
+    flatness = 1.0_dp
+    do i = 1, n
+      flatness = flatness*a(i, i)
+      if (.not. flatness > 0.0_dp) return
+      do j = i + 1, n
+        a(j, i + 1:) = a(j, i + 1:) - a(j, i)/a(i, i)*a(i, i + 1:)
+      end do
+    end do
+  end function flatness_of
 
   !> Where the quadratic model is largest within REACH along each axis, and up to `room` along -z.
   pure function best_offset(gradient, hessian, room) result(offset)

@@ -5,6 +5,7 @@ module fuge_peak_search
   use fuge_peak_climb, only: climb
   use fuge_peak_starts, only: find_starts, peak_start
   use fuge_pressed_cells, only: pressed_cells
+  use fuge_ridge_walk, only: walk_ridge
   use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW
   use fuge_stress_field, only: stress_field
   use fuge_stress_peak_type, only: fuge_stress_peak, FUGE_PEAK_INSIDE, FUGE_PEAK_SINGULAR, FUGE_PEAK_SURFACE
@@ -12,6 +13,9 @@ module fuge_peak_search
   private
 
   public :: find_peak, singular_peak
+
+  !> A maximum that is flatter along one direction than this is one of a ridge.
+  real(dp), parameter :: RIDGE = 1.0e-2_dp
 
 contains
 
@@ -28,7 +32,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(peak_start), allocatable :: starts(:)
     type(peak_start) :: best
-    real(dp) :: tensor(6, 1)
+    real(dp) :: flatness, tensor(6, 1)
 
     if (info%failed()) return
     if (size(cells%pressure) == 0) then
@@ -41,7 +45,13 @@ contains
       call report(info, FUGE_ERR_OVERFLOW, 'no stress is in range: choose another unit of force')
       return
     end if
-    call climb(field, cells%axes, measure, starts, best, info)
+    call climb(field, cells%axes, measure, starts, best, flatness, info)
+    if (flatness < RIDGE .and. .not. (info%failed() .or. best%fixed)) then
+      call walk_ridge(field, cells%axes + 1, measure, best, info)
+      ! At the least depth the highest place of a ridge is no maximum across.
+      starts = [best]
+      call climb(field, cells%axes, measure, starts, best, flatness, info)
+    end if
     if (.not. info%failed()) call field%stresses(reshape(best%place, [3, 1]), tensor, info)
     if (info%failed()) return
     peak%value = best%value

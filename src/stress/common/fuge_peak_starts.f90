@@ -13,6 +13,7 @@ module fuge_peak_starts
   use fuge_pressed_cells, only: pressed_cells
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   use fuge_stress_field, only: stress_field
+  use fuge_surface_scan, only: scan_surface, surface_place
   implicit none
   private
 
@@ -21,7 +22,8 @@ module fuge_peak_starts
   !> Candidates below this part of the best one are not followed: those beside the largest stress keep more of it.
   real(dp), parameter, public :: START_SHARE = 0.7_dp
   !> A part is not halved if its best value and what its cells could add remain below this part of the best one. Uniform
-  !> pressure on a patch adds up to UNSEEN_SHARE of itself, and as much again beside a patch that is pulled.
+  !> pressure on a patch adds up to UNSEEN_SHARE of itself, at the surface with a negative Poisson's ratio more, and as
+  !> much again beside a patch that is pulled.
   real(dp), parameter :: HALVED_SHARE = 0.8_dp, UNSEEN_SHARE = 0.85_dp
   !> After so many candidates at the surface there are no more unless the best of them has this part of the best one.
   integer, parameter :: FIRST_SURFACE = 64
@@ -106,6 +108,9 @@ contains
       number = number_next
       parts(:number) = halves(:number)
     end do
+    if (cells%spreads .and. so_far%surface_best >= SURFACE_SHARE*so_far%best) &
+      call add_surface(field, cells, measure, list, count, info)
+    if (info%failed()) return
     call thin_out(list, count, info)
     if (info%failed()) return
     allocate (starts(count), stat=stat)
@@ -134,8 +139,8 @@ contains
     real(dp) :: seen, hidden_share
     integer :: c, p, stat
 
-    hidden_share = UNSEEN_SHARE
-    if (minval(cells%pressure) < 0.0_dp .and. maxval(cells%pressure) > 0.0_dp) hidden_share = 2.0_dp*UNSEEN_SHARE
+    hidden_share = UNSEEN_SHARE*max(1.0_dp, cells%surface_factor)
+    if (minval(cells%pressure) < 0.0_dp .and. maxval(cells%pressure) > 0.0_dp) hidden_share = 2.0_dp*hidden_share
     allocate (surveys(size(parts)), tried(CANDIDATES, size(parts)), normal(CANDIDATES, size(parts)), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(parts))//' parts of the search')
@@ -165,6 +170,29 @@ contains
     end do
     if (count > size(list) - CANDIDATES*PORTION) call thin_out(list, count, info)
   end subroutine try_parts
+
+  !> Add the best places of the whole surface: pressure beside a cell may stress it more than its own does.
+  subroutine add_surface(field, cells, measure, list, count, info)
+    class(stress_field), intent(inout) :: field
+    type(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: measure
+    type(peak_start), intent(inout) :: list(:)
+    integer, intent(inout) :: count
+    type(fuge_info), intent(inout) :: info
+    type(surface_place), allocatable :: best(:)
+    integer :: k
+
+    call scan_surface(field, cells, measure, best, info)
+    call thin_out(list, count, info)
+    if (info%failed()) return
+    do k = 1, size(best)
+      if (.not. best(k)%value > 0.0_dp) cycle
+      if (count == size(list)) call thin_out(list, count, info)
+      if (info%failed()) return
+      count = count + 1
+      list(count) = peak_start(best(k)%place, best(k)%value, best(k)%length, 0.0_dp, .not. best(k)%smooth)
+    end do
+  end subroutine add_surface
 
   pure function surface_is_weak(so_far)
     type(tally), intent(in) :: so_far
@@ -323,7 +351,8 @@ contains
     halves(number) = part(whole%first, next - 1, whole%tried)
   end subroutine halve
 
-  !> Keep the best starts, best first, without those next to a better one: at most MOST_STARTS. FUGE_ERR_MEMORY.
+  !> Keep the best starts, best first, without those next to a better one, and only the best of those that stay where
+  !> they are: at most MOST_STARTS. FUGE_ERR_MEMORY.
   pure subroutine thin_out(list, count, info)
     type(peak_start), intent(inout) :: list(:)
     integer, intent(inout) :: count
@@ -331,6 +360,7 @@ contains
     type(peak_start), allocatable :: kept(:)
     integer, allocatable :: order(:)
     real(dp) :: best
+    logical :: any_fixed
     integer :: k, number, stat
 
     if (count == 0) return
@@ -343,10 +373,13 @@ contains
     order = [(k, k=1, count)]
     call heap_sort(-list(:count)%value, order)
     number = 0
+    any_fixed = .false.
     do k = 1, count
       if (number == MOST_STARTS) exit
       if (list(order(k))%value < START_SHARE*best) exit
+      if (list(order(k))%fixed .and. any_fixed) cycle
       if (is_next_to_one(list(order(k)), kept(:number))) cycle
+      any_fixed = any_fixed .or. list(order(k))%fixed
       number = number + 1
       kept(number) = list(order(k))
     end do
@@ -361,6 +394,7 @@ contains
 
     is_next_to_one = .true.
     do k = 1, size(kept)
+      if (kept(k)%fixed .or. start%fixed) cycle
       if (maxval(abs(start%place - kept(k)%place)) < NEARNESS*min(start%length, kept(k)%length)) return
     end do
     is_next_to_one = .false.

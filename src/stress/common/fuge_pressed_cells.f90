@@ -20,6 +20,12 @@ module fuge_pressed_cells
     real(dp), allocatable :: centre(:, :), width(:, :)
     !> Mean, or peak of a hat, (cells), force per length squared; compressive positive.
     real(dp), allocatable :: pressure(:)
+    !> The stress at the surface of a body under uniform pressure grows with this factor, 1 - 2 poisson.
+    real(dp) :: surface_factor = 1.0_dp
+    !> Does pressure stress the surface beside it too? In a plane it does not.
+    logical :: spreads = .false.
+    !> The end of a continuous pressure that is 0 beyond, (axes, places): there the stress at the surface has a cusp.
+    real(dp), allocatable :: rim(:, :)
   contains
     procedure :: size_of
     procedure :: least_depth

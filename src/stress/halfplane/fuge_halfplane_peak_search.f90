@@ -1,6 +1,7 @@
 !> The largest stress in a half-plane, under cells and under smooth punches.
 module fuge_halfplane_peak_search
   use fuge_constants, only: PI
+  use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_halfplane_interior, only: fuge_halfplane_stress
   use fuge_kinds, only: dp
@@ -104,6 +105,7 @@ contains
     else
       cells%continuous = element == FUGE_HAT
       cells%symmetric(1) = folded
+      if (plane_state == FUGE_PLANE_STRAIN) cells%surface_factor = 1.0_dp - 2.0_dp*poisson
       field%plane_state = plane_state
       field%poisson = poisson
       field%folded = folded
@@ -137,6 +139,7 @@ contains
     field%plane_state = plane_state
     field%poisson = poisson
     call cells_of_punch(contact, cells, info)
+    if (plane_state == FUGE_PLANE_STRAIN) cells%surface_factor = 1.0_dp - 2.0_dp*poisson
     call find_peak(field, cells, measure, peak, info)
   end subroutine fuge_smooth_peak
 

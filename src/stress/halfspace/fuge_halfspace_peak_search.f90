@@ -22,6 +22,10 @@ module fuge_halfspace_peak_search
     procedure :: stresses
   end type field_of_rectangles
 
+  !> The search cuts rectangles that are longer than this many widths, into so many pieces at most.
+  real(dp), parameter :: LONGEST = 4.0_dp
+  integer, parameter :: MOST_PIECES = 32
+
 contains
 
   !> The largest von Mises or Tresca stress in a half-space under forces on rectangles, and where it is.
@@ -31,9 +35,10 @@ contains
   !> and place are those of the field of these forces, the value to 1e-10 or better and the place to its root.
   !>
   !> The pressure jumps from rectangle to rectangle, and close to the surface the stresses follow the rectangles rather
-  !> than the contact; at their corners one is infinite. The search therefore takes the middles of rectangles at the
-  !> surface, and below it depths from a quarter of the lesser width on: what may lie between is not resolved by the
-  !> rectangles.
+  !> than the contact; at their corners one is infinite. At the surface the search therefore takes the middles of
+  !> rectangles and of equal ones beside them, and below it depths from a quarter of the lesser width on: what may lie
+  !> between is not resolved by the rectangles. Of the surface it takes all of them where that can compete, which is with
+  !> Poisson's ratios up to 0.1 or so.
   !>
   !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution
   !> is infinite and any largest value would be one of the grid: then the location is FUGE_PEAK_SINGULAR, the value
@@ -61,11 +66,13 @@ contains
     call check_measure(measure, info)
     if (info%failed()) return
     call collect_cells(x, y, width_x, width_y, force, symmetric, cells, info)
+    cells%surface_factor = 1.0_dp - 2.0_dp*poisson
     call find_singular_rim(cells, singular, edge, info)
     if (info%failed()) return
     if (singular) then
       peak = singular_peak([edge, 0.0_dp])
     else
+      call divide_long(cells, info)
       call search(x, y, width_x, width_y, force, poisson, cells, measure, peak, info)
     end if
     if (info%failed()) return
@@ -107,6 +114,7 @@ contains
     call allocate_cells(2, number, cells, info)
     if (info%failed()) return
     cells%symmetric = symmetric
+    cells%spreads = .true.
     number = 0
     do k = 1, size(x)
       if (.not. abs(force(k)) > 0.0_dp) cycle
@@ -121,6 +129,49 @@ contains
       end do
     end do
   end subroutine collect_cells
+
+  !> Cut long rectangles, because the largest stress may lie below any part of them.
+  pure subroutine divide_long(cells, info)
+    type(pressed_cells), intent(inout) :: cells
+    type(fuge_info), intent(inout) :: info
+    type(pressed_cells) :: divided
+    integer :: along, i, k, number, pieces
+
+    number = 0
+    do k = 1, size(cells%pressure)
+      number = number + pieces_of(cells%width(:, k))
+    end do
+    if (number == size(cells%pressure) .or. info%failed()) return
+    call allocate_cells(2, number, divided, info)
+    if (info%failed()) return
+    number = 0
+    do k = 1, size(cells%pressure)
+      pieces = pieces_of(cells%width(:, k))
+      along = maxloc(cells%width(:, k), dim=1)
+      do i = 1, pieces
+        number = number + 1
+        divided%centre(:, number) = cells%centre(:, k)
+        divided%width(:, number) = cells%width(:, k)
+        divided%width(along, number) = cells%width(along, k)/real(pieces, dp)
+        divided%centre(along, number) = cells%centre(along, k) &
+                                        + 0.5_dp*real(2*i - 1 - pieces, dp)*divided%width(along, number)
+        divided%pressure(number) = cells%pressure(k)
+      end do
+    end do
+    call move_alloc(divided%centre, cells%centre)
+    call move_alloc(divided%width, cells%width)
+    call move_alloc(divided%pressure, cells%pressure)
+  end subroutine divide_long
+
+  !> Into how many pieces a rectangle of this width is cut.
+  pure function pieces_of(width) result(pieces)
+    real(dp), intent(in) :: width(2)
+    integer :: pieces
+
+    pieces = ceiling(min(real(MOST_PIECES, dp), maxval(width)/LONGEST/minval(width)))
+    ! Odd, because one of the middles is that of the whole.
+    if (modulo(pieces, 2) == 0) pieces = pieces + 1
+  end function pieces_of
 
   !> Along each axis: one rectangle, or two with the mirror image.
   pure function images_of(x, y, width_x, width_y, symmetric) result(images)

@@ -63,8 +63,8 @@ contains
   !> these forces, the value to 1e-10 or better and the place to its root.
   !>
   !> The pressure jumps from ring to ring, and close to the surface the stresses follow the rings rather than the
-  !> contact. The search therefore takes the middles of rings at the surface, and below it depths from a quarter of the
-  !> width of a ring on; what may lie between is not resolved by the rings.
+  !> contact. At the surface the search therefore takes the middles of rings and of equal ones beside them, and below it
+  !> depths from a quarter of the width of a ring on; what may lie between is not resolved by the rings.
   !>
   !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution
   !> is infinite and any largest value would be one of the rings: then the location is FUGE_PEAK_SINGULAR, the value
@@ -87,6 +87,7 @@ contains
     call check_measure(measure, info)
     if (info%failed()) return
     call collect_rings(radius, force, cells, info)
+    cells%surface_factor = 1.0_dp - 2.0_dp*poisson
     call find_singular_rim(cells, singular, edge, info)
     if (info%failed()) return
     if (singular) then
@@ -140,6 +141,7 @@ contains
     field%contact = contact
     field%poisson = poisson
     call collect_pressure(contact, cells, info)
+    cells%surface_factor = 1.0_dp - 2.0_dp*poisson
     call find_peak(field, cells, measure, peak, info)
     if (.not. info%failed()) peak%place(1) = abs(peak%place(1))
   end subroutine fuge_round_peak
@@ -174,6 +176,7 @@ contains
     call allocate_cells(1, number, cells, info)
     if (info%failed()) return
     cells%symmetric(1) = .true.
+    cells%spreads = .true.
     number = 0
     do k = 1, size(force)
       if (.not. abs(force(k)) > 0.0_dp) cycle
@@ -199,6 +202,7 @@ contains
     if (info%failed()) return
     cells%continuous = .true.
     cells%symmetric(1) = .true.
+    cells%spreads = .true.
     do k = 1, number
       inner = -contact%radius*cos(PI*(real(k - 1, dp)/real(number, dp)))
       outer = -contact%radius*cos(PI*(real(k, dp)/real(number, dp)))
@@ -206,6 +210,7 @@ contains
       cells%width(1, k) = outer - inner
     end do
     cells%pressure = contact%pressure(abs(cells%centre(1, :)))
+    if (number > 0) cells%rim = reshape([contact%radius], [1, 1])
   end subroutine collect_pressure
 
   subroutine tensors_about_axis(self, place, stress, info)
