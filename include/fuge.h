@@ -85,7 +85,7 @@ enum {
                                       contact does not resist */
   FUGE_WARN_ILL_CONDITIONED = 3,   /* done, but the forces may be far off: the equations hold, but
                                       info.force_error is above 1e-3 */
-  FUGE_WARN_PAIRS = 4,             /* done, but a node is a contact point of two pairs */
+  FUGE_WARN_PAIRS = 4,             /* done, but pairs share a node, or all of their gaps open */
   FUGE_ERR_SIZE = -1,              /* a size or an index is invalid, or arrays differ in length:
                                       n < 1, lda < n, a range beyond the last entry */
   FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */

@@ -267,7 +267,8 @@ int fuge_mesh_get_element_set(const fuge_mesh *mesh, const char *name, int capac
  * edges, -1 beyond.  Corners of a solid's face follow each other counter-clockwise if it is seen
  * from outside; an edge of an element of a plane goes counter-clockwise round the element.
  * FUGE_ERR_OPTION if the mesh has no such surface, FUGE_ERR_ELEMENT for a type without such a
- * face. */
+ * face, FUGE_ERR_MESH for a face that looks into its element, because that is numbered the wrong
+ * way round. */
 int fuge_mesh_get_faces(const fuge_mesh *mesh, const char *name, int capacity, int *faces, int *count,
                         char *message, size_t len);
 

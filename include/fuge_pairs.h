@@ -53,6 +53,8 @@ void fuge_pairs_free(fuge_pairs **pairs);
  *               run counter-clockwise if seen from outside.
  *   dof         degrees of freedom of the nodes, dimensions x nodes, from 0; -1: does not
  *               move.  NULL: the surface is rigid.
+ * Two surfaces that both look into their bodies face each other too: positions alone do not
+ * tell.  fuge_bodies knows the bodies, and refuses them.
  * FUGE_ERR_SIZE, FUGE_ERR_MEMORY; the contents are checked by fuge_pairs_find. */
 int fuge_pairs_set_contact(fuge_pairs *pairs, int dimensions, int nodes, const double *node, int most, int faces,
                            const int *face, const int *dof);

@@ -32,7 +32,7 @@ contains
     type(fuge_condensed), target :: condensed
     type(fuge_problem) :: problem
     type(fuge_solution) :: solution
-    type(fuge_info) :: joining, condensation, recovery
+    type(fuge_info) :: joining, condensation, opening, recovery
     real(dp), allocatable :: displacement(:)
     integer :: status
 
@@ -62,6 +62,8 @@ contains
     call take_warning(condensation, info)
     call take_warning(recovery, info)
     call take_warning(joining, info)
+    call joined%warn_of_opening(solution, displacement, opening)
+    call take_warning(opening, info)
     call log%say('displacements are found')
     if (given%has('field')) call write_fields(given%file('field'), bodies, pairs, joined, solution, displacement, info)
     if (.not. info%failed()) call write_points(given%file('output'), bodies, pairs, joined, problem, solution, info)

@@ -145,7 +145,7 @@ class IllConditionedWarning(Warning):
 
 
 class PairsWarning(Warning):
-    """A node is a contact point of two pairs."""
+    """A node is a contact point of two pairs, or no point touches and all gaps open under the load."""
 
 
 _ERRORS: dict[Status, type[Error]] = {

@@ -26,7 +26,7 @@ class Surface:
     Attributes
     ----------
     node : array_like, shape (nodes, 2) or (nodes, 3)
-        Positions; length.
+        Positions; length. Those of the body's other nodes tell on which side of its faces it lies.
     face : array_like of int, shape (faces, most)
         Nodes of each face, from 0, -1 in unused places: 2 or 3 in the plane, 3, 4, 6 or 8 in space; corners first, then
         the nodes in the middle of the sides. In the plane the body lies to the left of the way from corner 0 to

@@ -123,6 +123,24 @@ class Patch(unittest.TestCase):
         self.assertEqual(caught.exception.status, fuge.Status.ERR_MESH)
         self.assertIn("pair 1", caught.exception.message)
 
+    def test_surfaces_that_look_inwards(self):
+        def inwards(surface):
+            return fuge.Surface(surface.node, np.asarray(surface.face)[:, ::-1], surface.dof)
+
+        def pressed(bodies):
+            bodies.add(self.lower.stiffness)
+            bodies.add(self.upper.stiffness)
+            bodies.fix(0, [1, 3, 5, 0])
+            bodies.set_load(1, self.upper.load)
+            return bodies
+
+        bodies = pressed(fuge.ElasticBodies())
+        bodies.add_pair(1, inwards(self.upper.bottom), 0, inwards(self.lower.top))
+        with self.assertRaises(fuge.InputError) as caught:
+            bodies.solve(sparse=False)
+        self.assertEqual(caught.exception.status, fuge.Status.ERR_MESH)
+        self.assertIn("pair 0: contact surface of body 1: face 0 looks into the body", caught.exception.message)
+
 
 class MeshWithMatrix(unittest.TestCase):
     def test_surface_and_set(self):

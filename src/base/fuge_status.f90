@@ -26,7 +26,7 @@ module fuge_status
   integer, parameter, public :: FUGE_WARN_NOT_UNIQUE = 2
   !> Solved, but the problem is so badly conditioned that the forces may be far off although the equations hold.
   integer, parameter, public :: FUGE_WARN_ILL_CONDITIONED = 3
-  !> Found, but a node is a contact point of two pairs of surfaces.
+  !> Found, but a node is a contact point of two pairs of surfaces; solved, but no point touches and all gaps open.
   integer, parameter, public :: FUGE_WARN_PAIRS = 4
   !> A size or an index is invalid, or arrays differ in length.
   integer, parameter, public :: FUGE_ERR_SIZE = -1
@@ -108,7 +108,7 @@ module fuge_status
     'done, but the residual is above the tolerance', &
     'done, but the solution is not unique', &
     'done, but the forces may be far off', &
-    'done, but a node is a contact point of two pairs']
+    'done, but pairs share a node, or all of their gaps open']
 
   character(len=*), parameter :: UNKNOWN_STATUS = 'unknown status'
 

@@ -11,12 +11,13 @@ module fuge_body_joining
   use fuge_condensation, only: fuge_condensed
   use fuge_contact_pairs_type, only: fuge_contact_pairs, move_pairs
   use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair, take_body
+  use fuge_face_sides, only: check_face_sides
   use fuge_held_points, only: leave_out_held
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_problem_type, only: fuge_problem
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
+    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_PAIRS
   use fuge_symmetric_columns, only: symmetric_columns
   implicit none
   private
@@ -38,7 +39,11 @@ module fuge_body_joining
     integer, allocatable :: first(:)
   contains
     procedure :: pose
+    procedure :: warn_of_opening
   end type fuge_joined_bodies
+
+  !> Gaps that open by less than this part of the largest displacement may open by rounding.
+  real(dp), parameter :: NO_OPENING = 1.0e-6_dp
 
 contains
 
@@ -52,6 +57,7 @@ contains
   !>     call joined%pose(condensed, problem, info)
   !>     call alpha%set(condensed%alpha, info);  call solver%solve(alpha, problem, solution, info)
   !>     call condensed%recover(solution, displacement, info)
+  !>     call joined%warn_of_opening(solution, displacement, info)
   !>
   !> `fuge_solve_bodies` does all this; the steps are for further loads (condensed%set_load, then pose again) and for
   !> problems with more than this, such as excluded points. Bodies may float: joined%body%floats is set, unless a body
@@ -59,7 +65,9 @@ contains
   !> Warning: FUGE_WARN_PAIRS, a node is a contact point of two pairs. Errors, `joined` unchanged, name the body or the
   !> pair: FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW,
   !> FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_MEMORY; FUGE_ERR_GAP
-  !> for a negative play, or where supports hold two surfaces inside each other; FUGE_ERR_MESH as `fuge_find_pairs`.
+  !> for a negative play, or where supports hold two surfaces inside each other; FUGE_ERR_MESH as `fuge_find_pairs`, and
+  !> for a surface that looks into its body: that is known where its nodes are not only those of its faces, because the
+  !> matrix couples each face with the element behind it.
   subroutine fuge_join_bodies(bodies, surface_pairs, joined, info)
     type(fuge_elastic_body), intent(in) :: bodies(:)
     type(fuge_surface_pair), intent(in) :: surface_pairs(:)
@@ -83,6 +91,7 @@ contains
     if (.not. info%failed()) call join_supports(own, found%first, found%body, info)
     if (.not. info%failed()) call pair_surfaces(surface_pairs, found%first, found%pairs, info)
     warning = info
+    if (.not. info%failed()) call check_face_sides(surface_pairs, matrices, info)
     if (.not. info%failed()) call leave_out_held(found%body, found%first(size(found%first)), &
                                                  greatest_extent(surface_pairs), found%pairs, info)
     if (.not. info%failed()) call set_points(found, info)
@@ -115,6 +124,23 @@ contains
     if (allocated(problem%gap_upper)) deallocate (problem%gap_upper)
     if (any(self%pairs%gap_upper < ieee_value(1.0_dp, ieee_positive_inf))) problem%gap_upper = self%pairs%gap_upper
   end subroutine pose
+
+  !> Warn if no point touches and every gap opens: loads and supports pull, or all surfaces look into their bodies.
+  !>
+  !> After `recover` of fuge_condensed, with the `solution` and the `displacement` of all degrees of freedom. `info` has
+  !> FUGE_WARN_PAIRS then, unless it has another warning or an error.
+  pure subroutine warn_of_opening(self, solution, displacement, info)
+    class(fuge_joined_bodies), intent(in) :: self
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: displacement(:)
+    type(fuge_info), intent(inout) :: info
+
+    if (info%status /= FUGE_DONE .or. any(abs(solution%force) > 0.0_dp)) return
+    if (.not. any(abs(displacement) > 0.0_dp)) return
+    if (minval(solution%gap - self%pairs%gap) <= NO_OPENING*maxval(abs(displacement))) return
+    call report(info, FUGE_WARN_PAIRS, 'no point touches, and loads and supports open every gap: if they press, the ' &
+                //'surfaces of each pair look into their bodies: reverse the order of the nodes of all their faces')
+  end subroutine warn_of_opening
 
   !> Take over all bodies, and count their degrees of freedom.
   pure subroutine take_bodies(bodies, matrices, own, first, info)

@@ -1,10 +1,11 @@
 !> Sets and surfaces of a mesh by their names.
 module fuge_mesh_sets
-  use fuge_element_faces, only: face_nodes, MOST_FACE_NODES
+  use fuge_element_faces, only: face_nodes, split_type, FAMILY_PLANE, FAMILY_SOLID, MOST_FACE_NODES
   use fuge_input_deck, only: upper_case
+  use fuge_kinds, only: dp
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, FUGE_ERR_OPTION
+  use fuge_status, only: fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_OPTION
   use fuge_text_fields, only: quoted
   implicit none
   private
@@ -13,6 +14,8 @@ module fuge_mesh_sets
 
   !> Length of a list of names in a message.
   integer, parameter :: LIST_LENGTH = 120
+  !> A face looks into its element if the sine of the angle between it and the way to the middle is above this.
+  real(dp), parameter :: INSIDE_PART = 1.0e-3_dp
 
 contains
 
@@ -105,7 +108,8 @@ contains
   !> first, then those on the edges, 0 beyond. Corners of a solid's face follow each other counter-clockwise if it is
   !> seen from outside; an edge of an element of a plane goes counter-clockwise round the element.
   !> Errors, `faces` unchanged: FUGE_ERR_OPTION if the mesh has no such surface, with the names of those it has;
-  !> FUGE_ERR_ELEMENT for a type of elements that has no such face or whose faces are not known; FUGE_ERR_MEMORY.
+  !> FUGE_ERR_ELEMENT for a type of elements that has no such face or whose faces are not known; FUGE_ERR_MESH for a face
+  !> that looks into its element, because that is numbered the wrong way round; FUGE_ERR_MEMORY.
   subroutine fuge_mesh_faces(mesh, name, faces, info)
     type(fuge_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: name
@@ -139,8 +143,40 @@ contains
       do i = 1, count
         found(i, k) = mesh%connection(mesh%first(element) + nodes(i) - 1)
       end do
+      if (looks_inside(mesh, element, found(:count, k))) then
+        call report(info, FUGE_ERR_MESH, 'surface '//quoted(name)//': face S'//text(mesh%surface(surface)%face(k)) &
+                    //' of element '//text(mesh%element(element))//' looks into the element, whose nodes are numbered ' &
+                    //'the wrong way round: number them as the type '//trim(mesh%element_type(element))//' requires')
+        return
+      end if
     end do
     call move_alloc(found, faces)
   end subroutine fuge_mesh_faces
+
+  !> Does a face of a solid, or of an element of a plane, look to the side where the middle of the element lies?
+  pure function looks_inside(mesh, element, nodes) result(inside)
+    type(fuge_mesh), intent(in) :: mesh
+    integer, intent(in) :: element, nodes(:)
+    logical :: inside
+    real(dp) :: across(3, 2), distance(3), normal(3)
+    integer :: count, family
+
+    inside = .false.
+    call split_type(mesh%element_type(element), family, count)
+    if (family /= FAMILY_PLANE .and. family /= FAMILY_SOLID) return
+    associate (x => mesh%position(:, nodes), &
+               body => mesh%position(:, mesh%connection(mesh%first(element):mesh%first(element + 1) - 1)))
+      distance = sum(body, 2)/real(size(body, 2), dp) - sum(x, 2)/real(size(nodes), dp)
+      across(:, 1) = x(:, 2) - x(:, 1)
+      across(:, 2) = [0.0_dp, 0.0_dp, 1.0_dp]
+      ! Of a triangle two sides, of a quadrangle the diagonals.
+      if (family == FAMILY_SOLID) across(:, 2) = x(:, 3) - x(:, 1)
+      if (family == FAMILY_SOLID .and. modulo(size(nodes), 4) == 0) across = x(:, [3, 4]) - x(:, [1, 2])
+    end associate
+    normal = [across(2, 1)*across(3, 2) - across(3, 1)*across(2, 2), &
+              across(3, 1)*across(1, 2) - across(1, 1)*across(3, 2), &
+              across(1, 1)*across(2, 2) - across(2, 1)*across(1, 2)]
+    inside = dot_product(normal, distance) > INSIDE_PART*norm2(normal)*norm2(distance)
+  end function looks_inside
 
 end module fuge_mesh_sets

@@ -47,7 +47,7 @@ contains
   !> FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP, FUGE_ERR_OPTION,
   !> FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is folded over, has no area or looks the wrong way, for a given
   !> normal that does, for a body of revolution that reaches beyond its axis, and for surfaces that do not face each
-  !> other.
+  !> other. Two surfaces that both look into their bodies face each other too, which only `fuge_join_bodies` sees.
   subroutine fuge_find_pairs(contact, opposite, options, pairs, info)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options

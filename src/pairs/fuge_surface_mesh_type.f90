@@ -14,7 +14,8 @@ module fuge_surface_mesh_type
   !> sides, that between corners 1 and 2, between 2 and 3, and so on. In the plane the body lies to the left of the way
   !> from corner 1 to corner 2; in space the corners run counter-clockwise if seen from outside. Kinds may be mixed.
   type, public :: fuge_surface_mesh
-    !> Positions, (dimensions, nodes), length; nodes that no face names are not read.
+    !> Positions, (dimensions, nodes), length. Nodes that no face names are only read by `fuge_join_bodies`: those with
+    !> degrees of freedom tell on which side of its faces a body lies.
     real(dp), allocatable :: node(:, :)
     !> The nodes of each face, (most nodes of a face, faces); unused places, at the end, are 0.
     integer, allocatable :: face(:, :)

@@ -269,6 +269,18 @@ static void test_refusals(void) {
   CHECK_STATUS(fuge_bodies_join(bodies), FUGE_ERR_MESH);
   CHECK_STATUS(fuge_bodies_message(bodies, message, sizeof message), FUGE_DONE);
   CHECK_CONTAINS(message, "pair 1, contact body 1, opposite body 0: ");
+  /* Both look into their bodies. */
+  fuge_bodies *inwards = two_blocks(&lower, &upper);
+  int turned[6], below[4];
+  for (int k = 0; k < 6; k++) turned[k] = upper.bottom[k % 2 == 0 ? k + 1 : k - 1];
+  for (int k = 0; k < 4; k++) below[k] = lower.top[k % 2 == 0 ? k + 1 : k - 1];
+  CHECK_STATUS(fuge_bodies_set_contact(inwards, 1, 2, upper.nodes, upper.x, 2, 3, turned, upper.dof), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_set_opposite(inwards, 0, 2, lower.nodes, lower.x, 2, 2, below, lower.dof), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_add_pair(inwards, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1), FUGE_DONE);
+  CHECK_STATUS(fuge_bodies_join(inwards), FUGE_ERR_MESH);
+  CHECK_STATUS(fuge_bodies_message(inwards, message, sizeof message), FUGE_DONE);
+  CHECK_CONTAINS(message, "pair 1: contact surface of body 1: face 0 looks into the body");
+  fuge_bodies_free(&inwards);
   /* The last solution stays. */
   CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_ERR_MESH);
   CHECK_STATUS(fuge_bodies_get_displacement(bodies, 0, u), FUGE_DONE);
