@@ -60,7 +60,7 @@ def check_shape(name: str, found: tuple[int, ...], *wanted: tuple[int | None, ..
 def _is_masked(value: Any) -> bool:
     if isinstance(value, (list, tuple)):
         return any(map(_is_masked, value))
-    return isinstance(value, np.ma.MaskedArray) and bool(np.any(np.ma.getmask(value)))
+    return isinstance(value, np.ma.MaskedArray) and bool(np.any(value.mask))
 
 
 def array(name: str, value: ArrayLike) -> NDArray[Any]:
