@@ -226,8 +226,8 @@ contains
     end do
   end subroutine find_outside
 
-  !> Mark the degrees of freedom that are coupled with all nodes of a face. `last`: a degree of freedom of its last node,
-  !> 0 if one of the nodes has none.
+  !> Mark the degrees of freedom that are coupled with all nodes of a face. `last`: a degree of freedom of its last
+  !> node, 0 if one of the nodes has none.
   pure subroutine mark_common(surface, f, coupled, mark, last)
     type(fuge_surface_mesh), intent(in) :: surface
     integer, intent(in) :: f

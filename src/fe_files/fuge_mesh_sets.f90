@@ -108,8 +108,8 @@ contains
   !> first, then those on the edges, 0 beyond. Corners of a solid's face follow each other counter-clockwise if it is
   !> seen from outside; an edge of an element of a plane goes counter-clockwise round the element.
   !> Errors, `faces` unchanged: FUGE_ERR_OPTION if the mesh has no such surface, with the names of those it has;
-  !> FUGE_ERR_ELEMENT for a type of elements that has no such face or whose faces are not known; FUGE_ERR_MESH for a face
-  !> that looks into its element, because that is numbered the wrong way round; FUGE_ERR_MEMORY.
+  !> FUGE_ERR_ELEMENT for a type of elements that has no such face or whose faces are not known; FUGE_ERR_MESH for a
+  !> face that looks into its element, because that is numbered the wrong way round; FUGE_ERR_MEMORY.
   subroutine fuge_mesh_faces(mesh, name, faces, info)
     type(fuge_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: name
@@ -145,8 +145,8 @@ contains
       end do
       if (looks_inside(mesh, element, found(:count, k))) then
         call report(info, FUGE_ERR_MESH, 'surface '//quoted(name)//': face S'//text(mesh%surface(surface)%face(k)) &
-                    //' of element '//text(mesh%element(element))//' looks into the element, whose nodes are numbered ' &
-                    //'the wrong way round: number them as the type '//trim(mesh%element_type(element))//' requires')
+                    //' of element '//text(mesh%element(element))//' looks into the element, whose nodes are ' &
+                    //'numbered the wrong way round: number them as the type '//trim(mesh%element_type(element))//' requires')
         return
       end if
     end do

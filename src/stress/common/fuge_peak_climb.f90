@@ -46,9 +46,9 @@ module fuge_peak_climb
 
 contains
 
-  !> The start that leads to the largest value, moved to its maximum, and how flat that is: 1 if it is curved equally along
-  !> all axes, 0 on a ridge. `axes` of the surface: 1 on a line, the coordinates being x and z, or 2. Errors: those of
-  !> the field, FUGE_ERR_MEMORY.
+  !> The start that leads to the largest value, moved to its maximum, and how flat that is: 1 if it is curved equally
+  !> along all axes, 0 on a ridge. `axes` of the surface: 1 on a line, the coordinates being x and z, or 2. Errors: those
+  !> of the field, FUGE_ERR_MEMORY.
   subroutine climb(field, axes, measure, starts, best, flatness, info)
     class(stress_field), intent(inout) :: field
     integer, intent(in) :: axes, measure

@@ -98,7 +98,8 @@ contains
     call check_grid_strain(force, spacing, young, info)
     if (.not. info%failed()) call start(force, boundary, work, info)
     ! From the D of one cell to that of all.
-    datum = factor(2)*log(real(size(force), dp))
+    datum = 0.0_dp
+    if (.not. info%failed()) datum = factor(2)*log(real(size(force), dp))
     do k = 1, size(depth)
       if (info%failed()) exit
       if (boundary == FUGE_PERIODIC) then

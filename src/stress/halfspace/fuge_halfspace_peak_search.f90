@@ -37,8 +37,8 @@ contains
   !> The pressure jumps from rectangle to rectangle, and close to the surface the stresses follow the rectangles rather
   !> than the contact; at their corners one is infinite. At the surface the search therefore takes the middles of
   !> rectangles and of equal ones beside them, and below it depths from a quarter of the lesser width on: what may lie
-  !> between is not resolved by the rectangles. Of the surface it takes all of them where that can compete, which is with
-  !> Poisson's ratios up to 0.1 or so.
+  !> between is not resolved by the rectangles. At the surface it takes all of them where that can compete, which is
+  !> with Poisson's ratios up to 0.1 or so.
   !>
   !> Where the pressure grows towards an edge of the contact like that of a flat punch, the stress of the exact solution
   !> is infinite and any largest value would be one of the grid: then the location is FUGE_PEAK_SINGULAR, the value
