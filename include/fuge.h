@@ -51,7 +51,7 @@
  * THREADS.  Calls in different threads at once are safe unless two of them have the same
  * solver or body, even if both only read results.  Solvers of several threads may share
  * an operator and its matrix, which they only read, as long as no thread changes or frees
- * it meanwhile.  A process may fork: the child solves in threads of its own, but for the
+ * it meanwhile.  A process may fork: the child may use all objects but the
  * solvers and bodies that other threads were using.
  *
  * CALL ORDER.  Either fuge_solve_dense alone, or

@@ -1,4 +1,4 @@
-!> By what library Fourier transforms are made.
+!> The library that computes Fourier transforms.
 module chosen_transforms
   implicit none
   private

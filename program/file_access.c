@@ -109,7 +109,7 @@ int program_same_file(const char *path, const char *other)
   return identify(path, &a) && identify(other, &b) && equal(&a, &b);
 }
 
-/* Make the file at `path` if there is none, and let an existing one as it is; 0 or the error. */
+/* Make the file at `path` if there is none, and leave an existing one as it is; 0 or the error. */
 int program_prepare_file(const char *path, int *made)
 {
   identity found;

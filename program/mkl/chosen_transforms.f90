@@ -1,4 +1,4 @@
-!> By what library Fourier transforms are made where it is not FFTW itself.
+!> The library that computes Fourier transforms where it is not FFTW itself.
 module chosen_transforms
   implicit none
   private

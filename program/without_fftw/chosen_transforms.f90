@@ -1,4 +1,4 @@
-!> By what library Fourier transforms are made: by none.
+!> The library that computes Fourier transforms: none.
 module chosen_transforms
   implicit none
   private

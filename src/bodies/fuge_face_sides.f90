@@ -21,6 +21,9 @@ module fuge_face_sides
   !> A node lies on one side of a face if it is farther from it than this part of the extent of the face.
   real(dp), parameter :: BESIDE = 1.0e-3_dp
 
+  !> The nodes of one element, at most. A face that has more in common with others belongs to a condensed matrix, which
+  !> couples all with all.
+  integer, parameter :: MOST_NODES = 27
   !> Marks of a face, more than it has nodes.
   integer, parameter :: MOST_MARKS = 16
 
@@ -66,7 +69,8 @@ contains
 
     call find_known(surface, known, stat)
     if (stat == 0) then
-      if (.not. any(known)) return
+      ! Both triangles have to be counted in default integers.
+      if (.not. any(known) .or. real(matrix%upper%column(matrix%degrees() + 1)) > 0.5*real(huge(f))) return
       call find_couplings(surface, known, matrix, coupled, stat)
     end if
     if (stat == 0) allocate (mark(size(coupled%node)), stat=stat)
@@ -187,8 +191,9 @@ contains
     end do
   end subroutine visit_couplings
 
-  !> A node of the element behind face `f` if all of them lie on the side to which it looks, else 0. `mark` is work
-  !> space, an element for each degree of freedom; its numbers grow from face to face.
+  !> A node of the element behind face `f` if all of them lie on the side to which it looks, else 0; 0 also where the
+  !> face is coupled with more than one element, or with the whole body, as in a condensed matrix. `mark` is work space,
+  !> an element for each degree of freedom; its numbers grow from face to face.
   pure subroutine find_outside(surface, f, coupled, mark, node)
     type(fuge_surface_mesh), intent(in) :: surface
     integer, intent(in) :: f
@@ -197,9 +202,10 @@ contains
     integer, intent(out) :: node
     type(face_nodes) :: face
     real(dp) :: distance, extent, middle(3), normal(3), x(3)
-    integer :: count, last, p
+    integer :: common, count, last, p
 
     node = 0
+    common = 0
     count = face_size(surface, f)
     call mark_common(surface, f, coupled, mark, last)
     if (last == 0) return
@@ -211,6 +217,7 @@ contains
       associate (other => coupled%neighbour(p))
         if (mark(other) < MOST_MARKS*f + count) cycle
         if (any(surface%face(:count, f) == coupled%node(other))) cycle
+        common = common + 1
         distance = 0.0_dp
         if (coupled%node(other) > 0) then
           x = 0.0_dp
@@ -224,6 +231,8 @@ contains
         node = coupled%node(other)
       end associate
     end do
+    if (common > MOST_NODES*size(surface%dof, 1) .or. &
+        common == size(coupled%node) - count*size(surface%dof, 1)) node = 0
   end subroutine find_outside
 
   !> Mark the degrees of freedom that are coupled with all nodes of a face. `last`: a degree of freedom of its last
@@ -236,6 +245,7 @@ contains
     integer, intent(out) :: last
     integer :: k, p
 
+    last = 0
     do k = 1, face_size(surface, f)
       last = maxval(surface%dof(:, surface%face(k, f)))
       if (last == 0) return

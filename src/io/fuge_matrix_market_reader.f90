@@ -183,8 +183,8 @@ contains
     call refuse_end(source, info)
   end subroutine check_length
 
-  !> Refuse sizes that need `room` for more places than EMPTY_ROOM and than the entries let expect, `filled`: the memory
-  !> would be that of a line with sizes, and not of the file.
+  !> Refuse sizes that need `room` for more places than EMPTY_ROOM and than the entries let expect, `filled`: a header
+  !> alone would decide how much memory is taken.
   pure subroutine check_room(source, room, filled, info)
     type(matrix_file), intent(in) :: source
     real(dp), intent(in) :: room, filled

@@ -64,8 +64,8 @@ void fuge_output_reason(int error, char *text, size_t length)
   memset(text + known, ' ', length - known);
 }
 
-/* Is there something else than a regular file at `path`: a device, a pipe, a folder?  Of those that Fortran opens it
- * may find no size, or none of an endless one. */
+/* Is there anything other than a regular file at `path`: a device, a pipe, a folder?  Their size may be unknown or
+ * unbounded. */
 int fuge_input_is_special(const char *path)
 {
 #if defined(_WIN32)

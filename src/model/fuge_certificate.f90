@@ -135,6 +135,7 @@ contains
     if (.not. violation%gap_equation > SUSPECT) return
     call take_out_rounding(operator, problem, solution%force, elastic, included, magnitude, rigid_magnitude, error, &
                            info)
+    if (info%failed()) return
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
                                            .not. allocated(problem%modes), ranks)
   end subroutine find_violation
@@ -144,8 +145,8 @@ contains
   !> Arioli, J. W. Demmel, I. S. Duff, SIAM Journal on Matrix Analysis and Applications 10, 1989), and everywhere by that
   !> of the motions, which follow from all displacements of the body.
   !>
-  !> `elastic` (n) are the terms of A f. One more product; if it fails, nothing changes. The arguments are more than
-  !> eight because each length has terms of its own.
+  !> `elastic` (n) are the terms of A f. One more product. The arguments are more than eight because each length has
+  !> terms of its own. Errors: those of the product, FUGE_ERR_MEMORY.
   subroutine take_out_rounding(operator, problem, force, elastic, included, magnitude, rigid_magnitude, error, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -153,17 +154,20 @@ contains
     logical, intent(in) :: included(:)
     real(dp), intent(inout) :: error(:)
     type(fuge_info), intent(inout) :: info
-    type(fuge_info) :: product_info
     type(shared_ranks) :: ranks
-    real(dp), dimension(size(force)) :: largest, of_bodies, rounding, terms
+    real(dp), allocatable, dimension(:) :: largest, of_bodies, rounding, terms
+    integer :: stat
 
     ranks = operator%ranks()
+    allocate (largest(size(force)), of_bodies(size(force)), rounding(size(force)), terms(size(force)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the certificate of '//text(size(force))//' points')
+    call ranks%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     largest = ranks%largest(maxval(abs(force)))
     if (allocated(problem%modes)) largest = largest_of_bodies(problem%modes, abs(force), ranks)
     where (.not. included) largest = 0.0_dp
-    call multiply_with_magnitude(operator, largest, of_bodies, terms, product_info)
-    info%products = info%products + product_info%products
-    if (product_info%failed()) return
+    call multiply_with_magnitude(operator, largest, of_bodies, terms, info)
+    if (info%failed()) return
     where (.not. included .or. magnitude > NO_SCALE*terms) terms = 0.0_dp
     rounding = NO_SCALE*terms
     ! Where no force displaces a point, its rigid gap may be the rounding of the gap and the motions.

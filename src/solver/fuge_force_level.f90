@@ -17,7 +17,8 @@ module fuge_force_level
 
   !> The resultant of equal forces in a mode is rounding below this fraction of its terms.
   real(dp), parameter :: NO_RESULTANT = 1.0e-12_dp
-  !> So are this many units in the last place of the largest length, times the root of the number of points, of a mean.
+  !> A mean counts as zero below this many units in the last place of the largest length, times the root of the number
+  !> of points.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
 
 contains

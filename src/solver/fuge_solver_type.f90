@@ -179,6 +179,7 @@ contains
       else if (self%last_is_general) then
         call judge_force_level(operator, self%canonical, problem%gap, self%last%state, options%tolerance, info)
       end if
+      if (info%failed()) call forget_start(self)
     end if
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
   end subroutine solve_and_certify
@@ -192,9 +193,16 @@ contains
     self%factor = kkt_factor()
     self%has_solution = .false.
     self%last_report = fuge_info()
+    call forget_start(self)
+  end subroutine reset
+
+  !> Forget where the next solve would start.
+  subroutine forget_start(self)
+    class(fuge_solver), intent(inout) :: self
+
     if (allocated(self%state)) deallocate (self%state)
     call self%steps%forget()
-  end subroutine reset
+  end subroutine forget_start
 
   !> How the last solution changes with gaps and load, to first order, and exactly as long as the contact set stays:
   !> df, dc and dq, by triangular solves with the last factor; after the iteration by products on the contact set, to

@@ -229,14 +229,16 @@ contains
     type(working_set) :: loaded
     type(kkt_factor) :: factor
     logical :: idle(size(solution%state))
-    integer :: attempt, status
+    integer :: attempt, left_out, status
 
     trial = solution
+    left_out = 0
     do attempt = 1, MAX_STALLS
       where (canonical%upper > 0.0_dp .and. &
              trial%state*trial%force <= IDLE_FORCE*canonical%force_scale(trial%force)) trial%state = FUGE_OPEN
       idle = solution%state /= trial%state
-      if (.not. any(idle)) return
+      if (count(idle) == left_out) return
+      left_out = count(idle)
       call loaded%start(canonical, trial%state, status)
       if (status /= FUGE_DONE) return
       call loaded%mark(canonical, trial%state)

@@ -265,7 +265,7 @@ contains
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: force(:)
     logical :: carried
-    real(dp) :: noise(size(self%load)), of_bodies(size(force))
+    real(dp) :: noise(1), of_bodies(size(force))
     integer :: j
 
     carried = self%plain
@@ -274,8 +274,13 @@ contains
     do j = 1, size(self%load)
       of_bodies = merge(max(of_bodies, abs(self%load(j))), of_bodies, abs(self%modes(:, j)) > 0.0_dp)
     end do
-    noise = [(epsilon(noise)*maxval(of_bodies, mask=abs(self%modes(:, j)) > 0.0_dp), j=1, size(noise))]
-    carried = is_in_equilibrium(self%modes, self%load, noise, force, self%load - matmul(force, self%modes))
+    carried = .true.
+    do j = 1, size(self%load)
+      ! The loads of one body are rounded together, those of others are not.
+      noise = epsilon(noise)*maxval(of_bodies, mask=abs(self%modes(:, j)) > 0.0_dp)
+      carried = carried .and. is_in_equilibrium(self%modes(:, j:j), self%load(j:j), noise, force, &
+                                                self%load(j:j) - dot_product(force, self%modes(:, j)))
+    end do
   end function is_carried_by
 
   !> Are there several bodies, of which each may have a load of its own?

@@ -99,6 +99,8 @@ contains
     if (stat == 0) then
       factors = transpose(rows)
       if (size(tau) > 0) call factorise_pivoted(factors, tau, order, stat)
+    end if
+    if (stat == 0) then
       do k = 1, size(tau)
         ! Row k of R, its columns in their old places.
         spanning(order(k:), begin + k) = factors(k, k:)

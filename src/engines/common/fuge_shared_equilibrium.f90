@@ -37,7 +37,7 @@ contains
     real(dp), intent(out) :: force(:)
     real(dp), intent(out), contiguous :: remainder(:)
     type(offered_points) :: offered
-    real(dp) :: rest(size(resultant))
+    real(dp), dimension(size(resultant)) :: rest, terms
     integer :: iteration, k, most
     logical :: balanced, found, has_all
 
@@ -57,11 +57,12 @@ contains
     allocate (offered%rows(size(resultant), most), offered%force(most), offered%pushes(most), offered%pulls(most), &
               offered%own(most))
     do iteration = 1, most
-      call judge(offered, resultant, rounding, remainder, rest, balanced)
+      call judge(offered, resultant, rounding, remainder, terms, balanced)
       if (balanced) exit
+      rest = rounding + epsilon(rest)*terms
       call offer(ranks, modes, remainder, rest, pushes, pulls, offered, found)
       if (.not. found) then
-        if (is_negligible(remainder, resultant, (rest - rounding)/epsilon(rest))) exit
+        if (is_negligible(remainder, resultant, terms)) exit
         if (ranks%everywhere(proves_no_equilibrium(modes, rest, pushes, pulls, remainder))) return
         exit
       end if
@@ -74,17 +75,17 @@ contains
     remainder = 0.0_dp
   end subroutine find_shared_equilibrium
 
-  !> Are the forces at the offered points in equilibrium? `rest` (m) is the rounding of the remainder.
-  subroutine judge(offered, resultant, rounding, remainder, rest, balanced)
+  !> Are the forces at the offered points in equilibrium? `terms` (m) sum their sizes in each resultant.
+  subroutine judge(offered, resultant, rounding, remainder, terms, balanced)
     type(offered_points), intent(in) :: offered
     real(dp), intent(in) :: resultant(:), rounding(:), remainder(:)
-    real(dp), intent(out) :: rest(:)
+    real(dp), intent(out) :: terms(:)
     logical, intent(out) :: balanced
     integer :: k
 
-    rest = rounding
+    terms = 0.0_dp
     do k = 1, offered%count
-      rest = rest + epsilon(rest)*abs(offered%rows(:, k)*offered%force(k))
+      terms = terms + abs(offered%rows(:, k)*offered%force(k))
     end do
     balanced = is_in_equilibrium(transpose(offered%rows(:, :offered%count)), resultant, rounding, &
                                  offered%force(:offered%count), remainder)

@@ -84,6 +84,7 @@ contains
     type(cell_box) :: box
     type(shared_rows) :: rows
     real(dp), allocatable :: force(:)
+    real(dp) :: compliance
     integer :: finest(2), own(2)
     logical :: grown
 
@@ -102,8 +103,7 @@ contains
       if (.not. allocated(part)) return
       call rows_of(part, 0, rows, info)
       if (info%failed()) return
-      call solve_on_part(part, rows, coarse_settings, settings, box, scene, monitor, force, least_compliance, work, &
-                         info)
+      call solve_on_part(part, rows, coarse_settings, settings, box, scene, monitor, force, compliance, work, info)
       if (info%failed()) return
       call grow(box, rows, force, grown)
       if (.not. grown) exit
@@ -111,6 +111,7 @@ contains
     end do
     call box%scatter(force, rows, scene%rows, start, info)
     solved = .not. info%failed()
+    if (solved) least_compliance = compliance
   end subroutine solve_in_window
 
   !> Number of rows of the grid that is `level` times coarser.
@@ -182,7 +183,7 @@ contains
   end function is_worthwhile
 
   !> Solve on the window `part`, of the rows `rows`: nested iteration on its own coarser grids, then to the tolerance.
-  !> `force`: those of its cells; `least_compliance` as in contact_iterate.
+  !> `force`: those of its cells; `least_compliance` as in contact_iterate. Eleven arguments, as of solve_in_window.
   subroutine solve_on_part(part, rows, coarse_settings, settings, box, scene, monitor, force, least_compliance, work, &
                            info)
     class(fuge_operator), intent(in) :: part
@@ -200,6 +201,7 @@ contains
     real(dp), allocatable :: start(:)
     type(fuge_info) :: part_info
 
+    least_compliance = 0.0_dp
     part_scene%prescribed = scene%prescribed
     part_scene%rows = rows
     call box%gather(scene%gap, scene%rows, rows, part_scene%gap, info)

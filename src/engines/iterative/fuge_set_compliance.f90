@@ -19,9 +19,9 @@ module fuge_set_compliance
 
   public :: probe_compliance
 
-  !> Points touch within so many times the error of the equations.
+  !> Points touch within this many times the error of the equations.
   real(dp), parameter :: WITHIN = 4.0_dp
-  !> The smallest value is looked at after this step first, then every so many steps.
+  !> The smallest value is looked at after the first of these numbers of steps, then each time after the second one.
   integer, parameter :: FIRST_LOOK = 2, STRIDE = 3
   integer, parameter :: MOST_STEPS = 60
   !> It has settled if it is above this fraction of the one before.
@@ -31,7 +31,7 @@ contains
 
   !> Lower iterate%least_compliance to what conjugate gradients find for random lengths on the points that touch; to the
   !> least positive number where the operator is singular there. A few products, none where the forces follow from
-  !> equilibrium alone. Errors: FUGE_ERR_MEMORY, those of the operator.
+  !> equilibrium alone, at most MOST_STEPS. Errors: FUGE_ERR_MEMORY, those of the operator.
   subroutine probe_compliance(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
@@ -41,7 +41,7 @@ contains
     type(contact_iterate) :: probe
     real(dp) :: value
 
-    value = 0.0_dp
+    value = -1.0_dp
     call start_probe(scene, iterate, probe, info)
     if (info%failed() .or. follow_from_equilibrium(scene, probe)) return
     call preconditioner%set(operator, probe%contact, .not. probe%prescribed, maxval(abs(iterate%displacement)), info)
@@ -49,30 +49,31 @@ contains
       call preconditioner%set_modes(operator, probe%projection, probe%segments, probe%contact, info)
     end if
     if (.not. info%failed()) call find_smallest_value(operator, scene, preconditioner, probe, value, info)
-    if (info%failed()) return
+    if (info%failed() .or. value < 0.0_dp) return
     value = max(value, tiny(value))
     if (iterate%least_compliance > 0.0_dp) value = min(value, iterate%least_compliance)
     iterate%least_compliance = value
   end subroutine probe_compliance
 
-  !> The contact set, and the points that the error of the equations parts from a stop, (n).
-  function touching_points(scene, iterate) result(touches)
+  !> The points that `touch` (n): the contact set, and those whose distance from a stop is within the error of the
+  !> equations.
+  subroutine mark_touching(scene, iterate, touch)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
-    logical :: touches(size(scene%gap))
+    logical, intent(out) :: touch(:)
     real(dp) :: open, gap
     integer :: k
 
-    touches = iterate%contact
+    touch = iterate%contact
     open = WITHIN*(max(iterate%residual_norm, iterate%penetration) + iterate%rounding &
                    + epsilon(open)*max_abs_over(iterate%segments, iterate%work))
-    do k = 1, size(touches)
-      if (touches(k) .or. scene%gap(k) >= OUT_OF_REACH) cycle
+    do k = 1, size(touch)
+      if (touch(k) .or. scene%gap(k) >= OUT_OF_REACH) cycle
       gap = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
-      touches(k) = gap <= open
-      if (allocated(scene%play)) touches(k) = touches(k) .or. gap >= scene%play(k) - open
+      touch(k) = gap <= open
+      if (allocated(scene%play)) touch(k) = touch(k) .or. gap >= scene%play(k) - open
     end do
-  end function touching_points
+  end subroutine mark_touching
 
   !> Are the forces of the set those of equilibrium alone, whatever the operator?
   pure function follow_from_equilibrium(scene, probe) result(follow)
@@ -102,14 +103,15 @@ contains
     call scene%rows%ranks%agree(info)
     if (stat /= 0 .or. info%failed()) return
     probe%prescribed = iterate%prescribed
-    probe%contact = touching_points(scene, iterate)
+    call mark_touching(scene, iterate, probe%contact)
     probe%segments%ranks = scene%rows%ranks
     call probe%segments%find(probe%contact, info)
     if (allocated(scene%modes) .and. .not. info%failed()) call probe%projection%set(scene%modes, probe%segments, info)
     if (info%failed()) return
     probe%direction = 0.0_dp
     ! The minimal standard generator (S. K. Park, K. W. Miller, Communications of the ACM 31, 1988).
-    seed = 1043618065_int64
+    ! Ranks have lengths of their own.
+    seed = 1043618065_int64 + scene%rows%ranks%number()
     do k = 1, n
       seed = mod(16807_int64*seed, 2147483647_int64)
       probe%residual(k) = merge(2.0_dp*real(seed, dp)/2147483647.0_dp - 1.0_dp, 0.0_dp, probe%contact(k))
@@ -135,7 +137,7 @@ contains
   end subroutine remove_rigid_part
 
   !> Conjugate gradients from the lengths of `probe` on, until the smallest value of Lanczos has settled: the compliance
-  !> that it stands for, 0 where the operator is singular. Errors: those of the operator and of its preconditioner.
+  !> that it stands for, 0 where the operator is singular, negative where no lengths are left. Errors: those of the operator and of its preconditioner.
   subroutine find_smallest_value(operator, scene, preconditioner, probe, value, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
@@ -148,14 +150,17 @@ contains
 
     last = huge(last)
     previous = 1.0_dp
+    value = -1.0_dp
     do step = 1, MOST_STEPS
       call precondition_residual(operator, scene, preconditioner, probe, energy, info)
+      if (info%failed()) return
       if (step == 1) then
+        if (.not. energy > 0.0_dp) return
         first = energy
         amplification = max_abs_over(probe%segments, probe%work)/max_abs_over(probe%segments, probe%residual)
       end if
       ! Without energy left only rounding would follow.
-      if (info%failed() .or. .not. energy > epsilon(first)*first) exit
+      if (.not. energy > epsilon(first)*first) exit
       call update_direction(probe%segments, energy/previous, probe%work, probe%direction)
       call compute_displacement(operator, counts_datum(scene, probe), probe%direction, probe%work, info)
       curvature = dot_over(probe%segments, probe%direction, probe%work)
