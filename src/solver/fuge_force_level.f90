@@ -36,12 +36,16 @@ contains
     integer, intent(in) :: state(:)
     type(fuge_info), intent(inout) :: info
     real(dp) :: beyond, largest
+    logical :: contradicts
 
     if (.not. equal_forces_have_no_resultant(canonical)) return
-    call find_room(canonical, gap, state, beyond, largest)
-    if (.not. beyond >= 0.0_dp) return
+    call find_room(canonical, gap, state, beyond, largest, contradicts)
+    if (.not. (beyond >= 0.0_dp .or. contradicts)) return
     if (.not. equal_forces_displace_nothing(operator, info)) return
-    if (beyond > tolerance*largest) then
+    if (contradicts .and. .not. beyond >= 0.0_dp) then
+      ! Only forces large enough to lose the mean gap in their rounding can close all gaps.
+      info%force_error = 1.0_dp
+    else if (beyond > tolerance*largest) then
       info%force_error = 0.0_dp
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
                   //'bring the mean gap between the stops, beyond which it is by '//text(beyond) &
@@ -72,15 +76,17 @@ contains
     none = all(abs(sums(:m)) <= NO_RESULTANT*sums(m + 1:))
   end function equal_forces_have_no_resultant
 
-  !> How far the mean gap is `beyond` the stops, negative where they leave it room; `largest` length.
+  !> How far the mean gap is `beyond` the stops, negative where they leave it room; `largest` length. All points in
+  !> contact contradict a mean gap that is not the mean of their stops.
   !>
   !> Displacements have the mean 0 here, so that the mean gap is that of the initial ones less the prescribed motions.
   !> It is between 0 and the mean play, and where all points are in contact it is the mean of their stops.
-  subroutine find_room(canonical, gap, state, beyond, largest)
+  subroutine find_room(canonical, gap, state, beyond, largest, contradicts)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:)
     integer, intent(in) :: state(:)
     real(dp), intent(out) :: beyond, largest
+    logical, intent(out) :: contradicts
     real(dp) :: extremes(1), rounding, sums(3)
     logical :: complete, two_sided
     integer :: points
@@ -99,7 +105,8 @@ contains
     rounding = ROUNDINGS*epsilon(rounding)*largest*sqrt(real(points, dp))
     beyond = -sums(1)
     if (two_sided) beyond = max(beyond, sums(1) - sums(2))
-    if (complete .and. abs(sums(1) - sums(3)) <= rounding) beyond = max(beyond, 0.0_dp)
+    contradicts = complete .and. abs(sums(1) - sums(3)) > rounding
+    if (complete .and. .not. contradicts) beyond = max(beyond, 0.0_dp)
     ! A mean just within the stops may be one at them.
     if (beyond >= -rounding) beyond = max(beyond, 0.0_dp)
   end subroutine find_room

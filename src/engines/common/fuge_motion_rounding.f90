@@ -16,15 +16,15 @@ module fuge_motion_rounding
 
 contains
 
-  !> Which modes have entries that are 0 or one other value, (m): these are not rounded. `sharing`: the ranks that share
-  !> the points.
+  !> Which modes are not rounded, (m): those with entries that are 0 or one other value, and constant on their body. A mode
+  !> that is not changes when modes are made orthogonal, whatever its entries. `sharing`: the ranks that share the points.
   function exact_modes(problem, sharing) result(exact)
     type(fuge_problem), intent(in) :: problem
     type(shared_ranks), intent(in), optional :: sharing
     logical :: exact(problem%mode_count())
     type(shared_ranks) :: ranks
     real(dp) :: extremes(2)
-    integer :: j
+    integer :: j, k
 
     exact = .true.
     if (.not. allocated(problem%modes)) return
@@ -35,8 +35,27 @@ contains
       end associate
       call ranks%raise(extremes)
       exact(j) = extremes(1) <= -extremes(2)
+      do k = 1, size(exact)
+        if (k /= j .and. exact(j)) exact(j) = is_constant_beside(problem%modes(:, j), problem%modes(:, k), ranks)
+      end do
     end do
   end function exact_modes
+
+  !> Does a mode move either no point that the `other` one moves, or all of them?
+  function is_constant_beside(mode, other, ranks) result(constant)
+    real(dp), intent(in) :: mode(:), other(:)
+    type(shared_ranks), intent(in) :: ranks
+    logical :: constant
+    real(dp) :: found(2)
+    integer :: k
+
+    found = 0.0_dp
+    do k = 1, size(mode)
+      if (abs(other(k)) > 0.0_dp) found(merge(1, 2, abs(mode(k)) > 0.0_dp)) = 1.0_dp
+    end do
+    call ranks%raise(found)
+    constant = .not. all(found > 0.0_dp)
+  end function is_constant_beside
 
   !> How much the last digits of the modes change the gap of point `k`, length, under `motion` (m); `exact` (m) as from
   !> `exact_modes`.
