@@ -146,7 +146,8 @@ contains
       if (looks_inside(mesh, element, found(:count, k))) then
         call report(info, FUGE_ERR_MESH, 'surface '//quoted(name)//': face S'//text(mesh%surface(surface)%face(k)) &
                     //' of element '//text(mesh%element(element))//' looks into the element, whose nodes are ' &
-                    //'numbered the wrong way round: number them as the type '//trim(mesh%element_type(element))//' requires')
+                    //'numbered the wrong way round: number them as the type ' &
+                    //trim(mesh%element_type(element))//' requires')
         return
       end if
     end do

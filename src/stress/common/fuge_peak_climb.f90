@@ -25,6 +25,8 @@ module fuge_peak_climb
   real(dp), parameter :: LEAST_ROUNDINGS = 64.0_dp
   !> Newton's step is at most so many steps of the stencil along each axis.
   real(dp), parameter :: REACH = 2.0_dp
+  !> A slope above this part of the curvature, in steps of the stencil, is not that along a ridge.
+  real(dp), parameter :: STEEP = 0.1_dp
   !> A curvature below this part of the greatest derivative counts as no curvature.
   real(dp), parameter :: LEAST_CURVATURE = 1.0e-6_dp
   integer, parameter :: MOST_ROUNDS = 120
@@ -47,8 +49,8 @@ module fuge_peak_climb
 contains
 
   !> The start that leads to the largest value, moved to its maximum, and how flat that is: 1 if it is curved equally
-  !> along all axes, 0 on a ridge. `axes` of the surface: 1 on a line, the coordinates being x and z, or 2. Errors: those
-  !> of the field, FUGE_ERR_MEMORY.
+  !> along all axes, 0 on a ridge. `axes` of the surface: 1 on a line, the coordinates being x and z, or 2. Errors:
+  !> those of the field, FUGE_ERR_MEMORY.
   subroutine climb(field, axes, measure, starts, best, flatness, info)
     class(stress_field), intent(inout) :: field
     integer, intent(in) :: axes, measure
@@ -181,8 +183,13 @@ contains
       one%active = one%best%value - minval(value) > NEARLY_SAME*one%best%value .and. one%step > one%least_step
     if (.not. one%active) return
     call fit(axes, value, gradient, hessian)
-    one%flatness = flatness_of(hessian)
     room = (one%middle(3) - one%best%least_depth)/one%step
+    if (room < 1.5_dp .and. gradient(axes) < -STEEP*maxval(abs(hessian))) then
+      ! It falls from the bound on: no ridge leads away from there.
+      one%flatness = flatness_of(hessian(:axes - 1, :axes - 1))
+    else
+      one%flatness = flatness_of(hessian)
+    end if
     offset = best_offset(gradient, hessian, room)
     gain = dot_product(gradient, offset) + 0.5_dp*dot_product(offset, matmul(hessian, offset))
     one%promise = max(one%best%value, value(1) + 1.5_dp*max(gain, 0.0_dp)) &
