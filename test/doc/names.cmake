@@ -10,8 +10,8 @@ string(REPLACE ";" "," page "${page}")
 set(declared)
 file(GLOB_RECURSE sources "${ROOT}/src/*.f90")
 foreach(source IN LISTS sources)
-  file(STRINGS "${source}" lines
-    REGEX "^ *(((pure|elemental|impure|recursive) )*(subroutine|function|module) |(type|procedure|generic)[^!]*:: )[a-z]")
+  file(STRINGS "${source}" lines REGEX
+    "^ *(((pure|elemental|impure|recursive) )*(subroutine|function|module) |(type|procedure|generic)[^!]*:: )[a-z]")
   string(REGEX REPLACE "([^;]*:: |[^;]*(subroutine|function|module) )([a-z_0-9]+)[^;]*" "\\3" lines "${lines}")
   list(APPEND declared ${lines})
 endforeach()

@@ -283,8 +283,8 @@ contains
     end do
   end function augmentation_entries
 
-  !> A compliance for a block that has none: the largest of alpha, or where alpha is zero one by which the loads displace
-  !> as much as the least gap or play; 1 without loads or lengths.
+  !> A compliance for a block that has none: the largest of alpha, or where alpha is zero one by which the loads
+  !> displace as much as the least gap or play; 1 without loads or lengths.
   pure function stand_in_compliance(canonical) result(compliance)
     type(canonical_problem), intent(in) :: canonical
     real(dp) :: compliance

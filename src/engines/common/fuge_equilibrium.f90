@@ -14,8 +14,9 @@ module fuge_equilibrium
 
   public :: find_equilibrium, find_newest, is_in_equilibrium, is_negligible, proves_no_equilibrium
 
-  !> A point whose work is below this fraction of the largest possible one does not close along the remainder. A remainder
-  !> below this fraction of a resultant, or of its terms, may be the rounding of the data that the resultant was made of.
+  !> A point whose work is below this fraction of the largest possible one does not close along the remainder. A
+  !> remainder below this fraction of a resultant, or of its terms, may be the rounding of the data that the resultant
+  !> was made of.
   real(dp), parameter :: NEGLIGIBLE = 1.0e-11_dp
   !> A remainder of so many units in the last place of a resultant, or of its terms, is rounding.
   real(dp), parameter :: ROUNDINGS = 64.0_dp

@@ -16,8 +16,9 @@ module fuge_motion_rounding
 
 contains
 
-  !> Which modes are not rounded, (m): those with entries that are 0 or one other value, and constant on their body. A mode
-  !> that is not changes when modes are made orthogonal, whatever its entries. `sharing`: the ranks that share the points.
+  !> Which modes are not rounded, (m): those with entries that are 0 or one other value, and constant on their body. A
+  !> mode that is not constant changes when modes are made orthogonal, whatever its entries. `sharing`: the ranks that
+  !> share the points.
   function exact_modes(problem, sharing) result(exact)
     type(fuge_problem), intent(in) :: problem
     type(shared_ranks), intent(in), optional :: sharing

@@ -66,7 +66,7 @@ contains
   !> `coarse_settings` those of coarser grids, `settings` those of the finest one; `scene` a simple
   !> one; `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the
   !> finest grid, otherwise unchanged, because the window would be too large or the operator has none, nor that coarser
-  !> grid; `least_compliance` as in contact_iterate, which a whole grid that needs no step cannot tell, 0 if not `solved`.
+  !> grid; `least_compliance` as in contact_iterate, unknown to a whole grid that needs no step, 0 unless `solved`.
   !> Eleven arguments: two settings and three results. Errors: those of find_contact_set, FUGE_ERR_MEMORY.
   subroutine solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, &
                              least_compliance, info)

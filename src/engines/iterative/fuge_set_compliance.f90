@@ -137,7 +137,8 @@ contains
   end subroutine remove_rigid_part
 
   !> Conjugate gradients from the lengths of `probe` on, until the smallest value of Lanczos has settled: the compliance
-  !> that it stands for, 0 where the operator is singular, negative where no lengths are left. Errors: those of the operator and of its preconditioner.
+  !> that it stands for, 0 where the operator is singular, negative where no lengths are left. Errors: those of the
+  !> operator and of its preconditioner.
   subroutine find_smallest_value(operator, scene, preconditioner, probe, value, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
