@@ -108,5 +108,46 @@ def growth_table(data):
     return table(head, rows)
 
 
+def solved_spheres(data):
+    """Rows of fuge with the fastest other code on the same sphere, as (row, seconds, name), the smallest sphere first."""
+    for own in sorted(data.where(problem="sphere", method="iterative_fft", tolerance=TOLERANCE["sphere"]),
+                      key=lambda row: row["n"]):
+        peers = [(total(row), name) for method, name in ALL_CODES.items()
+                 for row in data.where(problem="sphere", n=own["n"], method=method, tolerance=TOLERANCE["sphere"])
+                 if not row["failure"]]
+        if peers:
+            yield own, *min(peers)
+
+
+def peer_ratios(data, problem):
+    """Times of the fastest other code over those of fuge, on each size of a problem that another code has solved."""
+    for own in data.where(problem=problem, method="iterative_fft", tolerance=TOLERANCE[problem]):
+        times = [total(row) for method in ALL_CODES
+                 for row in data.where(problem=problem, n=own["n"], method=method, tolerance=TOLERANCE[problem])
+                 if not row["failure"]]
+        if times:
+            yield min(times)/total(own)
+
+
+def span(ratios):
+    return f"{min(ratios):.1f} to {max(ratios):.1f}"
+
+
+def speed_sentence(data):
+    """The claim of README on areas: the smallest and the largest sphere that another code has solved, and the span of
+    the times of the fastest other code over those of fuge."""
+    spheres = list(solved_spheres(data))
+    rough = [ratio for problem in ROUGH for ratio in peer_ratios(data, problem)]
+    if not spheres or not rough:
+        return ""
+    (small, small_time, small_name), (large, large_time, large_name) = spheres[0], spheres[-1]
+    return (f"**Speed**: a sphere on {side(small)} x {side(small)} cells, for an error of {short(small['error_pressure'])}, "
+            f"takes {seconds(total(small))}, and {seconds(small_time)} with the fastest other contact code measured, "
+            f"{small_name}; on {side(large)} x {side(large)} cells, for {short(large['error_pressure'])}, "
+            f"{seconds(total(large))} and {seconds(large_time)} with {large_name}. The fastest other code takes "
+            f"{span(list(peer_ratios(data, 'sphere')))} times as long for spheres, and {span(rough)} times for rough "
+            "surfaces.")
+
+
 def tables(data):
     return {"areas": comparison_table(data), "area_orders": order_table(data), "area_growth": growth_table(data)}

@@ -3,8 +3,8 @@
     python report.py DIRECTORY [DOCUMENT ...]
 
 writes DIRECTORY/speed_error.csv, growth.csv, area_growth.csv and tables.md; in each DOCUMENT it replaces the text
-between `<!-- NAME begin -->` and `<!-- NAME end -->`. Needs only Python. What was not measured is
-omitted.
+between `<!-- NAME begin -->` and `<!-- NAME end -->`. What was not measured stays as it is, and is named, as are tables
+that are typed by hand. Needs only Python.
 """
 import csv
 import math
@@ -12,14 +12,23 @@ import os
 import re
 import statistics
 import sys
+import textwrap
 
 import area_report
-from report_text import Table, cell, fit, memory, power, seconds, short, table, total
+from report_text import Table, cell, fit, memory, power, seconds, short, table, tidied, total
 
 KNOWN = ("quartic", "cylinder", "wave", "flat", "tilted", "lifted")
-PEERS = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls", "tamaas", *area_report.CODES)
+QUADRATIC = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls")
+PEERS = (*QUADRATIC, "tamaas", *area_report.CODES)
+# README compares line contacts of at least so many points.
+SMALLEST_LINE = 32
 # Programs bound_*, each a part of one table.
 BOUNDS = ("dense", "path", "fft", "surface", "condensation")
+# Other programs that write their tables themselves, by the name of their place in the manual.
+PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", "products_of_scenes": "scenes",
+            "steps": "load_steps", "stresses": "stresses", "rough": "rough_grids"}
+# The rows of these that the manual has; all of the others.
+ROWS = {"graded": r"\| (?:contact|---|(?:cylinder|flat|lifted) \| (?:64|256) )"}
 ENGINES = ("tableau", "active_set", "iterative_dense", "iterative_fft")
 # Errors that differ by less are rounding and the remaining residual of the solve.
 ROUNDING = 2e-12
@@ -245,12 +254,23 @@ def crossing_list(data):
     return "".join(lines)
 
 
-def machine(directory):
-    path = os.path.join(directory, "machine.txt")
+def contents(directory, name):
+    """The text of a file; empty without it."""
+    path = os.path.join(directory, name)
     if not os.path.exists(path):
         return ""
     with open(path) as words:
         return words.read()
+
+
+def machine_texts(directory):
+    """The machine, the commit and the day, for the place where they are named and for the top of the page."""
+    said = contents(directory, "machine.txt")
+    if not said:
+        return {}
+    own = said.split("Peers: ")[0].strip().rstrip(".")
+    return {"machine": said, "measured": f"All is measured by one run of `script/bench --peers --doc`: {own}.\n",
+            "older": ""}
 
 
 def bound_table(directory):
@@ -266,13 +286,28 @@ def bound_table(directory):
     return head + "".join(rows)
 
 
-def accuracy_table(directory):
-    """What `accuracy` has written."""
-    path = os.path.join(directory, "accuracy.md")
-    if not os.path.exists(path):
+def line_ratios(data, n):
+    """Times of the fastest code for quadratic programs over those of the active set, on contacts with n points."""
+    for problem in KNOWN:
+        own = data.one(problem=problem, method="active_set", n=n)
+        times = [total(row) for method in QUADRATIC for row in data.where(problem=problem, method=method, n=n, failure="")]
+        if own and times:
+            yield min(times)/total(own)
+
+
+def speed_text(data):
+    """The claims of README: the span of all sizes, not the best one."""
+    areas = area_report.speed_sentence(data)
+    sizes = sorted({row["n"] for row in data.where(method="active_set") if row["n"] >= SMALLEST_LINE})
+    ratios = [(n, list(line_ratios(data, n))) for n in sizes]
+    ratios = [(n, found) for n, found in ratios if len(found) == len(KNOWN)]
+    if not areas or not ratios:
         return ""
-    with open(path) as lines:
-        return lines.read()
+    (few, small), (many, large) = ratios[0], ratios[-1]
+    lines = (f" Line contacts by a matrix take the fastest of {len(QUADRATIC)} quadratic programming codes "
+             f"{area_report.span(small)} times as long with {few} points, and {area_report.span(large)} times with {many} "
+             "(`script/bench --peers`).")
+    return textwrap.fill(areas + lines, 120, break_on_hyphens=False) + "\n"
 
 
 def main():
@@ -281,13 +316,17 @@ def main():
     write_picture(os.path.join(directory, "speed_error.csv"), data)
     write_growth(os.path.join(directory, "growth.csv"), data)
     area_report.write_growth(os.path.join(directory, "area_growth.csv"), data)
-    parts = {"machine": machine(directory), "choice": choice_table(data), "orders": order_table(data),
-             "dense": dense_table(data), "products": products_table(data), "growth": growth_table(data),
-             "crossings": crossing_list(data), "bound": bound_table(directory), "accuracy": accuracy_table(directory), **area_report.tables(data)}
+    parts = {"choice": choice_table(data), "orders": order_table(data), "dense": dense_table(data),
+             "products": products_table(data), "growth": growth_table(data), "crossings": crossing_list(data),
+             "bound": bound_table(directory), "speed": speed_text(data), **area_report.tables(data),
+             **{name: tidied(contents(directory, f"{program}.md"), ROWS.get(name, ""))
+                for name, program in PROGRAMS.items()}}
+    said = machine_texts(directory)
     with open(os.path.join(directory, "tables.md"), "w") as out:
-        out.write("\n".join(parts.values()))
+        out.write("\n".join(part for part in (said.get("machine", ""), *parts.values()) if part))
+    measured = {name: part for name, part in parts.items() if part} | said
     for path in sys.argv[2:]:
-        fill(path, parts | hard_tables(os.path.join(directory, "hard")))
+        fill(path, measured | hard_tables(os.path.join(directory, "hard")))
 
 
 def hard_tables(directory):
@@ -296,17 +335,30 @@ def hard_tables(directory):
         return {}
     with open(os.path.join(directory, "scenes.md")) as scenes, open(os.path.join(directory, "hard.md")) as peers:
         plain, general = scenes.read().split("\n\n")
-        return {"scenes": plain + "\n", "general": general, "peers": peers.read()}
+        return {"hard_scenes": plain + "\n", "general": general, "peers": peers.read()}
 
 
 def fill(path, parts):
     with open(path) as document:
         words = document.read()
-    for name, part in parts.items():
+    for name in re.findall(r"<!-- (\w+) begin -->", words):
+        if name not in parts:
+            print(f"fuge: {path}: '{name}' is not measured, and stays as it is", file=sys.stderr)
+            continue
         mark = re.compile(f"(<!-- {name} begin -->\n).*?(<!-- {name} end -->)", re.S)
-        words = mark.sub(lambda found: found.group(1) + part + found.group(2), words)
+        words = mark.sub(lambda found: found.group(1) + parts[name] + found.group(2), words)
+    for number, line in typed_tables(words):
+        print(f"fuge: {path}, line {number}: a table with figures that is typed by hand: {line[:60]}", file=sys.stderr)
     with open(path, "w") as document:
         document.write(words)
+
+
+def typed_tables(words):
+    """Tables with times in them that no mark holds: the number of the line, and the head."""
+    blank = re.sub(r"<!-- (\w+) begin -->.*?<!-- \1 end -->", lambda found: "\n" * found[0].count("\n"), words, flags=re.S)
+    for found in re.finditer(r"^(\|[^\n]*)\n\|[ :|-]+\n((?:\|[^\n]*\n)+)", blank, re.M):
+        if re.search(r"\d (?:ms|us|µs|s|MB|GB) ", found[2]) or "µs" in found[1]:
+            yield blank[:found.start()].count("\n") + 1, found[1]
 
 
 main()

@@ -25,6 +25,23 @@ class Table:
         return found[0] if found else None
 
 
+def tidied(text, rows=""):
+    """The tables of a program as in the manual: 1.5E-03 as 1.5e-3, .31 as 0.31, and single blanks. `rows`: a pattern
+    with which a line has to begin."""
+    lines = [re.sub(r" +", " ", line).strip() for line in text.splitlines()
+             if not line.strip() or (line.startswith("|") and re.match(rows, line))]
+    text = re.sub(r"\b(\d)(\.\d*)?E([+-]\d+)", _plain_power, "\n".join(lines).strip("\n"))
+    text = re.sub(r"(?<![\d\w])\.(?=\d)", "0.", text)
+    return text + "\n" if text else ""
+
+
+def _plain_power(found):
+    power = int(found[3])
+    if -1 <= power <= 2:
+        return f"{float(found[0]):g}"
+    return found[1] + (found[2] or "").rstrip("0").rstrip(".") + f"e{power}"
+
+
 def seconds(value):
     if value is None:
         return ""

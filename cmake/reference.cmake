@@ -107,13 +107,17 @@ macro(fuge_read_module path)
 endmacro()
 
 # The next three return lines of the page in `described`.
-# A procedure; `said` is the docstring of its binding, if it has one.
+# A procedure; `said` is the docstring of its binding, if it has one. It is left out where that of the procedure begins
+# with the same words.
 function(fuge_describe_procedure name said)
-  set(text "```fortran\n${head_${name}}```\n\n${said}")
-  if(NOT "${said}" STREQUAL "${doc_${name}}")
-    string(APPEND text "${doc_${name}}")
+  string(REGEX REPLACE "[ .\n]+$" "" start "${said}")
+  string(REPLACE "\n" " " start "${start}")
+  string(REPLACE "\n" " " doc "${doc_${name}}")
+  string(FIND "${doc}" "${start}" place)
+  if(place EQUAL 0)
+    set(said "")
   endif()
-  set(described "${text}\n" PARENT_SCOPE)
+  set(described "```fortran\n${head_${name}}```\n\n${said}${doc_${name}}\n" PARENT_SCOPE)
 endfunction()
 
 function(fuge_describe_type name)
