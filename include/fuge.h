@@ -85,7 +85,8 @@ enum {
                                       contact does not resist */
   FUGE_WARN_ILL_CONDITIONED = 3,   /* done, but the forces may be far off: the equations hold, but
                                       info.force_error is above 1e-3 */
-  FUGE_WARN_PAIRS = 4,             /* done, but pairs share a node, or all of their gaps open */
+  FUGE_WARN_PAIRS = 4,             /* done, but pairs share a node */
+  FUGE_WARN_NO_CONTACT = 5,        /* done, but no point touches and all gaps open */
   FUGE_ERR_SIZE = -1,              /* a size or an index is invalid, or arrays differ in length:
                                       n < 1, lda < n, a range beyond the last entry */
   FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */
@@ -439,6 +440,16 @@ int fuge_operator_halfplane(int n, double spacing, double e_star, int element, i
  * FUGE_ERR_UNSUPPORTED for another operator, FUGE_ERR_MEMORY. */
 int fuge_operator_set_threads(fuge_operator *op, int threads, char *message, size_t len);
 
+/* The product u = A f of any operator, without a contact problem: the displacements by given
+ * forces.
+ *   n  in   the number of points of op
+ *   f  in   n forces, of either sign
+ *   u  out  n displacements, datum included; length.  It may be the same array as f
+ * Several threads may call it at once.  FUGE_ERR_SIZE for another n, FUGE_ERR_NOT_FINITE,
+ * FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; for a callback operator FUGE_ERR_CALLBACK. */
+int fuge_operator_apply(const fuge_operator *op, int n, const double *f, double *u,
+                        char *message, size_t len);
+
 /* Free and set *op to NULL; NULL and *op == NULL are fine.  Free its solvers first. */
 void fuge_operator_free(fuge_operator **op);
 
@@ -454,7 +465,8 @@ int fuge_solver_new(const fuge_operator *op, const fuge_options *opt, fuge_solve
 /* Free and set *s to NULL; NULL and *s == NULL are fine. */
 void fuge_solver_free(fuge_solver **s);
 
-/* Progress of a solve, called once in each iteration.
+/* Progress of a solve, called once in each iteration, and now and then while the
+ * iterative engine takes long to estimate the error of the forces.
  *   iteration  increases from call to call, from 1 in each solve
  *   residual   >= 0, no unit.  Tableau: z relative to its start; other engines: the
  *              largest scaled violation.  It need not decrease monotonically

@@ -156,6 +156,14 @@ int fuge_read_surface(const char *path, int format, int fill, int capacity, doub
 int fuge_write_surface(const char *path, int nx, int ny, const double *spacing, const double *height,
                        char *message, size_t len);
 
+/* Fill the points of a surface that were not measured, as fuge_read_surface does.
+ *   height  in/out  nx*ny, point i + nx*j; each NaN becomes the mean height of its neighbours, from
+ *                   the rim of a hole inwards
+ *   filled  out     number of points that were filled; NULL if not needed
+ * FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE for infinity and if all heights are NaN, FUGE_ERR_OVERFLOW,
+ * FUGE_ERR_MEMORY. */
+int fuge_fill_surface(int nx, int ny, double *height, int *filled, char *message, size_t len);
+
 enum { FUGE_LEVEL_PLANE = 2 };  /* form, besides FUGE_LEVEL_MEAN: the least-squares plane */
 
 /* Subtract the mean or the plane from height (nx*ny, point i + nx*j), in place. */

@@ -70,8 +70,8 @@ int fuge_bodies_add_pair(fuge_bodies *bodies, int method, int normals, const dou
 /* Solve; opt may be NULL.  The matrix of all bodies is kept as a band, whose width depends on
  * the numbering of degrees of freedom; for all but small models use fuge_bodies_solve_sparse,
  * in the library fuge_sparse, which needs CHOLMOD.  Warnings: those of fuge_solve, else those
- * of fuge_body_condense and fuge_body_recover, or FUGE_WARN_PAIRS, also where no point touches
- * and loads and supports open every gap: they pull, or all surfaces look into their bodies.
+ * of fuge_body_condense and fuge_body_recover, or FUGE_WARN_PAIRS, or FUGE_WARN_NO_CONTACT:
+ * loads and supports open every gap; they pull, or all surfaces look into their bodies.
  * Errors name the body or the pair, the results of the solve before stay: those of
  * fuge_pairs_find, fuge_body_condense and fuge_solve; FUGE_ERR_GAP also where supports hold two
  * surfaces inside each other; FUGE_ERR_MESH also for a surface that looks into its body, which

@@ -64,9 +64,8 @@ module fuge
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense
   use fuge_status, only: fuge_info, fuge_status_text, FUGE_MESSAGE_LENGTH, &
     FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_PAIRS, &
-    FUGE_ERR_SIZE, &
-    FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, &
-    FUGE_ERR_NOT_SYMMETRIC, &
+    FUGE_WARN_NO_CONTACT, FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, &
+    FUGE_ERR_ELEMENT, FUGE_ERR_GRID, FUGE_ERR_NOT_SYMMETRIC, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, &
     FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED, FUGE_ERR_FILE, &
     FUGE_ERR_GAP, FUGE_ERR_MODES, FUGE_ERR_DOF, FUGE_ERR_MESH
@@ -81,6 +80,7 @@ module fuge
   use fuge_stress_peak_type, only: fuge_stress_peak, FUGE_MEASURE_TRESCA, FUGE_MEASURE_VON_MISES, FUGE_PEAK_INSIDE, &
     FUGE_PEAK_SINGULAR, FUGE_PEAK_SURFACE
   use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
+  use fuge_surface_filling, only: fuge_fill_surface
   use fuge_surface_levelling, only: fuge_level_surface, FUGE_LEVEL_PLANE
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_surface_type, only: fuge_surface, FUGE_FILE_ANY, FUGE_FILE_GRID, FUGE_FILE_POINTS, FUGE_FILE_SDF

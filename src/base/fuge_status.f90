@@ -26,8 +26,10 @@ module fuge_status
   integer, parameter, public :: FUGE_WARN_NOT_UNIQUE = 2
   !> Solved, but the problem is so badly conditioned that the forces may be far off although the equations hold.
   integer, parameter, public :: FUGE_WARN_ILL_CONDITIONED = 3
-  !> Found, but a node is a contact point of two pairs of surfaces; solved, but no point touches and all gaps open.
+  !> Found, but a node is a contact point of two pairs of surfaces.
   integer, parameter, public :: FUGE_WARN_PAIRS = 4
+  !> Solved, but no point of the bodies touches and all gaps open: loads pull, or surfaces look into their bodies.
+  integer, parameter, public :: FUGE_WARN_NO_CONTACT = 5
   !> A size or an index is invalid, or arrays differ in length.
   integer, parameter, public :: FUGE_ERR_SIZE = -1
   !> An array is not contiguous; in C a pointer is NULL.
@@ -77,7 +79,7 @@ module fuge_status
 
   !> The range of the codes.
   integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_MESH
-  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_PAIRS
+  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_NO_CONTACT
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
@@ -108,7 +110,8 @@ module fuge_status
     'done, but the residual is above the tolerance', &
     'done, but the solution is not unique', &
     'done, but the forces may be far off', &
-    'done, but pairs share a node, or all of their gaps open']
+    'done, but pairs share a node', &
+    'done, but no point touches and all gaps open']
 
   character(len=*), parameter :: UNKNOWN_STATUS = 'unknown status'
 

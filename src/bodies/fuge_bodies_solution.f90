@@ -54,8 +54,9 @@ contains
   !> Memory and time beyond the factor of K grow with the contact points, those that can touch, not with the surfaces:
   !> options%reach of a pair limits them.
   !> Warnings: those of `solve` of fuge_solver; else that of `fuge_condense`, of `recover` of fuge_condensed, or
-  !> FUGE_WARN_PAIRS, also where no point touches and all gaps open. Errors, `contact` unchanged, name the body or the
-  !> pair: those of `fuge_join_bodies`, `fuge_condense` and `solve`; degrees of freedom are those of the body named.
+  !> FUGE_WARN_PAIRS; FUGE_WARN_NO_CONTACT, where no point touches and all gaps open.
+  !> Errors, `contact` unchanged, name the body or the pair: those of `fuge_join_bodies`, `fuge_condense` and `solve`;
+  !> degrees of freedom are those of the body named.
   subroutine fuge_solve_bodies(stiffness, bodies, surface_pairs, contact, info, options)
     class(fuge_stiffness), intent(inout) :: stiffness
     type(fuge_elastic_body), intent(in) :: bodies(:)

@@ -17,7 +17,7 @@ module fuge_body_joining
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_PAIRS
+    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_NO_CONTACT
   use fuge_symmetric_columns, only: symmetric_columns
   implicit none
   private
@@ -128,7 +128,7 @@ contains
   !> Warn if no point touches and every gap opens: loads and supports pull, or all surfaces look into their bodies.
   !>
   !> After `recover` of fuge_condensed, with the `solution` and the `displacement` of all degrees of freedom. `info` has
-  !> FUGE_WARN_PAIRS then, unless it has another warning or an error.
+  !> FUGE_WARN_NO_CONTACT then, unless it has another warning or an error.
   pure subroutine warn_of_opening(self, solution, displacement, info)
     class(fuge_joined_bodies), intent(in) :: self
     type(fuge_solution), intent(in) :: solution
@@ -138,8 +138,9 @@ contains
     if (info%status /= FUGE_DONE .or. any(abs(solution%force) > 0.0_dp)) return
     if (.not. any(abs(displacement) > 0.0_dp)) return
     if (minval(solution%gap - self%pairs%gap) <= NO_OPENING*maxval(abs(displacement))) return
-    call report(info, FUGE_WARN_PAIRS, 'no point touches, and loads and supports open every gap: if they press, the ' &
-                //'surfaces of each pair look into their bodies: reverse the order of the nodes of all their faces')
+    call report(info, FUGE_WARN_NO_CONTACT, 'no point touches, and loads and supports open every gap: if they ' &
+                //'press, the surfaces of each pair look into their bodies: reverse the order of the nodes of all ' &
+                //'their faces')
   end subroutine warn_of_opening
 
   !> Take over all bodies, and count their degrees of freedom.

@@ -1,13 +1,18 @@
 !> C bindings, section "operators".
 module fuge_c_operator
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_loc, c_associated, c_f_pointer
+  use fuge_c_arrays, only: find_array
   use fuge_c_types, only: operator_handle, report_to_c, require_count, require_pointer, set_handle, take_handle
+  use fuge_constants, only: LARGEST_EXPONENT
   use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_input_checks, only: check_finite, is_finite_everywhere
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
+  use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, &
+    FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
@@ -79,6 +84,83 @@ contains
     end if
     status = report_to_c(info, message, length)
   end function c_operator_set_threads
+
+  function c_operator_apply(operator, n, force, displacement, message, length) &
+    bind(c, name='fuge_operator_apply') result(status)
+    type(c_ptr), intent(in), value :: operator, force, displacement, message
+    integer(c_int), intent(in), value :: n
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(operator_handle), pointer :: handle
+    real(c_double), pointer :: forces(:), displacements(:)
+    real(c_double), allocatable :: product(:)
+    type(fuge_info) :: info
+
+    nullify (handle)
+    call require_pointer(operator, 'op', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(operator, handle)
+      if (n /= handle%operator%points()) call report(info, FUGE_ERR_SIZE, 'n = '//text(int(n))//', but op has ' &
+                                                     //text(handle%operator%points())//' points')
+    end if
+    call find_array(n, force, 'f', forces, info)
+    call find_array(n, displacement, 'u', displacements, info)
+    if (.not. info%failed()) call check_forces(forces, info)
+    if (.not. info%failed()) call find_product(handle%operator, forces, product, info)
+    if (.not. info%failed()) displacements = product
+    status = report_to_c(info, message, length)
+  end function c_operator_apply
+
+  !> Refuse forces that are not finite, or too large to be summed.
+  pure subroutine check_forces(force, info)
+    real(c_double), intent(in) :: force(:)
+    type(fuge_info), intent(inout) :: info
+
+    call check_finite(force, 'f', info)
+    if (info%failed()) return
+    if (exponent(maxval(abs(force))) > LARGEST_EXPONENT) &
+      call report(info, FUGE_ERR_OVERFLOW, 'f has a force of '//text(maxval(abs(force))) &
+                  //': choose a larger unit of force')
+  end subroutine check_forces
+
+  !> u = A f with the datum, in an array of its own, because the caller's stays as it is after an error.
+  subroutine find_product(operator, force, displacement, info)
+    class(fuge_operator), intent(in) :: operator
+    real(c_double), intent(in) :: force(:)
+    real(c_double), allocatable, intent(out) :: displacement(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (displacement(size(force)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(force))//' displacements')
+      return
+    end if
+    call multiply(operator, force, displacement, info)
+    ! No function of the caller is to blame for a product of the library: it is out of range, which is judged below.
+    if (info%status == FUGE_ERR_CALLBACK .and. is_of_library(operator)) info = fuge_info()
+    if (info%failed()) return
+    displacement = displacement + operator%datum()*sum(force)
+    if (.not. is_finite_everywhere(displacement)) &
+      call report(info, FUGE_ERR_OVERFLOW, 'the displacements are too large: choose units in which forces and ' &
+                  //'compliances are nearer to 1')
+  end subroutine find_product
+
+  !> Does the library itself form the products of the operator?
+  pure function is_of_library(operator) result(own)
+    class(fuge_operator), intent(in) :: operator
+    logical :: own
+
+    own = .false.
+    select type (operator)
+    type is (fuge_dense_operator)
+      own = .true.
+    type is (fuge_halfplane_operator)
+      own = .true.
+    type is (fuge_halfspace_operator)
+      own = .true.
+    end select
+  end function is_of_library
 
   !> Put `operator` behind a handle at `destination`; FUGE_ERR_MEMORY.
   subroutine new_operator(operator, destination, info)

@@ -7,6 +7,7 @@ module fuge_c_surfaces
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
+  use fuge_surface_filling, only: fuge_fill_surface
   use fuge_surface_levelling, only: fuge_level_surface
   use fuge_surface_type, only: fuge_surface
   implicit none
@@ -86,6 +87,21 @@ contains
     if (.not. info%failed()) call fuge_write_surface(from_c_string(path), surface, info)
     status = report_to_c(info, message, length)
   end function c_write_surface
+
+  function c_fill_surface(nx, ny, height, filled, message, length) bind(c, name='fuge_fill_surface') result(status)
+    integer(c_int), intent(in), value :: nx, ny
+    type(c_ptr), intent(in), value :: height, filled, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: heights(:, :)
+    type(fuge_info) :: info
+    integer :: holes
+
+    call find_heights(nx, ny, height, heights, info)
+    if (.not. info%failed()) call fuge_fill_surface(heights, info, holes)
+    if (.not. info%failed()) call copy_integers([holes], filled)
+    status = report_to_c(info, message, length)
+  end function c_fill_surface
 
   function c_level_surface(nx, ny, height, form, message, length) bind(c, name='fuge_level_surface') result(status)
     integer(c_int), intent(in), value :: nx, ny, form

@@ -29,9 +29,9 @@ module fuge_stiffness_type
   contains
     !> Copy a matrix in compressed columns, whatever the storage.
     procedure(set_compressed_columns), deferred :: set_columns
-    !> Number of degrees of freedom, 0 before the matrix is set.
+    !> Number of degrees of freedom; 0 before the matrix is set.
     procedure(count_degrees), deferred :: degrees
-    !> The diagonal.
+    !> The diagonal of K.
     procedure(get_diagonal), deferred :: diagonal
     !> K u, and |K| |u|, which scales the rounding error of K u.
     procedure(multiply_vector), deferred :: multiply

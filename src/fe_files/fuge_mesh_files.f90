@@ -6,7 +6,7 @@ module fuge_mesh_files
   use fuge_mesh_draft, only: finish_mesh, mesh_draft
   use fuge_mesh_lines, only: add_element_nodes, mesh_block, read_element_line, read_node_line, read_set_line, &
     read_surface_line
-  use fuge_mesh_type, only: fuge_mesh, move_mesh, NAME_LENGTH, TYPE_LENGTH
+  use fuge_mesh_type, only: fuge_mesh, move_mesh, move_text, NAME_LENGTH, TYPE_LENGTH
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
   use fuge_text_fields, only: quoted
@@ -50,7 +50,7 @@ contains
     end if
     call finish_mesh(draft, found, info)
     if (info%failed()) return
-    call move_alloc(deck%paths, found%paths)
+    call move_text(deck%paths, found%paths)
     call move_mesh(found, mesh)
   end subroutine fuge_read_mesh
 

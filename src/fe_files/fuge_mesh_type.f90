@@ -4,7 +4,7 @@ module fuge_mesh_type
   implicit none
   private
 
-  public :: move_mesh
+  public :: move_mesh, move_text
 
   !> Longest name of a set or a surface.
   integer, parameter, public :: NAME_LENGTH = 80
@@ -78,7 +78,17 @@ contains
     call move_alloc(from%node_set, to%node_set)
     call move_alloc(from%element_set, to%element_set)
     call move_alloc(from%surface, to%surface)
-    call move_alloc(from%paths, to%paths)
+    call move_text(from%paths, to%paths)
   end subroutine move_mesh
+
+  !> As move_alloc, whose rules for deferred lengths change with Fortran 2023.
+  pure subroutine move_text(from, to)
+    character(len=:), allocatable, intent(inout) :: from, to
+
+    if (allocated(to)) deallocate (to)
+    if (.not. allocated(from)) return
+    to = from
+    deallocate (from)
+  end subroutine move_text
 
 end module fuge_mesh_type

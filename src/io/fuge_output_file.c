@@ -2,26 +2,16 @@
  * descriptor and the buffer of a file whose close has failed.  fuge_text_writer.f90 has the interfaces. And
  * what can be read as a whole, for fuge_text_reader.f90. */
 #define _XOPEN_SOURCE 600
-#include <errno.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <string.h>
+#include "written_file.h"
 #if !defined(_WIN32)
 #include <sys/stat.h>
-#include <unistd.h>
 #endif
-
-/* errno, or another number than 0 where the C library does not set it. */
-static int failure(void) { return errno != 0 ? errno : -1; }
 
 /* Create or replace the file at `path`; NULL, and *error is not 0, if it cannot be opened. */
 void *fuge_output_create(const char *path, int *error)
 {
-  FILE *file;
+  FILE *file = open_anew(path, error);
 
-  errno = 0;
-  file = fopen(path, "wb");
-  *error = file == NULL ? failure() : 0;
   /* The caller has a buffer. */
   if (file != NULL) setvbuf(file, NULL, _IONBF, 0);
   return file;
@@ -35,34 +25,13 @@ int fuge_output_write(void *file, const char *bytes, size_t count)
 }
 
 /* Close the file, which is released in any case; 0 or the error. */
-int fuge_output_close(void *file)
-{
-  errno = 0;
-  return fclose(file) == 0 ? 0 : failure();
-}
+int fuge_output_close(void *file) { return close_written(file); }
 
 /* Empty a file that is not complete, so that nothing takes it for a whole one.  A device or a pipe stays as it is. */
-void fuge_output_empty(const char *path)
-{
-#if defined(_WIN32)
-  FILE *file = fopen(path, "wb");
-
-  if (file != NULL) fclose(file);
-#else
-  if (truncate(path, 0) != 0) errno = 0;
-#endif
-}
+void fuge_output_empty(const char *path) { empty_incomplete(path); }
 
 /* Why: the text of an error, cut or padded with blanks to `length` characters. */
-void fuge_output_reason(int error, char *text, size_t length)
-{
-  const char *reason = error > 0 ? strerror(error) : "unknown reason";
-  size_t known = strlen(reason);
-
-  if (known > length) known = length;
-  memcpy(text, reason, known);
-  memset(text + known, ' ', length - known);
-}
+void fuge_output_reason(int error, char *text, size_t length) { copy_reason(error, text, length); }
 
 /* Is there anything other than a regular file at `path`: a device, a pipe, a folder?  Their size may be unknown or
  * unbounded. */

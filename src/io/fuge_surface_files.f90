@@ -1,6 +1,7 @@
 !> Surfaces, heights on a regular grid, from files and to files.
 module fuge_surface_files
   use fuge_input_checks, only: check_finite
+  use fuge_instrument_files, only: refuse_instrument
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_sdf_header, only: is_sdf
@@ -29,14 +30,16 @@ contains
   !> FUGE_FILE_SDF: the surface data file of ISO 25178-71, text or binary, in metres.
   !>
   !> In text, columns are separated by blanks, tabs, commas or semicolons; numbers have a decimal point and may have an
-  !> exponent after e or d; blank lines, comments from # or ! on and one line of words before the numbers are skipped.
+  !> exponent after e or d; blank lines, comments from # or ! on and, before the numbers, lines of words are skipped:
+  !> those without a number, and those that begin with a word and have fewer columns than the first row.
   !> A point that was not measured is an empty column, NaN or BAD, or missing among points with x and y.
   !>
   !> `surface` is set afresh, lengths in the unit of the file. `format` (default FUGE_FILE_ANY): recognised by the
   !> content, SDF by its first line, points by three columns. `fill` (default .false.): points that were not measured,
   !> which are refused otherwise, get the mean height of their neighbours, from the rim of a hole inwards;
   !> `surface%filled` is their number.
-  !> Errors, `surface` unchanged: FUGE_ERR_FILE with file, line and reason; FUGE_ERR_OPTION for `format`;
+  !> Errors, `surface` unchanged: FUGE_ERR_FILE with file, line and reason, and of a file that is not text the name of
+  !> its format; FUGE_ERR_OPTION for `format`;
   !> FUGE_ERR_MEMORY.
   subroutine fuge_read_surface(path, surface, info, format, fill)
     character(len=*), intent(in) :: path
@@ -59,6 +62,7 @@ contains
       return
     end if
     call file%load(path, info)
+    if (.not. info%failed() .and. .not. is_sdf(file)) call refuse_instrument(file, info)
     if (.not. info%failed() .and. known == FUGE_FILE_ANY) call recognise(file, known, info)
     if (info%failed()) return
     select case (known)

@@ -1,16 +1,48 @@
 !> Heights for points of a surface that were not measured.
 module fuge_surface_filling
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
   use fuge_kinds, only: dp
-  use fuge_surface_heights, only: NOT_MEASURED
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_FINITE
+  use fuge_surface_heights, only: check_heights, NOT_MEASURED
   implicit none
   private
 
-  public :: fill_surface
+  public :: fill_surface, fuge_fill_surface
 
   !> Stands for a point that waits for its height.
   real(dp), parameter :: WAITING = -NOT_MEASURED
 
 contains
+
+  !> Fill the points of a surface that were not measured, as `fuge_read_surface` fills those of a file.
+  !>
+  !> `height` (nx, ny), any numbers >= 1, is changed in place: each NaN becomes the mean height of its neighbours along x
+  !> and along y, from the rim of a hole inwards. `filled` is their number.
+  !> Errors, `height` unchanged and `filled` 0: FUGE_ERR_SIZE without points; FUGE_ERR_NOT_FINITE for infinity, and if all
+  !> heights are NaN; FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  pure subroutine fuge_fill_surface(height, info, filled)
+    real(dp), intent(inout) :: height(:, :)
+    type(fuge_info), intent(out) :: info
+    integer, intent(out), optional :: filled
+    integer :: holes, status
+
+    if (present(filled)) filled = 0
+    call check_heights(height, info, holes=.true.)
+    if (info%failed()) return
+    if (all(ieee_is_nan(height))) then
+      call report(info, FUGE_ERR_NOT_FINITE, 'all heights are NaN: no point was measured to fill the others from')
+      return
+    end if
+    where (ieee_is_nan(height)) height = NOT_MEASURED
+    call fill_surface(height, holes, status)
+    if (status /= 0) then
+      where (height >= NOT_MEASURED) height = ieee_value(height, ieee_quiet_nan)
+      call report(info, FUGE_ERR_MEMORY, 'no memory to fill '//text(holes)//' points')
+    else if (present(filled)) then
+      filled = holes
+    end if
+  end subroutine fuge_fill_surface
 
   !> Give each point whose height is NOT_MEASURED the mean of its neighbours, from the rim of a hole inwards.
   !>

@@ -1,6 +1,6 @@
 !> Heights of a surface: those in the fields of a file, measured or not, and those of a caller.
 module fuge_surface_heights
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
@@ -80,12 +80,17 @@ contains
   end function is_not_measured
 
   !> Refuse a surface without points (FUGE_ERR_SIZE), NaN and infinity (FUGE_ERR_NOT_FINITE), and heights out of range
-  !> (FUGE_ERR_OVERFLOW).
-  pure subroutine check_heights(height, info)
+  !> (FUGE_ERR_OVERFLOW). NaN is let through if `holes` is true.
+  pure subroutine check_heights(height, info, holes)
     real(dp), intent(in) :: height(:, :)
     type(fuge_info), intent(inout) :: info
+    logical, intent(in), optional :: holes
+    character(len=:), allocatable :: hint
+    logical :: may_have_holes
     integer :: i, j
 
+    may_have_holes = .false.
+    if (present(holes)) may_have_holes = holes
     if (size(height) == 0) call report(info, FUGE_ERR_SIZE, 'the surface has no heights')
     do j = 1, size(height, 2)
       do i = 1, size(height, 1)
@@ -94,8 +99,13 @@ contains
           call report(info, FUGE_ERR_OVERFLOW, 'height('//index_text(i)//', '//index_text(j)//') = ' &
                       //text(height(i, j))//' is out of range: choose another unit of length')
         else
+          hint = ''
+          if (ieee_is_nan(height(i, j))) then
+            if (may_have_holes) cycle
+            hint = ': if the point was not measured, fill it by fuge_fill_surface'
+          end if
           call report(info, FUGE_ERR_NOT_FINITE, 'height('//index_text(i)//', '//index_text(j)//') = ' &
-                      //text(height(i, j))//' is not a finite number')
+                      //text(height(i, j))//' is not a finite number'//hint)
         end if
         return
       end do

@@ -20,31 +20,47 @@ module fuge_surface_rows
     integer :: separator = SEPARATOR_NONE
   end type row_form
 
+  !> Where a row is.
+  type :: row_place
+    type(row_form) :: form
+    integer :: line = 0
+    integer(int64) :: first = 1_int64
+    integer(int64) :: last = -1_int64
+  end type row_place
+
 contains
 
   !> Begin the file again and advance to its first row, of which `form` is the form.
   !>
-  !> Blank lines, comments and one line of words before the first row are skipped.
+  !> Before it blank lines, comments, and lines of words are skipped: those without a number, and those that begin with
+  !> a word and have fewer columns than the first row. A line with as many columns may be a damaged row, so it is taken
+  !> for the first one, and refused when it is read.
   !> Error: FUGE_ERR_FILE without a row, or if a line is too long.
   pure subroutine find_first_row(file, form, info)
     type(text_file), intent(inout) :: file
     type(row_form), intent(out) :: form
     type(fuge_info), intent(inout) :: info
-    logical :: exists, words, header
+    type(row_place) :: doubtful
+    logical :: exists, words, begins_with_word
 
     call file%rewind()
-    header = .false.
     do
       call advance_to_row(file, exists, info)
       if (info%failed()) return
-      if (.not. exists) then
-        call file%refuse('the file has no row of numbers', info)
-        return
-      end if
-      call find_form(file%content(file%first:file%last), form, words)
-      if (header .or. .not. words) return
-      header = .true.
+      if (.not. exists) exit
+      call find_form(file%content(file%first:file%last), form, words, begins_with_word)
+      if (words) cycle
+      if (.not. begins_with_word) exit
+      if (form%columns > doubtful%form%columns) doubtful = row_place(form, file%line, file%first, file%last)
     end do
+    if (doubtful%form%columns > 0 .and. (.not. exists .or. doubtful%form%columns >= form%columns)) then
+      form = doubtful%form
+      file%line = doubtful%line
+      file%first = doubtful%first
+      file%last = doubtful%last
+    else if (.not. exists) then
+      call file%refuse('the file has no row of numbers', info)
+    end if
   end subroutine find_first_row
 
   !> Advance to the next line that is not blank or a comment; `exists` is false at the end of the file.
@@ -81,16 +97,18 @@ contains
     end do
   end subroutine count_rows
 
-  !> The form of a row; `words`: none of its columns is a number or a height that was not measured.
-  pure subroutine find_form(line, form, words)
+  !> The form of a row; `words`: none of its columns is a number or a height that was not measured; `begins_with_word`:
+  !> the first one is neither.
+  pure subroutine find_form(line, form, words, begins_with_word)
     character(len=*), intent(in) :: line
     type(row_form), intent(out) :: form
-    logical, intent(out) :: words
+    logical, intent(out) :: words, begins_with_word
     character(len=:), allocatable :: reason
     real(dp) :: value
     integer :: k, first, last, separator, kind
 
     words = .true.
+    begins_with_word = .false.
     k = begin_columns(line)
     do while (k <= len(line))
       call next_column(line, k, first, last, separator)
@@ -101,6 +119,7 @@ contains
       if (words) call read_height(line(first:last), value, reason)
       words = words .and. allocated(reason)
       if (allocated(reason)) deallocate (reason)
+      if (form%columns == 1) begins_with_word = words
     end do
   end subroutine find_form
 

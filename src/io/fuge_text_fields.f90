@@ -56,7 +56,7 @@ contains
     if (kind == FIELD_NOT_FINITE) words = ' is not a finite number'
   end function description
 
-  !> A field for a message: its beginning in quotes, unprintable characters as ?.
+  !> A field for a message: its beginning in quotes, unprintable characters as ?, quotes as '.
   pure function quoted(field) result(quote)
     character(len=*), intent(in) :: field
     character(len=quoted_length(field)) :: quote
@@ -66,6 +66,7 @@ contains
     if (len(field) > QUOTE_LENGTH) quote(QUOTE_LENGTH + 2:) = '..'
     do k = 2, len(quote) - 1
       if (iachar(quote(k:k)) < 32 .or. iachar(quote(k:k)) > 126) quote(k:k) = '?'
+      if (quote(k:k) == '"') quote(k:k) = ''''
     end do
     quote(len(quote):) = '"'
   end function quoted

@@ -23,7 +23,7 @@ module fuge_certificate
   !> Forces dwarf the data if the terms of their displacements exceed the lengths of the data by one over this factor.
   real(dp), parameter :: DWARFED = 1.0e-6_dp
   !> Violations of the gap equation above this may be those of rounding alone.
-  real(dp), parameter :: SUSPECT = 1.0e-10_dp
+  real(dp), parameter :: LEAST_SUSPECT = 1.0e-10_dp
   !> A magnitude below this fraction of the displacement by the largest forces is no scale.
   real(dp), parameter :: NO_SCALE = 256.0_dp*epsilon(1.0_dp)
   !> Lengths left open count as resolved up to this fraction of the data.
@@ -89,17 +89,23 @@ contains
   end subroutine fuge_residual
 
   !> As `fuge_residual`, within a solve: `info` goes on counting products, and its status and
-  !> message change on an error only.
-  subroutine find_violation(operator, problem, solution, violation, info)
+  !> message change on an error only. Errors of the gaps up to `enough` stay as they are, although a further product
+  !> might show that some of them is rounding.
+  subroutine find_violation(operator, problem, solution, violation, info, enough)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     type(fuge_violation), intent(out) :: violation
     type(fuge_info), intent(inout) :: info
+    real(dp), intent(in), optional :: enough
     real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:), elastic(:)
+    real(dp) :: suspect
     logical, allocatable :: included(:)
     type(shared_ranks) :: ranks
     integer :: n, stat
+
+    suspect = LEAST_SUSPECT
+    if (present(enough)) suspect = max(suspect, enough)
 
     ranks = operator%ranks()
     if (.not. ranks%everywhere(sizes_agree(operator, problem, solution))) then
@@ -132,7 +138,7 @@ contains
     call contact_violations(problem, solution, magnitude, included, ranks, violation)
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
                                            .not. allocated(problem%modes), ranks)
-    if (.not. violation%gap_equation > SUSPECT) return
+    if (.not. violation%gap_equation > suspect) return
     call take_out_rounding(operator, problem, solution%force, elastic, included, magnitude, rigid_magnitude, error, &
                            info)
     if (info%failed()) return

@@ -14,7 +14,8 @@ module fuge_monitor_type
   end type fuge_monitor
 
   abstract interface
-    !> Called once for each iteration. `iteration` grows from call to call of a solve;
+    !> Called once for each iteration, and now and then while the iterative engine takes long to
+    !> estimate the error of the forces. `iteration` grows from call to call of a solve;
     !> `residual` >= 0, no unit, is how far the solution still is: for the tableau the sum of
     !> the artificial variables relative to its start, for the other engines the largest
     !> scaled violation; `contacts` is the number of points in contact for now. `cancel`

@@ -17,30 +17,30 @@ module fuge_operator_type
     procedure(count_points), deferred :: points
     !> u = (A - datum) f.
     procedure(apply_to_forces), deferred :: apply
-    !> The constant that `apply` subtracts from all coefficients of A; 0 by default. It changes
+    !> The constant that `apply` subtracts from all coefficients of A. It changes
     !> v_0 only; left in A, a large constant costs the products their digits.
     procedure :: datum => no_datum
     !> The size of the terms of each displacement, by which its error is judged.
     procedure :: magnitude => largest_displacement
     !> `apply` and `magnitude` together; override it where one pass gives both.
     procedure :: apply_with_magnitude => apply_then_magnitude
-    !> The least compliance between two points, which tells of points that nearly coincide; unknown by default.
+    !> The least compliance between two points, which tells of points that nearly coincide.
     procedure :: least_pair_compliance => unknown_compliance
     !> Is there a preconditioner? Without one the conjugate gradients are not preconditioned.
     procedure :: has_preconditioner => without_preconditioner
     !> f = M u, with M symmetric, positive definite and close to the inverse of A.
     procedure :: precondition => copy_displacement
-    !> The equal cells of a grid that the points are, in each direction; [0, 0] if they are none.
+    !> The equal cells of a grid that the points are, in each direction.
     procedure :: grid => no_grid
-    !> Does the surface go on beyond the grid, free, in each direction? False by default.
+    !> Does the surface go on beyond the grid, free, in each direction?
     procedure :: free_rim => no_free_rim
-    !> The same body on wider cells, for nested iteration; none by default.
+    !> The same body on wider cells, for nested iteration.
     procedure :: coarsen => no_coarser
-    !> What `coarsen` gives, kept and owned by this operator; none by default.
+    !> What `coarsen` gives, kept and owned by this operator.
     procedure :: kept_coarser => none_kept
-    !> The same body, but forces and displacements of a part of its cells only; none by default.
+    !> The same body, but forces and displacements of a part of its cells only.
     procedure :: window => no_window
-    !> The processes that share the points; this one alone has all of them by default.
+    !> The processes that share the points.
     procedure :: ranks => no_other_ranks
     !> Which rows of the grid each of them has.
     procedure :: first_rows => all_rows_here
@@ -69,7 +69,7 @@ module fuge_operator_type
 
 contains
 
-  !> False: there is no preconditioner unless an extension has one.
+  !> False by default.
   function without_preconditioner(self) result(preconditioned)
     class(fuge_operator), intent(in) :: self
     logical :: preconditioned
@@ -77,7 +77,7 @@ contains
     preconditioned = self%points() < 0
   end function without_preconditioner
 
-  !> f = M u: `displacement` (n), length; `force` (n), force; `status` as for `apply`. Called only
+  !> `displacement` (n), length; `force` (n), force; `status` as for `apply`. Called only
   !> if `has_preconditioner` is true. The default is M = 1.
   subroutine copy_displacement(self, displacement, force, status)
     class(fuge_operator), intent(in) :: self
@@ -98,7 +98,7 @@ contains
     cells = min(self%points(), 0)
   end function no_grid
 
-  !> False: points that are no cells have no rim, and the bodies may end with the grid.
+  !> False by default: points that are no cells have no rim, and the bodies may end with the grid.
   function no_free_rim(self) result(free)
     class(fuge_operator), intent(in) :: self
     logical :: free(2)
@@ -140,7 +140,7 @@ contains
     if (self%points() < 0 .and. any(last < first)) allocate (part, source=self)
   end subroutine no_window
 
-  !> The ranks that share the points, so that `points` and all arrays are those of this rank, `grid` is the whole one,
+  !> Where ranks of MPI share the points, `points` and all arrays are those of this rank, `grid` is the whole one,
   !> and all ranks call a procedure together. Alone, as in this default, one process has them all.
   function no_other_ranks(self) result(ranks)
     class(fuge_operator), intent(in) :: self
@@ -176,7 +176,7 @@ contains
     if (self%points() < 0 .and. size(contact) < size(modes, 1)) compliance = 0.0_dp
   end function unknown_compliance
 
-  !> 0: `apply` subtracts nothing.
+  !> 0 by default: `apply` subtracts nothing.
   function no_datum(self) result(datum)
     class(fuge_operator), intent(in) :: self
     real(dp) :: datum

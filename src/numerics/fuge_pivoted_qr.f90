@@ -127,23 +127,30 @@ contains
     real(dp), intent(in) :: tolerance
     real(dp), allocatable, intent(out) :: basis(:, :)
     integer, intent(out) :: status
-    real(dp) :: orthogonal(size(matrix, 1), size(matrix, 1)), tau(minval(shape(matrix)))
+    real(dp), allocatable :: orthogonal(:, :)
+    real(dp) :: tau(minval(shape(matrix)))
     integer, allocatable :: order(:)
-    integer :: j, m, reflectors
+    integer :: first, j, m, reflectors
 
     m = size(matrix, 1)
     reflectors = size(tau)
-    allocate (order(size(matrix, 2)), stat=status)
-    if (status == 0) call factorise_pivoted(matrix, tau, order, status)
+    allocate (orthogonal(m, m), order(size(matrix, 2)), stat=status)
+    if (status /= 0) then
+      allocate (basis(m, 0))
+      return
+    end if
+    call factorise_pivoted(matrix, tau, order, status)
     orthogonal = 0.0_dp
     do j = 1, m
       orthogonal(j, j) = 1.0_dp
     end do
     orthogonal(:, :reflectors) = matrix(:, :reflectors)
     if (status == 0) call form_orthogonal(orthogonal, tau, reflectors, status)
+    first = numerical_rank(matrix, tolerance, 0.0_dp) + 1
+    if (status == 0) allocate (basis(m, m - first + 1), stat=status)
     if (status == 0) then
-      basis = orthogonal(:, numerical_rank(matrix, tolerance, 0.0_dp) + 1:)
-    else
+      basis(:, :) = orthogonal(:, first:)
+    else if (.not. allocated(basis)) then
       allocate (basis(m, 0))
     end if
   end subroutine orthogonal_complement

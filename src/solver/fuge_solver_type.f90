@@ -6,7 +6,7 @@ module fuge_solver_type
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_force_error, only: estimate_force_error
-  use fuge_force_level, only: judge_force_level
+  use fuge_force_level, only: explain_by_force_level, judge_force_level
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
   use fuge_iterated_set, only: iterated_set
@@ -180,6 +180,8 @@ contains
         call judge_force_level(operator, self%canonical, problem%gap, self%last%state, options%tolerance, info)
       end if
       if (info%failed()) call forget_start(self)
+    else if (is_general(problem)) then
+      call explain_by_force_level(operator, self%canonical, problem%gap, options%tolerance, info)
     end if
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
   end subroutine solve_and_certify
@@ -519,7 +521,7 @@ contains
     type(fuge_violation) :: violation
     type(shared_ranks) :: ranks
 
-    call find_violation(operator, problem, solution, violation, info)
+    call find_violation(operator, problem, solution, violation, info, enough=tolerance)
     if (info%failed()) return
     ranks = operator%ranks()
     info%contacts = ranks%total_count(count(abs(solution%force) > 0.0_dp))

@@ -370,7 +370,35 @@ static void test_unsupported(void) {
   }
 }
 
+/* A product without a problem: the function of the caller, and what it leaves out of all coefficients. */
+static void test_apply(void) {
+  const double f[N] = {1.0, -2.0, 4.0};
+  double u[N];
+  char message[256] = "";
+  scene s = {0};
+  fuge_operator *op = NULL;
+  CHECK_STATUS(fuge_operator_callback(N, multiply, &s, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_apply(op, N, f, u, message, sizeof message), FUGE_DONE);
+  CHECK_INT(s.calls, 1);
+  for (int k = 0; k < N; k++) CHECK_NEAR(u[k], 4.0 * f[k], 0.0);
+  CHECK_STATUS(fuge_operator_set_coefficients(op, 10.0, 0.0, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_apply(op, N, f, u, message, sizeof message), FUGE_DONE);
+  for (int k = 0; k < N; k++) CHECK_NEAR(u[k], 4.0 * f[k] + 30.0, 0.0);
+  fill(u, N);
+  s.returns = 7;
+  CHECK_STATUS(fuge_operator_apply(op, N, f, u, message, sizeof message), FUGE_ERR_CALLBACK);
+  CHECK_CONTAINS(message, "status 7");
+  s.returns = 0;
+  s.spoil = 2;
+  s.odd = NAN;
+  CHECK_STATUS(fuge_operator_apply(op, N, f, u, message, sizeof message), FUGE_ERR_CALLBACK);
+  CHECK_CONTAINS(message, "displacement(1) = NaN");
+  CHECK_UNTOUCHED(u, N);
+  fuge_operator_free(&op);
+}
+
 int main(void) {
+  test_apply();
   make_bed();
   test_solve();
   test_bed_failures();

@@ -313,6 +313,81 @@ static void test_halfplane_cancelled(void) {
   free_both(&solver, &op);
 }
 
+/* ---- products ------------------------------------------------------------ */
+
+/* A product by FFT is that of the matrix, column k of which displaces the cells by a force at k. */
+static void check_halfplane_product(int element) {
+  static double alpha[CELLS * CELLS];
+  double x[CELLS], gap[CELLS], width[CELLS], f[CELLS], u[CELLS], dense[CELLS];
+  char message[256] = "not written";
+  fuge_operator *op = NULL;
+  make_gap(x, gap);
+  for (int k = 0; k < CELLS; k++) {
+    width[k] = SPACING;
+    f[k] = sin(1.0 + k) + (k == 3 ? 5.0 : 0.0);
+  }
+  CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, alpha, CELLS, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_dense(CELLS, alpha, CELLS, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_apply(op, CELLS, f, dense, message, sizeof message), FUGE_DONE);
+  CHECK_STRING(message, "");
+  fuge_operator_free(&op);
+  CHECK_STATUS(fuge_operator_halfplane(CELLS, SPACING, E_STAR, element, FUGE_FREE, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_apply(op, CELLS, f, u, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_apply(op, CELLS, f, f, NULL, 0), FUGE_DONE);
+  fuge_operator_free(&op);
+  for (int i = 0; i < CELLS; i++) {
+    double sum = 0.0;
+    for (int k = 0; k < CELLS; k++) sum += alpha[i + k * CELLS] * (sin(1.0 + k) + (k == 3 ? 5.0 : 0.0));
+    CHECK_NEAR(dense[i], sum, 1e-13 * CELLS);
+    CHECK_NEAR(u[i], sum, 1e-13 * CELLS);
+    CHECK_NEAR(f[i], u[i], 0.0);
+  }
+}
+
+static void test_products(void) {
+  for (int element = FUGE_CENTRE; element <= FUGE_HAT; element++) check_halfplane_product(element);
+}
+
+/* By a period of equal forces nothing is displaced from its mean. */
+static void test_periodic_product(void) {
+  double f[CELLS], u[CELLS];
+  fuge_operator *op = NULL;
+  for (int k = 0; k < CELLS; k++) f[k] = 2.0;
+  CHECK_STATUS(fuge_operator_halfplane(CELLS, SPACING, E_STAR, FUGE_MEAN, FUGE_PERIODIC, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_apply(op, CELLS, f, u, NULL, 0), FUGE_DONE);
+  for (int k = 0; k < CELLS; k++) CHECK_NEAR(u[k], 0.0, 1e-13);
+  fuge_operator_free(&op);
+}
+
+static void test_product_refusals(void) {
+  const double infinite[2] = {1.0, INFINITY}, large[2] = {0.0, -1e308}, f[2] = {1.0, 2.0};
+  const double compliant[4] = {1e200, 0.0, 0.0, 1e200}, forces[2] = {1e200, 0.0};
+  double u[2];
+  char message[256] = "";
+  fuge_operator *op = NULL;
+  fill(u, 2);
+  CHECK_STATUS(fuge_operator_apply(NULL, 2, f, u, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STRING(message, "op is NULL");
+  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_apply(op, 3, f, u, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STRING(message, "n = 3, but op has 2 points");
+  CHECK_STATUS(fuge_operator_apply(op, -1, f, u, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_operator_apply(op, 2, NULL, u, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STRING(message, "f is NULL");
+  CHECK_STATUS(fuge_operator_apply(op, 2, f, NULL, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_STRING(message, "u is NULL");
+  CHECK_STATUS(fuge_operator_apply(op, 2, infinite, u, message, sizeof message), FUGE_ERR_NOT_FINITE);
+  CHECK_CONTAINS(message, "f(1) = Inf");
+  CHECK_STATUS(fuge_operator_apply(op, 2, large, u, message, sizeof message), FUGE_ERR_OVERFLOW);
+  CHECK_CONTAINS(message, "larger unit of force");
+  fuge_operator_free(&op);
+  CHECK_STATUS(fuge_operator_dense(2, compliant, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_operator_apply(op, 2, forces, u, message, sizeof message), FUGE_ERR_OVERFLOW);
+  CHECK_CONTAINS(message, "the displacements are too large");
+  CHECK_UNTOUCHED(u, 2);
+  fuge_operator_free(&op);
+}
+
 int main(void) {
   test_life_cycle();
   test_padding();
@@ -326,5 +401,8 @@ int main(void) {
   test_halfplane_unsupported();
   test_halfplane_steps();
   test_halfplane_cancelled();
+  test_products();
+  test_periodic_product();
+  test_product_refusals();
   return check_summary();
 }

@@ -127,6 +127,27 @@ static void test_level(void) {
   CHECK_UNTOUCHED(height, 6);
 }
 
+static void test_fill(void) {
+  double height[6] = {1.0, 3.0, NAN, 4.0, 3.0, 5.0}, hole[2] = {NAN, NAN}, infinite[2] = {NAN, -INFINITY};
+  char message[256] = "old";
+  int filled = -1;
+  CHECK_STATUS(fuge_fill_surface(2, 3, height, &filled, message, sizeof message), FUGE_DONE);
+  CHECK_STRING(message, "");
+  CHECK_INT(filled, 1);
+  CHECK_NEAR(height[2], (1.0 + 4.0 + 3.0) / 3.0, 1e-15);
+  CHECK_NEAR(height[5], 5.0, 0.0);
+  CHECK_STATUS(fuge_fill_surface(2, 3, height, NULL, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_fill_surface(2, 1, hole, &filled, message, sizeof message), FUGE_ERR_NOT_FINITE);
+  CHECK_CONTAINS(message, "all heights are NaN");
+  CHECK(isnan(hole[0]) && isnan(hole[1]));
+  CHECK_STATUS(fuge_fill_surface(2, 1, infinite, &filled, message, sizeof message), FUGE_ERR_NOT_FINITE);
+  CHECK_CONTAINS(message, "height(1, 0) = -Inf");
+  CHECK(isnan(infinite[0]));
+  CHECK_STATUS(fuge_fill_surface(0, 1, hole, &filled, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_fill_surface(2, 1, NULL, &filled, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_INT(filled, 1);
+}
+
 static void test_volume(void) {
   const double stress[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, depth[3] = {0.0, 0.5, 2.0}, back_up[3] = {0.0, 2.0, 0.5};
   const double spacing[2] = {0.5, 2.0}, origin[2] = {10.0, 20.0};
@@ -260,6 +281,7 @@ int main(int argc, char **argv) {
   test_read_refusals();
   test_write();
   test_level();
+  test_fill();
   test_fields();
   test_volume();
   test_full_disk();

@@ -1,11 +1,12 @@
 !> The active-set engine: from checked data, and a guess of the contact set if there is one, to a solution and
 !> its status in words.
 module fuge_active_set_engine
+  use fuge_ambiguous_forces, only: find_ambiguous_forces, mark_touching
   use fuge_block_pivoting, only: run_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
-  use fuge_engine_messages, only: explain_status, report_closed_gap, SINGULAR_ON_CONTACT
+  use fuge_engine_messages, only: explain_status, report_closed_gap, SINGULAR_ON_CONTACT, SINGULAR_WHERE_TOUCHING
   use fuge_initial_set, only: guess_initial_set
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -13,7 +14,9 @@ module fuge_active_set_engine
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NOT_DEFINITE
+  use fuge_refinement_error, only: LARGEST
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_MEMORY, &
+    FUGE_ERR_NOT_DEFINITE
   use fuge_unbounded_forces, only: equal_forces_hold_nothing, forces_are_unbounded
   use fuge_unresisted_motions, only: report_unresisted_motion
   use fuge_working_set, only: working_set
@@ -95,12 +98,54 @@ contains
       call refuse_unbounded(canonical, solution, info)
       if (info%failed()) return
     end if
-    if (status == FUGE_DONE .and. factor%regularisation > 0.0_dp) then
-      call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
-    else if (status == FUGE_DONE .and. .not. canonical%plain) then
-      call report_unresisted_motion(canonical, solution, info)
-    end if
+    if (status == FUGE_DONE) call report_not_unique(canonical, factor, solution, info)
   end subroutine solve_from_set
+
+  !> Warn where the forces are not unique (FUGE_WARN_NOT_UNIQUE), or a motion is not. Error: FUGE_ERR_MEMORY.
+  subroutine report_not_unique(canonical, factor, solution, info)
+    type(canonical_problem), intent(in) :: canonical
+    type(kkt_factor), intent(in) :: factor
+    type(contact_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    integer :: status
+    logical :: ambiguous, open_ones, touching(size(solution%state))
+
+    if (factor%regularisation > 0.0_dp) then
+      call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
+    else
+      call mark_touching(canonical, solution, touching, open_ones)
+      ambiguous = open_ones
+      if (open_ones) then
+        call find_singularity(canonical, factor, touching, ambiguous, status)
+        if (status /= FUGE_DONE) call report(info, FUGE_ERR_MEMORY, 'no memory to tell whether forces are unique')
+        if (info%failed()) return
+      end if
+      if (ambiguous) call find_ambiguous_forces(canonical, solution, touching, ambiguous, info)
+      if (info%failed()) return
+      if (ambiguous) then
+        solution%force_error = LARGEST
+        call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_WHERE_TOUCHING)
+      end if
+    end if
+    if (.not. canonical%plain) call report_unresisted_motion(canonical, solution, info)
+  end subroutine report_not_unique
+
+  !> Is alpha `singular` on the points of a set (n) near that of the `factor`? `status` is not FUGE_DONE without memory.
+  subroutine find_singularity(canonical, factor, set, singular, status)
+    type(canonical_problem), intent(in) :: canonical
+    type(kkt_factor), intent(in) :: factor
+    logical, intent(in) :: set(:)
+    logical, intent(out) :: singular
+    integer, intent(out) :: status
+    type(kkt_factor), allocatable :: trial
+
+    singular = .false.
+    allocate (trial, source=factor, stat=status)
+    if (status /= 0) return
+    call trial%set(canonical, set, status)
+    singular = status == FUGE_ERR_NOT_DEFINITE .or. (status == FUGE_DONE .and. trial%regularisation > 0.0_dp)
+    if (status == FUGE_ERR_NOT_DEFINITE) status = FUGE_DONE
+  end subroutine find_singularity
 
   !> Refuse forces that would have to grow without bound (FUGE_ERR_NOT_DEFINITE, or FUGE_ERR_NO_EQUILIBRIUM where all
   !> motions are prescribed and the forces are equal).

@@ -27,6 +27,8 @@ module fuge_block_pivoting
   real(dp), parameter :: NO_LENGTH = 16.0_dp*epsilon(1.0_dp)
   !> A large ratio of the pivots raises the violations that count as rounding.
   real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
+  !> A violation above this fraction of the last one is not on its way to zero.
+  real(dp), parameter :: LASTING = 0.5_dp
   !> Ratio of the pivots above which signs are judged after refinement only.
   real(dp), parameter :: ILL_CONDITIONED = 1.0e8_dp
 
@@ -39,6 +41,8 @@ module fuge_block_pivoting
     !> Fewest wrong points of all sets, and the exchanges that may still go without fewer.
     integer :: fewest_wrong = huge(1)
     integer :: stalls_left = MAX_STALLS
+    !> The largest violation that the primal active-set method has left.
+    real(dp) :: violation_left = huge(1.0_dp)
   end type pivoting_progress
 
 contains
@@ -99,6 +103,11 @@ contains
         progress%stalls_left = -1
       else
         if (is_noise(set, progress, factor)) exit
+        if (progress%stalls_left < 0) then
+          ! What the primal active-set method leaves twice stays: signs that are rounding of gaps and motions.
+          if (maxval(set%violation) > LASTING*progress%violation_left) exit
+          progress%violation_left = maxval(set%violation)
+        end if
         call count_progress(set%violation > SIGN_TOLERANCE, solution%state == FUGE_OPEN, progress)
       end if
       if (iterations >= limit) then

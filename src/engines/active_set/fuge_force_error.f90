@@ -156,7 +156,7 @@ contains
     error = 0.0_dp
     relative = ROUNDINGS*epsilon(relative) + solution%violation
     most = relative*max(canonical%survey%most - canonical%datum, canonical%datum - canonical%survey%least) &
-           *sum(abs(solution%force))
+           *sum(abs(solution%force)) + solution%violation*maxval(solution%gap)
     if (present(length)) most = most + maxval(length)
     points = 0
     do k = 1, size(solution%state)
@@ -164,6 +164,8 @@ contains
       slack = min(solution%gap(k), canonical%upper(k) - solution%gap(k))
       if (slack > most) cycle
       open = relative*displacement_terms(alpha, canonical%datum, solution%state /= FUGE_OPEN, solution%force, k)
+      ! What may be a wrong sign was compared with the gap too, that of the upper stop.
+      open = open + solution%violation*solution%gap(k)
       if (present(length)) open = open + length(k)
       if (slack > open) cycle
       error = max(error, change_by_contact(canonical, alpha, factor, solution%state /= FUGE_OPEN, k, open, &

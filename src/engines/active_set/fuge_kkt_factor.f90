@@ -9,6 +9,7 @@ module fuge_kkt_factor
   use, intrinsic :: iso_c_binding, only: c_long_long
   use fuge_canonical_problem, only: canonical_problem
   use fuge_kinds, only: dp
+  use fuge_kkt_base_set, only: kkt_base_set, PIVOT_TOLERANCE
   use fuge_lapack, only: dgemv, dpotrf, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
@@ -21,38 +22,14 @@ module fuge_kkt_factor
   !> Stiffness of the springs that resist a mode which the contact set leaves free, relative to the mode's own
   !> stiffness. Forces stay in equilibrium wherever equilibrium exists.
   real(dp), parameter :: SOFT_SPRING = 1.0e-14_dp
-  !> A pivot below this fraction of its diagonal, for each point of the base set, is rounding.
-  real(dp), parameter :: PIVOT_TOLERANCE = 16.0_dp*epsilon(1.0_dp)
-  !> A pivot below this fraction of its diagonal may be rounding that the pivots before it have made larger.
-  real(dp), parameter :: SUSPECT = 1.0e-10_dp
-  !> An energy below this fraction of its terms is rounding, which no refinement overcomes.
-  real(dp), parameter :: ENERGY_TOLERANCE = 4.0_dp*epsilon(1.0_dp)
-  !> Regularisations tried where alpha is singular, relative to its range.
-  real(dp), parameter :: REGULARISATIONS(3) = [1.0e-12_dp, 1.0e-11_dp, 1.0e-10_dp]
 
-  type, public :: kkt_factor
+  !> The base set and its factor, with borders.
+  type, extends(kkt_base_set), public :: kkt_factor
     private
     !> The matrix that was factored, 0 if that is not known.
     integer(c_long_long) :: stamp = 0
     !> The points of the set, (n).
     logical, allocatable :: contact(:)
-    !> Points of the base set, and the position of each point in it (0: not in it).
-    integer, allocatable :: base_set(:), position(:)
-    !> Rigid modes, (n, m).
-    real(dp), allocatable :: modes(:, :)
-    !> Cholesky factor of alpha - datum + augmentation R R^T on the base set, the regularisation on its diagonal.
-    real(dp), allocatable :: lower(:, :)
-    !> Diagonal of the matrix that was factored, one for each point of the base set.
-    real(dp), allocatable :: diagonal(:)
-    !> Taken out of all of alpha where the first mode is a translation. It changes the motion only, and so does the
-    !> augmentation along the modes.
-    real(dp), public :: datum = 0.0_dp
-    real(dp) :: augmentation = 0.0_dp
-    !> 0 unless alpha is singular on a base set: the forces are then not unique, and the regularisation picks those
-    !> of least squares.
-    real(dp), public :: regularisation = 0.0_dp
-    !> Largest diagonal over least pivot: a lower bound of the condition number.
-    real(dp), public :: pivot_ratio = 1.0_dp
     !> lower**(-1) times each border, and the key of the border: a point added (1 .. n), a mode (n+1 .. n+m) or a
     !> point removed (< 0).
     real(dp), allocatable :: border(:, :)
@@ -102,7 +79,8 @@ contains
       end if
     end if
     self%stamp = canonical%stamp
-    call factorise(self, canonical, contact, status)
+    call make_room(self, count(contact), size(canonical%modes, 2), status)
+    if (status == FUGE_DONE) call self%factorise(canonical, contact, status)
     if (status /= FUGE_DONE) return
     call update_borders(self, canonical%alpha, contact, singular)
     if (singular) then
@@ -133,229 +111,23 @@ contains
     is_set = allocated(self%base_set)
   end function is_set
 
-  !> Take the contact set as the new base set and factor its block.
-  subroutine factorise(self, canonical, contact, status)
+  !> Make room for the borders of a base set of so many `points`, with so many `modes`. Error: FUGE_ERR_MEMORY.
+  pure subroutine make_room(self, points, modes, status)
     class(kkt_factor), intent(inout) :: self
-    type(canonical_problem), intent(in) :: canonical
-    logical, intent(in) :: contact(:)
+    integer, intent(in) :: points, modes
     integer, intent(out) :: status
-    integer, parameter :: DATUMS = 10
-    real(dp) :: nearest_to_zero, range
-    integer :: attempt
-    logical :: is_definite, is_gathered, augments
-
-    call choose_base_set(self, canonical%modes, contact, status)
-    if (status /= FUGE_DONE) return
-    self%datum = 0.0_dp
-    self%augmentation = 0.0_dp
-    call gather_block(self, canonical%alpha, nearest_to_zero, range)
-    if (.not. range > 0.0_dp) range = stand_in_compliance(canonical)
-    ! For one translation the datum is enough; for other modes alpha is augmented too.
-    augments = size(canonical%modes, 2) > merge(1, 0, canonical%has_translation)
-    ! Any datum that makes the block positive definite is right; alpha's own is taken if it does.
-    is_gathered = .true.
-    if (abs(nearest_to_zero) <= range .or. .not. canonical%has_translation) then
-      call factor_base_set(self, canonical%alpha, 0.0_dp, is_gathered, is_definite)
-      if (is_definite) return
-    end if
-    do attempt = 0, DATUMS - 1
-      if (canonical%has_translation) self%datum = nearest_to_zero - range*real(8**attempt - 1, dp)
-      if (augments .and. (attempt > 0 .or. .not. canonical%has_translation)) then
-        self%augmentation = range*real(8**attempt, dp)
-      end if
-      call factor_base_set(self, canonical%alpha, 0.0_dp, is_gathered, is_definite)
-      if (is_definite) return
-    end do
-    if (canonical%has_translation) self%datum = nearest_to_zero - range
-    self%augmentation = merge(range, 0.0_dp, augments)
-    do attempt = 1, size(REGULARISATIONS)
-      call factor_base_set(self, canonical%alpha, REGULARISATIONS(attempt)*range, is_gathered, is_definite)
-      if (is_definite) return
-    end do
-    call deallocate_all(self)
-    status = FUGE_ERR_NOT_DEFINITE
-  end subroutine factorise
-
-  subroutine choose_base_set(self, modes, contact, status)
-    class(kkt_factor), intent(inout) :: self
-    real(dp), intent(in) :: modes(:, :)
-    logical, intent(in) :: contact(:)
-    integer, intent(out) :: status
-    integer :: i, m, limit, stat
-
-    m = count(contact)
-    limit = FEWEST_BORDERS + m/POINTS_PER_BORDER + size(modes, 2)
-    call deallocate_all(self)
-    allocate (self%base_set(m), self%position(size(contact)), self%lower(m, m), self%diagonal(m), &
-              self%border(m, limit), self%keys(limit), self%schur(limit, limit), self%pivots(limit), &
-              self%modes(size(modes, 1), size(modes, 2)), stat=stat)
-    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
-    if (stat /= 0) then
-      call deallocate_all(self)
-      return
-    end if
-    self%modes = modes
-    self%base_set = pack([(i, i=1, size(contact))], contact)
-    self%position = 0
-    self%position(self%base_set) = [(i, i=1, m)]
-  end subroutine choose_base_set
-
-  pure subroutine deallocate_all(self)
-    class(kkt_factor), intent(inout) :: self
+    integer :: limit, stat
 
     self%borders = 0
-    if (allocated(self%contact)) deallocate (self%contact)
-    if (allocated(self%base_set)) deallocate (self%base_set)
-    if (allocated(self%position)) deallocate (self%position)
-    if (allocated(self%modes)) deallocate (self%modes)
-    if (allocated(self%lower)) deallocate (self%lower)
-    if (allocated(self%diagonal)) deallocate (self%diagonal)
     if (allocated(self%border)) deallocate (self%border)
     if (allocated(self%keys)) deallocate (self%keys)
     if (allocated(self%schur)) deallocate (self%schur)
     if (allocated(self%pivots)) deallocate (self%pivots)
-  end subroutine deallocate_all
-
-  !> Factor the block of the base set. With `is_gathered` it has just been gathered; then it no longer is.
-  subroutine factor_base_set(self, alpha, regularisation, is_gathered, is_definite)
-    class(kkt_factor), intent(inout) :: self
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: regularisation
-    logical, intent(inout) :: is_gathered
-    logical, intent(out) :: is_definite
-    real(dp) :: largest, least_ignored, range_ignored
-    integer :: j, m, info
-
-    m = size(self%base_set)
-    if (.not. is_gathered) call gather_block(self, alpha, least_ignored, range_ignored)
-    is_gathered = .false.
-    do j = 1, m
-      if (abs(self%datum) > 0.0_dp) self%lower(j:, j) = self%lower(j:, j) - self%datum
-      if (self%augmentation > 0.0_dp) then
-        self%lower(j:, j) = self%lower(j:, j) + augmentation_entries(self, self%base_set(j:), self%base_set(j))
-      end if
-      self%lower(j, j) = self%lower(j, j) + regularisation
-      self%diagonal(j) = self%lower(j, j)
-    end do
-    self%regularisation = regularisation
-    self%pivot_ratio = 1.0_dp
-    is_definite = .true.
-    if (m < 1) return
-    call dpotrf('L', m, self%lower, m, info)
-    is_definite = info == 0
-    if (.not. is_definite) return
-    largest = maxval(self%diagonal)
-    do j = 1, m
-      is_definite = is_definite .and. self%lower(j, j)**2 > PIVOT_TOLERANCE*real(m, dp)*self%diagonal(j)
-      if (is_definite) self%pivot_ratio = max(self%pivot_ratio, largest/self%lower(j, j)**2)
-    end do
-    if (is_definite) is_definite = .not. least_pivot_is_rounding(self)
-  end subroutine factor_base_set
-
-  !> Is the least pivot of the base set the rounding of the terms of an energy? It is the energy of a force of 1 at its
-  !> point and the forces that this one asks for at the points before it, which may be far larger.
-  function least_pivot_is_rounding(self) result(rounding)
-    class(kkt_factor), intent(in) :: self
-    logical :: rounding
-    real(dp) :: force(size(self%base_set)), pivots(size(self%base_set))
-    integer :: j
-
-    pivots = [(self%lower(j, j)**2/self%diagonal(j), j=1, size(pivots))]
-    j = minloc(pivots, dim=1)
-    rounding = .false.
-    if (pivots(j) > SUSPECT) return
-    force = 0.0_dp
-    force(j) = self%lower(j, j)
-    call dtrsv('L', 'T', 'N', j, self%lower, size(force), force, 1)
-    rounding = self%lower(j, j)**2 <= ENERGY_TOLERANCE*sum(self%diagonal(:j)*force(:j)**2)
-  end function least_pivot_is_rounding
-
-  !> The augmentation's entries in the given rows of a column of alpha.
-  pure function augmentation_entries(self, rows, column) result(added)
-    class(kkt_factor), intent(in) :: self
-    integer, intent(in) :: rows(:), column
-    real(dp) :: added(size(rows))
-    integer :: j
-
-    added = 0.0_dp
-    do j = 1, size(self%modes, 2)
-      added = added + (self%augmentation*self%modes(column, j))*self%modes(rows, j)
-    end do
-  end function augmentation_entries
-
-  !> A compliance for a block that has none: the largest of alpha, or where alpha is zero one by which the loads
-  !> displace as much as the least gap or play; 1 without loads or lengths.
-  pure function stand_in_compliance(canonical) result(compliance)
-    type(canonical_problem), intent(in) :: canonical
-    real(dp) :: compliance
-    real(dp) :: datum, length
-    integer :: k
-
-    compliance = canonical%survey%largest()
-    if (compliance > 0.0_dp) return
-    compliance = 1.0_dp
-    datum = 0.0_dp
-    if (canonical%has_translation) datum = minval(canonical%gap, mask=.not. canonical%excluded)
-    length = huge(length)
-    do k = 1, size(canonical%gap)
-      if (canonical%excluded(k)) cycle
-      if (abs(canonical%gap(k) - datum) > 0.0_dp) length = min(length, abs(canonical%gap(k) - datum))
-      if (canonical%upper(k) > 0.0_dp) length = min(length, canonical%upper(k))
-    end do
-    if (length < huge(length) .and. canonical%largest_load() > 0.0_dp) then
-      compliance = max(length/canonical%largest_load(), tiny(compliance)/epsilon(compliance)**2)
-    end if
-  end function stand_in_compliance
-
-  !> Gather the block of the base set; its coefficient that is nearest to zero, and the range of its coefficients.
-  !> Equal coefficients, as of a single point, have a range of their own size, which is 0 for no compliance at all.
-  pure subroutine gather_block(self, alpha, nearest_to_zero, range)
-    class(kkt_factor), intent(inout) :: self
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(out) :: nearest_to_zero, range
-    real(dp) :: least, most
-    integer :: j
-
-    least = huge(least)
-    most = -huge(most)
-    do j = 1, size(self%base_set)
-      call gather_column(alpha(:, self%base_set(j)), self%base_set(j:), self%lower(j:, j), least, most)
-    end do
-    if (size(self%base_set) < 1) then
-      least = 0.0_dp
-      most = 0.0_dp
-    end if
-    range = most - least
-    if (.not. range > 0.0_dp) then
-      range = abs(least)
-      most = least
-      least = least - range
-    end if
-    ! Zero if there are both signs. Taking out such a coefficient costs no digits.
-    nearest_to_zero = max(least, 0.0_dp) + min(most, 0.0_dp)
-  end subroutine gather_block
-
-  !> `gathered` is the `column` at the `points`; `least` and `most` go along.
-  pure subroutine gather_column(column, points, gathered, least, most)
-    real(dp), intent(in), contiguous :: column(:)
-    integer, intent(in), contiguous :: points(:)
-    real(dp), intent(inout), contiguous :: gathered(:)
-    real(dp), intent(inout) :: least, most
-    integer :: i, first
-
-    first = points(1)
-    if (points(size(points)) - first + 1 == size(points)) then
-      gathered = column(first:first + size(points) - 1)
-    else
-      do i = 1, size(points)
-        gathered(i) = column(points(i))
-      end do
-    end if
-    do i = 1, size(points)
-      least = min(least, gathered(i))
-      most = max(most, gathered(i))
-    end do
-  end subroutine gather_column
+    limit = FEWEST_BORDERS + points/POINTS_PER_BORDER + modes
+    allocate (self%border(points, limit), self%keys(limit), self%schur(limit, limit), self%pivots(limit), stat=stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
+    if (stat /= 0 .and. allocated(self%base_set)) deallocate (self%base_set)
+  end subroutine make_room
 
   !> Form the borders of a set near the base set; those that it shares with the last set are kept.
   subroutine update_borders(self, alpha, contact, singular)
@@ -430,7 +202,7 @@ contains
       column(self%position(-key)) = -1.0_dp
     else
       column = alpha(self%base_set, key) - self%datum
-      if (self%augmentation > 0.0_dp) column = column + augmentation_entries(self, self%base_set, key)
+      if (self%augmentation > 0.0_dp) column = column + self%augmentation_entries(self%base_set, key)
     end if
   end subroutine fill_border
 
@@ -480,6 +252,7 @@ contains
     real(dp), intent(in) :: diagonal(:)
     logical, intent(out) :: singular
     real(dp), allocatable :: block(:, :)
+    real(dp) :: own
     integer :: added(count(self%keys(:self%borders) > 0 .and. .not. is_mode(self, self%keys(:self%borders))))
     integer :: i, j, points, info
 
@@ -500,7 +273,10 @@ contains
     points = size(self%base_set) + size(added)
     do j = 1, size(added)
       if (singular) return
-      singular = block(j, j)**2 <= PIVOT_TOLERANCE*real(points, dp)*diagonal(added(j))
+      own = diagonal(added(j))
+      ! As in the base set, but without a solve for the forces that the point asks for.
+      if (self%augmentation > 0.0_dp .and. size(self%diagonal) > 0) own = max(own, maxval(self%diagonal))
+      singular = block(j, j)**2 <= PIVOT_TOLERANCE*real(points, dp)*own
       if (.not. singular) self%pivot_ratio = max(self%pivot_ratio, diagonal(added(j))/block(j, j)**2)
     end do
   end subroutine check_added
@@ -566,7 +342,7 @@ contains
       entry = -self%modes(min(row, column), max(row, column) - n)
     else
       entry = alpha(row, column) - self%datum
-      if (self%augmentation > 0.0_dp) entry = entry + sum(augmentation_entries(self, [row], column))
+      if (self%augmentation > 0.0_dp) entry = entry + sum(self%augmentation_entries([row], column))
       if (row == column) entry = entry + self%regularisation
     end if
   end function border_entry

@@ -6,6 +6,7 @@
 module fuge_canonical_problem
   use, intrinsic :: iso_c_binding, only: c_long_long
   use fuge_equilibrium, only: is_in_equilibrium
+  use fuge_equilibrium_report, only: report_no_equilibrium
   use fuge_kinds, only: dp
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text, text
@@ -427,7 +428,11 @@ contains
       if (body(j) == j) call balance_body(body == j, rounding, canonical, remainder, info)
       if (info%failed()) return
     end do
-    if (any(abs(remainder) > 0.0_dp)) call report_no_equilibrium(problem, canonical, remainder, info)
+    if (any(abs(remainder) > 0.0_dp)) then
+      call report_no_equilibrium(problem, canonical%free, canonical%change, canonical%excluded, &
+                                 any(canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded), remainder, &
+                                 canonical%ranks, info)
+    end if
   end subroutine require_equilibrium
 
   !> The body of each point is that of the modes that move it. `body` (m).
@@ -479,61 +484,5 @@ contains
     call move_to_edge(canonical%ranks, modes, noise, canonical%load, columns, force, info)
     if (.not. info%failed()) canonical%feasible_force = canonical%feasible_force + force
   end subroutine balance_body
-
-  !> Name the resultant that no contact forces can carry.
-  subroutine report_no_equilibrium(problem, canonical, remainder, info)
-    type(fuge_problem), intent(in) :: problem
-    type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: remainder(:)
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: motion(size(remainder))
-    integer :: worst
-
-    if (.not. allocated(problem%modes)) then
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'resultant '//text(problem%resultant(1))//' is negative: contact ' &
-                  //'forces can only push, so it must be >= 0')
-    else
-      call report_line_of_action(problem, canonical, 1, 2, info)
-      if (.not. info%failed()) call report_line_of_action(problem, canonical, 2, 1, info)
-      if (info%failed()) return
-      associate (w => problem%resultant(canonical%free))
-        motion = canonical%change%given_motion(remainder)
-        worst = maxloc(canonical%change%contributions(remainder), dim=1)
-        call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces that push give the resultant '//text(w(worst)) &
-                    //' in motion '//index_text(canonical%free(worst)) &
-                    //' together with the others: moving along it by ' &
-                    //text(motion(worst))//' closes no contact, but the resultants do work')
-      end associate
-    end if
-  end subroutine report_no_equilibrium
-
-  !> With one translation and one tilt, report the line of action if it lies outside of the contact points. Not for
-  !> points with play or tied ones, which carry any line of action.
-  subroutine report_line_of_action(problem, canonical, translation, tilt, info)
-    type(fuge_problem), intent(in) :: problem
-    type(canonical_problem), intent(in) :: canonical
-    integer, intent(in) :: translation, tilt
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: extremes(4), x
-    integer :: k
-
-    if (size(canonical%free) /= 2) return
-    if (canonical%ranks%anywhere(any(canonical%upper < huge(x) .and. .not. canonical%excluded))) return
-    associate (w => problem%resultant(canonical%free), unit => problem%modes(:, canonical%free(translation)))
-      extremes(1:2) = [-minval(unit), maxval(unit)]
-      call canonical%ranks%raise(extremes(1:2))
-      if (.not. (-extremes(1) > 0.0_dp .and. extremes(2) <= -extremes(1) .and. w(translation) > 0.0_dp)) return
-      extremes(3:4) = -huge(x)
-      do k = 1, size(unit)
-        if (canonical%excluded(k)) cycle
-        x = problem%modes(k, canonical%free(tilt))/unit(k)
-        extremes(3:4) = max(extremes(3:4), [-x, x])
-      end do
-      call canonical%ranks%raise(extremes(3:4))
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the line of action passes at '//text(w(tilt)/w(translation)) &
-                  //', but the points reach from '//text(-extremes(3))//' to ' &
-                  //text(extremes(4))//' only: move the load between them')
-    end associate
-  end subroutine report_line_of_action
 
 end module fuge_canonical_problem

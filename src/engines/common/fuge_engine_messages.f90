@@ -8,11 +8,15 @@ module fuge_engine_messages
   implicit none
   private
 
-  public :: explain_status, report_closed_gap
+  public :: explain_status, report_closed_gap, report_uncorrected
 
   !> Forces that store no energy can be added to those of the contact.
   character(len=*), parameter, public :: SINGULAR_ON_CONTACT = 'alpha is singular on the contact: gaps and approach ' &
     //'are unique, the forces are not; those given are near the least squares'
+  character(len=*), parameter, public :: SINGULAR_AND_UNRESISTED = 'the contact does not resist all motions, and ' &
+    //'alpha is singular on it: neither these motions, nor the gaps that they move, nor the forces are unique'
+  character(len=*), parameter, public :: SINGULAR_WHERE_TOUCHING = 'alpha is singular on the points that touch: gaps ' &
+    //'and approach are unique, the forces are not; those given are one of many possible'
 
 contains
 
@@ -34,6 +38,16 @@ contains
       call report(info, status, fuge_status_text(status))
     end select
   end subroutine explain_status
+
+  !> Report that the set which the tableau found in so many `pivots` was still wrong after `limit` more sets.
+  pure subroutine report_uncorrected(pivots, limit, info)
+    integer, intent(in) :: pivots, limit
+    type(fuge_info), intent(inout) :: info
+
+    call report(info, FUGE_ERR_ITERATION_LIMIT, 'the tableau ended after '//text(pivots)//' pivots, but '//text(limit) &
+                //' more contact sets did not correct what rounding had made of its set: the problem may be too ' &
+                //'badly conditioned for double precision')
+  end subroutine report_uncorrected
 
   !> Report that no forces hold the prescribed motions: the mean gap is negative, -`closed`, and equal forces, which
   !> alone could raise it, displace nothing.

@@ -92,8 +92,9 @@ contains
     end if
     body = bodies_of_modes(scaled, ranks)
     do j = 1, m
-      if (body(j) == j) call orthogonalise_body(scaled, excluded, ranks, body == j, modes, change%coefficients, &
-                                                has_translation, fault)
+      if (body(j) == j) then
+        call orthogonalise_body(columns, excluded, ranks, body == j, modes, change, has_translation, fault)
+      end if
       if (fault%found()) return
     end do
   end subroutine make_orthogonal
@@ -106,26 +107,65 @@ contains
     if (ranks%anywhere(fault%stat /= 0)) fault%stat = 1
   end subroutine share_fault
 
-  !> The modes of one body, marked in `member` (m). The arguments are eight without the ranks, which tell nothing of
-  !> the modes.
-  subroutine orthogonalise_body(scaled, excluded, ranks, member, modes, coefficients, has_translation, fault)
-    real(dp), intent(in) :: scaled(:, :)
+  !> The modes of one body among the given ones (n, m), marked in `member` (m).
+  subroutine orthogonalise_body(given, excluded, ranks, member, modes, change, has_translation, fault)
+    real(dp), intent(in) :: given(:, :)
     logical, intent(in) :: excluded(:), member(:)
     type(shared_ranks), intent(in) :: ranks
-    real(dp), intent(inout) :: modes(:, :), coefficients(:, :)
+    real(dp), intent(inout) :: modes(:, :)
+    type(mode_change), intent(inout) :: change
     logical, intent(inout) :: has_translation
     type(mode_fault), intent(inout) :: fault
-    real(dp), allocatable :: basis(:, :)
-    real(dp) :: own_coefficients(count(member), count(member)), points
-    integer :: columns(count(member)), order(count(member)), i, j, rank, replaced
+    real(dp), allocatable :: own(:, :)
+    real(dp) :: coefficients(count(member), count(member)), datum(count(member)), sense
+    integer :: columns(count(member)), constant, j
 
-    allocate (basis(size(scaled, 1), size(columns)), stat=fault%stat)
+    allocate (own(size(given, 1), size(columns)), stat=fault%stat)
     call share_fault(ranks, fault)
     if (fault%stat /= 0) return
     columns = pack([(j, j=1, size(member))], member)
     do j = 1, size(columns)
-      basis(:, j) = scaled(:, columns(j))
+      own(:, j) = merge(0.0_dp, given(:, columns(j)), excluded)
     end do
+    call find_datum(own, ranks, constant, datum)
+    sense = 1.0_dp
+    if (constant > 0) then
+      do j = 1, size(columns)
+        where (abs(own(:, constant)) > 0.0_dp) own(:, j) = own(:, j) - datum(j)
+      end do
+      if (ranks%anywhere(any(own(:, constant) < 0.0_dp))) sense = -1.0_dp
+    end if
+    do j = 1, size(columns)
+      own(:, j) = own(:, j)/change%units(columns(j))
+    end do
+    call orthogonalise_columns(own, excluded, ranks, columns, modes, coefficients, has_translation, fault)
+    if (fault%found()) return
+    do j = 1, size(columns)
+      ! The constant is 1 or -1 in its own unit.
+      if (constant > 0) coefficients(:, j) = coefficients(:, j) + sense*(datum(j)/change%units(columns(j))) &
+                                             *coefficients(:, constant)
+    end do
+    change%coefficients(columns, columns) = coefficients
+  end subroutine orthogonalise_body
+
+  !> `own` (n, k), the modes of one body, as basis*coefficients (k, k); the basis becomes the `columns` (k) of `modes`.
+  subroutine orthogonalise_columns(own, excluded, ranks, columns, modes, coefficients, has_translation, fault)
+    real(dp), intent(in) :: own(:, :)
+    logical, intent(in) :: excluded(:)
+    type(shared_ranks), intent(in) :: ranks
+    integer, intent(in) :: columns(:)
+    real(dp), intent(inout) :: modes(:, :)
+    real(dp), intent(out) :: coefficients(:, :)
+    logical, intent(inout) :: has_translation
+    type(mode_fault), intent(inout) :: fault
+    real(dp), allocatable :: basis(:, :)
+    real(dp) :: points
+    integer :: order(size(columns)), i, j, rank, replaced
+
+    coefficients = 0.0_dp
+    allocate (basis, source=own, stat=fault%stat)
+    call share_fault(ranks, fault)
+    if (fault%stat /= 0) return
     if (ranks%is_alone()) then
       call orthonormalise(basis, DEPENDENT, order, rank, fault%stat)
     else
@@ -153,43 +193,88 @@ contains
     end if
     ! A point that no mode of the body moves must stay so in spite of rounding: its force contributes to no resultant.
     do j = 1, size(basis, 1)
-      if (all(abs(scaled(j, columns)) <= 0.0_dp)) basis(j, :) = 0.0_dp
+      if (all(abs(own(j, :)) <= 0.0_dp)) basis(j, :) = 0.0_dp
     end do
     points = ranks%total(real(count(.not. excluded), dp))
     basis = basis*sqrt(points)
     if (replaced > 0) basis(:, 1) = merge(0.0_dp, 1.0_dp, excluded)
     modes(:, columns) = basis
-    call find_coefficients(scaled, columns, basis, points, ranks, own_coefficients, fault)
-    coefficients(columns, columns) = own_coefficients
-  end subroutine orthogonalise_body
+    call find_coefficients(own, basis, points, ranks, coefficients, fault)
+  end subroutine orthogonalise_columns
 
-  !> The `columns` of `scaled` as basis*coefficients, (m, m). Sums over many points are rounded, which would make a tilt
+  !> By what the modes of one body, the columns of `own` (n, m), are counted from far away: `datum` (m), to be
+  !> subtracted from them where mode `constant` moves a point; the difference is exact. Without it their rounding would
+  !> be that of the distance.
+  !>
+  !> `constant` is 0, and so are all of `datum`, if no mode is a constant on the points that it moves. `ranks` share the
+  !> points.
+  subroutine find_datum(own, ranks, constant, datum)
+    real(dp), intent(in) :: own(:, :)
+    type(shared_ranks), intent(in) :: ranks
+    integer, intent(out) :: constant
+    real(dp), intent(out) :: datum(:)
+    real(dp) :: extremes(2)
+    integer :: j
+
+    datum = 0.0_dp
+    constant = 0
+    do j = size(datum), 1, -1
+      extremes = extremes_where(own(:, j), own(:, j), ranks)
+      if (extremes(1) >= extremes(2)) constant = j
+    end do
+    if (constant == 0) return
+    do j = 1, size(datum)
+      if (j == constant) cycle
+      extremes = extremes_where(own(:, j), own(:, constant), ranks)
+      ! A difference of two numbers is exact if neither is more than twice the other one (P. H. Sterbenz, 1974).
+      if (extremes(1) > 0.0_dp .and. extremes(2) <= 2.0_dp*extremes(1)) then
+        datum(j) = extremes(2)
+      else if (extremes(2) < 0.0_dp .and. extremes(1) >= 2.0_dp*extremes(2)) then
+        datum(j) = extremes(1)
+      end if
+    end do
+  end subroutine find_datum
+
+  !> The least and the largest one of the values at points that `mode` (n) moves, (2).
+  function extremes_where(values, mode, ranks) result(extremes)
+    real(dp), intent(in) :: values(:), mode(:)
+    type(shared_ranks), intent(in) :: ranks
+    real(dp) :: extremes(2)
+    integer :: k
+
+    extremes = -huge(extremes)
+    do k = 1, size(values)
+      if (abs(mode(k)) > 0.0_dp) extremes = max(extremes, [-values(k), values(k)])
+    end do
+    call ranks%raise(extremes)
+    extremes(1) = -extremes(1)
+  end function extremes_where
+
+  !> The columns `own` (n, m) as basis*coefficients, (m, m). Sums over many points are rounded, which would make a tilt
   !> of a large motion: so what the first coefficients leave of the columns is expressed too.
-  subroutine find_coefficients(scaled, columns, basis, points, ranks, coefficients, fault)
-    real(dp), intent(in) :: scaled(:, :), basis(:, :), points
-    integer, intent(in) :: columns(:)
+  subroutine find_coefficients(own, basis, points, ranks, coefficients, fault)
+    real(dp), intent(in) :: own(:, :), basis(:, :), points
     type(shared_ranks), intent(in) :: ranks
     real(dp), intent(out) :: coefficients(:, :)
     type(mode_fault), intent(inout) :: fault
     real(dp), allocatable :: remainder(:, :)
-    real(dp) :: change(size(columns), size(columns)), products(size(columns)**2)
-    integer :: i, j, pass
+    real(dp) :: change(size(own, 2), size(own, 2)), products(size(own, 2)**2)
+    integer :: i, j, m, pass
 
+    m = size(own, 2)
     coefficients = 0.0_dp
-    allocate (remainder(size(basis, 1), size(columns)), stat=fault%stat)
+    allocate (remainder(size(basis, 1), m), stat=fault%stat)
     call share_fault(ranks, fault)
     if (fault%stat /= 0) return
-    do j = 1, size(columns)
-      remainder(:, j) = scaled(:, columns(j))
-    end do
+    remainder = own
     do pass = 1, 2
-      products = [((dot_product(basis(:, i), remainder(:, j)), i=1, size(columns)), j=1, size(columns))]
+      products = [((dot_product(basis(:, i), remainder(:, j)), i=1, m), j=1, m)]
       call ranks%add(products)
       change = reshape(products, shape(change))/points
       coefficients = coefficients + change
       if (pass == 2) exit
-      do j = 1, size(columns)
-        do i = 1, size(columns)
+      do j = 1, m
+        do i = 1, m
           remainder(:, j) = remainder(:, j) - basis(:, i)*change(i, j)
         end do
       end do

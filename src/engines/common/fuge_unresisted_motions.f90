@@ -13,8 +13,8 @@ module fuge_unresisted_motions
   implicit none
   private
 
-  public :: find_unresisted_motion, find_unresisted_basis, is_resisted, refuse_unresisted, report_unresisted_motion, &
-    without_unresisted
+  public :: find_unresisted_motion, find_unresisted_basis, is_resisted, mark_loaded, refuse_unresisted, &
+    report_unresisted_motion, without_unresisted
 
   !> Rows of the modes that differ by less than this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
@@ -59,19 +59,23 @@ contains
     end do
   end subroutine find_unresisted_motion
 
-  !> Warn of a motion that the contact does not resist, by the mode that dominates it. Error: FUGE_ERR_MEMORY.
+  !> Warn of a motion that the contact does not resist, by the mode that dominates it. An earlier warning in `info` is
+  !> that of forces that are not unique. Error: FUGE_ERR_MEMORY.
   subroutine report_unresisted_motion(canonical, solution, info)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     type(fuge_info), intent(inout) :: info
+    character(len=:), allocatable :: forces
     real(dp) :: motion(size(canonical%load))
 
     if (size(motion) < 1) return
+    forces = 'the forces are unique'
+    if (info%status == FUGE_WARN_NOT_UNIQUE) forces = 'nor are the forces unique, because alpha is singular there'
     call find_unresisted_motion(canonical, solution, motion, info)
     if (info%failed() .or. .not. any(abs(motion) > 0.0_dp)) return
     call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not resist motion ' &
                 //index_text(canonical%dominant_mode(motion)) &
-                //': its value, and the gaps that it moves, are one of many possible; the forces are unique')
+                //': its value, and the gaps that it moves, are one of many possible; '//forces)
   end subroutine report_unresisted_motion
 
   !> Points that are tied, or that carry more force than rounding makes, are `loaded` (n); `scale` (n) is work space.

@@ -11,14 +11,14 @@ module fuge_contact_set_search
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
-  use fuge_monitor_type, only: fuge_monitor, tell_monitor
+  use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_projected_gradients, only: run_projected_gradients
-  use fuge_status, only: fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_ITERATION_LIMIT, &
-    FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
     penetrated_stop
   implicit none
@@ -105,10 +105,13 @@ contains
         if (iterate%converged .and. fresh) exit
         if (to_tolerance .or. iterate%converged) then
           call confirm_contact_set(operator, settings, scene, previous_residual, iterate, confirmed, info)
-          if (confirmed .or. info%failed()) exit
+          if (info%failed()) exit
+          ! The lengths that decide may have been those of much larger forces at the start.
+          if (confirmed) wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
+          if (confirmed .and. wrong == 0) exit
         end if
         to_tolerance = .true.
-        cycle
+        if (wrong == 0) cycle
       end if
       to_tolerance = .false.
       stalls_left = stalls_left - 1
@@ -122,6 +125,8 @@ contains
                                  in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
       if (info%failed()) exit
       iterate%least_compliance = 0.0_dp
+      ! The residual of another set tells nothing of this one.
+      previous_residual = huge(previous_residual)
       call make_feasible(operator, scene, iterate, info)
       fresh = .true.
     end do
@@ -188,8 +193,6 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
-    real(dp) :: relative
-    integer :: contacts, status
 
     if (info%iterations >= settings%limit) then
       call report(info, FUGE_ERR_ITERATION_LIMIT, text(settings%limit)//' contact sets were not enough: raise ' &
@@ -200,10 +203,9 @@ contains
                             info)
     if (allocated(scene%modes) .and. .not. info%failed()) then
       call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
-      ! With several modes a point without force may be the one that resists a motion.
-      iterate%tension_noise = max(tension_by_rounding(settings, scene, iterate), rounding_force(scene, iterate))
     end if
     if (info%failed()) return
+    call set_tension_noise(settings, scene, iterate)
     call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
                                  iterate, info)
     if (iterate%unbounded .and. .not. (settings%coarse_grid .or. info%failed())) then
@@ -212,14 +214,7 @@ contains
     if (info%failed()) return
     info%iterations = info%iterations + 1
     if (.not. settings%coarse_grid) call note_least_compliance(iterate)
-    relative = 0.0_dp
-    if (iterate%residual_norm > 0.0_dp) then
-      relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
-    end if
-    contacts = scene%rows%ranks%total_count(count(iterate%contact))
-    call tell_monitor(monitor, info%iterations, relative, contacts, status)
-    if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
-    call scene%rows%ranks%agree(info)
+    call tell_progress(scene, iterate, monitor, info)
   end subroutine solve_on_contact_set
 
   !> Report that forces without energy, the largest of them at `point`, grow for ever (FUGE_ERR_NOT_DEFINITE).
@@ -262,6 +257,7 @@ contains
     call make_feasible(operator, scene, iterate, info)
     if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
+    call set_tension_noise(settings, scene, iterate)
     confirmed = is_accurate(iterate, SAFETY*settings%tolerance) &
                 .or. .not. iterate%residual_norm < 0.5_dp*previous_residual
     previous_residual = iterate%residual_norm
@@ -275,6 +271,17 @@ contains
 
     noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding
   end function penetration_noise
+
+  !> Set the tension that is rounding. Only with several modes, where a point without force may be the one that resists
+  !> a motion.
+  subroutine set_tension_noise(settings, scene, iterate)
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+
+    if (.not. allocated(scene%modes)) return
+    iterate%tension_noise = max(tension_by_rounding(settings, scene, iterate), rounding_force(scene, iterate))
+  end subroutine set_tension_noise
 
   !> Tensions up to this are rounding. They are taken out in the end, so that they may not displace by more than the
   !> tolerance allows.

@@ -172,7 +172,8 @@ contains
     if (info%failed()) return
     call canonical%to_given_modes(problem%prescribed_motion(), found%motion, motion)
     if (allocated(scene%excluded)) call set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, &
-                                                         iterate, found)
+                                                         iterate%displacement, found, info)
+    if (info%failed()) return
     call move_alloc(found%force, solution%force)
     call move_alloc(found%gap, solution%gap)
     call move_alloc(motion, solution%motion)
@@ -250,25 +251,33 @@ contains
     end do
   end subroutine set_gaps
 
-  !> c = g + A f - R q at the points that are excluded; `motion` q (m) in the modes R of the problem.
-  subroutine set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, iterate, found)
+  !> c = g + A f - R q at the points that are excluded; `motion` q (m) in the modes R of the problem, `displacement` (n)
+  !> in units of the scene. Error: FUGE_ERR_MEMORY.
+  subroutine set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, displacement, found, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
     type(contact_scene), intent(in) :: scene
     type(scene_scaling), intent(in) :: scaling
-    real(dp), intent(in) :: motion(:)
-    type(contact_iterate), intent(inout) :: iterate
+    real(dp), intent(in) :: motion(:), displacement(:)
     type(contact_solution), intent(inout) :: found
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: scaled(:)
+    real(dp) :: shift
+    integer :: stat
 
-    if (allocated(scene%modes)) then
-      iterate%displacement = iterate%displacement + matmul(scene%modes, iterate%rigid_motion)
-    end if
-    iterate%displacement = scaling%load*iterate%displacement
+    allocate (scaled(size(displacement)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of the excluded points')
+    call canonical%ranks%agree(info)
+    if (info%failed()) return
+    shift = 0.0_dp
     if (scene%absorbs_datum .or. .not. scene%prescribed) then
-      iterate%displacement = iterate%displacement + operator%datum()*canonical%ranks%total(sum(found%force))
+      shift = operator%datum()*canonical%ranks%total(sum(found%force))
     end if
-    call canonical%set_excluded_gaps_from(iterate%displacement, problem%gap, motion, found%gap)
+    ! No rigid motion has been taken out of these displacements: the modes of the scene are zero there.
+    scaled = 0.0_dp
+    where (scene%excluded) scaled = scaling%load*displacement + shift
+    call canonical%set_excluded_gaps_from(scaled, problem%gap, motion, found%gap)
   end subroutine set_excluded_gaps
 
 end module fuge_general_scene

@@ -12,7 +12,7 @@ module fuge_iterative_engine
   use fuge_contact_set_search, only: find_contact_set, search_settings, states_of
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
-  use fuge_engine_messages, only: report_closed_gap, SINGULAR_ON_CONTACT
+  use fuge_engine_messages, only: report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
   use fuge_general_scene, only: assemble_general, set_general_scene
   use fuge_iterated_set, only: iterated_set
   use fuge_iteration_error, only: estimated_force_error, find_rounding
@@ -57,7 +57,8 @@ contains
   !>
   !> `problem` checked; if plain, with a load > 0; `canonical` its canonical form, if it is general.
   !> `history`: earlier solutions to start from, and this one on success. `last` the set of the last solve with this
-  !> operator, on return that of this one. `solution` may be unallocated; it is written only on success. Errors:
+  !> operator, on return that of this one. `solution` may be unallocated; after an error it is
+  !> undefined. Errors:
   !> FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT,
   !> FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
   subroutine solve_by_iteration(operator, problem, canonical, options, monitor, history, last, solution, info)
@@ -74,6 +75,7 @@ contains
     type(contact_scene) :: scene
     type(scene_scaling) :: scaling
     type(search_settings) :: coarse_settings, settings
+    real(dp) :: force, length
     integer :: coarse_products, fine_products
     type(shared_ranks) :: ranks
 
@@ -110,7 +112,10 @@ contains
     else
       call history%record_cold(iterate%start_error, options%tolerance, coarse_products, fine_products)
     end if
-    call assemble_with_error(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    call assemble(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    if (info%failed()) return
+    call find_rounding(problem, canonical, scene, scaling%load, iterate, solution, length, force)
+    call judge_forces(operator, scene, length, force, monitor, iterate, info)
     if (info%failed()) return
     last%least_compliance = iterate%least_compliance
     last%tolerance = options%tolerance
@@ -119,9 +124,8 @@ contains
     call history%store(problem, scene%rows%ranks, solution)
   end subroutine solve_by_iteration
 
-  !> The solution in the units of the problem, and the estimated error of its forces; a warning where two points are
-  !> repeated, so that forces are not unique. Errors: FUGE_ERR_MEMORY, those of the operator.
-  subroutine assemble_with_error(operator, problem, canonical, scene, scaling, iterate, solution, info)
+  !> The solution in the units of the problem. Error: FUGE_ERR_MEMORY.
+  subroutine assemble(operator, problem, canonical, scene, scaling, iterate, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
@@ -130,28 +134,45 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
-    real(dp) :: pair_compliance, length, force
-    logical :: repeated
 
-    call find_compliance(operator, scene, iterate, pair_compliance, repeated, info)
-    if (info%failed()) return
     if (is_general(problem)) then
       call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
     else
       call assemble_simple(operator, scene, scaling, iterate, solution, info)
     end if
-    if (info%failed()) return
-    if (repeated) call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
-    call find_rounding(problem, canonical, scene, scaling%load, iterate, solution, length, force)
-    info%force_error = estimated_force_error(iterate, pair_compliance, length, force)
-  end subroutine assemble_with_error
+  end subroutine assemble
 
-  !> The least compliance of the contact set, by which errors of the forces are judged: iterate%least_compliance and
-  !> `pair_compliance` of the operator; and whether two points are `repeated`: then the forces are not unique. Errors:
-  !> those of the operator, FUGE_ERR_MEMORY.
-  subroutine find_compliance(operator, scene, iterate, pair_compliance, repeated, info)
+  !> The estimated error of the forces, info%force_error, and a warning where two points are repeated, so that forces
+  !> are not unique. `length` and `force` as from `find_rounding`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED, those of
+  !> the operator.
+  subroutine judge_forces(operator, scene, length, force, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: length, force
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: pair_compliance
+    logical :: repeated
+
+    call find_compliance(operator, scene, length, monitor, iterate, pair_compliance, repeated, info)
+    if (info%failed()) return
+    if (repeated .and. info%status == FUGE_WARN_NOT_UNIQUE) then
+      call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_AND_UNRESISTED)
+    else if (repeated) then
+      call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
+    end if
+    info%force_error = estimated_force_error(iterate, pair_compliance, length, force)
+  end subroutine judge_forces
+
+  !> The least compliance of the contact set, by which errors of the forces are judged: iterate%least_compliance and
+  !> `pair_compliance` of the operator; and whether two points are `repeated`: then the forces are not unique. `length`
+  !> as from `find_rounding`. Errors: those of the operator, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED.
+  subroutine find_compliance(operator, scene, length, monitor, iterate, pair_compliance, repeated, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: length
+    class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     real(dp), intent(out) :: pair_compliance
     logical, intent(out) :: repeated
@@ -169,7 +190,7 @@ contains
     ! On a grid the preconditioner is close to an inverse, and what conjugate gradients have found is enough.
     enough = preconditioned .and. iterate%least_compliance > 0.0_dp
     if (enough) enough = all(operator%grid() > 0)
-    if (.not. enough) call probe_compliance(operator, scene, iterate, info)
+    if (.not. enough) call probe_compliance(operator, scene, length, monitor, iterate, info)
     if (info%failed()) return
     repeated = .not. pair_compliance > 0.0_dp
     if (preconditioned .or. pair_compliance < huge(pair_compliance)) return

@@ -10,6 +10,8 @@ module fuge_lanczos_values
 
   !> So many inverse iterations find the smallest value well enough for an estimate.
   integer, parameter :: INVERSE_ITERATIONS = 6
+  !> A pivot below this fraction of the largest one may be rounding.
+  real(dp), parameter :: SUSPECT = 1.0e-8_dp
   !> Steps for which there is room at first.
   integer, parameter :: FIRST_ROOM = 64
 
@@ -19,9 +21,12 @@ module fuge_lanczos_values
     integer :: steps = 0
     !> D, and the elements of L below its unit diagonal.
     real(dp), allocatable :: pivots(:), below(:)
+    !> The largest element of D.
+    real(dp) :: largest = 0.0_dp
   contains
     procedure :: restart
     procedure :: add
+    procedure :: is_suspect
     procedure :: smallest
   end type lanczos_values
 
@@ -32,7 +37,18 @@ contains
     class(lanczos_values), intent(inout) :: self
 
     self%steps = 0
+    self%largest = 0.0_dp
   end subroutine restart
+
+  !> Is `pivot`, one over a step length, so small that the next step may be rounding? Values of a good preconditioner
+  !> are about 1, and without one the first pivot is of that order.
+  elemental function is_suspect(self, pivot)
+    class(lanczos_values), intent(in) :: self
+    real(dp), intent(in) :: pivot
+    logical :: is_suspect
+
+    is_suspect = .not. pivot > SUSPECT*max(self%largest, 1.0_dp)
+  end function is_suspect
 
   !> The next step: its length, and the energy of its residual over that of the step before. Without memory it is left
   !> out.
@@ -47,6 +63,7 @@ contains
     if (stat /= 0) return
     self%steps = self%steps + 1
     self%pivots(self%steps) = 1.0_dp/step_length
+    self%largest = max(self%largest, self%pivots(self%steps))
     ! The element below the pivot of the step before.
     if (self%steps > 1) self%below(self%steps - 1) = sqrt(ratio)
   end subroutine add

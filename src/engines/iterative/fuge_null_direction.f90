@@ -14,7 +14,7 @@ module fuge_null_direction
   implicit none
   private
 
-  public :: find_softness, largest_energy, leave_null_direction, stores_no_energy
+  public :: find_softness, largest_energy, leave_null_direction, softness_so_far, stores_no_energy
 
   !> So many units in the last place of the terms of an energy are none.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
@@ -27,8 +27,8 @@ contains
 
   !> Note the largest displacement by forces of size 1, iterate%softness; iterate%work is the displacement by the search
   !> direction. The first direction may be one that displaces nothing: then from the terms of its displacement, which
-  !> the operator of a grid knows, or for other operators from a product with one force. Errors: FUGE_ERR_MEMORY, those
-  !> of the operator.
+  !> the operator of a grid or a matrix knows, and for operators without a grid also from a product with one force and
+  !> from the displacements so far. Errors: FUGE_ERR_MEMORY, those of the operator.
   subroutine find_softness(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
@@ -46,18 +46,32 @@ contains
                                  //text(size(iterate%work))//' points')
       call scene%rows%ranks%agree(info)
       if (info%failed()) return
-      if (all(operator%grid() > 0)) then
-        call operator%magnitude(iterate%direction, iterate%work, terms)
-        iterate%softness = iterate%segments%ranks%largest(maxval(terms))/force
-      else
+      call operator%magnitude(iterate%direction, iterate%work, terms)
+      iterate%softness = iterate%segments%ranks%largest(maxval(terms))/force
+      if (.not. all(operator%grid() > 0)) then
         unit = 0.0_dp
         unit(iterate%segments%first(1)) = 1.0_dp
         call compute_displacement(operator, counts_datum(scene, iterate), unit, terms, info)
-        if (.not. info%failed()) iterate%softness = maxval(abs(terms))
+        if (.not. info%failed()) iterate%softness = max(iterate%softness, maxval(abs(terms)), &
+                                                        softness_so_far(scene, iterate))
       end if
     end if
     iterate%softness = max(iterate%softness, iterate%segments%ranks%largest(maxval(abs(iterate%work)))/force)
   end subroutine find_softness
+
+  !> The largest displacement over the largest force; 0 without forces, or where displacements include rigid ones.
+  function softness_so_far(scene, iterate) result(softness)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: softness
+    real(dp) :: largest(2)
+
+    softness = 0.0_dp
+    if (allocated(scene%modes) .or. .not. allocated(iterate%displacement)) return
+    largest = [maxval(abs(iterate%force)), maxval(abs(iterate%displacement))]
+    call scene%rows%ranks%raise(largest)
+    if (largest(1) > 0.0_dp) softness = largest(2)/largest(1)
+  end function softness_so_far
 
   !> Is the energy `curvature` of the search direction no more than rounding?
   function stores_no_energy(iterate, curvature) result(none)

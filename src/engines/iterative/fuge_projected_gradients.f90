@@ -166,7 +166,7 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: rigid_motion(:)
     real(dp) :: curvature, total
-    logical :: none
+    logical :: none, suspect
 
     step_length = 0.0_dp
     call compute_displacement(operator, counts_datum(scene, iterate), iterate%direction, iterate%work, info)
@@ -175,9 +175,10 @@ contains
     if (allocated(scene%modes) .and. .not. info%failed()) call remove_rigid_motion(iterate, rigid_motion)
     call dot_and_sum_over(iterate%segments, iterate%direction, iterate%work, curvature, total)
     ! Under a load alone, forces do not grow on the way to such a direction.
-    if (.not. (iterate%prescribed .or. curvature > 0.0_dp)) call find_softness(operator, scene, iterate, info)
+    suspect = iterate%lanczos%is_suspect(curvature/energy)
+    if (suspect .and. .not. iterate%prescribed) call find_softness(operator, scene, iterate, info)
     if (info%failed()) return
-    none = iterate%prescribed .or. .not. curvature > 0.0_dp
+    none = iterate%prescribed .or. suspect
     if (none) none = stores_no_energy(iterate, curvature)
     if (none) then
       call leave_null_direction(scene, tolerance, energy, iterate)

@@ -6,7 +6,7 @@ module fuge_tableau_engine
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_definiteness, only: check_definite
-  use fuge_engine_messages, only: explain_status
+  use fuge_engine_messages, only: explain_status, report_uncorrected
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -50,8 +50,10 @@ contains
     if (status /= FUGE_DONE) then
       call explain_status(status, limit, count(solution%state /= FUGE_OPEN), info)
     else
-      call solve_from_set(canonical, iteration_limit(fuge_options(), size(solution%state) + 1), monitor, factor, &
-                          solution, sets, info)
+      ! The caller's limit is that of the pivots.
+      limit = iteration_limit(fuge_options(), size(solution%state) + 1)
+      call solve_from_set(canonical, limit, monitor, factor, solution, sets, info)
+      if (info%status == FUGE_ERR_ITERATION_LIMIT) call report_uncorrected(info%iterations, limit, info)
     end if
   end subroutine solve_by_tableau
 
