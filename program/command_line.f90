@@ -2,7 +2,8 @@
 module command_line
   use fuge, only: dp => fuge_dp, fuge_info, FUGE_ERR_FILE, FUGE_ERR_OPTION
   use number_words, only: read_real
-  use option_table, only: may_repeat, option_number, takes_value, OPTION_NAMES
+  use option_table, only: may_repeat, option_number, takes_value, INPUTS, OPTION_NAMES
+  use similar_words, only: similar_word
   use text_lines, only: line_reader
   implicit none
   private
@@ -34,6 +35,7 @@ module command_line
     procedure :: file
     procedure :: path
     procedure :: number
+    procedure :: numbers
     procedure, private :: add
     procedure, private :: read_job
   end type arguments
@@ -106,9 +108,10 @@ contains
     type(fuge_info), intent(inout) :: info
     type(line_reader) :: file
     character(len=:), allocatable :: name, value
-    integer :: split
+    integer :: before, split
     logical :: exists
 
+    before = self%count
     if (allocated(self%job)) call refuse('"'//self%job//'" and "'//path//'" are two job files', info)
     if (info%failed()) return
     self%job = path
@@ -120,24 +123,70 @@ contains
       name = file%line(:split - 1)
       value = trim(adjustl(file%line(min(split + 1, len(file%line) + 1):)))
       if (index(name, '--') /= 1) name = '--'//name
-      call check_line(name, value, file%place(), info)
+      call check_line(name, value, path(:index(path, '/', back=.true.)), file%place(), info)
       if (.not. info%failed()) call self%add(name, value, file%place(), path(:index(path, '/', back=.true.)), info)
     end do
     call file%close()
+    if (self%count == before .and. .not. info%failed()) &
+      call refuse('"'//path//'" has no options: one on each line is needed', info)
   end subroutine read_job
 
-  !> Refuse an option with no value, or with one too many, on a line of a job file.
-  subroutine check_line(name, value, place, info)
-    character(len=*), intent(in) :: name, value, place
+  !> Refuse an option with no value, or with one too many, on a line of a job file, and a second option. Paths begin at
+  !> `folder`.
+  subroutine check_line(name, value, folder, place, info)
+    character(len=*), intent(in) :: name, value, folder, place
     type(fuge_info), intent(inout) :: info
+    character(len=:), allocatable :: second
 
     if (number_of(name) == 0) return
     if (takes_value(number_of(name)) .and. len(value) == 0) then
       call refuse(place//': '//name//' needs a value', info)
     else if (.not. takes_value(number_of(name)) .and. len(value) > 0) then
       call refuse(place//': '//name//' has no value', info)
+    else
+      second = inner_option(number_of(name), value, folder)
+      if (len(second) > 0) &
+        call refuse(place//': "'//second//'" begins a second option, but there is one on each line', info)
     end if
   end subroutine check_line
+
+  !> The word behind a blank in the value of option `which` that begins a second option; empty if there is none. Without
+  !> hyphens it may be a word of a name, unless an input is to be read that does not exist.
+  function inner_option(which, value, folder) result(word)
+    integer, intent(in) :: which
+    character(len=*), intent(in) :: value, folder
+    character(len=:), allocatable :: word, rest
+    logical :: is_input
+
+    word = ''
+    is_input = any(INPUTS == OPTION_NAMES(which))
+    if (is_input) then
+      ! The inputs of a body are behind its name.
+      if (is_file(value, folder)) return
+      if (is_file(value(index(value, '=') + 1:), folder)) return
+    end if
+    rest = value
+    do
+      rest = adjustl(rest(scan(rest//' ', ' '):))
+      word = rest(:scan(rest//' ', ' =') - 1)
+      if (len_trim(rest) == 0 .or. number_of(word) > 0) return
+      if (is_input .and. option_number(word) > 0) return
+    end do
+  end function inner_option
+
+  !> Is there a file at this path, which begins at `folder` unless it is absolute?
+  function is_file(path, folder)
+    character(len=*), intent(in) :: path, folder
+    logical :: is_file
+
+    is_file = len(path) > 0
+    if (.not. is_file) return
+    if (path(1:1) == '/') then
+      inquire (file=path, exist=is_file)
+    else
+      inquire (file=folder//path, exist=is_file)
+    end if
+  end function is_file
 
   !> Add an option. `place` is empty on the command line.
   subroutine add(self, word, value, place, folder, info)
@@ -149,7 +198,7 @@ contains
 
     which = number_of(word)
     if (which == 0) then
-      call refuse(prefix(place)//'unknown option "'//word//'"', info)
+      call refuse(prefix(place)//'unknown option "'//word//'"'//suggestion(word), info)
       return
     else if (self%has(trim(OPTION_NAMES(which))) .and. .not. may_repeat(which)) then
       call refuse(prefix(place)//word//' is given twice', info)
@@ -172,6 +221,17 @@ contains
       if (len(place) > 0) new%place = place//': '//new%place
     end associate
   end subroutine add
+
+  !> What may be meant by an unknown option, in words; empty for one that is like no other.
+  pure function suggestion(word) result(text)
+    character(len=*), intent(in) :: word
+    character(len=:), allocatable :: text
+    integer :: which
+
+    text = ''
+    which = similar_word(word(max(verify(word, '-'), 1):), OPTION_NAMES)
+    if (which > 0) text = ' (did you mean --'//trim(OPTION_NAMES(which))//'?)'
+  end function suggestion
 
   !> Component by component, which all compilers do rightly.
   pure subroutine copy_setting(from, to)
@@ -258,5 +318,30 @@ contains
     if (.not. valid) call refuse(self%settings(k)%place//': a number is needed, not "'//self%settings(k)%value//'"', &
                                  info)
   end subroutine number
+
+  !> The numbers, separated by commas, that option k has for a value.
+  subroutine numbers(self, k, values, info)
+    class(arguments), intent(in) :: self
+    integer, intent(in) :: k
+    real(dp), allocatable, intent(inout) :: values(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: begin, commas, i, length
+    logical :: valid
+
+    associate (list => self%settings(k)%value)
+      commas = count([(list(i:i) == ',', i=1, len(list))])
+      if (allocated(values)) deallocate (values)
+      allocate (values(commas + 1), source=0.0_dp)
+      begin = 1
+      do i = 1, size(values)
+        length = index(list(begin:)//',', ',') - 1
+        call read_real(trim(adjustl(list(begin:begin + length - 1))), values(i), valid)
+        if (.not. valid) call refuse(self%settings(k)%place//': numbers with commas between them are needed, not "' &
+                                     //list//'"', info)
+        if (info%failed()) return
+        begin = begin + length + 1
+      end do
+    end associate
+  end subroutine numbers
 
 end module command_line

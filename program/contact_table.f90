@@ -5,7 +5,7 @@ module contact_table
   implicit none
   private
 
-  public :: put_status, write_contact, write_field
+  public :: put_outcome, put_status, write_contact, write_field
 
 contains
 
@@ -35,8 +35,19 @@ contains
     call csv%finish(info)
   end subroutine write_contact
 
-  !> Status, message and residual.
+  !> Status, message, residual, and the number of contacts.
   subroutine put_status(csv, info)
+    type(table), intent(inout) :: csv
+    type(fuge_info), intent(in) :: info
+    character(len=40) :: line
+
+    call put_outcome(csv, info)
+    write (line, '(a,i0)') '# contacts: ', info%contacts
+    call csv%put(line)
+  end subroutine put_status
+
+  !> Status, message and residual.
+  subroutine put_outcome(csv, info)
     type(table), intent(inout) :: csv
     type(fuge_info), intent(in) :: info
     character(len=320) :: line
@@ -46,9 +57,7 @@ contains
     if (info%status /= 0) call csv%put('# message: '//info%message)
     write (line, '(a,es9.2e3)') '# residual: ', info%residual
     call csv%put(line)
-    write (line, '(a,i0)') '# contacts: ', info%contacts
-    call csv%put(line)
-  end subroutine put_status
+  end subroutine put_outcome
 
   !> (R^T f)_k
   pure function resultant(problem, force, k)

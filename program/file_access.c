@@ -1,20 +1,14 @@
 /* What Fortran does not know of files: which paths lead to the same one, and whether all that was written is there.
  * file_access.f90 has the interfaces. */
 #define _XOPEN_SOURCE 700
-#include <errno.h>
-#include <stdio.h>
+#include "../src/io/written_file.h"
 #include <stdlib.h>
-#include <string.h>
 #if defined(_WIN32)
 #include <io.h>
 #include <windows.h>
 #else
 #include <sys/stat.h>
-#include <unistd.h>
 #endif
-
-/* errno, or another number than 0 where the C library does not set it. */
-static int failure(void) { return errno != 0 ? errno : -1; }
 
 #if defined(_WIN32)
 
@@ -52,13 +46,6 @@ static int is_endless(const char *path)
 
 static void remove_file(const char *path) { remove(path); }
 
-static void empty_file(const char *path)
-{
-  FILE *file = fopen(path, "wb");
-
-  if (file != NULL) fclose(file);
-}
-
 #else
 
 typedef struct stat identity;
@@ -92,11 +79,6 @@ static void remove_file(const char *path)
 
   if (place != NULL) unlink(place);
   free(place);
-}
-
-static void empty_file(const char *path)
-{
-  if (truncate(path, 0) != 0) errno = 0;
 }
 
 #endif
@@ -133,12 +115,9 @@ void program_remove_file(const char *path) { remove_file(path); }
 /* Begin a file anew, or standard output if the path is empty; NULL, and *error is not 0, if it cannot be opened. */
 void *program_open_table(const char *path, int *error)
 {
-  FILE *file;
-
-  errno = 0;
-  file = path[0] == '\0' ? stdout : fopen(path, "wb");
-  *error = file == NULL ? failure() : 0;
-  return file;
+  if (path[0] != '\0') return open_anew(path, error);
+  *error = 0;
+  return stdout;
 }
 
 /* Write a line; 0 or the error. */
@@ -149,22 +128,10 @@ int program_put_line(void *file, const char *line, size_t length)
 }
 
 /* Write what is still in memory, and close the file in any case; 0 or the error. */
-int program_close_table(void *file)
-{
-  errno = 0;
-  return fclose(file) == 0 ? 0 : failure();
-}
+int program_close_table(void *file) { return close_written(file); }
 
 /* Leave no part of a table that could be taken for the whole. */
-void program_empty_file(const char *path) { empty_file(path); }
+void program_empty_file(const char *path) { empty_incomplete(path); }
 
 /* The text of an error, cut or padded with blanks to `length` characters. */
-void program_reason(int error, char *text, size_t length)
-{
-  const char *reason = error > 0 ? strerror(error) : "unknown reason";
-  size_t known = strlen(reason);
-
-  if (known > length) known = length;
-  memcpy(text, reason, known);
-  memset(text + known, ' ', length - known);
-}
+void program_reason(int error, char *text, size_t length) { copy_reason(error, text, length); }

@@ -9,9 +9,10 @@ program fuge_program
   use fuge, only: fuge_info, FUGE_VERSION
   use matrix_problem, only: solve_body, solve_influence
   use mesh_problem, only: solve_meshes
-  use option_checks, only: check_options, WITH_ALPHA, WITH_MATRICES, WITH_MESHES
+  use option_checks, only: check_options, WITH_ALPHA, WITH_MATRICES, WITH_MESHES, WITH_SURFACE
   use option_table, only: HELP
   use progress_log, only: progress
+  use surface_problem, only: solve_surface
   use text_table, only: table
   implicit none
 
@@ -75,6 +76,8 @@ contains
       call solve_body(given, log, info)
     case (WITH_MESHES)
       call solve_meshes(given, log, info)
+    case (WITH_SURFACE)
+      call solve_surface(given, log, info)
     end select
     if (.not. info%failed()) call log%say('done')
   end subroutine solve

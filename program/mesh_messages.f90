@@ -1,15 +1,17 @@
 !> Messages of the library in the words of the files: nodes and names of bodies instead of their numbers.
 module mesh_messages
-  use fuge, only: fuge_info
+  use fuge, only: dp => fuge_dp, fuge_condensed, fuge_info, fuge_joined_bodies, fuge_solution, FUGE_ERR_NO_EQUILIBRIUM
   use mesh_body, only: model_body
   use number_words, only: number_text, read_integer
   implicit none
   private
 
-  public :: explain
+  public :: explain, explain_motion
 
-  character(len=*), parameter :: DOF_WORDS = 'degree of freedom ', BODY_WORDS = 'body '
+  character(len=*), parameter :: DOF_WORDS = 'degree of freedom ', BODY_WORDS = 'body ', MOTION_WORDS = 'motion '
   character(len=*), parameter :: AXES = 'xyz'
+  !> Differences of displacements below this part of the largest are rounding.
+  real(dp), parameter :: ROUNDING = 1.0e-6_dp
 
 contains
 
@@ -35,6 +37,87 @@ contains
     end if
     if (size(first) == 0) call name_bodies(bodies, info%message)
   end subroutine explain
+
+  !> Say in place of the number of a motion without equilibrium which body moves how.
+  subroutine explain_motion(bodies, joined, condensed, info)
+    type(model_body), intent(in) :: bodies(:)
+    type(fuge_joined_bodies), intent(in) :: joined
+    type(fuge_condensed), intent(in) :: condensed
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: moved(:)
+    integer :: at, body, elastic, length, motion
+
+    if (info%status /= FUGE_ERR_NO_EQUILIBRIUM) return
+    call find_number(info%message, MOTION_WORDS, at, length, motion)
+    if (at == 0) return
+    call find_displacement(joined, condensed, motion, moved)
+    if (.not. allocated(moved)) return
+    elastic = count(joined%first < maxloc(abs(moved), dim=1))
+    body = elastic_place(bodies, elastic)
+    if (body == 0) return
+    info%message = 'body '//bodies(body)%name//', ' &
+      //motion_text(bodies(body), moved(joined%first(elastic) + 1:joined%first(elastic + 1))) &
+      //': its loads move it that way without closing a contact, so that no contact forces can balance them: hold it ' &
+      //'by --support, or turn the loads'
+  end subroutine explain_motion
+
+  !> The displacements by a unit of a rigid motion; unallocated without memory.
+  subroutine find_displacement(joined, condensed, motion, moved)
+    type(fuge_joined_bodies), intent(in) :: joined
+    type(fuge_condensed), intent(in) :: condensed
+    integer, intent(in) :: motion
+    real(dp), allocatable, intent(out) :: moved(:)
+    type(fuge_solution) :: rigid
+    type(fuge_info) :: info
+    real(dp), allocatable :: rest(:)
+    integer :: status
+
+    if (motion < 1 .or. motion > size(condensed%resultant)) return
+    allocate (moved(size(joined%body%load)), rest(size(joined%body%load)), rigid%force(joined%pairs%points()), &
+              rigid%motion(size(condensed%resultant)), stat=status)
+    if (status == 0) then
+      rigid%force = 0.0_dp
+      rigid%motion = 0.0_dp
+      call condensed%recover(rigid, rest, info)
+      rigid%motion(motion) = 1.0_dp
+      if (.not. info%failed()) call condensed%recover(rigid, moved, info)
+      if (.not. info%failed()) then
+        moved = moved - rest
+        return
+      end if
+    end if
+    if (allocated(moved)) deallocate (moved)
+  end subroutine find_displacement
+
+  !> What a rigid motion of a body is, from the displacements of its rows.
+  pure function motion_text(body, moved) result(text)
+    type(model_body), intent(in) :: body
+    real(dp), intent(in) :: moved(:)
+    character(len=:), allocatable :: text
+    real(dp) :: least(len(AXES)), most(len(AXES))
+    integer :: axis, row
+
+    least = huge(1.0_dp)
+    most = -huge(1.0_dp)
+    do row = 1, size(moved)
+      axis = body%direction_of_row(row)
+      if (axis < 1 .or. axis > len(AXES)) cycle
+      least(axis) = min(least(axis), moved(row))
+      most(axis) = max(most(axis), moved(row))
+    end do
+    ! Axes that no row has.
+    where (least > most)
+      least = 0.0_dp
+      most = 0.0_dp
+    end where
+    axis = maxloc(max(-least, most), dim=1)
+    text = 'a rotation'
+    if (all(most - least <= ROUNDING*maxval(abs(moved)))) then
+      text = 'displacement aslant'
+      if (all(max(-least, most) <= ROUNDING*maxval(abs(moved)) .or. [1, 2, 3] == axis)) &
+        text = 'displacement along '//AXES(axis:axis)
+    end if
+  end function motion_text
 
   !> Replace the numbers of bodies by their names.
   pure subroutine name_bodies(bodies, message)

@@ -7,7 +7,7 @@ module mesh_problem
   use mesh_body, only: model_body, read_bodies, refuse_memory
   use mesh_conditions, only: take_conditions
   use mesh_fields, only: check_fields, write_fields
-  use mesh_messages, only: explain
+  use mesh_messages, only: explain, explain_motion
   use mesh_names, only: find_nodes
   use mesh_pairs, only: find_pairs, mesh_node, model_pair
   use mesh_table, only: write_points
@@ -46,7 +46,10 @@ contains
     condensation = info
     if (.not. info%failed()) call joined%pose(condensed, problem, info)
     if (.not. info%failed()) call take_excluded(given, bodies, pairs, joined, problem, info)
-    if (.not. info%failed()) call solve(condensed%alpha, problem, solution, log, info)
+    if (.not. info%failed()) then
+      call solve(condensed%alpha, problem, solution, log, info)
+      call explain_motion(bodies, joined, condensed, info)
+    end if
     if (info%failed()) return
     allocate (displacement(joined%first(size(joined%first))), stat=status)
     if (status /= 0) then

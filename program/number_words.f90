@@ -5,7 +5,7 @@ module number_words
   implicit none
   private
 
-  public :: number_text, read_integer, read_real
+  public :: number_text, read_integer, read_real, short_text
 
 contains
 
@@ -49,5 +49,15 @@ contains
     write (field, '(i0)') value
     text = trim(field)
   end function number_text
+
+  !> A number as text, to six digits.
+  pure function short_text(value) result(text)
+    real(dp), intent(in) :: value
+    character(len=:), allocatable :: text
+    character(len=16) :: field
+
+    write (field, '(es13.5e3)') value
+    text = trim(adjustl(field))
+  end function short_text
 
 end module number_words

@@ -3,25 +3,28 @@ module option_checks
   use command_line, only: arguments, refuse
   use file_access, only: prepare_file, remove_file, same_file
   use fuge, only: fuge_info
+  use option_table, only: INPUTS
   implicit none
   private
 
   public :: check_input, check_options
 
   !> What is asked for.
-  integer, parameter, public :: WITH_ALPHA = 1, WITH_MATRICES = 2, WITH_MESHES = 3
-  character(len=*), parameter :: NEEDED(3) = [character(len=24) :: '--alpha', '--stiffness', '--mesh and --pair']
+  integer, parameter, public :: WITH_ALPHA = 1, WITH_MATRICES = 2, WITH_MESHES = 3, WITH_SURFACE = 4
+  character(len=*), parameter :: NEEDED(4) = [character(len=24) :: '--alpha', '--stiffness', '--mesh and --pair', &
+    '--surface']
 
-  !> What each of these options needs: one of the three.
+  !> What each of these options needs: one of the four.
   character(len=12), parameter :: ONLY_ALPHA(3) = [character(len=12) :: 'modes', 'motion', 'resultant']
   character(len=12), parameter :: ONLY_MATRICES(4) = [character(len=12) :: 'contact', 'external', 'fixed', 'floats']
-  character(len=12), parameter :: ONLY_MESHES(15) = [character(len=12) :: 'body', 'clearance', 'crease', 'faceted', &
-    'loads', 'matrix', 'mesh', 'node-to-face', 'normals', 'pair', 'pressure', 'reach', 'support', 'supports', 'tied']
+  character(len=12), parameter :: ONLY_MESHES(14) = [character(len=12) :: 'body', 'clearance', 'crease', 'faceted', &
+    'loads', 'matrix', 'mesh', 'node-to-face', 'normals', 'pair', 'reach', 'support', 'supports', 'tied']
+  character(len=12), parameter :: ONLY_SURFACE(11) = [character(len=12) :: 'boundary', 'element', 'fill', &
+    'height-scale', 'level', 'modulus', 'poisson', 'scale', 'spacing', 'surface', 'young']
   character(len=12), parameter :: NOT_ALPHA(2) = [character(len=12) :: 'field', 'rows']
+  character(len=12), parameter :: NOT_SURFACE(5) = [character(len=12) :: 'approach', 'exclude', 'gap', 'play', 'rows']
 
-  !> Options whose value is the path of an input, or of a result.
-  character(len=12), parameter :: WITH_FILES(13) = [character(len=12) :: 'alpha', 'contact', 'external', 'fixed', &
-    'gap', 'loads', 'mesh', 'modes', 'play', 'resultant', 'rows', 'stiffness', 'supports']
+  !> Options whose value is the path of a result.
   character(len=*), parameter :: RESULTS(2) = ['output', 'field ']
 
 contains
@@ -36,8 +39,11 @@ contains
     kind = WITH_MATRICES
     if (given%has('mesh') .or. given%has('pair')) kind = WITH_MESHES
     if (given%has('alpha')) kind = WITH_ALPHA
-    if (given%has('alpha') .eqv. (given%has('stiffness') .or. given%has('mesh'))) then
-      call refuse('one of --alpha and --stiffness is needed', info)
+    if (given%has('surface')) kind = WITH_SURFACE
+    if (count([given%has('alpha'), given%has('stiffness') .or. given%has('mesh'), given%has('surface')]) /= 1) then
+      call refuse('one of --alpha, --stiffness and --surface is needed', info)
+    else if (kind == WITH_SURFACE) then
+      call check_surface(given, info)
     else if (kind == WITH_MESHES) then
       call check_meshes(given, info)
     else
@@ -46,6 +52,10 @@ contains
     if (kind /= WITH_ALPHA) call check_absent(given, ONLY_ALPHA, NEEDED(WITH_ALPHA), info)
     if (kind /= WITH_MATRICES) call check_absent(given, ONLY_MATRICES, '--stiffness without --mesh', info)
     if (kind /= WITH_MESHES) call check_absent(given, ONLY_MESHES, NEEDED(WITH_MESHES), info)
+    if (kind /= WITH_SURFACE) call check_absent(given, ONLY_SURFACE, NEEDED(WITH_SURFACE), info)
+    if (kind == WITH_ALPHA .or. kind == WITH_MATRICES) &
+      call check_absent(given, ['pressure'], trim(NEEDED(WITH_MESHES))//', or '//NEEDED(WITH_SURFACE), info)
+    if (kind == WITH_SURFACE) call check_absent(given, NOT_SURFACE, 'matrices or meshes', info)
     if (kind == WITH_ALPHA) call check_absent(given, NOT_ALPHA, NEEDED(WITH_MATRICES), info)
     if (.not. info%failed()) call check_results(given, info)
   end subroutine check_options
@@ -75,6 +85,21 @@ contains
     call check_single(given, 'stiffness', info)
   end subroutine check_matrices
 
+  subroutine check_surface(given, info)
+    type(arguments), intent(in) :: given
+    type(fuge_info), intent(inout) :: info
+
+    if (given%has('pressure') .eqv. given%has('load')) then
+      call refuse('with --surface one of --pressure and --load is needed', info)
+    else if (given%has('modulus') .eqv. (given%has('young') .or. given%has('poisson'))) then
+      call refuse('with --surface either --modulus, or --young and --poisson, are needed', info)
+    else if (given%has('young') .neqv. given%has('poisson')) then
+      call refuse('--young and --poisson go together', info)
+    end if
+    call check_single(given, 'load', info)
+    call check_single(given, 'pressure', info)
+  end subroutine check_surface
+
   subroutine check_meshes(given, info)
     type(arguments), intent(in) :: given
     type(fuge_info), intent(inout) :: info
@@ -101,7 +126,7 @@ contains
     made = .false.
     if (allocated(given%job)) call check_input(given, given%job, 'it is the job file', info)
     do k = 1, given%count
-      if (any(given%settings(k)%name == WITH_FILES)) call check_option(given, k, info)
+      if (any(given%settings(k)%name == INPUTS)) call check_option(given, k, info)
     end do
     do k = 1, size(RESULTS)
       if (given%has(RESULTS(k)) .and. .not. info%failed()) call prepare_file(given%file(RESULTS(k)), made(k), info)
@@ -159,7 +184,7 @@ contains
     end do
   end subroutine check_input
 
-  !> Refuse an option that is given again without meshes.
+  !> Refuse an option that only meshes may give again.
   subroutine check_single(given, name, info)
     type(arguments), intent(in) :: given
     character(len=*), intent(in) :: name

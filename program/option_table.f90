@@ -6,26 +6,33 @@ module option_table
   public :: may_repeat, option_number, takes_value
 
   !> The names of the options, after two hyphens.
-  character(len=12), parameter, public :: OPTION_NAMES(35) = [character(len=12) :: &
-    'alpha', 'approach', 'body', 'clearance', 'contact', 'crease', 'exclude', 'external', 'faceted', 'field', 'fixed', &
-    'floats', 'gap', 'help', 'load', 'loads', 'matrix', 'mesh', 'modes', 'motion', 'node-to-face', 'normals', 'output', 'pair', &
-    'play', 'pressure', 'reach', 'resultant', 'rows', 'stiffness', 'support', 'supports', 'tied', 'verbose', 'version']
+  character(len=12), parameter, public :: OPTION_NAMES(46) = [character(len=12) :: &
+    'alpha', 'approach', 'body', 'boundary', 'clearance', 'contact', 'crease', 'element', 'exclude', 'external', &
+    'faceted', 'field', 'fill', 'fixed', 'floats', 'gap', 'height-scale', 'help', 'level', 'load', 'loads', &
+    'matrix', 'mesh', 'modes', 'modulus', 'motion', 'node-to-face', 'normals', 'output', 'pair', 'play', 'poisson', &
+    'pressure', 'reach', 'resultant', 'rows', 'scale', 'spacing', 'stiffness', 'support', 'supports', 'surface', &
+    'tied', 'verbose', 'version', 'young']
   !> Those without a value.
-  character(len=12), parameter :: WITHOUT_VALUE(7) = [character(len=12) :: &
-    'faceted', 'floats', 'help', 'node-to-face', 'tied', 'verbose', 'version']
+  character(len=12), parameter :: WITHOUT_VALUE(8) = [character(len=12) :: &
+    'faceted', 'fill', 'floats', 'help', 'node-to-face', 'tied', 'verbose', 'version']
   !> Those that may be given again: of another body or pair, or one more support.
   character(len=12), parameter :: REPEATED(21) = [character(len=12) :: &
     'body', 'clearance', 'crease', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
     'normals', 'pair', 'play', 'pressure', 'reach', 'rows', 'stiffness', 'support', 'supports', 'tied']
+  !> Those whose value is the path of an input.
+  character(len=12), parameter, public :: INPUTS(14) = [character(len=12) :: &
+    'alpha', 'contact', 'external', 'fixed', 'gap', 'loads', 'mesh', 'modes', 'play', 'resultant', 'rows', &
+    'stiffness', 'supports', 'surface']
 
   !> What `fuge --help` prints.
-  character(len=*), parameter, public :: HELP(65) = [character(len=96) :: &
+  character(len=*), parameter, public :: HELP(83) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
     '', &
     '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
     '       [--support NODES:DIRECTION] [--load NODES:DIRECTION=F] [--output FILE] [--field FILE]', &
     '  fuge --stiffness FILE --contact FILE --gap FILE [MOTION] [--output FILE] [--field FILE]', &
     '  fuge --alpha FILE --gap FILE MOTION [--output FILE]', &
+    '  fuge --surface FILE --pressure P[,P..] --modulus E [--output FILE] [--field FILE]', &
     '  fuge JOB', &
     '', &
     'JOB: a file with one option a line, hyphens not needed, comments after #; paths begin at its', &
@@ -76,9 +83,26 @@ module option_table
     '  --resultant FILE        m        of the contact forces in each motion (both with --alpha)', &
     '  --motion K=Q            motion K is prescribed, instead of its resultant', &
     '', &
+    'A measured surface, on which a flat rigid body is pressed', &
+    '  --surface FILE          heights: lines of a grid, columns x y height, or SDF', &
+    '  --pressure P[,P..]      mean pressure on the whole surface, or several', &
+    '  --load F[,F..]          force on the whole surface, instead', &
+    '  --modulus E             combined modulus E* of both bodies; or, of one body or of both:', &
+    '  --young E[,E]           Young''s modulus', &
+    '  --poisson N[,N]         Poisson''s ratio', &
+    '  --level WHAT            taken out of the heights: plane (default), mean, none', &
+    '  --fill                  points that were not measured get the mean of their neighbours', &
+    '  --scale S               factor of all lengths of the file: 1e3 from m (as in SDF) to mm', &
+    '  --height-scale S        the same of the heights, where they have another unit', &
+    '  --spacing H[,H]         from point to point along x and y, where the file does not say', &
+    '  --boundary WHAT         the surface is periodic (default), free, periodic-x or periodic-y', &
+    '  --element WHAT          displacements: mean of a cell (default), or at its centre', &
+    '', &
     'Results', &
-    '  --output FILE           table of forces, gaps, pressures; without it on standard output', &
-    '  --field FILE            displacements: .vtu for ParaView (meshes), or a table', &
+    '  --output FILE           table of forces, gaps, pressures, of a surface a line for each load;', &
+    '                          without it on standard output', &
+    '  --field FILE            displacements: .vtu for ParaView (meshes), or a table; of a surface', &
+    '                          height, pressure, gap under the last load: .vti, or a table x,y,..', &
     '  --verbose               each step, with its time, on standard error', &
     '  --version               version, and the libraries in it with their licences', &
     '  --help', &

@@ -1,0 +1,31 @@
+# The table of the program for a surface of surfaces.f90 is that of the known answer, and nothing is warned of.
+# cmake -DPROGRAM=.. -DSURFACES=.. -DARGUMENTS=a|b|.. -DNAME=.. -DCASE=ball|wave [-DFIELD=name] -P this
+cmake_minimum_required(VERSION 3.20)
+
+string(REPLACE "|" ";" arguments "${ARGUMENTS}")
+file(REMOVE "${NAME}.csv" "${NAME}.vti" "${NAME}_map.csv")
+if(FIELD)
+  list(APPEND arguments --field "${FIELD}")
+endif()
+execute_process(COMMAND "${PROGRAM}" ${arguments} --output "${NAME}.csv"
+  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+if(NOT status EQUAL 0 OR NOT output STREQUAL "" OR errors MATCHES "fuge: ")
+  message(FATAL_ERROR "exit status ${status}, output \"${output}\", messages \"${errors}\"")
+endif()
+set(map)
+if(FIELD MATCHES "csv$")
+  set(map "${FIELD}")
+endif()
+execute_process(COMMAND "${SURFACES}" check "${NAME}.csv" ${CASE} ${map} RESULT_VARIABLE status
+  OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${output}")
+endif()
+if(FIELD MATCHES "vti$")
+  file(READ "${FIELD}" head LIMIT 1000)
+  foreach(name IN ITEMS height pressure gap)
+    if(NOT head MATCHES "Name=\"${name}\"")
+      message(SEND_ERROR "${FIELD} has no ${name}")
+    endif()
+  endforeach()
+endif()
