@@ -7,179 +7,179 @@
 
 Units are yours, as long as they are consistent; points count from 0. Errors are exceptions (:class:`Error`), warnings
 those of Python (:class:`Warning`). The interpreter lock is released during calls, so that threads run side by side.
+What follows is a map; ``help(fuge.solve)`` and the like have parameters, shapes and units.
+
+How the bodies deform: an operator, whose ``operator @ force`` are displacements
+
+    a matrix, displacement per force        used as it is, or DenseOperator(alpha)
+    HalfplaneOperator(n, spacing, e_star)   line contact, equal cells, by FFT
+    HalfspaceOperator(nx, ny, dx, dy, e_star)   an area, equal cells, by FFT
+    CallbackOperator(n, apply)              a function of your own
+    Operator, GridOperator, Cells           what all of them are, those by FFT, and the cells that these tell
+    halfplane_matrix, halfspace_matrix, ring_matrix   matrices of cells, rectangles, and rings about an axis
+    graded_cells                            cells that are narrow at the edges of a contact
+    plane_modulus, combined_modulus         the modulus e_star of two bodies
+    displacement_shares, ring_displacement  what each body has of the displacements, and the surface beside rings
+
+Solving: gaps and a load, a prescribed approach, or several rigid motions
+
+    solve(operator, gap, load)              one problem; the result is a Contact with its Info
+    Solver(operator)                        one solve after the other; a Derivative, and the History of the tableau
+    load_path(alpha, gap, load)             all loads at which a point joins, a Path of each PointState
+    contact_edges(x, width, force, element) edges finer than the grid: ContactEdges, each of an EdgeKind
+    hertz_ellipse                           Hertz in closed form: HertzContact
+    solve_smooth_punch                      one interval under a smooth profile, without a grid: SmoothContact
+    solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact
+
+Bodies of finite elements
+
+    Body(stiffness).condense()              one body condensed to its contact points: Condensed
+    ElasticBodies().solve()                 several bodies in one call: BodiesContact; join gives JoinedBodies
+    ContactPairs, Surface                   contact points of two surfaces whose meshes need not match
+    Mesh, read_mesh, join_meshes            meshes, and their pictures for ParaView
+    rigid_modes                             rigid motions of nodes
+    CompressedColumns                       sparse matrices without scipy
+
+Surfaces, profiles and matrices in files
+
+    read_surface(path)                      measured heights: SurfaceHeights
+    fill_surface, level_surface, write_surface
+    read_profile, sample_profile, level_profile
+    read_stiffness(path)                    of CalculiX, Abaqus, Nastran or Matrix Market: StiffnessFile
+    read_matrix, write_matrix, read_sparse, write_sparse   Matrix Market
+    write_fields, write_volume              pressures, gaps and stresses on grids for ParaView
+
+Stresses and displacements in the bodies
+
+    halfplane_stress, halfspace_stress, ring_stress                     at points, from the forces
+    halfplane_displacement, halfspace_displacement, ring_interior_displacement
+    halfplane_stress_grid, halfspace_stress_grid                        below the cells of a grid, at depths, by FFT
+    halfplane_displacement_grid, halfspace_displacement_grid
+    halfplane_tensor, round_tensor                                      all components
+    von_mises, tresca, mean_stress, principal_stresses                  of tensors
+    halfplane_peak, halfspace_peak, ring_peak                           the largest stress: StressPeak
+
+Pictures by matplotlib, one call each on what a solve returns
+
+    plot.map, plot.line, plot.gap, plot.stress, plot.path
+
+What can go wrong: each error and warning has a Status and a message that says how to mend it
+
+    Error: InputError, MatrixError, EquilibriumError, LimitError, UnsupportedError, CallOrderError, FileError,
+        OutOfMemoryError, CallbackError, CancelledError
+    Warning: ResidualWarning, NotUniqueWarning, IllConditionedWarning, GridWarning, PairsWarning,
+        NoContactWarning
 """
 
-from fuge import _library
-from fuge.bodies import BodiesContact, ElasticBodies, JoinedBodies
-from fuge.body import Body, Condensed, rigid_modes
-from fuge.columns import CompressedColumns
+# "as" exports a name, as __all__ would; but with that help(fuge) would have the whole text of each.
+from fuge import _library, plot as plot
+from fuge.bodies import BodiesContact as BodiesContact, ElasticBodies as ElasticBodies, JoinedBodies as JoinedBodies
+from fuge.body import Body as Body, Condensed as Condensed, rigid_modes as rigid_modes
+from fuge.cells import Cells as Cells
+from fuge.columns import CompressedColumns as CompressedColumns
+from fuge.contact import Contact as Contact, Derivative as Derivative, History as History, Info as Info
 from fuge.errors import (
-    CallbackError,
-    CallOrderError,
-    CancelledError,
-    EquilibriumError,
-    Error,
-    FileError,
-    IllConditionedWarning,
-    InputError,
-    LimitError,
-    MatrixError,
-    NotUniqueWarning,
-    OutOfMemoryError,
-    PairsWarning,
-    ResidualWarning,
-    Status,
-    UnsupportedError,
-    Warning,
+    CallbackError as CallbackError,
+    CallOrderError as CallOrderError,
+    CancelledError as CancelledError,
+    EquilibriumError as EquilibriumError,
+    Error as Error,
+    FileError as FileError,
+    GridWarning as GridWarning,
+    IllConditionedWarning as IllConditionedWarning,
+    InputError as InputError,
+    LimitError as LimitError,
+    MatrixError as MatrixError,
+    NoContactWarning as NoContactWarning,
+    NotUniqueWarning as NotUniqueWarning,
+    OutOfMemoryError as OutOfMemoryError,
+    PairsWarning as PairsWarning,
+    ResidualWarning as ResidualWarning,
+    Status as Status,
+    UnsupportedError as UnsupportedError,
+    Warning as Warning,
 )
 from fuge.files import (
-    StiffnessFile,
-    SurfaceHeights,
-    level_profile,
-    level_surface,
-    read_matrix,
-    read_profile,
-    read_sparse,
-    read_stiffness,
-    read_surface,
-    sample_profile,
-    write_fields,
-    write_matrix,
-    write_sparse,
-    write_surface,
-    write_volume,
+    StiffnessFile as StiffnessFile,
+    SurfaceHeights as SurfaceHeights,
+    fill_surface as fill_surface,
+    level_profile as level_profile,
+    level_surface as level_surface,
+    read_matrix as read_matrix,
+    read_profile as read_profile,
+    read_sparse as read_sparse,
+    read_stiffness as read_stiffness,
+    read_surface as read_surface,
+    sample_profile as sample_profile,
+    write_fields as write_fields,
+    write_matrix as write_matrix,
+    write_sparse as write_sparse,
+    write_surface as write_surface,
+    write_volume as write_volume,
 )
 from fuge.halfplane import (
-    ContactEdges,
-    EdgeKind,
-    combined_modulus,
-    contact_edges,
-    displacement_shares,
-    graded_cells,
-    halfplane_matrix,
-    plane_modulus,
+    ContactEdges as ContactEdges,
+    EdgeKind as EdgeKind,
+    combined_modulus as combined_modulus,
+    contact_edges as contact_edges,
+    displacement_shares as displacement_shares,
+    graded_cells as graded_cells,
+    halfplane_matrix as halfplane_matrix,
+    plane_modulus as plane_modulus,
 )
-from fuge.halfspace import HertzContact, halfspace_matrix, hertz_ellipse, ring_displacement, ring_matrix
-from fuge.mesh import Mesh, join_meshes, read_mesh
-from fuge.operators import CallbackOperator, DenseOperator, HalfplaneOperator, HalfspaceOperator, Operator
-from fuge.pairs import ContactPairs, Surface
-from fuge.path import Path, PointState, load_path
-from fuge.smooth import RoundContact, SmoothContact, solve_round_powers, solve_round_punch, solve_smooth_punch
-from fuge.solver import Contact, Derivative, History, Info, Solver, solve
+from fuge.halfspace import (
+    HertzContact as HertzContact,
+    halfspace_matrix as halfspace_matrix,
+    hertz_ellipse as hertz_ellipse,
+    ring_displacement as ring_displacement,
+    ring_matrix as ring_matrix,
+)
+from fuge.mesh import Mesh as Mesh, join_meshes as join_meshes, read_mesh as read_mesh
+from fuge.operators import (
+    CallbackOperator as CallbackOperator,
+    DenseOperator as DenseOperator,
+    GridOperator as GridOperator,
+    HalfplaneOperator as HalfplaneOperator,
+    HalfspaceOperator as HalfspaceOperator,
+    Operator as Operator,
+)
+from fuge.pairs import ContactPairs as ContactPairs, Surface as Surface
+from fuge.path import Path as Path, PointState as PointState, load_path as load_path
+from fuge.smooth import (
+    RoundContact as RoundContact,
+    SmoothContact as SmoothContact,
+    solve_round_powers as solve_round_powers,
+    solve_round_punch as solve_round_punch,
+    solve_smooth_punch as solve_smooth_punch,
+)
+from fuge.solver import Solver as Solver, solve as solve
 from fuge.stress import (
-    halfplane_displacement,
-    halfplane_stress,
-    halfspace_displacement,
-    halfspace_stress,
-    ring_interior_displacement,
-    ring_stress,
+    halfplane_displacement as halfplane_displacement,
+    halfplane_stress as halfplane_stress,
+    halfspace_displacement as halfspace_displacement,
+    halfspace_stress as halfspace_stress,
+    ring_interior_displacement as ring_interior_displacement,
+    ring_stress as ring_stress,
 )
 from fuge.stress_grid import (
-    halfplane_displacement_grid,
-    halfplane_stress_grid,
-    halfspace_displacement_grid,
-    halfspace_stress_grid,
+    halfplane_displacement_grid as halfplane_displacement_grid,
+    halfplane_stress_grid as halfplane_stress_grid,
+    halfspace_displacement_grid as halfspace_displacement_grid,
+    halfspace_stress_grid as halfspace_stress_grid,
 )
-from fuge.stress_measures import halfplane_tensor, mean_stress, principal_stresses, round_tensor, tresca, von_mises
-from fuge.stress_peak import StressPeak, halfplane_peak, halfspace_peak, ring_peak
+from fuge.stress_measures import (
+    halfplane_tensor as halfplane_tensor,
+    mean_stress as mean_stress,
+    principal_stresses as principal_stresses,
+    round_tensor as round_tensor,
+    tresca as tresca,
+    von_mises as von_mises,
+)
+from fuge.stress_peak import (
+    StressPeak as StressPeak,
+    halfplane_peak as halfplane_peak,
+    halfspace_peak as halfspace_peak,
+    ring_peak as ring_peak,
+)
 
 __version__ = _library.version()
-
-__all__ = [
-    "BodiesContact",
-    "Body",
-    "CallOrderError",
-    "CallbackError",
-    "CallbackOperator",
-    "CancelledError",
-    "CompressedColumns",
-    "Condensed",
-    "Contact",
-    "ContactEdges",
-    "ContactPairs",
-    "DenseOperator",
-    "Derivative",
-    "EdgeKind",
-    "ElasticBodies",
-    "EquilibriumError",
-    "Error",
-    "FileError",
-    "HalfplaneOperator",
-    "HalfspaceOperator",
-    "HertzContact",
-    "History",
-    "IllConditionedWarning",
-    "Info",
-    "InputError",
-    "JoinedBodies",
-    "LimitError",
-    "MatrixError",
-    "Mesh",
-    "NotUniqueWarning",
-    "Operator",
-    "OutOfMemoryError",
-    "PairsWarning",
-    "Path",
-    "PointState",
-    "ResidualWarning",
-    "RoundContact",
-    "SmoothContact",
-    "Solver",
-    "Status",
-    "StiffnessFile",
-    "StressPeak",
-    "Surface",
-    "SurfaceHeights",
-    "UnsupportedError",
-    "Warning",
-    "combined_modulus",
-    "contact_edges",
-    "displacement_shares",
-    "graded_cells",
-    "halfplane_displacement",
-    "halfplane_displacement_grid",
-    "halfplane_matrix",
-    "halfplane_peak",
-    "halfplane_stress",
-    "halfplane_stress_grid",
-    "halfplane_tensor",
-    "halfspace_displacement",
-    "halfspace_displacement_grid",
-    "halfspace_matrix",
-    "halfspace_peak",
-    "halfspace_stress",
-    "halfspace_stress_grid",
-    "hertz_ellipse",
-    "join_meshes",
-    "level_profile",
-    "level_surface",
-    "load_path",
-    "mean_stress",
-    "plane_modulus",
-    "principal_stresses",
-    "read_matrix",
-    "read_mesh",
-    "read_profile",
-    "read_sparse",
-    "read_stiffness",
-    "read_surface",
-    "rigid_modes",
-    "ring_displacement",
-    "ring_interior_displacement",
-    "ring_matrix",
-    "ring_peak",
-    "ring_stress",
-    "round_tensor",
-    "sample_profile",
-    "solve",
-    "solve_round_powers",
-    "solve_round_punch",
-    "solve_smooth_punch",
-    "tresca",
-    "von_mises",
-    "write_fields",
-    "write_matrix",
-    "write_sparse",
-    "write_surface",
-    "write_volume",
-]

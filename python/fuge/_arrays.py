@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Mapping
+from typing import Any, Mapping, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,18 +42,22 @@ def integer(name: str, value: Any) -> int:
     return found
 
 
-def _described(shape: tuple[int | None, ...]) -> str:
+Shape = Tuple[Union[int, str, None], ...]
+"""A shape as it has to be, in which None and names such as 'ny' stand for any number."""
+
+
+def _described(shape: Shape) -> str:
     return "(" + ", ".join("any" if k is None else str(k) for k in shape) + ("," if len(shape) == 1 else "") + ")"
 
 
-def _fits(found: tuple[int, ...], wanted: tuple[int | None, ...]) -> bool:
-    return len(found) == len(wanted) and all(w is None or f == w for f, w in zip(found, wanted))
+def _fits(found: tuple[int, ...], wanted: Shape) -> bool:
+    return len(found) == len(wanted) and all(not isinstance(w, int) or f == w for f, w in zip(found, wanted))
 
 
-def check_shape(name: str, found: tuple[int, ...], *wanted: tuple[int | None, ...]) -> None:
-    """One of the shapes `wanted`, in which None stands for any number."""
+def check_shape(name: str, found: tuple[int, ...], *wanted: Shape) -> None:
+    """One of the shapes `wanted`."""
     if not any(_fits(found, shape) for shape in wanted):
-        shapes = " or ".join(_described(shape) for shape in wanted)
+        shapes = " or ".join(dict.fromkeys(_described(shape) for shape in wanted))
         raise error(Status.ERR_SIZE, f"{name} has the shape {_described(found)}, but must have {shapes}")
 
 
@@ -80,7 +84,7 @@ def _real(name: str, value: ArrayLike) -> NDArray[Any]:
     return found
 
 
-def doubles(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Doubles:
+def doubles(name: str, value: ArrayLike, *shapes: Shape) -> Doubles:
     """An array of doubles in C order; the caller's own memory if it is one. No shapes: any shape."""
     found = _real(name, value)
     if shapes:
@@ -102,7 +106,7 @@ def spread(name: str, value: ArrayLike, n: int) -> Doubles:
     return vector(name, found, n)
 
 
-def columns(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Doubles:
+def columns(name: str, value: ArrayLike, *shapes: Shape) -> Doubles:
     """An array of doubles in Fortran's order."""
     found = _real(name, value)
     check_shape(name, found.shape, *shapes)
@@ -120,7 +124,7 @@ def symmetric(name: str, value: ArrayLike) -> Doubles:
     return np.ascontiguousarray(found, dtype=np.float64)
 
 
-def integers(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Ints:
+def integers(name: str, value: ArrayLike, *shapes: Shape) -> Ints:
     """An array of C ints in C order."""
     found = array(name, value)
     if found.size == 0 and found.dtype.kind == "f":
@@ -134,12 +138,13 @@ def integers(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> In
     return np.ascontiguousarray(found, dtype=np.intc).reshape(found.shape)
 
 
-def flags(name: str, value: ArrayLike, *shapes: tuple[int | None, ...]) -> Ints:
-    """Booleans as C ints."""
+def flags(name: str, value: ArrayLike, *shapes: Shape) -> Ints:
+    """Booleans as C ints. No shapes: any shape."""
     found = array(name, value)
     if found.dtype.kind != "b":
         raise TypeError(f"{name} must hold booleans, not {found.dtype}")
-    check_shape(name, found.shape, *shapes)
+    if shapes:
+        check_shape(name, found.shape, *shapes)
     return np.ascontiguousarray(found, dtype=np.intc)
 
 

@@ -7,6 +7,7 @@ import os
 import signal
 import threading
 from contextlib import contextmanager
+from types import MappingProxyType
 from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
@@ -15,9 +16,12 @@ from numpy.typing import NDArray
 from fuge import _library
 from fuge._arrays import doubles, vector
 from fuge._library import function
+from fuge._messages import Shapes, in_python
 from fuge.errors import Status, error, finish
 
 MESSAGE_LENGTH = 256
+
+NO_SHAPES: Shapes = MappingProxyType({})
 
 # Of each thread: the exception that a callback has raised, until the call that it ends is over, and whether Ctrl-C
 # was seen.
@@ -64,20 +68,25 @@ def _check_interrupt() -> None:
         raise KeyboardInterrupt
 
 
-def end_call(code: int, read_message: Callable[[], str]) -> None:
+def end_call(code: int, read_message: Callable[[], str], shapes: Shapes = NO_SHAPES) -> None:
     """Raise what a callback has raised, or raise and warn as the status demands."""
     exception = _take_exception()
     if exception is not None:
         raise exception
     if code != 0:
-        finish(code, read_message())
+        message = read_message()
+        # What is said about a file has its own places.
+        finish(code, message if code == Status.ERR_FILE else in_python(message, shapes))
 
 
-def call(name: str, *arguments: Any) -> None:
-    """Call a function whose last two arguments, not in `arguments`, are message and len."""
+def call(name: str, *arguments: Any, shapes: Shapes = NO_SHAPES) -> None:
+    """Call a function whose last two arguments, not in `arguments`, are message and len.
+
+    `shapes` are those of arrays to which the message may refer, as :func:`in_python` takes them.
+    """
     message = ctypes.create_string_buffer(MESSAGE_LENGTH + 1)
     code = function(name)(*arguments, message, MESSAGE_LENGTH + 1)
-    end_call(code, lambda: message.value.decode(errors="replace"))
+    end_call(code, lambda: message.value.decode(errors="replace"), shapes)
 
 
 class Handle:
@@ -97,6 +106,7 @@ class Handle:
         self._needs: list[Handle] = []
         self._kept: list[Any] = []
         self._users = 0
+        self._readers = 0
         self._closed = False
         self._freed = False
         self._lock = threading.Lock()
@@ -119,7 +129,7 @@ class Handle:
 
     @property
     def pointer(self) -> ctypes.c_void_p:
-        """For calls that only read what threads may share."""
+        """For calls in which nothing else can close it."""
         self._check_open()
         return self._pointer
 
@@ -130,13 +140,46 @@ class Handle:
     @contextmanager
     def use(self) -> Iterator[ctypes.c_void_p]:
         """The pointer, for one thread at a time; not from a callback that is called in a use."""
+        with self._alone():
+            yield self.pointer
+
+    @contextmanager
+    def reading(self, closed: bool = False) -> Iterator[ctypes.c_void_p]:
+        """The pointer, for calls beside each other, in which it can be closed, but is not freed before they are over.
+
+        `closed` says that it may be closed already, by the user of an object that needs it.
+        """
+        with self._alone(), self._counting:
+            if not closed:
+                self._check_open()
+            self._users += 1
+            self._readers += 1
+        try:
+            yield self._pointer
+        finally:
+            with self._counting:
+                self._readers -= 1
+                self._users -= 1
+                self._release()
+
+    @contextmanager
+    def changing(self) -> Iterator[ctypes.c_void_p]:
+        """The pointer, for a change of what calls read; not beside them."""
+        with self.use() as pointer:
+            if self._readers > 0:
+                reason = "it cannot be changed during a product or a solve"
+                raise error(Status.ERR_CALL_ORDER, f"the {self.name} is in use: {reason}")
+            yield pointer
+
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
         me = threading.get_ident()
         if self._owner == me:
             raise error(Status.ERR_CALL_ORDER, f"the {self.name} is in use: its functions cannot be called from inside")
         with self._lock:
             self._owner = me
             try:
-                yield self.pointer
+                yield
             finally:
                 self._owner = None
 
@@ -197,11 +240,14 @@ class Owner:
     def __exit__(self, *exception: object) -> None:
         self.close()
 
-    def _call(self, name: str, *arguments: Any) -> None:
+    def _call(self, name: str, *arguments: Any, shapes: Shapes | None = None) -> None:
         """Call a function of the handle which leaves its message there."""
         with self._handle.use() as pointer:
             code = function(name)(pointer, *arguments)
-            end_call(code, lambda: self._read_message(pointer))
+            end_call(code, lambda: self._read_message(pointer), self._shapes if shapes is None else shapes)
+
+    # Shapes of arrays to which messages may refer.
+    _shapes: Shapes = NO_SHAPES
 
     _message_function = ""
 
@@ -211,12 +257,14 @@ class Owner:
         return message.value.decode(errors="replace")
 
 
-def new_handle(name: str, create: str, free: str, *arguments: Any, needs: Sequence[Handle] = ()) -> Handle:
+def new_handle(
+    name: str, create: str, free: str, *arguments: Any, needs: Sequence[Handle] = (), shapes: Shapes = NO_SHAPES
+) -> Handle:
     """Call `create`, whose arguments are followed by the place for the handle, message and len."""
     handle = Handle(name, free, ctypes.c_void_p())
     for other in needs:
         handle.need(other)
-    call(create, *arguments, ctypes.byref(handle.pointer))
+    call(create, *arguments, ctypes.byref(handle.pointer), shapes=shapes)
     return handle
 
 

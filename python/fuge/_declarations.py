@@ -26,6 +26,7 @@ fuge_operator_set_auxiliary: int fuge_operator fuge_operator buffer size_t
 fuge_operator_set_coefficients: int fuge_operator double double buffer size_t
 fuge_operator_halfplane: int int double double int int fuge_operator* buffer size_t
 fuge_operator_set_threads: int fuge_operator int buffer size_t
+fuge_operator_apply: int fuge_operator int doubles doubles buffer size_t
 fuge_operator_free: void fuge_operator*
 fuge_solver_new: int fuge_operator fuge_options fuge_solver* buffer size_t
 fuge_solver_free: void fuge_solver*
@@ -59,6 +60,7 @@ fuge_ring_displacement: int int doubles doubles double int doubles doubles buffe
 fuge_hertz_ellipse: int double double double double doubles doubles doubles doubles buffer size_t
 fuge_read_surface: int text int int int doubles ints ints doubles doubles ints buffer size_t
 fuge_write_surface: int text int int doubles doubles buffer size_t
+fuge_fill_surface: int int int doubles ints buffer size_t
 fuge_level_surface: int int int doubles int buffer size_t
 fuge_write_fields: int text int int doubles doubles int texts arrays buffer size_t
 fuge_write_volume: int text int int doubles doubles int doubles int texts arrays buffer size_t

@@ -14,9 +14,10 @@ from fuge._calls import Owner, new_handle
 from fuge._library import has_sparse
 from fuge._structs import InfoStruct
 from fuge.columns import CompressedColumns, compressed, compressed_dense, is_sparse, require_sparse
+from fuge.contact import Info, info_of
 from fuge.errors import Status, error
 from fuge.pairs import Normals, PairMethod, Surface, pair_options, surface_arguments
-from fuge.solver import Info, Method, chosen_options, info_of
+from fuge.solver import Method, chosen_options
 
 
 @dataclass(frozen=True, eq=False)

@@ -228,5 +228,5 @@ def rigid_modes(position: ArrayLike) -> NDArray[np.float64]:
     places = _arrays.doubles("position", position, (None, 2), (None, 3))
     nodes, dimensions = places.shape
     modes = np.empty((dimensions * nodes, 3 if dimensions == 2 else 6), order="F")
-    call("fuge_rigid_modes", dimensions, nodes, places, modes)
+    call("fuge_rigid_modes", dimensions, nodes, places, modes, shapes={"position": places.shape})
     return modes

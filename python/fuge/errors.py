@@ -24,6 +24,7 @@ class Status(IntEnum):
     WARN_NOT_UNIQUE = 2
     WARN_ILL_CONDITIONED = 3
     WARN_PAIRS = 4
+    WARN_NO_CONTACT = 5
     ERR_SIZE = -1
     ERR_POINTER = -2
     ERR_NOT_FINITE = -3
@@ -145,7 +146,19 @@ class IllConditionedWarning(Warning):
 
 
 class PairsWarning(Warning):
-    """A node is a contact point of two pairs, or no point touches and all gaps open under the load."""
+    """A node is a contact point of two pairs."""
+
+
+class NoContactWarning(Warning):
+    """No point of the bodies touches: loads and supports open all gaps."""
+
+
+class GridWarning(Warning):
+    """The contact reaches the rim of its grid: unless the bodies end there, the grid is too small.
+
+    Where they do end there, as a roller does, turn it off:
+    ``warnings.filterwarnings("ignore", category=fuge.GridWarning)``.
+    """
 
 
 _ERRORS: dict[Status, type[Error]] = {
@@ -167,6 +180,7 @@ _WARNINGS: dict[Status, type[Warning]] = {
     Status.WARN_NOT_UNIQUE: NotUniqueWarning,
     Status.WARN_ILL_CONDITIONED: IllConditionedWarning,
     Status.WARN_PAIRS: PairsWarning,
+    Status.WARN_NO_CONTACT: NoContactWarning,
 }
 
 _PACKAGE = str(Path(__file__).parent)
@@ -195,4 +209,9 @@ def finish(code: int, message: str) -> None:
     message = message or status.text
     if code < 0:
         raise error(status, message)
-    warnings.warn(_WARNINGS[status](message, status), stacklevel=_callers_level())
+    warn(_WARNINGS[status](message, status))
+
+
+def warn(warning: Warning) -> None:
+    """Warn at the place outside this package that has called it."""
+    warnings.warn(warning, stacklevel=_callers_level())

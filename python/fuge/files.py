@@ -12,7 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
+from fuge._instruments import REMARK, read_instrument
 from fuge.columns import CompressedColumns, compressed
+from fuge.errors import FileError, Status
 
 PathLike = Union[str, "os.PathLike[str]"]
 StiffnessFormat = Literal["any", "matrix_market", "calculix", "abaqus", "dmig", "op4"]
@@ -225,22 +227,29 @@ class SurfaceHeights:
         Position of height[0, 0].
     filled : int
         Number of points that were not measured and have been filled.
+    unit : str or None
+        'm' of a file of an instrument that says its unit; else None, lengths are in the unit of the file (SDF: metres).
     """
 
     height: NDArray[np.float64]
     spacing: tuple[float, float] | None
     origin: tuple[float, float]
     filled: int
+    unit: str | None = None
 
 
 def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = False) -> SurfaceHeights:
     """Read a surface.
 
+    Other files of instruments, such as x3p, sur, vk4, plux, al3d, datx, opd and gwy, are read by the package
+    SurfaceTopography where that is installed, in metres.
+
     Parameters
     ----------
     path : str or path
     format : {'any', 'grid', 'points', 'sdf'}
-        A line for each row; x, y and height of a point on each line; ISO 25178-71; 'any' recognises them.
+        A line for each row; x, y and height of a point on each line; ISO 25178-71; 'any' recognises them, and files of
+        instruments.
     fill : bool
         Points that were not measured get the mean height of their neighbours; otherwise they are refused.
 
@@ -249,6 +258,28 @@ def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = 
     FileError
         The message has the file, the line and the reason.
     """
+    try:
+        return _read_text(path, format, fill)
+    except FileError as unknown:
+        if format != "any" or REMARK not in unknown.message:
+            raise
+        message = unknown.message
+    height, spacing, unit = read_instrument(path, message)
+    holes = np.argwhere(np.isnan(height))
+    if len(holes) > 0 and not fill:
+        raise FileError(
+            f"{path}: {len(holes)} points were not measured, the first one is height[{holes[0][0]}, {holes[0][1]}]: "
+            "let them be filled by fill=True",
+            Status.ERR_FILE,
+        )
+    if len(holes) == height.size:
+        raise FileError(f"{path} has no point that was measured", Status.ERR_FILE)
+    if len(holes) > 0:
+        height = fill_surface(height)
+    return SurfaceHeights(height, spacing, (0.0, 0.0), len(holes), unit)
+
+
+def _read_text(path: PathLike, format: SurfaceFormat, fill: bool) -> SurfaceHeights:
     arguments = [encoded(path), _arrays.choice("format", format, SURFACE_FORMATS), int(bool(fill))]
     nx, ny, filled = _counts(3)
     spacing, origin = np.empty(2), np.empty(2)
@@ -261,17 +292,35 @@ def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = 
 
 def write_surface(path: PathLike, height: ArrayLike, spacing: tuple[float, float] | None = None) -> None:
     """Write heights of shape (ny, nx) as a plain grid of 17 digits; an existing file is replaced."""
-    heights = _arrays.doubles("height", height, (None, None))
+    heights = _arrays.doubles("height", height, ("ny", "nx"))
     ny, nx = heights.shape
     steps = None if spacing is None else _arrays.vector("spacing", spacing, 2)
-    call("fuge_write_surface", encoded(path), nx, ny, steps, heights)
+    call("fuge_write_surface", encoded(path), nx, ny, steps, heights, shapes={"height": heights.shape})
+
+
+def fill_surface(height: ArrayLike) -> NDArray[np.float64]:
+    """Heights of shape (ny, nx) without holes: each NaN gets the mean height of its neighbours, from the rim inwards.
+
+    As ``read_surface(.., fill=True)`` fills the points of a file that were not measured. An array with masked elements
+    goes in as ``numpy.ma.filled(height, numpy.nan)``.
+
+    Raises
+    ------
+    InputError
+        All heights are NaN, or one of them is infinite.
+    """
+    heights = _arrays.doubles("height", height, ("ny", "nx")).copy()
+    ny, nx = heights.shape
+    call("fuge_fill_surface", nx, ny, heights, None, shapes={"height": heights.shape})
+    return heights
 
 
 def level_surface(height: ArrayLike, form: Literal["mean", "plane"]) -> NDArray[np.float64]:
     """Heights of shape (ny, nx) without their mean, or without the least-squares plane."""
-    heights = _arrays.doubles("height", height, (None, None)).copy()
+    heights = _arrays.doubles("height", height, ("ny", "nx")).copy()
     ny, nx = heights.shape
-    call("fuge_level_surface", nx, ny, heights, _arrays.choice("form", form, PLANE_FORMS))
+    chosen = _arrays.choice("form", form, PLANE_FORMS)
+    call("fuge_level_surface", nx, ny, heights, chosen, shapes={"height": heights.shape})
     return heights
 
 
@@ -286,12 +335,12 @@ def _named(fields: Mapping[str, ArrayLike], shape: tuple[int, ...]) -> tuple[lis
     return [len(arrays), names, pointers], arrays
 
 
-def _grid_shape(fields: Mapping[str, ArrayLike], dimensions: int) -> tuple[int, ...]:
+def _grid_shape(fields: Mapping[str, ArrayLike], *dimensions: str) -> tuple[int, ...]:
     for name, field in fields.items():
         shape = np.shape(field)
-        _arrays.check_shape(f"the field {name!r}", shape, (None,) * dimensions)
+        _arrays.check_shape(f"the field {name!r}", shape, dimensions)
         return shape
-    return (0,) * dimensions
+    return (0,) * len(dimensions)
 
 
 def write_fields(
@@ -313,10 +362,11 @@ def write_fields(
     origin : (float, float), optional
         Centre of the first cell; length.
     """
-    ny, nx = _grid_shape(fields, 2)
+    ny, nx = _grid_shape(fields, "ny", "nx")
     named, kept = _named(fields, (ny, nx))
     start = None if origin is None else _arrays.vector("origin", origin, 2)
-    call("fuge_write_fields", encoded(path), nx, ny, _arrays.vector("spacing", spacing, 2), start, *named)
+    steps = _arrays.vector("spacing", spacing, 2)
+    call("fuge_write_fields", encoded(path), nx, ny, steps, start, *named, shapes={"value": (ny, nx)})
     del kept
 
 
@@ -340,9 +390,10 @@ def write_volume(
         Such as the components of :func:`halfspace_stress_grid`.
     """
     depths = _arrays.vector("depth", depth)
-    shape = _grid_shape(fields, 3)
+    shape = _grid_shape(fields, "d", "ny", "nx")
     named, kept = _named(fields, (depths.size, *shape[1:]))
     start = None if origin is None else _arrays.vector("origin", origin, 2)
     steps = _arrays.vector("spacing", spacing, 2)
-    call("fuge_write_volume", encoded(path), shape[2], shape[1], steps, start, depths.size, depths, *named)
+    size = [shape[2], shape[1]]
+    call("fuge_write_volume", encoded(path), *size, steps, start, depths.size, depths, *named, shapes={"value": shape})
     del kept

@@ -15,6 +15,8 @@ from fuge.halfplane import ELEMENTS
 
 AreaElement = Literal["centre", "mean"]
 
+AREA_ELEMENTS = {word: ELEMENTS[word] for word in ("centre", "mean")}
+
 
 def halfspace_matrix(
     x: ArrayLike,
@@ -63,7 +65,7 @@ def halfspace_matrix(
         _arrays.spread("width_x", width_x, n),
         _arrays.spread("width_y", width_y, n),
         _arrays.number("e_star", e_star),
-        _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
+        _arrays.choice("element", element, AREA_ELEMENTS, Status.ERR_ELEMENT),
     ]
     if symmetric_x or symmetric_y:
         sides = (int(bool(symmetric_x)), int(bool(symmetric_y)))
@@ -134,6 +136,7 @@ def ring_displacement(radius: ArrayLike, force: ArrayLike, e_star: float, place:
         places.size,
         places,
         displacement,
+        shapes={"place": places.shape},
     )
     return displacement
 

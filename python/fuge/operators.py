@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Literal
+from dataclasses import replace
+from typing import Any, Callable, Literal, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Owner, call, new_handle, product_callback
+from fuge._calls import NO_SHAPES, Owner, call, interruptible, new_handle, product_callback
+from fuge.cells import Cells
 from fuge.errors import Status, error
 from fuge.halfplane import ELEMENTS, Element
+from fuge.halfspace import AREA_ELEMENTS, AreaElement
 
 Boundary = Literal["free", "periodic"]
 AreaBoundary = Literal["free", "periodic", "periodic_x", "periodic_y"]
@@ -24,7 +27,9 @@ Product = Callable[[NDArray[np.float64]], ArrayLike]
 class Operator(Owner):
     """Displacements of n contact points by forces on them; made by one of the subclasses.
 
-    Solvers may share an operator, also in several threads.
+    ``operator @ force`` are the displacements by forces of the shape (n,) or that of the grid. Solvers may share an
+    operator, also in several threads. It cannot be changed during a solve or a product; one that is closed in them is
+    freed at their end.
 
     Attributes
     ----------
@@ -32,16 +37,57 @@ class Operator(Owner):
         Number of contact points.
     grid : tuple of int or None
         (ny, nx) for the cells of an area, whose gaps and forces may have this shape; otherwise None.
+    cells : Cells or None
+        Spacing, boundary and element of an operator whose points are equal cells; otherwise None.
     """
 
     n: int
     grid: tuple[int, int] | None = None
+    cells: Cells | None = None
 
-    def _create(self, create: str, *arguments: Any) -> None:
-        self._handle = new_handle("operator", create, "fuge_operator_free", *arguments)
+    def __matmul__(self, force: ArrayLike) -> NDArray[np.float64]:
+        """Displacements by given forces, of the same shape: the product by the influence matrix; length.
+
+        Raises
+        ------
+        InputError
+            The shape is neither (n,) nor that of the grid, or a force is not finite.
+        CallbackError, LimitError
+        """
+        forces = self._points("force", force)
+        displacement = np.empty(forces.shape)
+        with interruptible(), self._handle.reading() as pointer:
+            call("fuge_operator_apply", pointer, self.n, forces, displacement, shapes={"f": forces.shape})
+        return displacement
+
+    def __repr__(self) -> str:
+        arguments = ", ".join(f"{name}={value!r}" for name, value in self._described().items())
+        return f"{type(self).__name__}({arguments})"
+
+    def _described(self) -> Mapping[str, Any]:
+        """What there is to say about the operator."""
+        return {"n": self.n}
+
+    def _points(self, name: str, value: ArrayLike) -> NDArray[np.float64]:
+        """An array with a value for each point, in one of the shapes that it may have."""
+        found = _arrays.doubles(name, value)
+        self._check_shape(name, found.shape)
+        return found
+
+    def _check_shape(self, name: str, shape: tuple[int, ...]) -> None:
+        if self.grid is None:
+            _arrays.check_shape(name, shape, (self.n,))
+        elif shape not in (self.grid, (self.n,)):
+            raise error(
+                Status.ERR_SIZE,
+                f"{name} has the shape {shape}, but must have (ny, nx) = {self.grid} or ({self.n},)",
+            )
+
+    def _create(self, create: str, *arguments: Any, shapes: Mapping[str, tuple[int, ...]] = NO_SHAPES) -> None:
+        self._handle = new_handle("operator", create, "fuge_operator_free", *arguments, shapes=shapes)
 
     def _set(self, name: str, *arguments: Any) -> None:
-        with self._handle.use() as pointer:
+        with self._handle.changing() as pointer:
             call(name, pointer, *arguments)
 
 
@@ -65,11 +111,54 @@ class DenseOperator(Operator):
     def __init__(self, alpha: ArrayLike) -> None:
         matrix = _arrays.symmetric("alpha", alpha)
         self.n = matrix.shape[0]
-        self._create("fuge_operator_dense", self.n, matrix, self.n)
+        # The library sees rows in C's order as columns.
+        shapes = NO_SHAPES if matrix.flags.f_contiguous else {"alpha": matrix.shape}
+        self._create("fuge_operator_dense", self.n, matrix, self.n, shapes=shapes)
         self._handle.keep(matrix)
 
 
-class HalfplaneOperator(Operator):
+class GridOperator(Operator):
+    """A :class:`HalfplaneOperator` or a :class:`HalfspaceOperator`: products by FFT.
+
+    Attributes
+    ----------
+    cells : Cells
+    e_star : float
+        Combined modulus; force per length^2.
+    threads : int
+        Threads that share each product.
+    """
+
+    cells: Cells
+    e_star: float
+    threads: int = 1
+
+    def set_threads(self, threads: int) -> None:
+        """Let `threads` threads share each product; not during a product or a solve."""
+        number = _arrays.integer("threads", threads)
+        self._set("fuge_operator_set_threads", number)
+        self.threads = number
+
+    @property
+    def element(self) -> str:
+        """What a force and a displacement stand for."""
+        return self.cells.element
+
+    @property
+    def boundary(self) -> str:
+        """What lies beyond the cells."""
+        return self.cells.boundary
+
+    def _described(self) -> Mapping[str, Any]:
+        known = {name: getattr(self, name) for name in ("e_star", "element", "boundary")}
+        return {**self._size(), **known, **({"threads": self.threads} if self.threads != 1 else {})}
+
+    def _size(self) -> Mapping[str, Any]:
+        """Numbers of cells and their widths."""
+        return {"n": self.n}
+
+
+class HalfplaneOperator(GridOperator):
     """An elastic half-plane of n equal cells side by side, by FFT: no matrix, for millions of cells.
 
     Parameters
@@ -80,12 +169,17 @@ class HalfplaneOperator(Operator):
         Width of a cell; length.
     e_star : float
         Combined modulus, see :func:`combined_modulus`; force per length^2.
-    element : {'centre', 'mean', 'hat'}
-        As in :func:`halfplane_matrix`; the last two are the same here.
+    element : {'mean', 'centre', 'hat'}
+        As in :func:`halfplane_matrix`; 'mean' and 'hat' are the same here.
     boundary : {'free', 'periodic'}
         Beyond the cells a free surface; or the cells repeat, and displacements count from the mean of the surface.
     threads : int
         Threads that share each transform; worth while from about 10^5 cells on.
+
+    Attributes
+    ----------
+    spacing, e_star, element, boundary, threads
+        The parameters; also :attr:`cells`.
 
     Raises
     ------
@@ -94,26 +188,40 @@ class HalfplaneOperator(Operator):
     """
 
     def __init__(
-        self, n: int, spacing: float, e_star: float, element: Element, boundary: Boundary = "free", *, threads: int = 1
+        self,
+        n: int,
+        spacing: float,
+        e_star: float,
+        element: Element = "mean",
+        boundary: Boundary = "free",
+        *,
+        threads: int = 1,
     ) -> None:
         self.n = _arrays.integer("n", n)
+        modulus, width = _arrays.number("e_star", e_star), _arrays.number("spacing", spacing)
         self._create(
             "fuge_operator_halfplane",
             self.n,
-            _arrays.number("spacing", spacing),
-            _arrays.number("e_star", e_star),
+            width,
+            modulus,
             _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
             _arrays.choice("boundary", boundary, BOUNDARIES),
         )
+        self.e_star = modulus
+        self.cells = Cells((self.n,), (width,), boundary, element)
         if threads != 1:
             self.set_threads(threads)
 
-    def set_threads(self, threads: int) -> None:
-        """Let `threads` threads share each transform; not during a solve."""
-        self._set("fuge_operator_set_threads", _arrays.integer("threads", threads))
+    @property
+    def spacing(self) -> float:
+        """Width of a cell; length."""
+        return self.cells.spacing[0]
+
+    def _size(self) -> Mapping[str, Any]:
+        return {"n": self.n, "spacing": self.spacing}
 
 
-class HalfspaceOperator(Operator):
+class HalfspaceOperator(GridOperator):
     """An elastic half-space of nx times ny equal rectangles side by side, by FFT.
 
     Gaps and forces may have the shape (ny, nx): element [j, i] is the cell in column i, along x, and row j.
@@ -126,13 +234,18 @@ class HalfspaceOperator(Operator):
         Widths of a cell; length.
     e_star : float
         Combined modulus; force per length^2.
-    element : {'centre', 'mean'}
+    element : {'mean', 'centre'}
         As in :func:`halfspace_matrix`.
     boundary : {'free', 'periodic', 'periodic_x', 'periodic_y'}
         What lies beyond the cells: free surface, or the cells repeat along both axes or one of them. With
         'periodic' displacements count from the mean of the surface.
     threads : int
         Threads that share each product; worth while from about 10^5 cells on.
+
+    Attributes
+    ----------
+    nx, ny, spacing_x, spacing_y, e_star, element, boundary, threads
+        The parameters; also :attr:`cells`.
 
     Raises
     ------
@@ -148,30 +261,52 @@ class HalfspaceOperator(Operator):
         spacing_x: float,
         spacing_y: float,
         e_star: float,
-        element: Literal["centre", "mean"],
+        element: AreaElement = "mean",
         boundary: AreaBoundary = "free",
         *,
         threads: int = 1,
     ) -> None:
         columns, rows = _arrays.integer("nx", nx), _arrays.integer("ny", ny)
+        spacing = _arrays.number("spacing_x", spacing_x), _arrays.number("spacing_y", spacing_y)
+        modulus = _arrays.number("e_star", e_star)
         self._create(
             "fuge_operator_halfspace",
             columns,
             rows,
-            _arrays.number("spacing_x", spacing_x),
-            _arrays.number("spacing_y", spacing_y),
-            _arrays.number("e_star", e_star),
-            _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
+            *spacing,
+            modulus,
+            _arrays.choice("element", element, AREA_ELEMENTS, Status.ERR_ELEMENT),
             _arrays.choice("boundary", boundary, AREA_BOUNDARIES),
         )
         self.n = columns * rows
         self.grid = (rows, columns)
+        self.e_star = modulus
+        self.cells = Cells(self.grid, spacing, boundary, element)
         if threads != 1:
             self.set_threads(threads)
 
-    def set_threads(self, threads: int) -> None:
-        """Let `threads` threads share each product; not during a solve."""
-        self._set("fuge_operator_set_threads", _arrays.integer("threads", threads))
+    @property
+    def nx(self) -> int:
+        """Number of cells along x."""
+        return self.cells.shape[1]
+
+    @property
+    def ny(self) -> int:
+        """Number of cells along y, the rows."""
+        return self.cells.shape[0]
+
+    @property
+    def spacing_x(self) -> float:
+        """Width of a cell along x; length."""
+        return self.cells.spacing[0]
+
+    @property
+    def spacing_y(self) -> float:
+        """Width of a cell along y; length."""
+        return self.cells.spacing[1]
+
+    def _size(self) -> Mapping[str, Any]:
+        return {name: getattr(self, name) for name in ("nx", "ny", "spacing_x", "spacing_y")}
 
 
 class CallbackOperator(Operator):
@@ -228,6 +363,8 @@ class CallbackOperator(Operator):
         columns, rows = _arrays.integer("nx", nx), _arrays.integer("ny", ny)
         self._set("fuge_operator_set_grid", columns, rows)
         self.grid = (rows, columns) if rows > 1 else None
+        if self.cells is not None and self.cells.shape not in (self.grid, (self.n,)):
+            self.cells = None
 
     def set_coarser(self, coarse: Operator) -> None:
         """The same body on cells twice as wide, from which a solve gets the forces to start with.
@@ -247,6 +384,11 @@ class CallbackOperator(Operator):
         solution is that of `apply`.
         """
         self._set_other("fuge_operator_set_auxiliary", "auxiliary", auxiliary)
+        # The pressures are those of its cells, the stresses are not those of its body.
+        self.cells = auxiliary.cells and replace(auxiliary.cells, homogeneous=False)
+
+    def _described(self) -> Mapping[str, Any]:
+        return {"n": self.n, **({"grid": self.grid} if self.grid else {})}
 
     def set_coefficients(self, datum: float = 0.0, mean: float = 0.0) -> None:
         """What products do not show of the coefficients.
@@ -264,7 +406,8 @@ class CallbackOperator(Operator):
         if not isinstance(other, Operator):
             raise TypeError(f"{argument} must be an Operator, not {type(other).__name__}")
         self._handle.need(other._handle)
-        self._set(name, other._handle.pointer)
+        with other._handle.reading(closed=True) as pointer:
+            self._set(name, pointer)
         if self.grid is None:
             self.grid = other.grid if other.n == self.n else None
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
+from fuge.errors import Status, error
 from fuge.operators import DenseOperator, Operator
 
 
@@ -69,6 +70,16 @@ def collect_path(n: int, m: int, follow: Callable[..., None]) -> Path:
         capacity = found
 
 
+def check_matrix(operator: Operator) -> None:
+    """Refuse an operator without a matrix."""
+    if not isinstance(operator, DenseOperator):
+        raise error(
+            Status.ERR_UNSUPPORTED,
+            f"a path needs an influence matrix, which {operator!r} does not have: pass one, such as that of "
+            "halfplane_matrix, or solve for one load after the other",
+        )
+
+
 def load_path(operator: Operator | ArrayLike, gap: ArrayLike, load: float) -> Path:
     """The exact course of the contact as the load of one translation grows from 0.
 
@@ -93,8 +104,9 @@ def load_path(operator: Operator | ArrayLike, gap: ArrayLike, load: float) -> Pa
         The load is negative.
     """
     body = operator if isinstance(operator, Operator) else DenseOperator(operator)
+    check_matrix(body)
     gaps = _arrays.vector("gap", gap, body.n)
     end = _arrays.number("load", load)
-    pointer = body._handle.pointer
-    path = collect_path(body.n, 1, lambda *results: call("fuge_load_path", pointer, gaps, end, *results))
+    with body._handle.reading() as pointer:
+        path = collect_path(body.n, 1, lambda *results: call("fuge_load_path", pointer, gaps, end, *results))
     return Path(path.parameter, path.motion[:, 0], path.rate[:, 0], path.point, path.state, path.contacts)

@@ -1,10 +1,9 @@
-"""Contact problems and their solutions."""
+"""Contact problems."""
 
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
-from typing import Any, Callable, Literal, Mapping
+from typing import Any, Callable, ContextManager, Literal, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,10 +11,12 @@ from numpy.typing import ArrayLike, NDArray
 from fuge import _arrays
 from fuge._calls import Owner, end_call, interruptible, new_handle, progress_callback
 from fuge._library import function
+from fuge._messages import in_python
 from fuge._structs import InfoStruct, Options
-from fuge.errors import Status, error
+from fuge.contact import Contact, Derivative, History, Info, info_of
+from fuge.errors import GridWarning, Status, error, warn
 from fuge.operators import DenseOperator, Operator
-from fuge.path import Path, collect_path
+from fuge.path import Path, check_matrix, collect_path
 
 Method = Literal["auto", "tableau", "active_set", "iterative"]
 PivotRule = Literal["paper", "most_negative", "greatest_decrease"]
@@ -24,110 +25,6 @@ METHODS = {"auto": 0, "tableau": 1, "active_set": 2, "iterative": 3}
 PIVOT_RULES = {"paper": 0, "most_negative": 1, "greatest_decrease": 2}
 
 Progress = Callable[[int, float, int], Any]
-
-
-@dataclass(frozen=True)
-class Info:
-    """Report of a solve.
-
-    Attributes
-    ----------
-    status : Status
-    iterations : int
-        Pivots of the tableau, otherwise contact sets, on all grids.
-    contacts : int
-        Points with a contact force.
-    products : int
-        Products by the operator; those on coarser grids count by their cost.
-    preconditionings : int
-        Applications of a preconditioner, likewise.
-    residual : float
-        The certificate: the largest scaled violation of the contact conditions.
-    force_error : float
-        Estimated largest error of a force, relative to the largest force; 1 if no digit is known.
-    """
-
-    status: Status
-    iterations: int
-    contacts: int
-    products: int
-    preconditionings: int
-    residual: float
-    force_error: float
-
-
-@dataclass(frozen=True, eq=False)
-class Contact:
-    """Solution of a contact problem.
-
-    Attributes
-    ----------
-    force : ndarray, shape of the gaps
-        Contact forces, positive where the bodies press on each other.
-    gap : ndarray, shape of the gaps
-        Gaps under load; length.
-    motion : ndarray, shape (m,)
-        Rigid motions, free and prescribed.
-    resultant : ndarray, shape (m,)
-        Resultants of the forces in the directions of the motions.
-    info : Info
-        Report, with the certificate.
-    message : str
-        What there is to say about the solution; mostly empty.
-    """
-
-    force: NDArray[np.float64]
-    gap: NDArray[np.float64]
-    motion: NDArray[np.float64]
-    resultant: NDArray[np.float64]
-    info: Info
-    message: str
-
-    @property
-    def approach(self) -> float:
-        """By how much the bodies have approached each other, where that is the only motion; length."""
-        return float(self._one(self.motion))
-
-    @property
-    def load(self) -> float:
-        """Sum of the forces, where the approach is the only motion."""
-        return float(self._one(self.resultant))
-
-    def _one(self, values: NDArray[np.float64]) -> float:
-        if values.size != 1:
-            raise error(Status.ERR_SIZE, f"there are {values.size} rigid motions: use motion and resultant")
-        return float(values[0])
-
-
-@dataclass(frozen=True, eq=False)
-class Derivative:
-    """Changes of a solution in a direction, exact as long as the contact set does not change.
-
-    Attributes
-    ----------
-    force, gap : ndarray, shape of the gaps
-    motion : ndarray, shape (m,)
-    """
-
-    force: NDArray[np.float64]
-    gap: NDArray[np.float64]
-    motion: NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class History:
-    """Steps of the tableau, of which the first one is the artificial start and each other one a pivot.
-
-    Attributes
-    ----------
-    basis : ndarray of int, shape (steps, n + m)
-        Column numbers as in the paper, from 1: 1 to n forces, n + 1 to 2 n gaps, then motions, then artificials.
-    z : ndarray, shape (steps,)
-        Sum of the artificial variables.
-    """
-
-    basis: NDArray[np.intc]
-    z: NDArray[np.float64]
 
 
 def chosen_options(
@@ -198,7 +95,7 @@ class Solver(Owner):
         progress: Progress | None = None,
     ) -> None:
         self.operator = operator if isinstance(operator, Operator) else DenseOperator(operator)
-        self._shape: tuple[int, ...] = (self.n,)
+        self._shape: tuple[int, ...] = self.operator.grid or (self.n,)
         options = chosen_options(method, pivot_rule, max_iterations, keep_history, tolerance)
         read = self.operator._handle
         arguments = [read.pointer, ctypes.byref(options)]
@@ -243,8 +140,10 @@ class Solver(Owner):
         values = self._points("gap", gap)
         shape = np.shape(gap) or self.operator.grid or (self.n,)
         upper = None if gap_upper is None else self._points("gap_upper", gap_upper)
-        self._call("fuge_set_gap", values, upper)
+        shapes = {"gap": shape, "gap_upper": shape if gap_upper is None else np.shape(gap_upper)}
+        self._call("fuge_set_gap", values, upper, shapes=shapes)
         self._shape = shape
+        self._shapes = {"point": shape}
 
     def set_excluded(self, excluded: ArrayLike | None) -> None:
         """Points that carry no force, where the booleans are true; None: no such points.
@@ -253,7 +152,9 @@ class Solver(Owner):
         """
         chosen = None
         if excluded is not None:
-            chosen = _arrays.flags("excluded", excluded, *self._shapes()).reshape(-1)
+            found = _arrays.flags("excluded", excluded)
+            self.operator._check_shape("excluded", found.shape)
+            chosen = found.reshape(-1)
         self._call("fuge_set_excluded", chosen)
 
     def set_load(self, load: float) -> None:
@@ -276,11 +177,11 @@ class Solver(Owner):
         """
         found = _arrays.array("modes", modes)
         grid = self.operator.grid
-        if grid is not None and found.shape[:-1] == grid:
-            found = found.reshape(self.n, found.shape[-1])
-        matrix = _arrays.columns("modes", found, (self.n, None))
-        m = matrix.shape[1]
-        self._call("fuge_set_modes", m, matrix, _arrays.vector("resultant", resultant, m))
+        _arrays.check_shape("modes", found.shape, *([] if grid is None else [(*grid, "m")]), (self.n, "m"))
+        m = found.shape[-1]
+        matrix = _arrays.columns("modes", found.reshape(self.n, m), (self.n, m))
+        forces = _arrays.vector("resultant", resultant, m)
+        self._call("fuge_set_modes", m, matrix, forces, shapes={"point": found.shape[:-1]})
 
     def set_motion(self, mode: int, motion: float) -> None:
         """Prescribe one of the motions, which count from 0, or change its value."""
@@ -314,6 +215,8 @@ class Solver(Owner):
             Forces, or a motion that the contact does not resist, are not unique.
         IllConditionedWarning
             The forces may be far off.
+        GridWarning
+            The contact reaches the rim of a half-space's grid.
 
         Raises
         ------
@@ -328,13 +231,15 @@ class Solver(Owner):
         LimitError, UnsupportedError, CallbackError, CancelledError
         """
         handle = self._handle
-        with interruptible(), handle.use() as pointer:
+        with interruptible(), self._reading(), handle.use() as pointer:
             code = function("fuge_solve")(pointer)
-            message = self._read_message(pointer)
+            message = in_python(self._read_message(pointer), self._shapes)
             # Before the warning, which the caller may turn into an exception.
             contact = self._contact(pointer, message) if code >= 0 else None
             end_call(code, lambda: message)
         assert contact is not None
+        if code == 0 and message:
+            warn(GridWarning(f"{message}; if they do, ignore fuge.GridWarning (module warnings)", Status.DONE))
         return contact
 
     def reset(self) -> None:
@@ -373,7 +278,7 @@ class Solver(Owner):
         if load_change is not None:
             loads = _arrays.vector("load_change", np.atleast_1d(_arrays.array("load_change", load_change)), m)
         force, gap, motion = np.empty(self._shape), np.empty(self._shape), np.empty(m)
-        with interruptible():
+        with interruptible(), self._reading():
             self._call("fuge_get_derivatives", gaps, loads, force, gap, motion)
         return Derivative(force, gap, motion)
 
@@ -403,9 +308,14 @@ class Solver(Owner):
         UnsupportedError
             The operator has no matrix.
         """
+        check_matrix(self.operator)
         m = self.mode_count
         end = _arrays.vector("finish", np.atleast_1d(_arrays.array("finish", finish)), m)
         return collect_path(self.n, m, lambda *results: self._call("fuge_follow_path", end, *results))
+
+    def _reading(self) -> ContextManager[Any]:
+        """During this nobody changes the operator, which the caller may have closed."""
+        return self.operator._handle.reading(closed=True)
 
     def _contact(self, pointer: ctypes.c_void_p, message: str) -> Contact:
         count = np.empty(1, dtype=np.intc)
@@ -418,34 +328,17 @@ class Solver(Owner):
         self._get("fuge_get_motion", pointer, motion)
         self._get("fuge_get_resultant", pointer, resultant)
         self._get("fuge_get_info", pointer, ctypes.byref(report))
-        return Contact(force, gap, motion, resultant, info_of(report), message)
+        return Contact(force, gap, motion, resultant, info_of(report), message, self.operator.cells)
 
     def _get(self, name: str, pointer: ctypes.c_void_p, result: Any) -> None:
         end_call(function(name)(pointer, result), lambda: self._read_message(pointer))
-
-    def _shapes(self) -> list[tuple[int | None, ...]]:
-        grid = self.operator.grid
-        return [(self.n,)] if grid is None else [(self.n,), grid]
 
     def _points(self, name: str, value: ArrayLike) -> NDArray[np.float64]:
         """One value for each point; a number for all."""
         found = _arrays.array(name, value)
         if found.ndim == 0:
             return _arrays.spread(name, found, self.n)
-        return _arrays.doubles(name, found, *self._shapes()).reshape(-1)
-
-
-def info_of(report: InfoStruct) -> Info:
-    """The report in a struct of the library."""
-    return Info(
-        Status(report.status),
-        report.iterations,
-        report.contacts,
-        report.products,
-        report.preconditionings,
-        report.residual,
-        report.force_error,
-    )
+        return self.operator._points(name, found).reshape(-1)
 
 
 def solve(
@@ -480,7 +373,8 @@ def solve(
     modes : array_like, shape (n, m), optional
         In place of both: several rigid motions; see :meth:`Solver.set_modes`.
     resultant : array_like, shape (m,), optional
-        Resultants of the modes.
+        Resultants of the modes, in the order of their columns; those of prescribed motions do not count, and may be
+        left out if all are prescribed.
     motion : dict, optional
         Prescribed motions, ``{mode: value}``.
     gap_upper : array_like of the shape of gap, or float, optional
@@ -526,9 +420,23 @@ def solve(
         elif approach is not None:
             solver.set_approach(approach)
         elif modes is not None:
-            m = np.shape(modes)[-1] if np.ndim(modes) else 0
-            solver.set_modes(modes, np.zeros(m) if resultant is None else resultant)
+            solver.set_modes(modes, _resultants(modes, resultant, motion))
             for mode, value in (motion or {}).items():
                 solver.set_motion(mode, value)
         contact: Contact = solver.solve()
         return contact
+
+
+def _resultants(modes: ArrayLike, resultant: ArrayLike | None, motion: Mapping[int, float] | None) -> ArrayLike:
+    """The resultants of modes, which may be left out if all motions are prescribed."""
+    if resultant is not None:
+        return resultant
+    m = np.shape(modes)[-1] if np.ndim(modes) else 0
+    free = [mode for mode in range(m) if mode not in (motion or {})]
+    if free:
+        raise error(
+            Status.ERR_OPTION,
+            f"modes need resultant, the sum of the forces times the column for each of the {m} modes, 0 where no load "
+            f"acts: mode {free[0]} has neither a resultant nor a prescribed motion",
+        )
+    return np.zeros(m)

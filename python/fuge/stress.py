@@ -25,7 +25,8 @@ def at_points(
     """Call a function whose last arguments are points, their coordinates and the result, `components` for each."""
     shape, flat = _arrays.points(*coordinates)
     result = np.empty((*shape, components))
-    call(name, *arguments, flat[0].size, *flat, result)
+    shapes = dict.fromkeys([coordinate for coordinate, _ in coordinates] + ["point"], shape)
+    call(name, *arguments, flat[0].size, *flat, result, shapes=shapes)
     return result
 
 

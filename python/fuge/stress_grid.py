@@ -33,7 +33,7 @@ def _line(spacing: float, force: ArrayLike, element: Element, boundary: Boundary
 def _area(
     spacing_x: float, spacing_y: float, force: ArrayLike, boundary: AreaBoundary
 ) -> tuple[tuple[int, int], list[Any]]:
-    forces = _arrays.doubles("force", force, (None, None))
+    forces = _arrays.doubles("force", force, ("ny", "nx"))
     ny, nx = forces.shape
     return (ny, nx), [
         nx,
@@ -50,7 +50,7 @@ def _at_depths(
 ) -> NDArray[np.float64]:
     depths = _arrays.vector("depth", np.atleast_1d(_arrays.array("depth", depth)))
     result = np.empty((depths.size, *grid, components))
-    call(name, *arguments, depths.size, depths, result)
+    call(name, *arguments, depths.size, depths, result, shapes={"force": grid})
     return result
 
 

@@ -94,6 +94,18 @@ class Surfaces(InFolder):
         self.assertEqual(surface.filled, 1)
         self.assertAlmostEqual(surface.height[1, 1], 5.0, delta=1e-14)
 
+    def test_filling_of_arrays(self):
+        height = np.array([[1.0, 2.0, 3.0], [np.nan, np.nan, 8.0]])
+        filled = fuge.fill_surface(height)
+        np.testing.assert_array_equal(filled, [[1.0, 2.0, 3.0], [1.0, 5.0, 8.0]])
+        self.assertTrue(np.isnan(height[1, 0]))
+        masked = np.ma.masked_greater(np.array([[1.0, 9.0, 3.0]]), 5.0)
+        np.testing.assert_array_equal(fuge.fill_surface(np.ma.filled(masked, np.nan)), [[1.0, 2.0, 3.0]])
+        self.assertRaisesRegex(fuge.InputError, "all heights are NaN", fuge.fill_surface, [[np.nan]])
+        height[1, 0] = np.inf
+        self.assertRaisesRegex(fuge.InputError, r"height\[1, 0\] = Inf", fuge.fill_surface, height)
+        self.assertRaises(fuge.InputError, fuge.fill_surface, height[0])
+
     def test_pictures(self):
         field = np.arange(6.0).reshape(2, 3)
         path = self.folder / "f.vti"

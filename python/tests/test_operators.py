@@ -1,6 +1,9 @@
 """Operators and influence matrices: products by FFT against matrices, callbacks, and Hertz."""
 
+import pickle
+import threading
 import unittest
+import warnings
 
 import numpy as np
 
@@ -68,7 +71,17 @@ class Halfplane(unittest.TestCase):
         self.assertEqual(caught.exception.status, fuge.Status.ERR_MODULUS)
 
 
-class Halfspace(unittest.TestCase):
+class QuietRims(unittest.TestCase):
+    """Contacts that reach the rim of their grid, where the bodies end."""
+
+    def setUp(self):
+        caught = warnings.catch_warnings()
+        caught.__enter__()
+        self.addCleanup(caught.__exit__, None, None, None)
+        warnings.simplefilter("ignore", fuge.GridWarning)
+
+
+class Halfspace(QuietRims):
     def test_ball(self):
         n, spacing, e_star, radius, load = 40, 0.05, 1.0, 2.0, 0.3
         x = spacing * (np.arange(n) - 0.5 * (n - 1))
@@ -97,14 +110,35 @@ class Halfspace(unittest.TestCase):
         solver.set_gap(gap)
         solver.set_modes(np.dstack([np.ones((ny, nx)), x - 0.25]), [0.2, 0.0])
         self.assertEqual(solver.solve().gap.shape, (ny, nx))
-        with self.assertRaisesRegex(fuge.InputError, r"gap has the shape \(6, 4\), but must have \(24,\) or \(4, 6\)"):
+        with self.assertRaisesRegex(fuge.InputError, r"shape \(6, 4\), but must have \(ny, nx\) = \(4, 6\)"):
             solver.set_gap(gap.T)
 
     def test_a_grid_that_is_too_small(self):
-        # The contact reaches the rim: a remark, but no warning, because the bodies may end there.
-        contact = fuge.solve(fuge.HalfspaceOperator(8, 8, 1.0, 1.0, 1.0, "mean"), 0.0, 1.0)
+        operator = fuge.HalfspaceOperator(8, 6, 1.0, 1.0, 1.0)
+        gap = np.ones((6, 8))
+        gap[2:5, 5:] = 0.0
+        with self.assertWarnsRegex(fuge.GridWarning, r"first is \[2, 7\].*too small.*ignore fuge.GridWarning") as seen:
+            contact = fuge.solve(operator, gap, 0.1)
+        self.assertEqual(seen.filename, __file__)
+        self.assertEqual(seen.warning.status, fuge.Status.DONE)
         self.assertEqual(contact.info.status, fuge.Status.DONE)
         self.assertIn("rim", contact.message)
+        # For bodies that end there.
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            warnings.simplefilter("ignore", fuge.GridWarning)
+            fuge.solve(operator, gap, 0.1)
+        # As an error: the solver still has its solution.
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            solver = fuge.Solver(operator)
+            solver.set_gap(gap)
+            solver.set_load(0.1)
+            self.assertRaises(fuge.GridWarning, solver.solve)
+            self.assertGreater(solver.info.contacts, 0)
+            # A contact inside of the grid says nothing.
+            gap[:, :2] = gap[:, 6:] = 1.0
+            fuge.solve(operator, gap, 0.1)
 
     def test_boundaries(self):
         for boundary in ("periodic", "periodic_x", "periodic_y"):
@@ -222,6 +256,207 @@ class Callback(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "read-only"):
             fuge.solve(operator, self.gap, 2.0)
         self.same(fuge.CallbackOperator(self.n, lambda f: self.alpha @ f))
+
+
+class Grids(QuietRims):
+    """What operators of grids tell of themselves and of their contacts."""
+
+    def test_line(self):
+        operator = fuge.HalfplaneOperator(64, 0.5, 2.0)
+        self.assertIsInstance(operator, fuge.GridOperator)
+        self.assertEqual((operator.n, operator.spacing, operator.e_star), (64, 0.5, 2.0))
+        self.assertEqual((operator.element, operator.boundary, operator.threads), ("mean", "free", 1))
+        self.assertEqual(operator.cells, fuge.Cells((64,), (0.5,), "free", "mean"))
+        self.assertEqual(operator.cells.periodic, (False,))
+        np.testing.assert_allclose(operator.cells.centres(0), 0.5 * (np.arange(64) - 31.5))
+        self.assertEqual(
+            repr(operator), "HalfplaneOperator(n=64, spacing=0.5, e_star=2.0, element='mean', boundary='free')"
+        )
+        contact = fuge.solve(operator, 0.1 * np.arange(64), 3.0)
+        np.testing.assert_allclose(contact.pressure.sum() * 0.5, 3.0)
+        np.testing.assert_allclose(contact.pressure * 0.5, contact.force, rtol=1e-15)
+
+    def test_area(self):
+        operator = fuge.HalfspaceOperator(6, 4, 0.5, 0.25, 2.0, boundary="periodic_y", threads=2)
+        self.assertEqual((operator.nx, operator.ny, operator.spacing_x, operator.spacing_y), (6, 4, 0.5, 0.25))
+        self.assertEqual(operator.threads, 2)
+        self.assertEqual(operator.cells.periodic, (False, True))
+        self.assertEqual(operator.cells.centres(1).shape, (4,))
+        again = eval("fuge." + repr(operator))
+        self.assertEqual((again.cells, again.threads), (operator.cells, 2))
+        contact = fuge.solve(operator, 0.0, 3.0)
+        self.assertEqual(contact.pressure.shape, (4, 6))
+        np.testing.assert_allclose(contact.pressure.sum() * 0.125, 3.0)
+        copy = pickle.loads(pickle.dumps(contact))
+        np.testing.assert_array_equal(copy.pressure, contact.pressure)
+
+    def test_default_element(self):
+        operator = fuge.HalfspaceOperator(2, 1, 1.0, 1.0, 1.0)
+        wanted = fuge.halfspace_matrix([0.0, 1.0], [0.0, 0.0], 1.0, 1.0, 1.0, "mean") @ [1.0, 0.0]
+        np.testing.assert_allclose(operator @ [1.0, 0.0], wanted, rtol=1e-14)
+        x = np.arange(3.0)
+        wanted = fuge.halfplane_matrix(x, 1.0, 1.0, "mean") @ [1.0, 0.0, 0.0]
+        np.testing.assert_allclose(fuge.HalfplaneOperator(3, 1.0, 1.0) @ [1.0, 0.0, 0.0], wanted, rtol=1e-13)
+
+    def test_path_without_a_matrix(self):
+        # Whatever the shape of the gaps.
+        operator = fuge.HalfspaceOperator(2, 2, 1.0, 1.0, 1.0)
+        words = r"influence matrix, which HalfspaceOperator\(nx=2"
+        with self.assertRaisesRegex(fuge.UnsupportedError, words):
+            fuge.load_path(operator, np.zeros((2, 2)), 1.0)
+        with self.assertRaisesRegex(fuge.UnsupportedError, words):
+            fuge.Solver(operator).follow_path([1.0, 2.0, 3.0])
+
+    def test_elements_that_fit(self):
+        for call in (
+            lambda: fuge.HalfspaceOperator(2, 1, 1.0, 1.0, 1.0, "hat"),
+            lambda: fuge.halfspace_matrix([0.0], [0.0], 1.0, 1.0, 1.0, "hat"),
+        ):
+            with self.assertRaises(fuge.InputError) as caught:
+                call()
+            self.assertEqual(caught.exception.status, fuge.Status.ERR_ELEMENT)
+            self.assertEqual(caught.exception.message, "element is 'hat', but must be one of 'centre', 'mean'")
+
+    def test_no_cells(self):
+        contact = fuge.solve(np.eye(2), [0.0, 1.0], 0.5)
+        self.assertIsNone(contact.cells)
+        with self.assertRaisesRegex(ValueError, "divide contact.force by the area, or the width, of each cell"):
+            contact.pressure
+        self.assertEqual(repr(fuge.DenseOperator(np.eye(2))), "DenseOperator(n=2)")
+
+    def test_cells_of_an_auxiliary_operator(self):
+        operator = fuge.CallbackOperator(12, lambda f: 2.0 * f)
+        self.assertEqual(repr(operator), "CallbackOperator(n=12)")
+        operator.set_auxiliary(fuge.HalfspaceOperator(4, 3, 0.5, 0.5, 1.0))
+        self.assertEqual(operator.cells.shape, (3, 4))
+        self.assertEqual(repr(operator), "CallbackOperator(n=12, grid=(3, 4))")
+        np.testing.assert_allclose(fuge.solve(operator, 0.0, 3.0).pressure, 1.0)
+        # Another grid: its spacing is unknown.
+        operator.set_grid(2, 6)
+        self.assertIsNone(operator.cells)
+
+    def test_contact_in_a_line(self):
+        contact = fuge.solve(np.eye(2), [0.0, 1.0], 0.5)
+        known = "1 of 2 points in contact, approach 0.5, load 0.5, residual [0-9.e+-]+"
+        self.assertRegex(repr(contact), f"^<Contact: {known}>$")
+        contact = fuge.solve(np.eye(2), 0.0, modes=np.eye(2), resultant=[1.0, 2.0])
+        self.assertIn("motion [1. 2.], resultant [1. 2.]", repr(contact))
+
+
+class Products(unittest.TestCase):
+    def test_matrix(self):
+        alpha = np.array([[0.2, 0.1, 0.0], [0.1, 0.2, 0.1], [0.0, 0.1, 0.2]])
+        force = np.array([1.0, -2.0, 4.0])
+        np.testing.assert_allclose(fuge.DenseOperator(alpha) @ force, alpha @ force, rtol=1e-15)
+        np.testing.assert_allclose(fuge.DenseOperator(alpha) @ [1, -2, 4], alpha @ force, rtol=1e-15)
+
+    def test_halfplane(self):
+        x = 0.1 * np.arange(20)
+        force = np.sin(3.0 * x)
+        for element in ("centre", "mean", "hat"):
+            wanted = fuge.halfplane_matrix(x, 0.1, 2.0, element) @ force
+            np.testing.assert_allclose(fuge.HalfplaneOperator(20, 0.1, 2.0, element) @ force, wanted, atol=1e-14)
+
+    def test_area(self):
+        # Not square, and in either shape and memory order.
+        ny, nx = 3, 5
+        x, y = np.meshgrid(0.1 * np.arange(nx), 0.3 * np.arange(ny))
+        force = np.cos(20.0 * x) * (1.0 + y)
+        operator = fuge.HalfspaceOperator(nx, ny, 0.1, 0.3, 2.0, "mean")
+        wanted = fuge.halfspace_matrix(x.ravel(), y.ravel(), 0.1, 0.3, 2.0, "mean") @ force.ravel()
+        np.testing.assert_allclose(operator @ force.ravel(), wanted, atol=1e-14)
+        np.testing.assert_allclose(operator @ force, wanted.reshape(ny, nx), atol=1e-14)
+        np.testing.assert_allclose(operator @ np.asfortranarray(force), wanted.reshape(ny, nx), atol=1e-14)
+
+    def test_gaps_of_a_contact(self):
+        # What the solver returns is c = g + A f - v.
+        operator = fuge.HalfspaceOperator(8, 8, 1.0, 1.0, 1.0, "mean")
+        gap = np.add.outer((np.arange(8) - 3.5) ** 2, (np.arange(8) - 3.5) ** 2)
+        contact = fuge.solve(operator, gap, 10.0)
+        np.testing.assert_allclose(gap + operator @ contact.force - contact.approach, contact.gap, atol=1e-8)
+
+    def test_inside_a_callback(self):
+        # A layer on a half-plane, whose product is that of another operator.
+        half_plane = fuge.HalfplaneOperator(32, 0.1, 1.0, "mean")
+        operator = fuge.CallbackOperator(32, lambda f: half_plane @ f + 0.5 * f)
+        alpha = fuge.halfplane_matrix(0.1 * np.arange(32), 0.1, 1.0, "mean") + 0.5 * np.eye(32)
+        force = np.arange(32.0)
+        np.testing.assert_allclose(operator @ force, alpha @ force, rtol=1e-13)
+        gap = 0.1 * (np.arange(32) - 15.5) ** 2
+        found, wanted = fuge.solve(operator, gap, 3.0), fuge.solve(alpha, gap, 3.0)
+        np.testing.assert_allclose(found.force, wanted.force, atol=1e-8)
+
+    def test_closed_in_a_product(self):
+        def close_elsewhere():
+            thread = threading.Thread(target=operator.close)
+            thread.start()
+            thread.join(10)
+            self.assertFalse(thread.is_alive())
+
+        for close in (lambda: operator.close(), close_elsewhere):
+            freed = []
+
+            def apply(f):
+                close()
+                freed.append(operator._handle._freed)
+                return 2.0 * f
+
+            operator = fuge.CallbackOperator(2, apply)
+            np.testing.assert_array_equal(operator @ [1.0, 4.0], [2.0, 8.0])
+            self.assertEqual(freed, [False])
+            self.assertTrue(operator._handle._freed)
+            self.assertRaisesRegex(fuge.CallOrderError, "closed", lambda: operator @ [1.0, 4.0])
+
+    def test_changed_in_a_product(self):
+        other = fuge.HalfplaneOperator(2, 1.0, 1.0)
+
+        def apply(f):
+            for change in (
+                lambda: operator.set_diagonal([1.0, 1.0]),
+                lambda: operator.set_preconditioner(lambda f: f),
+                lambda: operator.set_auxiliary(other),
+                lambda: operator.set_coefficients(1.0),
+            ):
+                self.assertRaisesRegex(fuge.CallOrderError, "during a product or a solve", change)
+            return 2.0 * f
+
+        operator = fuge.CallbackOperator(2, apply)
+        np.testing.assert_array_equal(operator @ [1.0, 4.0], [2.0, 8.0])
+        np.testing.assert_allclose(fuge.solve(operator, 0.0, 2.0).force, [1.0, 1.0])
+        operator.set_diagonal([2.0, 2.0])
+
+    def test_solver_of_a_closed_operator(self):
+        operator = fuge.CallbackOperator(2, lambda f: 2.0 * f)
+        solver = fuge.Solver(operator)
+        operator.close()
+        solver.set_gap(0.0)
+        solver.set_load(2.0)
+        np.testing.assert_allclose(solver.solve().force, [1.0, 1.0])
+
+    def test_datum(self):
+        operator = fuge.CallbackOperator(2, lambda f: 2.0 * f)
+        operator.set_coefficients(3.0)
+        np.testing.assert_array_equal(operator @ [1.0, 4.0], [17.0, 23.0])
+
+    def test_refusals(self):
+        operator = fuge.DenseOperator(np.eye(6))
+        area = fuge.HalfspaceOperator(3, 2, 1.0, 1.0, 1.0, "mean")
+        self.assertRaisesRegex(fuge.InputError, r"shape \(5,\)", lambda: operator @ np.ones(5))
+        self.assertRaisesRegex(fuge.InputError, r"shape \(3, 2\)", lambda: area @ np.ones((3, 2)))
+        self.assertRaises(fuge.InputError, lambda: operator @ np.ones((2, 3)))
+        self.assertRaises(fuge.InputError, lambda: operator @ 1.0)
+        self.assertRaises(TypeError, lambda: operator @ "force")
+        self.assertRaisesRegex(fuge.LimitError, "too large", lambda: fuge.DenseOperator([[1e200]]) @ [1e200])
+        with self.assertRaises(fuge.InputError) as caught:
+            area @ [[0.0, 0.0, 0.0], [0.0, np.nan, 0.0]]
+        self.assertEqual(caught.exception.status, fuge.Status.ERR_NOT_FINITE)
+
+        def fail(f):
+            raise ZeroDivisionError("in the product")
+
+        self.assertRaises(ZeroDivisionError, lambda: fuge.CallbackOperator(6, fail) @ np.ones(6))
+        operator.close()
+        self.assertRaises(fuge.CallOrderError, lambda: operator @ np.ones(6))
 
 
 if __name__ == "__main__":

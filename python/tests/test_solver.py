@@ -6,8 +6,8 @@ import pickle
 import signal
 import threading
 import unittest
-from unittest import mock
 import warnings
+from unittest import mock
 
 import numpy as np
 
@@ -100,7 +100,7 @@ class Errors(unittest.TestCase):
     def test_unsymmetric(self):
         matrix = [[0.2, 0.1], [0.3, 0.2]]
         self.refused(
-            fuge.MatrixError, fuge.Status.ERR_NOT_SYMMETRIC, lambda: fuge.solve(matrix, GAP, 2.0), "alpha(1,0)"
+            fuge.MatrixError, fuge.Status.ERR_NOT_SYMMETRIC, lambda: fuge.solve(matrix, GAP, 2.0), "alpha[1, 0]"
         )
 
     def test_not_definite(self):
@@ -108,7 +108,7 @@ class Errors(unittest.TestCase):
         self.refused(fuge.MatrixError, fuge.Status.ERR_NOT_DEFINITE, lambda: fuge.solve(matrix, GAP, 2.0))
 
     def test_not_finite(self):
-        self.refused(fuge.InputError, fuge.Status.ERR_NOT_FINITE, lambda: fuge.solve(ALPHA, [0, np.nan], 2.0), "gap(1)")
+        self.refused(fuge.InputError, fuge.Status.ERR_NOT_FINITE, lambda: fuge.solve(ALPHA, [0, np.nan], 2.0), "gap[1]")
 
     def test_shapes(self):
         size = fuge.Status.ERR_SIZE
@@ -120,6 +120,16 @@ class Errors(unittest.TestCase):
         self.refused(
             fuge.InputError, size, lambda: fuge.solve(ALPHA, GAP, modes=np.eye(2), resultant=[1.0]), "resultant"
         )
+
+    def test_modes_without_resultants(self):
+        modes = np.array([[1.0, 0.0], [1.0, 1.0]])
+        option = fuge.Status.ERR_OPTION
+        self.refused(fuge.InputError, option, lambda: fuge.solve(ALPHA, GAP, modes=modes), "resultant", "mode 0 has")
+        self.refused(
+            fuge.InputError, option, lambda: fuge.solve(ALPHA, GAP, modes=modes, motion={0: 1.0}), "mode 1 has neither"
+        )
+        contact = fuge.solve(ALPHA, GAP, modes=modes, motion={0: 2.0, 1: 0.0})
+        np.testing.assert_array_equal(contact.motion, [2.0, 0.0])
 
     def test_types(self):
         for call, word in [

@@ -1,0 +1,86 @@
+"""Messages of the library in Python's words: gap[2, 3] for gap(13) on a grid, 'mean' for FUGE_MEAN, set_gap for
+fuge_set_gap."""
+
+from __future__ import annotations
+
+import re
+from typing import Mapping
+
+import numpy as np
+
+Shapes = Mapping[str, "tuple[int, ...]"]
+"""Shapes of the caller's arrays by their names in messages, for those whose indices differ; `point` for all points."""
+
+_PATTERN = re.compile(
+    r'"[^"]*"'
+    r"|\bmode (?P<mode>\d+) at point \((?P<row>\d+)\)"
+    r"|\b(?P<before>point|the first is) (?P<point>\d+)\b"
+    r"|\b(?P<name>[a-z]\w*)\((?P<index>\d+)(?:, ?(?P<second>\d+))?\)"
+    r"|\bFUGE_(?P<constant>[A-Z_]*[A-Z])"
+    r"|\bfuge_(?P<function>\w+)"
+)
+
+# Prefixes of constants and of functions that Python's words do not have.
+_CONSTANT = re.compile("(?:plane|end|file|level|stiffness|measure|normals)_(?=.)")
+_HANDLE = re.compile("(?:operator|bodies|body|pairs)_(?=.)")
+
+_ARRAYS = {"f": "force", "u": "displacement"}
+_FUNCTIONS = {
+    "operator_dense": "DenseOperator",
+    "operator_callback": "CallbackOperator",
+    "operator_halfplane": "HalfplaneOperator",
+    "operator_halfspace": "HalfspaceOperator",
+    "solve": "solve",
+    "condense": "condense",
+    "follow_path": "follow_path",
+    "join_bodies": "join",
+}
+
+
+def in_python(message: str, shapes: Shapes) -> str:
+    """The message with indices in brackets, as of the arrays of these shapes, and with Python's names and options.
+
+    What is quoted stays as it is.
+    """
+    return _PATTERN.sub(lambda match: _replaced(match, shapes), message)
+
+
+def _replaced(match: re.Match[str], shapes: Shapes) -> str:
+    found = match.groupdict()
+    if found["mode"]:
+        return f"modes[{_places('point', found['row'], shapes)}, {found['mode']}]"
+    if found["point"]:
+        place = _places("point", found["point"], shapes)
+        return f"{found['before']} [{place}]" if "," in place else match[0]
+    if found["name"]:
+        return _element(found["name"], found["index"], found["second"], shapes)
+    if found["constant"]:
+        constant = found["constant"].lower()
+        return match[0] if constant.startswith("with_") else repr(_CONSTANT.sub("", constant, count=1))
+    if found["function"]:
+        return _function(found["function"])
+    return match[0]
+
+
+def _element(name: str, index: str, second: str | None, shapes: Shapes) -> str:
+    """An element of an array; two indices count as in Fortran's order, which is Python's for arrays without a shape."""
+    if second is None:
+        place = _places(name, index, shapes)
+    else:
+        place = f"{second}, {index}" if name in shapes else f"{index}, {second}"
+    return f"{_ARRAYS.get(name, name)}[{place}]"
+
+
+def _places(name: str, index: str, shapes: Shapes) -> str:
+    shape = shapes.get(name, ())
+    if len(shape) < 2 or int(index) >= np.prod(shape):
+        return index
+    return ", ".join(str(k) for k in np.unravel_index(int(index), shape))
+
+
+def _function(name: str) -> str:
+    """The class, method or function that calls a function of the library."""
+    if name in _FUNCTIONS:
+        return _FUNCTIONS[name]
+    method = _HANDLE.sub("", name, count=1)
+    return method if method != name or name.startswith(("set_", "get_")) else f"fuge.{name}"

@@ -1,0 +1,49 @@
+"""The equal cells, on a line or an area, that the points of an operator are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Cells:
+    """Equal cells side by side.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        (n,) on a line, (ny, nx) on an area.
+    spacing : tuple of float
+        Width along x, and on an area along y; length.
+    boundary : {'free', 'periodic', 'periodic_x', 'periodic_y'}
+        What lies beyond the cells.
+    element : {'centre', 'mean', 'hat'}
+        What a force and a displacement stand for, as in :func:`halfplane_matrix`.
+    homogeneous : bool
+        The body is a half-plane or a half-space; False for a callback operator that is only close to one.
+    """
+
+    shape: tuple[int, ...]
+    spacing: tuple[float, ...]
+    boundary: str
+    element: str
+    homogeneous: bool = True
+
+    @property
+    def size(self) -> float:
+        """Area of a cell, on a line its width: the pressure is the force over it."""
+        return float(np.prod(self.spacing))
+
+    @property
+    def periodic(self) -> tuple[bool, ...]:
+        """Whether the cells repeat along x, and on an area along y."""
+        axes = "xy"[: len(self.spacing)]
+        return tuple(self.boundary in ("periodic", f"periodic_{axis}") for axis in axes)
+
+    def centres(self, axis: int) -> NDArray[np.float64]:
+        """Places along x (axis 0) or y (axis 1) of the middles of the cells, from the middle of them all; length."""
+        n = self.shape[::-1][axis]
+        return self.spacing[axis] * (np.arange(n, dtype=np.float64) - 0.5 * (n - 1))

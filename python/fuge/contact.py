@@ -1,0 +1,165 @@
+"""Solutions of contact problems."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fuge._structs import InfoStruct
+from fuge.cells import Cells
+from fuge.errors import Status, error
+
+
+@dataclass(frozen=True)
+class Info:
+    """Report of a solve.
+
+    Attributes
+    ----------
+    status : Status
+    iterations : int
+        Pivots of the tableau, otherwise contact sets, on all grids.
+    contacts : int
+        Points with a contact force.
+    products : int
+        Products by the operator; those on coarser grids count by their cost.
+    preconditionings : int
+        Applications of a preconditioner, likewise.
+    residual : float
+        The certificate: the largest scaled violation of the contact conditions.
+    force_error : float
+        Estimated largest error of a force, relative to the largest force; 1 if no digit is known.
+    """
+
+    status: Status
+    iterations: int
+    contacts: int
+    products: int
+    preconditionings: int
+    residual: float
+    force_error: float
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """Solution of a contact problem.
+
+    Attributes
+    ----------
+    force : ndarray, shape of the gaps
+        Contact forces, positive where the bodies press on each other.
+    gap : ndarray, shape of the gaps
+        Gaps under load; length.
+    motion : ndarray, shape (m,)
+        Rigid motions, free and prescribed.
+    resultant : ndarray, shape (m,)
+        Resultants of the forces in the directions of the motions.
+    info : Info
+        Report, with the certificate.
+    message : str
+        What there is to say about the solution; mostly empty.
+    cells : Cells or None
+        Those of the operator, if it has a grid.
+    """
+
+    force: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    motion: NDArray[np.float64]
+    resultant: NDArray[np.float64]
+    info: Info
+    message: str
+    cells: Cells | None = None
+
+    @property
+    def pressure(self) -> NDArray[np.float64]:
+        """Forces over the area of a cell, or its width on a line, in the shape of the forces; force per length^2.
+
+        For operators of grids. With the element 'hat' it is the pressure at the middle of the cells.
+
+        Raises
+        ------
+        InputError
+            The points are no cells that the operator knows, as those of a matrix.
+        """
+        if self.cells is None:
+            raise error(
+                Status.ERR_GRID,
+                "the operator does not know the areas of its points, so there is no pressure: divide contact.force by "
+                "the area, or the width, of each cell, or use HalfplaneOperator or HalfspaceOperator",
+            )
+        return self.force / self.cells.size
+
+    @property
+    def approach(self) -> float:
+        """By how much the bodies have approached each other, where that is the only motion; length."""
+        return float(self._one(self.motion))
+
+    @property
+    def load(self) -> float:
+        """Sum of the forces, where the approach is the only motion."""
+        return float(self._one(self.resultant))
+
+    def __repr__(self) -> str:
+        motions = "motion" if self.motion.size != 1 else "approach"
+        known = [
+            f"{self.info.contacts} of {self.force.size} points in contact",
+            f"{motions} {self._shown(self.motion)}",
+            f"{'resultant' if self.motion.size != 1 else 'load'} {self._shown(self.resultant)}",
+            f"residual {self.info.residual:.1e}",
+        ]
+        return f"<Contact: {', '.join(known)}>"
+
+    @staticmethod
+    def _shown(values: NDArray[np.float64]) -> str:
+        return f"{values[0]:.6g}" if values.size == 1 else str(values)
+
+    def _one(self, values: NDArray[np.float64]) -> float:
+        if values.size != 1:
+            raise error(Status.ERR_SIZE, f"there are {values.size} rigid motions: use motion and resultant")
+        return float(values[0])
+
+
+@dataclass(frozen=True, eq=False)
+class Derivative:
+    """Changes of a solution in a direction, exact as long as the contact set does not change.
+
+    Attributes
+    ----------
+    force, gap : ndarray, shape of the gaps
+    motion : ndarray, shape (m,)
+    """
+
+    force: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    motion: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """Steps of the tableau, of which the first one is the artificial start and each other one a pivot.
+
+    Attributes
+    ----------
+    basis : ndarray of int, shape (steps, n + m)
+        Column numbers as in the paper, from 1: 1 to n forces, n + 1 to 2 n gaps, then motions, then artificials.
+    z : ndarray, shape (steps,)
+        Sum of the artificial variables.
+    """
+
+    basis: NDArray[np.intc]
+    z: NDArray[np.float64]
+
+
+def info_of(report: InfoStruct) -> Info:
+    """The report in a struct of the library."""
+    return Info(
+        Status(report.status),
+        report.iterations,
+        report.contacts,
+        report.products,
+        report.preconditionings,
+        report.residual,
+        report.force_error,
+    )
