@@ -19,12 +19,19 @@ WIDTHS = (1280, 400)
 # Browsers side by side: most of the time they wait.
 BROWSERS = 3
 PICTURE_HEIGHT = 2400
-# Queries and what has to be among the first hits: their number, and a part of the address.
-QUERIES = (("fuge_solve_smooth_punch", 1, "fuge_solve_smooth_punch"), ("fuge_solve", 1, "#fuge_solve"),
-           ("fuge_solve", 5, "proc/fuge_solve_dense"), ("half-width", 5, "type/fuge_smooth_contact"),
-           ("half width", 5, "type/fuge_smooth_contact"), ("FUGESV", 1, "legacy.html#fugesv"),
-           ("certificate", 3, "theory.html#the-certificate"), ("FUGE_ERR_NO_EQUILIBRIUM", 3, "module/fuge_status"),
-           ("find_package", 5, "install"), ("mortar", 3, "tutorial_two_meshes"), ("SOLVER", 5, "python"))
+# Queries and what has to be among the first hits of a group, of all groups for "": their number, a part of the address.
+QUERIES = (("fuge_solve_smooth_punch", "", 1, "fuge_solve_smooth_punch"), ("fuge_solve", "", 1, "#fuge_solve"),
+           ("fuge_solve", "Fortran", 5, "proc/fuge_solve_dense"), ("half-width", "Fortran", 5, "fuge_smooth_contact"),
+           ("half width", "Fortran", 5, "fuge_smooth_contact"), ("FUGESV", "", 1, "legacy.html#fugesv"),
+           ("certificate", "", 3, "theory.html#the-certificate"), ("find_package", "", 5, "install"),
+           ("FUGE_ERR_NO_EQUILIBRIUM", "", 3, "module/fuge_status"), ("mortar", "", 3, "tutorial_two_meshes"),
+           ("SOLVER", "", 5, "python"), ("how to tilt", "", 3, "#a-punch-that-tilts"),
+           ("tilting", "", 5, "#a-punch-that-tilts"), ("pressure", "", 1, "page/"), ("hertz", "", 1, "page/tutorial"),
+           ("hertz", "Python", 1, "python.html#hertz_ellipse"), ("stresses", "", 1, "tutorial_stress"))
+# What no word begins with, though words have it in them.
+INSIDE = "ertz"
+# Where a reader of one language gets nothing of another one.
+LANGUAGE = ("Python", "hertz", "type/")
 LOOK = """(() => {
   const text = document.querySelector('main').cloneNode(true)
   text.querySelectorAll('pre, code, script, style').forEach(part => part.remove())
@@ -124,10 +131,12 @@ def check_menu(browser, site):
 
 
 def check_search(browser, site):
-    hits = "[...document.querySelectorAll('#results a')].map(link => link.getAttribute('href'))"
-    for query, count, wanted in QUERIES:
-        open_page(browser, (site/"search.html").as_uri() + "?q=" + query.replace(" ", "+"))
-        found = browser.evaluate(hits)
+    def hits(group=""):
+        inside = f"[data-group='{group}'] " if group else ""
+        return f"[...document.querySelectorAll(\"#results {inside}a\")].map(link => link.getAttribute('href'))"
+    for query, group, count, wanted in QUERIES:
+        open_page(browser, (site/"search.html").as_uri() + "?language=&q=" + query.replace(" ", "+"))
+        found = browser.evaluate(hits(group))
         if not any(wanted in address for address in found[:count]):
             yield f"'{query}' does not find {wanted} in its first {count} hits: {found[:count]}"
         missing = [address for address in found if not (site/address.split("#")[0]).is_file()]
@@ -136,6 +145,22 @@ def check_search(browser, site):
         if browser.evaluate("document.documentElement.scrollWidth > innerWidth"):
             yield f"the results of '{query}' are too wide"
         yield from complaints_of(browser.events)
+        if browser.evaluate("[...document.querySelectorAll('#results p')].some(text => !text.textContent.trim())"):
+            yield f"a hit of '{query}' has no excerpt"
+    open_page(browser, (site/"search.html").as_uri() + "?q=" + INSIDE)
+    if browser.evaluate(hits()):
+        yield f"'{INSIDE}' is found inside of words"
+    language, query, other = LANGUAGE
+    open_page(browser, (site/"search.html").as_uri() + f"?language=&q={query}")
+    all_hits = browser.evaluate(hits())
+    browser.evaluate(f"document.querySelector('#languages input[value={language}]').click()")
+    found = browser.evaluate(hits())
+    if not any(other in address for address in all_hits) or any(other in address for address in found) or not found:
+        yield f"'{query}' in {language} alone does not leave out {other}: {found}"
+    open_page(browser, (site/"search.html").as_uri() + f"?q={query}")
+    if browser.evaluate(hits()) != found:
+        yield f"the language {language} is not remembered"
+    browser.evaluate("document.querySelector('#languages input').click()")
     # From the field of another page, by the keyboard alone.
     open_page(browser, (site/"page/index.html").as_uri())
     browser.evaluate("document.querySelector('header input').focus()")
@@ -144,7 +169,7 @@ def check_search(browser, site):
     browser.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter", text="\r",
                  windowsVirtualKeyCode=13)
     browser.wait_for("Page.loadEventFired")
-    if not any(QUERIES[0][2] in address for address in browser.evaluate(hits)[:1]):
+    if not any(QUERIES[0][3] in address for address in browser.evaluate(hits())[:1]):
         yield "the field at the top of a page does not search"
 
 

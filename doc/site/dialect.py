@@ -2,6 +2,9 @@
 
 import re
 
+# A product, a power, or FORTRAN 77's CHARACTER*(*), in which Markdown would see emphasis.
+PRODUCT = re.compile(r"(?<=[\w)])\*+(?=[\w(])|(?<=\()\*(?=\))")
+
 
 class _State:
     """The context of a line."""
@@ -11,6 +14,11 @@ class _State:
         self.listed = False   # in a list
         self.loose = False    # after an empty line in the present item
         self.before = ""      # the line before, without empty lines in a block of code
+
+
+def with_products(text):
+    """The text, none of it code, with the stars of products as they are."""
+    return PRODUCT.sub(lambda stars: stars[0].replace("*", r"\*"), text)
 
 
 def for_markdown(text, mark=""):

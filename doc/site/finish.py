@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 
+import formulas
 import navigation
 import search
 from fragments import Fragments
@@ -21,12 +22,14 @@ from pygments.formatters import HtmlFormatter
 SECTIONS_LISTED = 4
 LISTS = {"lists/procedures.html": "All procedures", "lists/types.html": "All types",
          "lists/modules.html": "All modules", "lists/absint.html": "Abstract interfaces"}
-SEARCH_BODY = """<h1>Search</h1>
-<form role="search"><input type="search" name="q" aria-label="Search the manual" autocomplete="off">
-<button type="submit">Search</button></form>
+SEARCH_BODY = f"""<h1>Search</h1>
+<fieldset id="languages"><legend>Language</legend>
+<label><input type="radio" name="language" value="" checked> all</label>
+{"".join(f'<label><input type="radio" name="language" value="{name}"> {name}</label>' + chr(10)
+         for name in search.LANGUAGES)}</fieldset>
 <noscript><p>The search needs JavaScript; <a href="page/index.html">the manual</a> lists all pages.</p></noscript>
 <p id="status" role="status"></p>
-<ol id="results"></ol>
+<div id="results"></div>
 <script src="search_index.js"></script>
 <script src="search.js"></script>
 """
@@ -90,16 +93,24 @@ def without_ford(page):
     return re.sub(r"<div class=\"toc\">.*?</div>", "", page, flags=re.S)
 
 
+def with_whole_pictures(page):
+    """The page with a link from each picture to its file, which shows it as large as it is."""
+    return re.sub(r'(<img [^>]*?src="([^"]+)"[^>]*>)(?!</a>)', r'<a href="\2">\1</a>', page)
+
+
 def finish(site, groups, fragments, shown):
     """All pages, and the entries of the search."""
     entries = []
+    spoken = [text if kind == "html" else html.escape(formulas.spoken(text)) for kind, text in fragments.parts]
     for path in sorted(site.rglob("*.html")):
         address = path.relative_to(site).as_posix()
         up = "../"*address.count("/")
         trail = trail_of(groups, address)
-        page = fragments.restored(without_ford(path.read_text()), shown)
+        text = without_ford(path.read_text())
+        if search.is_searched(address):
+            entries += search.sections(fragments.restored(text, spoken), address, trail)
+        page = with_whole_pictures(fragments.restored(text, shown))
         page = scrollable(page.replace("<!--contents-->", contents(page)))
-        entries += search.sections(page, address, trail)
         page = broken_headings(page)
         library = next((navigation.LIBRARIES[title] for title, _ in trail if title in navigation.LIBRARIES), "fuge")
         page = page.replace("<code>use fuge</code> gives it too", f"<code>use {library}</code> gives it")
@@ -116,8 +127,6 @@ def write_search(site, here):
     tail = rest[rest.index("</main>"):]
     head = re.sub(r"<title>.*?</title>", "<title>Search &ndash; fuge</title>", head, flags=re.S)
     trail = trail_html([["fuge", "index.html"], ["Search", "search.html"]], "")
-    # One field for the search is enough.
-    head = re.sub(r"<form.*?</form>\n", "", head, flags=re.S)
     (site/"search.html").write_text(f'{head}<main id="text">\n{trail}\n{SEARCH_BODY}{tail}')
     shutil.copy(here/"search.js", site)
 

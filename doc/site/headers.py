@@ -14,6 +14,8 @@ CONSTANT = re.compile(r"^(?:#define|  )\s*(FUGE_\w+)(?= |,|$)|(?<=[{,] )(FUGE_\w
 ROW = re.compile(r"(?P<names>(?:\*?\w+(?:, )?)+?) {2,}(?:(?P<way>in, out|in/out|inout|in|out) {1,})?(?P<text>.*)")
 NEXT_ROW = re.compile(r" {3,}(?=\w+ {1,}(?:in|out) {2})")
 ROW_INDENT = 2
+# Names, or a kind, of up to this many letters keep to one line.
+ONE_LINE = 28
 KEPT = re.compile(r"^#(?:ifndef|define) FUGE_(?:\w+_)?H$|^#ifdef __cplusplus\nextern \"C\" \{\n#endif$"
                   r"|^#ifdef __cplusplus\n\}\n#endif$|^#endif$|^#include <stddef.h>$", re.M)
 
@@ -127,8 +129,16 @@ def _table(lines, places):
                 rows.append([match["names"], match["way"] or "", match["text"]] if match else [part, "", ""])
         else:
             rows[-1][2] += " " + line.strip()
-    cells = "".join(f"<tr><td><code>{html.escape(name)}</code></td><td>{way}</td>"
-                    f"<td>{_linked(text, places)}</td></tr>\n" for name, way, text in rows)
+    return arguments([name, way, _linked(text, places)] for name, way, text in rows)
+
+
+def arguments(rows):
+    """The table of rows of names, their kind, and what they are; the last two are HTML."""
+    cells = ""
+    for name, kind, text in rows:
+        marks = [' class="many"' if len(shown) > ONE_LINE else "" for shown in (name, re.sub("<[^>]*>", "", kind))]
+        cells += (f"<tr><td{marks[0]}><code>{html.escape(name)}</code></td><td{marks[1]}>{kind}</td>"
+                  f"<td>{text}</td></tr>\n")
     return f'<div class="wide"><table class="arguments">\n{cells}</table></div>'
 
 

@@ -75,17 +75,15 @@ def shown_title(site, name):
 
 
 def fortran_topics(root):
-    """The topics with their types, procedures and modules."""
+    """The topics with their types and procedures."""
     taken = taken_names(root)
     found = {}
-    for module, path, names in public_modules(root, list(taken), taken):
+    for _, path, names in public_modules(root, list(taken), taken):
         said = described(path.read_text())
         entries = found.setdefault(topic(root, path), [])
         entries.extend([name, f"{'type' if said[name][0] == 'type' else 'proc'}/{name}.html", []]
                        for name in names if said[name][0] != "constant")
-        entries.append([f"module {module}", f"module/{module}.html", []])
-    return [[title, "page/fortran.html#" + re.sub(r"\W+", "-", title.lower()),
-             sorted(found[title], key=lambda entry: entry[0].startswith("module "))] for title in in_order(found)]
+    return [[title, "page/fortran.html#" + re.sub(r"\W+", "-", title.lower()), found[title]] for title in in_order(found)]
 
 
 def save(groups, path):
@@ -141,7 +139,7 @@ def _list(entries, address, up):
     rows = ""
     for title, place, below in entries:
         current = ' aria-current="page"' if place == address else ""
-        inside = place.split("#")[0] == address or _path(below, address)
+        inside = place == address or _path(below, address)
         rows += (f'<li><a href="{up}{place}"{current}>{breakable(title)}</a>'
                  f"{_list(below, address, up) if below and inside else ''}</li>\n")
     return f"<ul>\n{rows}</ul>\n"

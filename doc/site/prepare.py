@@ -14,8 +14,9 @@ import sys
 import headers
 import landing
 import navigation
+import notebooks
 import python_pages
-from dialect import for_markdown
+from dialect import for_markdown, with_products
 from fragments import Fragments
 from links import outside_blocks, outside_code, with_links
 from reduce import reduced, without_uses
@@ -115,7 +116,8 @@ class Site:
             place = c or fortran if page.name in C_PAGES else fortran or c
             return f"[`{name}`]({place})" if place else match.group(0)
         text = self.fragments.hold_fenced_formulas(text)
-        text = with_links(outside_code(text, self.fragments.hold_formulas), replace)
+        text = outside_code(text, lambda part: with_products(self.fragments.hold_formulas(part)))
+        text = with_links(text, replace)
         return for_markdown(outside_blocks(text, lambda part: NAME.sub(refer, part)))
 
     def picture(self, path):
@@ -127,6 +129,11 @@ class Site:
         """The page of a file; one with its text, or its names if it is a folder, is made where there is none."""
         if path not in self.place:
             short = str(path.relative_to(self.root))
+            if path.suffix == ".ipynb":
+                self.place[path] = f"notebook_{path.stem}"
+                title, body = notebooks.page(path, self.place[path], self.pages)
+                self.put(path, title, self.linked(path, body))
+                return self.place[path]
             self.place[path] = "file_" + re.sub(r"\W", "_", short)
             if path.is_dir():
                 body = "".join(f"- {item.name}\n" for item in sorted(path.iterdir()))
@@ -205,9 +212,11 @@ def public_base(root, base, known):
 
 
 def with_constants(line):
-    """A line of a docstring with the names of constants as code."""
+    """A line of a docstring with the names of constants as code, and products as they are."""
+    def marked(part):
+        return CONSTANT.sub(r"`\1`", with_products(part))
     indent, _, said = line.partition("!>")
-    return indent + "!>" + outside_code(said, lambda part: CONSTANT.sub(r"`\1`", part))
+    return indent + "!>" + outside_code(said, marked)
 
 
 def main():

@@ -4,6 +4,8 @@ import ast
 import html
 import re
 
+from headers import arguments
+
 ROLE = re.compile(r":\w+:`~?\.?([^`]+)`")
 
 
@@ -12,7 +14,10 @@ def page(package, fragments):
     facade = ast.parse((package/"__init__.py").read_text())
     body = fragments.hold("html", docstring_html(ast.get_docstring(facade))) + "\n\n"
     for node in facade.body:
-        if not isinstance(node, ast.ImportFrom) or not (node.module or "").startswith("fuge."):
+        if not isinstance(node, ast.ImportFrom) or not (node.module or "").startswith("fuge"):
+            continue
+        if node.module == "fuge":
+            body += "".join(_module(package/f"{alias.name}.py", fragments) for alias in node.names if alias.asname)
             continue
         source = package/(node.module.split(".")[-1] + ".py")
         tree = ast.parse(source.read_text())
@@ -22,6 +27,17 @@ def page(package, fragments):
         for item in tree.body:
             if isinstance(item, (ast.FunctionDef, ast.ClassDef)) and item.name in wanted:
                 body += _entry(item, fragments)
+    return body
+
+
+def _module(source, fragments):
+    """A module that is exported as a whole: all of its functions, with its name in front."""
+    tree = ast.parse(source.read_text())
+    body = f"\n## {source.stem.capitalize()}\n\n" + fragments.hold("html", docstring_html(ast.get_docstring(tree))) + "\n"
+    for item in tree.body:
+        if isinstance(item, ast.FunctionDef) and not item.name.startswith("_"):
+            name = f"{source.stem}.{item.name}"
+            body += _head(3, name, name) + _described(_signature(item), item, fragments)
     return body
 
 
@@ -110,9 +126,7 @@ def _items(lines):
             rows.append([name, kind, ""])
         elif rows and line.strip():
             rows[-1][2] += " " + line.strip()
-    cells = "".join(f"<tr><td><code>{html.escape(name)}</code></td><td>{_inline(kind)}</td>"
-                    f"<td>{_inline(text.strip())}</td></tr>\n" for name, kind, text in rows)
-    return f'<div class="wide"><table class="arguments">\n{cells}</table></div>'
+    return arguments([name, _inline(kind), _inline(text.strip())] for name, kind, text in rows)
 
 
 def _inline(text):

@@ -329,10 +329,15 @@ static int find_errors(int elements, double factor, element_errors *e) {
   return status;
 }
 
-static int check_errors(int elements, const element_errors *e) {
-  if (fmax(e->block, fmax(e->halfplane, e->apart)) <= element_error(elements)) return 0;
-  fprintf(stderr, "the half-width is not as good as these elements can make it\n");
-  return 1;
+/* Half-widths compared with the exact one, those that are as good as their elements can make them, and the error of
+ * the finest elements. */
+static int compared = 0, right = 0;
+static double finest_error = 0.0;
+
+static void check_errors(int elements, const element_errors *e) {
+  compared++;
+  if (fmax(e->block, fmax(e->halfplane, e->apart)) <= element_error(elements)) right++;
+  finest_error = e->block;
 }
 
 /* coarser: NULL at first. */
@@ -355,7 +360,7 @@ static int refine(int finest, double factor) {
   for (int elements = COARSEST; elements <= finest && !failed; elements *= 2) {
     failed = find_errors(elements, factor, &now) != FUGE_DONE;
     if (!failed) print_errors(elements, &now, elements > COARSEST ? &before : NULL, file);
-    failed = failed || check_errors(elements, &now);
+    if (!failed) check_errors(elements, &now);
     before = now;
   }
   return fclose(file) || failed;
@@ -369,5 +374,7 @@ int main(int argc, char **argv) {
     return EXIT_FAILURE;
   }
   printf("Punch y = 0.05 x^4 mm, F = 30 kN/mm: exact half-width on a half-plane %.6f mm\n\n", exact_half_width());
-  return grow_block(elements, &factor) || refine(2 * elements, factor) ? EXIT_FAILURE : EXIT_SUCCESS;
+  if (grow_block(elements, &factor) || refine(2 * elements, factor)) return EXIT_FAILURE;
+  printf("\nverdict: %d of %d against the exact half-width, finest mesh %.1E\n", right, compared, finest_error);
+  return right == compared ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -64,5 +64,9 @@ int main(void) {
   printf("pressure, first cell  %9.1f N/mm^2  exact %9.1f at x = 0\n", force[0] / (2.0 * H), p0);
   printf("largest pressure      %9.1f N/mm^2  exact %9.1f at x = a/sqrt(2)\n", largest, sqrt(2.0) * p0);
   printf("residual              %9.1e         %d points in contact\n", info.residual, info.contacts);
-  return fabs(refined - a) > 1e-3 * H;
+  /* The edge is far finer than the grid, the cells know the largest pressure to a thousandth. */
+  double edge = fabs(refined / a - 1.0), pressure = fabs(largest / (sqrt(2.0) * p0) - 1.0);
+  int right = (edge <= 1e-3 * H / a) + (pressure <= 1e-3);
+  printf("\nverdict: %d of 2 against the exact edge and pressure, worst %.1E\n", right, fmax(edge, pressure));
+  return right != 2;
 }

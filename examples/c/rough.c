@@ -20,7 +20,7 @@
 static const double PI = 3.14159265358979323846;
 static const double HURST = 0.8, SLOPE = 0.1;
 enum { LONGEST = 4, SHORTEST = 16, SEED = 2026 };   /* period/4 to 16 cells */
-enum { MOST_GRIDS = 32, FEWEST_CELLS = 32 };
+enum { MOST_GRIDS = 32, FEWEST_CELLS = 32, LOADS = 10 };
 
 /* ---- the operator: what user points to ----------------------------------- */
 
@@ -222,9 +222,11 @@ static double force_error(double residual, double approach) {
 /* From large to small loads; forces of the last load are the start where it is near. */
 static int all_loads(int n, fuge_solver *own, fuge_solver *builtin) {
   double *force = reserve(n, sizeof(double)), *expected = reserve(n, sizeof(double));
-  int status = FUGE_DONE, differ = 0;
-  puts("   p/E*  contact    approach   own products preconditionings   built-in products preconditionings   forces differ  certified");
-  for (int k = 0; k < 10; k++) {
+  int status = FUGE_DONE, right = 0;
+  double worst = 0.0;
+  puts("                                  own operator           built-in operator   largest force over it");
+  puts("   p/E*  contact    approach  products  precond.     products  precond.   differs by  certified");
+  for (int k = 0; k < LOADS; k++) {
     double load = 0.05 * pow(0.8, k), approach, other;   /* the period is 1: mean pressure = load */
     fuge_info info, info_builtin;
     status = press(own, load, force, &approach, &info);
@@ -232,15 +234,17 @@ static int all_loads(int n, fuge_solver *own, fuge_solver *builtin) {
     if (status != FUGE_DONE) break;
     double largest = largest_of(n, expected), apart = largest_difference(n, force, expected);
     double certified = force_error(info.residual + info_builtin.residual, approach);
-    if (apart > certified) differ = 1;
-    printf("%7.5f %8.5f %11.4e %14d %7d %19d %7d %15.1e %10.1e\n", load, (double)info.contacts / n, approach,
+    if (apart <= certified) right++;
+    if (!(apart / largest <= worst)) worst = apart / largest;
+    printf("%7.5f %8.5f %11.4e %9d %9d %12d %9d %12.1e %10.1e\n", load, (double)info.contacts / n, approach,
            info.products, info.preconditionings, info_builtin.products, info_builtin.preconditionings, apart / largest,
            certified / largest);
   }
   fftw_free(force);
   fftw_free(expected);
-  if (differ) fprintf(stderr, "the operators differ by more than their certificates allow\n");
-  return differ ? 1 : status;
+  if (status != FUGE_DONE) return status;
+  printf("\nverdict: %d of %d forces as by the built-in operator, worst %.1E\n", right, LOADS, worst);
+  return right == LOADS ? FUGE_DONE : 1;
 }
 
 int main(int argc, char **argv) {

@@ -17,6 +17,15 @@ static const double PI = 3.14159265358979324;
 static const double KNOWN_MISES = 0.557516, KNOWN_DEPTH = 0.704292;
 
 static char message[FUGE_MESSAGE_LENGTH + 1];
+/* Values compared with the exact ones, and those that are right; errors over p_0. */
+static int compared = 0, right = 0;
+static double worst = 0.0;
+
+static void compare(double error, double allowed) {
+  compared++;
+  if (fabs(error) <= allowed) right++;
+  if (!(fabs(error) <= worst)) worst = fabs(error);
+}
 
 static int failed(int status) {
   if (status == FUGE_DONE) return 0;
@@ -34,7 +43,7 @@ static int press(const double *x, const double *width, double e_star, double *fo
          || failed(fuge_solve_dense(N, alpha, N, gap, LOAD, force, open, &approach, message, sizeof message));
 }
 
-/* The table; not 0 if something failed or is far from the exact stresses. */
+/* The table; not 0 if something failed. */
 static int go_down(const double *x, const double *width, const double *force, double a, double p0) {
   double px[POINTS] = {0.0}, pz[POINTS], stress[3 * POINTS], tensor[6 * POINTS], mises[POINTS];
 
@@ -50,7 +59,8 @@ static int go_down(const double *x, const double *width, const double *force, do
     double xx = 2.0 * z - (1.0 + 2.0 * z * z) / root, zz = -1.0 / root;
     printf("%5.2f %9.4f %8.4f %9.4f %8.4f %11.4f\n", z, stress[3 * k] / p0, xx, stress[3 * k + 1] / p0, zz,
            mises[k] / p0);
-    if (fabs(stress[3 * k] / p0 - xx) > 1e-3 || fabs(stress[3 * k + 1] / p0 - zz) > 1e-3) return 1;
+    compare(stress[3 * k] / p0 - xx, 1e-3);
+    compare(stress[3 * k + 1] / p0 - zz, 1e-3);
   }
   return 0;
 }
@@ -71,5 +81,7 @@ int main(void) {
   printf("largest von Mises stress %7.2f N/mm2, %.6f p0 at z = %.6f a\n", peak.value, peak.value / p0,
          peak.place[2] / a);
   printf("known                    %7.2f N/mm2, %.6f p0 at z = %.6f a\n", KNOWN_MISES * p0, KNOWN_MISES, KNOWN_DEPTH);
-  return fabs(peak.value / p0 - KNOWN_MISES) > 1e-4 || peak.location != FUGE_PEAK_INSIDE;
+  compare(peak.value / p0 - KNOWN_MISES, 1e-4);
+  printf("\nverdict: %d of %d against exact stresses, worst %.1E\n", right, compared, worst);
+  return right != compared || peak.location != FUGE_PEAK_INSIDE;
 }

@@ -34,21 +34,16 @@ contains
     error stop 'no result from CalculiX'
   end subroutine run_job
 
-  !> Run `command -i job` for at most `most` seconds, where the system has the command `timeout`. `solved`: it has ended
-  !> by itself, and without an error.
+  !> Run `command -i job` for at most `most` seconds of the processor, where the shell can limit them. `solved`: it has
+  !> ended by itself, and without an error.
   subroutine try_job(command, job, most, solved)
     character(len=*), intent(in) :: command, job
     integer, intent(in) :: most
     logical, intent(out) :: solved
     character(len=24) :: limit
-    integer :: failed, status
 
-    write (limit, '(a,i0,a)') 'timeout ', most, ' '
-    failed = 0
-    status = 0
-    call execute_command_line('timeout 1 true', exitstat=status, cmdstat=failed)
-    if (failed /= 0 .or. status /= 0) limit = ''
-    call run_command('rm -f '//job//'.dat '//job//'.frd', trim(limit)//' "'//command//'"', job, solved)
+    write (limit, '(a,i0)') 'ulimit -t ', most
+    call run_command('rm -f '//job//'.dat '//job//'.frd; '//trim(limit)//' 2>/dev/null', '"'//command//'"', job, solved)
   end subroutine try_job
 
   !> Run `prepare`, then `command -i job`, whose processor time goes to job.times.

@@ -9,6 +9,7 @@
 !> For the picture it writes ball_axis.csv and ball_map.dat, that of the barrel.
 program ball
   use example_output, only: create_file
+  use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_halfspace_matrix, fuge_halfspace_operator, fuge_hertz_contact, &
     fuge_hertz_ellipse, fuge_info, fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver, FUGE_CENTRE, FUGE_FREE, &
     FUGE_MEAN
@@ -27,6 +28,7 @@ program ball
 contains
 
   subroutine run()
+    type(verdict) :: hertz
     integer :: cells, axis, map
 
     call read_cells(cells)
@@ -36,12 +38,13 @@ contains
     call create_file('ball_map.dat', 2, map)
     write (axis, '(a)') 'x,pressure,hertz'
     print '(/,a,i0,a,i0,a)', 'Grids of ', cells, ' x ', cells, ' cells by FFT, pressure in GPa:'
-    print '(a)', '              a [mm]    error      b [mm]    error  approach [mm]    error  pressure    error' &
-      //'  products'
-    call press_grid('Ball', cells, 10.0_dp, 10.0_dp, axis_file=axis)
-    call press_grid('Barrel', cells, 10.0_dp, 200.0_dp, map_file=map)
+    print '(a8,2(a12,a9),a15,a9,a10,a9,a10)', '', 'a [mm]', 'error', 'b [mm]', 'error', 'approach [mm]', 'error', &
+      'pressure', 'error', 'products'
+    call press_grid('Ball', cells, 10.0_dp, 10.0_dp, hertz, axis_file=axis)
+    call press_grid('Barrel', cells, 10.0_dp, 200.0_dp, hertz, map_file=map)
     close (axis)
     close (map)
+    call hertz%give('against Hertz')
   end subroutine run
 
   subroutine read_cells(cells)
@@ -70,7 +73,8 @@ contains
     print '(/,a)', title
     print '(4(a,f9.6))', 'Hertz: semi-axes ', hertz%semi_axis_x, ' and ', hertz%semi_axis_y, ' mm, approach ', &
       hertz%approach, ' mm, pressure [GPa] ', 1.0e-3_dp*hertz%peak_pressure
-    print '(a)', 'element  cells    a [mm]    error      b [mm]    error      approach [mm] error    pressure, error'
+    print '(a,2(a12,a10),a14,a10,a17)', 'element    cells', 'a [mm]', 'error', 'b [mm]', 'error', 'approach [mm]', &
+      'error', 'pressure, error'
     do k = 1, size(SIZES)
       call solve(SIZES(k), FUGE_CENTRE, radius_x, radius_y, hertz)
     end do
@@ -111,8 +115,9 @@ contains
     ! A force is that of a rectangle and its three images.
     error = [a/hertz%semi_axis_x - 1.0_dp, b/hertz%semi_axis_y - 1.0_dp, approach/hertz%approach - 1.0_dp, &
              pressure_error(force/(4.0_dp*h_x*h_y), x, y, hertz)]
-    print '(a,i4,a,i2,3(f12.6,es10.1),es15.1)', merge('centre ', 'mean   ', element == FUGE_CENTRE), n, ' x ', n, &
-      a, error(1), b, error(2), approach, error(3), error(4)
+    print '(a,i4,a,i2,2(f12.6,es10.1),f14.6,es10.1,es17.1)', &
+      merge('centre ', 'mean   ', element == FUGE_CENTRE), n, ' x ', n, a, &
+      error(1), b, error(2), approach, error(3), error(4)
     ! Between one and five times what is observed.
     if (any(abs(error) > [0.05_dp, 0.05_dp, 0.02_dp, 2.0_dp]/real(n, dp)**1.5_dp)) error stop 'far from Hertz'
   end subroutine solve
@@ -129,10 +134,11 @@ contains
   end function pressure_error
 
   !> The whole surface, by products: no matrix, and no symmetry needed.
-  subroutine press_grid(title, n, radius_x, radius_y, axis_file, map_file)
+  subroutine press_grid(title, n, radius_x, radius_y, known, axis_file, map_file)
     character(len=*), intent(in) :: title
     integer, intent(in) :: n
     real(dp), intent(in) :: radius_x, radius_y
+    type(verdict), intent(inout) :: known
     integer, intent(in), optional :: axis_file, map_file
     type(fuge_halfspace_operator) :: operator
     type(fuge_problem) :: problem
@@ -160,18 +166,20 @@ contains
     problem%resultant = [LOAD]
     call solver%solve(operator, problem, solution, info)
     call require(info, 'contact')
-    call compare(title, reshape(solution%force, [n, n]), solution%motion(1), x, y, hertz, info%products)
+    call compare(title, reshape(solution%force, [n, n]), solution%motion(1), x, y, hertz, info%products, &
+                 known)
     if (present(axis_file)) &
       call write_axis(axis_file, x, y(n/2), solution%force((n/2 - 1)*n + 1:n/2*n)/(h_x*h_y), hertz)
     if (present(map_file)) call write_map(map_file, x, y, reshape(solution%force, [n, n])/(h_x*h_y))
   end subroutine press_grid
 
   !> The line of a grid in the table.
-  subroutine compare(title, force, approach, x, y, hertz, products)
+  subroutine compare(title, force, approach, x, y, hertz, products, known)
     character(len=*), intent(in) :: title
     real(dp), intent(in) :: force(:, :), approach, x(:), y(:)
     type(fuge_hertz_contact), intent(in) :: hertz
     integer, intent(in) :: products
+    type(verdict), intent(inout) :: known
     real(dp) :: h_x, h_y, a, b, pressure, error(4)
 
     h_x = x(2) - x(1)
@@ -183,7 +191,8 @@ contains
     print '(a8,2(f12.6,es9.1),f15.7,es9.1,f10.5,es9.1,i10)', title, a, error(1), b, error(2), approach, error(3), &
       1.0e-3_dp*pressure, error(4), products
     ! Between two and ten times what is observed.
-    if (any(abs(error) > [1.0_dp, 1.0_dp, 1.0_dp, 2.0_dp]/real(size(x), dp)**1.5_dp)) error stop 'far from Hertz'
+    call known%compare(error(:3), 1.0_dp/real(size(x), dp)**1.5_dp, 'a semi-axis or the approach')
+    call known%compare(error(4), 2.0_dp/real(size(x), dp)**1.5_dp, 'the largest pressure')
   end subroutine compare
 
   !> Pressure along x, beside that of Hertz.

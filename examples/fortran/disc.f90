@@ -6,6 +6,7 @@
 program disc
   use disc_rings, only: disc_influence, ring_radius, RINGS
   use example_output, only: create_file
+  use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_history, fuge_info, fuge_options, fuge_problem, &
     fuge_solution, fuge_solver
   implicit none
@@ -24,17 +25,20 @@ contains
   subroutine run()
     real(dp) :: printed(4, RINGS)
     type(fuge_history) :: history
+    type(verdict) :: paper
     integer :: case_number
 
     call read_results(printed)
     do case_number = 1, 2
       print '(/,a,i0,a,f5.2,a)', 'Load case ', case_number, ': p = 0.01 N/mm2, q =', LINE_LOAD(case_number), ' N/mm'
       call solve(case_number, printed(2*case_number - 1:2*case_number, :), history)
-      if (case_number == 1) call compare_with_table(history)
+      if (case_number == 1) call compare_with_table(history, paper)
     end do
-    print '(/,a,14i4)', 'Last basis, paper:', FINAL_BASIS_2
-    print '(a,14i4)', '            fuge: ', history%basis(history%recorded() - 1)
-    if (any(history%basis(history%recorded() - 1) /= FINAL_BASIS_2)) error stop 'the last basis of load case 2 differs'
+    print '(/,a,14i4)', 'Last basis of load case 2, paper:', FINAL_BASIS_2
+    print '(a,14i4)', '                            fuge:', history%basis(history%recorded() - 1)
+    print '(/,a)', '* a misprint in the paper, see doc/errata.md'
+    call paper%hold(all(history%basis(history%recorded() - 1) == FINAL_BASIS_2), 'the last basis of load case 2')
+    call paper%give('bases of the paper''s Tabelle 2')
   end subroutine run
 
   subroutine solve(case_number, printed, history)
@@ -58,7 +62,7 @@ contains
     history = solver%history
     call show_answer(solution, printed)
     print '(a,f10.4,a,i0,a,es8.1)', 'load F_0 = ', load, ' N, pivots ', info%iterations, ', residual', info%residual
-    call write_section(case_number, solution%gap)
+    call write_section(case_number, solution%gap, printed(2, :))
   end subroutine solve
 
   !> Line forces and gaps beside the printed ones; a star marks a difference of
@@ -69,7 +73,7 @@ contains
     real(dp) :: line_force
     integer :: k
 
-    print '(a)', 'ring   F [N/mm]  paper       c [mm]     paper'
+    print '(a4,a11,a8,a15,a10)', 'ring', 'F [N/mm]', 'paper', 'c [mm]', 'paper'
     do k = 1, RINGS
       line_force = solution%force(k)
       ! The paper prints no force for the centre, a ring of no length.
@@ -87,8 +91,9 @@ contains
   end function mark
 
   !> Tabelle 2: every printed basis must be met, z to what alpha is known to.
-  subroutine compare_with_table(history)
+  subroutine compare_with_table(history, paper)
     type(fuge_history), intent(in) :: history
+    type(verdict), intent(inout) :: paper
     integer :: basis(RINGS + 1, PRINTED_STEPS), step, same
     real(dp) :: z(PRINTED_STEPS)
 
@@ -98,26 +103,27 @@ contains
     do step = 1, PRINTED_STEPS
       print '(14i3,a,sp,es13.6)', basis(:, step), '  Z= ', z(step)
       print '(a)', history%line(step)
-      if (all(history%basis(step) == basis(:, step)) .and. same == step - 1) same = step
+      call paper%hold(all(history%basis(step) == basis(:, step)), 'a basis of load case 1')
+      if (all(history%basis(step) == basis(:, step))) same = same + 1
     end do
     print '(/,i0,a,i0,a)', same, ' of ', PRINTED_STEPS, ' bases are those of the paper'
     print '(a,es8.1)', 'largest relative difference of z in steps 1 to 14:', &
       maxval([(abs(history%z(step) - z(step))/z(step), step=1, 14)])
     print '(a,es8.1,a)', 'largest difference of z in steps 15 to 25:        ', &
       maxval([(abs(history%z(step) - z(step)), step=15, PRINTED_STEPS)]), ' mm'
-    if (same < PRINTED_STEPS) error stop 'a basis differs from Tabelle 2'
     if (any([(abs(history%z(step) - z(step)) > 1.0e-6_dp*z(step), step=1, 14)])) error stop 'z differs from Tabelle 2'
     if (any([(abs(history%z(step) - z(step)) > 0.01_dp, step=15, PRINTED_STEPS)])) error stop 'z differs from Tabelle 2'
   end subroutine compare_with_table
 
-  subroutine write_section(case_number, gap)
+  !> For the picture: radius, gap, and the gap that the paper prints.
+  subroutine write_section(case_number, gap, printed)
     integer, intent(in) :: case_number
-    real(dp), intent(in) :: gap(:)
+    real(dp), intent(in) :: gap(:), printed(:)
     integer :: file, k
 
     call create_file('disc_'//achar(iachar('0') + case_number)//'.dat', 2, file)
     do k = 1, RINGS
-      write (file, '(f8.1,es16.7)') ring_radius(k), gap(k)
+      write (file, '(f8.1,es16.7,f12.5)') ring_radius(k), gap(k), printed(k)
     end do
     close (file)
   end subroutine write_section

@@ -7,7 +7,7 @@ module flange_mesh
   implicit none
   private
 
-  public :: faces_inside, faces_level, make_bolt, make_flange, turn_over
+  public :: faces_inside, faces_level, faces_outside, make_bolt, make_flange, turn_over
 
   real(dp), parameter :: PI = acos(-1.0_dp)
 
@@ -335,6 +335,14 @@ contains
                          merge([2], [1], upwards))
   end function faces_level
 
+  !> All faces between a body and its surroundings.
+  pure function faces_outside(mesh) result(found)
+    type(solid_mesh), intent(in) :: mesh
+    integer, allocatable :: found(:, :)
+
+    found = chosen_faces(mesh, spread(.true., 1, size(mesh%node, 2)), [1, 2, 3, 4, 5, 6])
+  end function faces_outside
+
   !> The faces on a cylinder about the axis, of this radius.
   pure function faces_inside(mesh, radius) result(found)
     type(solid_mesh), intent(in) :: mesh
@@ -350,7 +358,7 @@ contains
     logical, intent(in) :: chosen(:)
     integer, intent(in) :: side(:)
     integer, allocatable :: found(:, :)
-    integer :: all_faces(8, size(mesh%element, 2)), e, n, nodes(8), per_face, s
+    integer :: all_faces(8, size(side)*size(mesh%element, 2)), e, n, nodes(8), per_face, s
 
     per_face = merge(8, 4, size(mesh%element, 1) == 20)
     n = 0

@@ -5,6 +5,7 @@
 !> parts of that load that a sharp cone and a sphere of the tip's radius would carry, by `fuge_solve_round_punch`; then
 !> the same contact on rings, by a matrix and the dense engine, and the relative difference of its approach.
 program indenter
+  use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_info, fuge_power_profile, &
     fuge_ring_matrix, fuge_round_contact, fuge_solve_dense, fuge_solve_round_punch, FUGE_DONE, FUGE_MEAN
   use indenter_tip, only: blunt_cone
@@ -22,19 +23,25 @@ contains
     type(blunt_cone) :: tip
     type(fuge_round_contact) :: contact
     type(fuge_info) :: info
-    real(dp) :: depth
+    type(verdict) :: rings_too
+    real(dp) :: depth, difference
     integer :: k
 
     tip = blunt_cone(upper=1.0e4_dp, slope=SLOPE, tip_radius=TIP_RADIUS)
-    print '(a)', 'depth [nm]  load [nN]    radius [nm]  cone      sphere    rings: approach  coefficients'
+    print '(a)', 'Loads of a cone and of a sphere at this depth over that of the blunt cone; difference by 200 rings'
+    print '(a10,a14,a12,2a10,a16,a16)', 'depth [nm]', 'load [nN]', 'radius [nm]', 'cone', 'sphere', 'by rings', &
+      'coefficients'
     do k = 0, 9
       depth = 2.0_dp**k
       call fuge_solve_round_punch(tip, E_STAR, contact, info, approach=depth)
       if (info%status /= FUGE_DONE) error stop 'the indenter was not solved'
-      print '(f8.1,es14.6,f12.5,2f10.3,es16.1,i16)', depth, contact%load, contact%radius, &
-        cone_load(depth)/contact%load, sphere_load(depth)/contact%load, difference_on_rings(tip, contact), &
+      difference = difference_on_rings(tip, contact)
+      print '(f10.1,es14.6,f12.5,2f10.3,es16.1,i16)', depth, contact%load, contact%radius, &
+        cone_load(depth)/contact%load, sphere_load(depth)/contact%load, difference, &
         size(contact%coefficients())
+      call rings_too%compare(difference, 1.0e-4_dp, 'the approach on rings')
     end do
+    call rings_too%give('on rings as without a grid')
   end subroutine run
 
   !> The load of the sharp cone at this depth.
@@ -86,7 +93,6 @@ contains
     call fuge_solve_dense(alpha, gap, contact%load, force, opening, approach, info)
     if (info%status /= FUGE_DONE) error stop 'the rings were not solved'
     difference = approach/contact%approach - 1.0_dp
-    if (abs(difference) > 1.0e-4_dp) error stop 'the rings miss the approach'
   end function difference_on_rings
 
 end program indenter

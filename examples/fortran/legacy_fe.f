@@ -25,12 +25,18 @@ C     hand.
       COMMON /BEAM/ XL, EI, CLEAR
       COMMON /STIFF/ AB(LDAB,ND), P(ND), UFIX(2), IFIX(2)
       COMMON /STOPS/ DN(N), ALPHA(N,N), B(N), IDOF(N)
+      COMMON /TALLY/ WORST, NSAME
       XL = 8000.D0
       EI = 2.1D5*2.D7
       CLEAR = 5.D0
+      NSAME = 0
+      WORST = 0.D0
       CALL ASSEMB
       CALL CONDNS
       CALL TABLE
+      WRITE (*, 100) NSAME, NSAME, WORST
+  100 FORMAT (/, 'verdict: ', I2, ' of ', I2,
+     $        ' as by hand, worst', 1PE8.1)
       END
 
 C     Stiffness matrix, upper triangle by bands, and loads of a line load
@@ -117,7 +123,8 @@ C     supports hold the beam.
      $              DBLE(IHAND(I,J)), 16.D0)
    15   CONTINUE
    20 CONTINUE
-  100 FORMAT (' Flexibilities of the stops, 768 EI/L**3, and by hand')
+  100 FORMAT (' Deflections at the stops by a force of 768 EI/L**3',
+     $        ' at each of them, and by hand')
   110 FORMAT (3F10.5, 6X, 3I4)
       END
 
@@ -201,6 +208,9 @@ C     Equal to nine digits of SCALE?
       SUBROUTINE SAME(WHAT, GOT, WANTED, SCALE)
       IMPLICIT DOUBLE PRECISION (A-H,O-Z)
       CHARACTER*(*) WHAT
+      COMMON /TALLY/ WORST, NSAME
+      NSAME = NSAME + 1
+      WORST = MAX(WORST, ABS(GOT - WANTED)/SCALE)
       IF (ABS(GOT - WANTED) .LE. 1.D-9*SCALE) RETURN
       WRITE (*, 100) WHAT, GOT, WANTED
       STOP 1

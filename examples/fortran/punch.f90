@@ -9,6 +9,7 @@
 !> punch_halfwidth.dat.
 program punch
   use example_output, only: create_file
+  use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_matrix, fuge_info, &
     fuge_interval, fuge_load_path, fuge_path, fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver, FUGE_CENTRE, &
     FUGE_EDGE_REFINED
@@ -29,6 +30,7 @@ contains
     type(fuge_dense_operator) :: operator
     type(fuge_problem) :: problem
     type(fuge_info) :: info
+    type(verdict) :: known
     integer :: file, k, kilonewtons
 
     x = [(SPACING*(real(k, dp) - 0.5_dp), k=1, POINTS)]
@@ -39,15 +41,17 @@ contains
     problem%gap = PROFILE*x**4
     allocate (problem%resultant(1))
 
-    print '(a)', ' F [kN/mm]  half contact length [mm]    error    largest pressure [N/mm2]  error  residual'
-    print '(a)', '            cells    edge      exact   of edge       fuge        exact'
+    print '(a8,a29,a11,a25,a9,a9)', 'F', 'half contact length [mm]', 'error', 'largest pressure [N/mm2]', 'error', &
+      'residual'
+    print '(a8,a9,2a10,a11,a12,a13)', '[kN/mm]', 'cells', 'edge', 'exact', 'of edge', 'fuge', 'exact'
     call create_file('punch_edge.dat', 1, file)
     do kilonewtons = 5, 50, 5
-      call one_load(operator, problem, x, real(kilonewtons, dp), file)
+      call one_load(operator, problem, x, real(kilonewtons, dp), known, file)
     end do
     close (file)
     call all_loads(operator, problem%gap, x)
     call all_spacings()
+    call known%give('against the exact edges and pressures')
   end subroutine run
 
   !> Convergence of the half contact length.
@@ -56,15 +60,15 @@ contains
     integer :: cells, k
 
     print '(/,a)', 'Largest error of the half contact length over 101 loads from 25 to 50 kN/mm'
-    print '(a)', ' spacing [mm]   last cell [mm]  order    edge [mm]  order'
+    print '(a12,2(a15,a8))', 'spacing [mm]', 'last cell [mm]', 'order', 'edge [mm]', 'order'
     coarser = 0.0_dp
     cells = 12
     do while (cells <= 192)
       error = largest_error(cells)
       if (cells == 12) then
-        print '(f11.6,2(es15.2,8x))', 0.9_dp/real(cells, dp), error
+        print '(f12.6,2(es15.2,8x))', 0.9_dp/real(cells, dp), error
       else
-        print '(f11.6,2(es15.2,f8.1))', 0.9_dp/real(cells, dp), &
+        print '(f12.6,2(es15.2,f8.1))', 0.9_dp/real(cells, dp), &
           (error(k), log(coarser(k)/error(k))/log(2.0_dp), k=1, 2)
       end if
       coarser = error
@@ -131,10 +135,11 @@ contains
     print '(a,f8.4,a)', 'the last time at ', path%parameter(path%entries)/1.0e3_dp, ' kN/mm'
   end subroutine all_loads
 
-  subroutine one_load(operator, problem, x, kilonewtons, file)
+  subroutine one_load(operator, problem, x, kilonewtons, known, file)
     type(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(inout) :: problem
     real(dp), intent(in) :: x(:), kilonewtons
+    type(verdict), intent(inout) :: known
     integer, intent(in) :: file
     type(fuge_solver) :: solver
     type(fuge_solution) :: solution
@@ -155,11 +160,12 @@ contains
     peak = maxval(exact_pressure(x, exact))
     print '(f8.0,f9.3,2f10.6,f9.4,a,f12.1,f13.1,f7.2,a,es9.1)', kilonewtons, reached, refined, exact, &
       percent(refined, exact), ' %', maxval(pressure), peak, percent(maxval(pressure), peak), ' %', info%residual
+    call known%compare(refined/exact - 1.0_dp, 1.0e-3_dp*SPACING/exact, 'the edge of the contact')
+    call known%compare(maxval(pressure)/peak - 1.0_dp, 2.0e-3_dp, 'the largest pressure')
     if (nint(kilonewtons) == 30) then
       call write_pressure(x, pressure, exact)
-      ! The number that the paper reports, and the resolution of its grid.
+      ! The number that the paper reports.
       if (abs(reached - 0.700_dp) > 1.0e-9_dp) error stop 'half contact length at 30 kN is not 0.700 mm'
-      if (abs(refined - exact) > 1.0e-3_dp*SPACING) error stop 'the edge at 30 kN is not the exact one'
     end if
   end subroutine one_load
 

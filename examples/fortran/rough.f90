@@ -11,6 +11,7 @@
 program rough
   use, intrinsic :: iso_fortran_env, only: int64
   use example_output, only: create_file
+  use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver, &
     FUGE_PERIODIC
   use rough_profile, only: measured_profile, rms_slope, self_affine_profile
@@ -62,13 +63,21 @@ contains
     if (cells < 1024 .or. popcnt(cells) /= 1) error stop 'cells has to be a power of two, 1024 or more'
   end subroutine read_arguments
 
+  !> Is there a file of a profile?
+  logical function is_measured()
+    character(len=1024) :: path
+
+    call get_command_argument(2, path)
+    is_measured = path /= '' .and. path /= '-'
+  end function is_measured
+
   subroutine make_profile(height, period)
     real(dp), intent(out) :: height(:), period
     character(len=1024) :: path
     type(fuge_info) :: info
 
-    call get_command_argument(2, path)
-    if (path /= '' .and. path /= '-') then
+    if (is_measured()) then
+      call get_command_argument(2, path)
       call measured_profile(trim(path), size(height), height, period, info)
       if (info%failed()) call give_up(info)
     else
@@ -86,6 +95,7 @@ contains
     type(fuge_solution) :: solution
     type(fuge_info) :: info
     type(ticker), target :: monitor
+    type(verdict) :: theory
     real(dp) :: pressure, seconds
     integer :: file, k
 
@@ -101,10 +111,12 @@ contains
       call write_load(file, pressure, rms_slope(height, spacing), solution, info, clock() - seconds)
       if (abs(pressure/SHOWN - 1.0_dp) < 1.0e-6_dp) then
         call write_window(height, spacing, solution)
-        call check_contact(info%contacts, problem%resultant(1), height, spacing)
       end if
+      if (pressure > 0.99_dp*SHOWN) call check_contact(info%contacts, pressure, height, spacing, theory)
     end do
     close (file)
+    ! A measured profile may be anything.
+    if (.not. is_measured()) call theory%give('contact lengths near Persson''s theory')
   end subroutine all_loads
 
   subroutine write_load(file, pressure, slope, solution, info, seconds)
@@ -122,16 +134,16 @@ contains
       info%residual, info%products, info%preconditionings, seconds, slope
   end subroutine write_load
 
-  !> kappa is at least Persson's 2 sqrt(2/pi) = 1.6, and not much above 2.
-  subroutine check_contact(contacts, load, height, spacing)
+  !> The contact length is hardly below that of Persson, erf(sqrt(2) p/(E* h')), and not much above kappa = 2.
+  subroutine check_contact(contacts, pressure, height, spacing, theory)
     integer, intent(in) :: contacts
-    real(dp), intent(in) :: load, height(:), spacing
-    real(dp) :: kappa
+    real(dp), intent(in) :: pressure, height(:), spacing
+    type(verdict), intent(inout) :: theory
+    real(dp) :: length, reduced
 
-    ! A measured profile may be anything.
-    if (command_argument_count() > 1) return
-    kappa = real(contacts, dp)*spacing*rms_slope(height, spacing)/load
-    if (kappa < 1.6_dp .or. kappa > 2.4_dp) error stop 'the real contact is not that of a self-affine profile'
+    length = real(contacts, dp)/real(size(height), dp)
+    reduced = pressure/rms_slope(height, spacing)
+    call theory%hold(length >= 0.95_dp*erf(sqrt(2.0_dp)*reduced) .and. length <= 2.4_dp*reduced, 'the contact length')
   end subroutine check_contact
 
   !> Profile, surface of the body above and pressure around the largest pressure.

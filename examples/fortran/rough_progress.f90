@@ -28,8 +28,8 @@ contains
     if (self%last == 0_int64) self%last = now
     if (real(now - self%last, dp) < self%interval*real(rate, dp)) return
     self%last = now
-    write (error_unit, '(a,i0,a,es8.1,a,i0,a)') '    contact set ', iteration, ', residual', residual, ', ', contacts, &
-      ' cells touch'
+    write (error_unit, '(a,i0,a,es8.1,a,i0,a)') 'solving: ', iteration, ' contact sets tried, residual', residual, &
+      ', ', contacts, ' cells touch'
   end subroutine progress
 
 end module rough_progress

@@ -17,6 +17,7 @@
 program shaft_hub
   use elastic_elements, only: mesh_stiffness, AXISYMMETRIC, PLANE_STRESS
   use example_output, only: create_file
+  use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_bodies_contact, fuge_dense_stiffness, fuge_elastic_body, fuge_info, &
     fuge_solve_bodies, fuge_surface_pair, FUGE_MORTAR, FUGE_NODE_TO_FACE
   use shaft_hub_mesh, only: make_ring, make_section, mesh_kind, plane_body
@@ -91,29 +92,29 @@ program shaft_hub
 contains
 
   subroutine run()
-    real(dp) :: error(2), worst
+    type(verdict) :: lame
+    real(dp) :: error(2)
     integer :: file, k
 
     print '(a,f6.4,a)', 'Shaft of 40.005 mm in a hub of 40.000 mm, pressure by Lame ', PRESSURE, ' N/mm2'
     call create_file('shaft_hub_pressure.csv', 1, file)
-    worst = 0.0_dp
-    print '(/,a)', 'Plane stress                                    points  mean off by  worst node  spread'
+    print '(/,a,a10,a13,a12,a11)', 'Plane stress'//repeat(' ', 32), 'points', 'mean off by', 'worst node', 'spread'
     do k = 1, size(MESHES)
       call solve(MESHES(k), .false., file, error)
-      worst = max(worst, maxval(abs(error)))
+      call lame%compare(error, ALLOWED, 'a pressure')
     end do
     print '(/,a)', 'Bodies of revolution, elements along the length'
     do k = 1, size(TUBES)
       call solve(TUBES(k), .true., file, error)
-      worst = max(worst, maxval(abs(error)))
+      call lame%compare(error, ALLOWED, 'a pressure')
     end do
-    if (worst > ALLOWED) error stop 'a pressure is off by more than 0.5 %'
-    print '(/,a)', 'Not so'
+    print '(/,a)', 'What misses Lame''s pressure: faces not smoothed, nodes against faces, coarse meshes'
     do k = 1, size(OTHERS)
       call solve(OTHERS(k), .false., file, error)
       if (abs(error(2)) < ALLOWED) error stop 'this was expected to fail'
     end do
     close (file)
+    call lame%give('pressures against Lame')
   end subroutine run
 
   !> Press the fit, print a line of the table. `error`: of the mean pressure and of the worst node, relative.

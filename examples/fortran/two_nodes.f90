@@ -2,6 +2,7 @@
 !>
 !> fuge records the basis after each pivot; the tableaus are computed from these bases here.
 program two_nodes
+  use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_history, fuge_info, fuge_options, fuge_problem, &
     fuge_solution, fuge_solver
   implicit none
@@ -22,6 +23,7 @@ contains
     type(fuge_solution) :: solution
     type(fuge_solver) :: solver
     type(fuge_info) :: info
+    type(verdict) :: paper
     integer :: step
 
     influence = ALPHA
@@ -31,7 +33,7 @@ contains
     if (.not. info%failed()) call solver%solve(operator, problem, solution, info, fuge_options(keep_history=.true.))
     if (info%status /= 0) error stop 'the two-node problem was not solved'
 
-    call show_tableaus(solver%history)
+    call show_tableaus(solver%history, paper)
     print '(/,a)', 'Basis after each pivot, as at the foot of Tabelle 1:'
     do step = 0, solver%history%recorded() - 1
       print '(a)', solver%history%line(step)
@@ -40,11 +42,13 @@ contains
     print '(a,2f8.3)', 'c   = ', solution%gap
     print '(a,f8.3)', 'v_0 = ', solution%motion
     print '(a,es8.1)', 'residual ', info%residual
+    call paper%give('bases of the paper''s Tabelle 1')
   end subroutine run
 
   !> The tableau of each step, by Gauss-Jordan elimination from the one before.
-  subroutine show_tableaus(history)
+  subroutine show_tableaus(history, paper)
     type(fuge_history), intent(in) :: history
+    type(verdict), intent(inout) :: paper
     real(dp) :: tableau(3, 6)
     integer :: basis(3), step, row
 
@@ -56,7 +60,7 @@ contains
     tableau(3, :) = [1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, LOAD]
     basis = PRINTED_BASIS(:, 0)
     do step = 0, history%recorded() - 1
-      if (any(history%basis(step) /= PRINTED_BASIS(:, step))) error stop 'the basis differs from Tabelle 1'
+      call paper%hold(all(history%basis(step) == PRINTED_BASIS(:, step)), 'a basis')
       row = changed_row(basis, PRINTED_BASIS(:, step))
       basis = PRINTED_BASIS(:, step)
       if (row > 0) call pivot(tableau, row, basis(row))

@@ -4,7 +4,7 @@ eval picture("ball", 800, 350)
 set multiplot
 
 eval panel(0.085, 0.485, 0.16, 0.90)
-set title "Ball R = 10 mm on a plane, 100 N, steel" offset 0, -0.3
+set title "Ball R = 10 mm, 100 N: pressure as by Hertz" offset 0, -0.3
 set xlabel "x [mm]" offset 0, 0.3
 set ylabel "pressure [GPa]" offset 0.7
 set key at graph 0.5, 0.06 center bottom
@@ -18,14 +18,14 @@ set samples 2001
 set xrange [-0.22:0.22]
 set yrange [0:1.5]
 set xtics 0.1
+eval gridlines
 plot p(x) with lines ls KNOWN title "Hertz", \
      "ball_axis.csv" every every_so_many::1 using 1:($2/1e3) with points ls FUGE ps 0.6 \
-       title sprintf("fuge, %d of %d cells", b_records/every_so_many, b_records)
+       title every_so_many > 1 ? sprintf("fuge, one cell in %d", every_so_many) : "fuge"
 
 set datafile separator whitespace
-set title "Barrel R_x = 10 mm, R_y = 200 mm"
+set title "Barrel R_x = 10, R_y = 200 mm: Hertz's ellipse"
 eval panel(0.575, 0.865, 0.16, 0.90)
-unset grid
 set key at graph 0.98, 0.98 right top samplen 1.2 noreverse Right
 set border 15
 set xrange [-0.125:0.125]

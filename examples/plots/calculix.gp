@@ -14,21 +14,23 @@ set xrange [0:0.56]
 set xlabel "x [mm]" offset 0, 0.3
 
 eval panel(0.085, 0.485, 0.15, 0.90)
-set title "Block of finite elements, 100 N/mm" offset 0, -0.3
+set title "Steel block on a rigid plate: pressure" offset 0, -0.3
 set ylabel "nodal force / area [N/mm^2]" offset 0.8
 set yrange [0:185]
 set key bottom left
+eval gridlines
 plot p(x) with lines ls KNOWN title "Hertz, half-plane", \
      "calculix.csv" using 1:4 every ::1 with linespoints ls OTHER title "penalty 5 E/mm", \
      "" using 1:6 every ::1 with linespoints ls OTHER_TOO title "penalty 50 E/mm", \
      "" using 1:2 every ::1 with points ls FUGE title "fuge"
 
 eval panel(0.585, 0.985, 0.15, 0.90)
-set title "Gap; below zero the bodies overlap"
+set title "Gap; with penalties the bodies overlap"
 set ylabel "gap [µm]"
 set yrange [-0.16:0.2]
 set xzeroaxis lt 1 lw 1 lc rgb "#777777"
 set key top left
+eval gridlines
 plot "calculix.csv" using 1:($5*1e3) every ::1 with linespoints ls OTHER title "CalculiX, penalty 5 E/mm", \
      "" using 1:($7*1e3) every ::1 with linespoints ls OTHER_TOO title "CalculiX, penalty 50 E/mm", \
      "" using 1:($3*1e3) every ::1 with points ls FUGE title "fuge"

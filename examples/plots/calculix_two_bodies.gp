@@ -11,7 +11,8 @@ set key top right noreverse Right
 
 eval panel(0.085, 0.53, 0.16, 0.90)
 set ylabel "pressure at the nodes [N/mm^2]" offset 0.5
-set title "CalculiX, surface to surface" offset 0, -0.3
+set title "Aluminium pressed on steel; CalculiX: surface to surface" offset 0, -0.3
+eval gridlines
 plot "hertz.csv" using 1:2 with lines ls KNOWN title "Hertz", \
      "calculix_two_bodies.csv" using 1:3 every ::1 with linespoints ls OTHER title "penalty 5 E/mm", \
      "" using 1:5 every ::1 with linespoints ls OTHER_TOO title "500 E/mm", \
@@ -21,7 +22,8 @@ plot "hertz.csv" using 1:2 with lines ls KNOWN title "Hertz", \
 eval panel(0.56, 0.985, 0.16, 0.90)
 unset ylabel
 set format y ""
-set title "CalculiX, node to surface, and mortar"
+set title "CalculiX: node to surface, mortar"
+eval gridlines
 plot "hertz.csv" using 1:2 with lines ls KNOWN title "Hertz", \
      "calculix_two_bodies.csv" using 1:8 every ::1 with linespoints ls OTHER title "node to surface, 50 E/mm", \
      "" using 1:11 every ::1 with points ls OTHER_TOO ps 1.2 title "mortar", \

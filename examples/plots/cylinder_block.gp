@@ -9,41 +9,41 @@ a = h_mean_x
 p0 = h_mean_y
 set datafile separator whitespace
 
-eval panel(0.01, 0.36, 0.53, 0.94)
-set label 1 "Cylinder on a block, right half" at screen 0.185, 0.965 center
-unset border
-unset tics
-unset grid
+eval panel(0.07, 0.37, 0.565, 0.94)
+set title "Cylinder on a block, right half" offset 0, -0.3
+set xlabel "x [mm]" offset 0, 0.3
+set ylabel "y [mm]" offset 0.5
+set xtics 5
+set ytics 5
 unset key
 set size ratio -1
-set xrange [0:16]
-set yrange [-6:9]
+set xrange [0:14]
+set yrange [-6:8]
 plot "cylinder_block_mesh.dat" index 0 using 1:2 with lines lw 0.6 lc rgb "#333333", \
      "" index 1 using 1:2 with lines lw 0.6 lc rgb brown
-unset label 1
 
 set size noratio
-set border 3
-set xtics nomirror autofreq scale 0.6
-set ytics nomirror autofreq scale 0.6
-set grid xtics ytics lt 1 lw 0.6 lc rgb "#e2e2e2"
+set xtics autofreq
+set ytics autofreq
+set key on
 set datafile separator comma
 eval panel(0.46, 0.985, 0.565, 0.94)
 p(x) = x < a ? p0*sqrt(1 - x**2/a**2) : 0
 set samples 2001
-set title "Pressures at the nodes, a/h = 7" offset 0, -0.3
+set title "Nodal pressures, a/h = 7: on the coarser surface as Hertz" offset 0, -0.3
 set xlabel "x [mm]" offset 0, 0.3
 set ylabel "pressure [N/mm^2]" offset 0.5
 set xrange [0:1.2]
 set yrange [0:950]
 set ytics 200
 set key bottom left
+eval gridlines
 plot p(x) with lines ls KNOWN title "Hertz", \
      "cylinder_block_pressure.csv" index 4 using 1:2 with points lc rgb vermilion pt 2 ps 0.8 lw 1.2 \
        title "linear, nodes against faces", \
      "" index 1 using 1:2 with points ls OTHER_TOO pt 6 title "linear, on the finer surface", \
-     "" index 0 using 1:2 with points ls FUGE ps 0.9 title "linear, on the coarser one", \
-     "" index 5 using 1:2 with points pt 7 ps 0.25 lc rgb black title "the same, finest mesh", \
+     "" index 0 using 1:2 with points ls FUGE ps 0.9 title "linear, on the coarser surface", \
+     "" index 5 using 1:2 with points pt 7 ps 0.25 lc rgb black title "linear, on the coarser one, a/h = 28", \
      "" index 3 using 1:2 with points ls FUGE_TOO lc rgb purple ps 0.7 title "quadratic"
 
 # One measure a panel; h is the width of the cylinder's elements where the bodies touch.
@@ -58,9 +58,10 @@ set mytics 10
 set xlabel "h / a"
 E = "cylinder_block_errors.csv"
 of(v, c) = column(1) == v ? column(c) : NaN
-set ylabel "relative error, rms" offset 0.8
+set ylabel "root mean square of errors" offset 0.8
 eval panel(0.09, 0.37, 0.09, 0.425)
-set title "Peak pressure"
+set title "Largest pressure"
+eval gridlines
 unset key
 plot E using (1/$2):(of(5, 5)) with linespoints lc rgb vermilion pt 2 ps 0.8 lw 1.2, \
      E using (1/$2):(of(2, 5)) with linespoints ls OTHER_TOO pt 6, \
@@ -70,12 +71,16 @@ eval panel(0.405, 0.685, 0.09, 0.425)
 unset ylabel
 set format y ""
 set title "Half-width"
+eval gridlines
+unset key
 plot E using (1/$2):(of(5, 4)) with linespoints lc rgb vermilion pt 2 ps 0.8 lw 1.2, \
      E using (1/$2):(of(2, 4)) with linespoints ls OTHER_TOO pt 6, \
      E using (1/$2):(of(1, 4)) with linespoints ls FUGE, \
      E using (1/$2):(of(4, 4)) with linespoints ls FUGE_TOO lc rgb purple
 eval panel(0.72, 0.985, 0.09, 0.425)
 set title "Force"
+eval gridlines
+unset key
 plot E using (1/$2):(of(5, 3)) with linespoints lc rgb vermilion pt 2 ps 0.8 lw 1.2, \
      E using (1/$2):(of(2, 3)) with linespoints ls OTHER_TOO pt 6, \
      E using (1/$2):(of(1, 3)) with linespoints ls FUGE, \

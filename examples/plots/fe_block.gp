@@ -2,7 +2,7 @@
 # by the width of the elements.
 # Run in the folder of fe_block_mesh.dat, fe_block_contact.dat, fe_block_size.csv and fe_block_elements.csv.
 load system("dirname '".ARG0."'")."/style.gp"
-eval picture("fe_block", 800, 350)
+eval picture("fe_block", 800, 330)
 set multiplot
 
 # Every second grid line of the right half and its mirror image, vertical displacements enlarged.
@@ -10,11 +10,10 @@ scale = 8.0
 stats "fe_block_contact.dat" using 1:4 name "c" nooutput
 stats "fe_block_mesh.dat" using 1:2 name "m" nooutput
 punch(x) = scale*(0.05*x**4 - c_max_y)
-eval panel(0.01, 0.43, 0.02, 0.80)
-set label 1 sprintf("Elastic block under the punch,\nvertical displacements × %.0f", scale) at screen 0.22, 0.86 center
+eval panel(0.01, 0.43, 0.02, 0.86)
+set label 1 sprintf("Elastic block under the punch,\nvertical displacements × %.0f", scale) at screen 0.22, 0.90 center
 unset border
 unset tics
-unset grid
 unset key
 set size ratio -1
 set xrange [-1.03*m_max_x:1.03*m_max_x]
@@ -43,27 +42,28 @@ set xtics nomirror autofreq scale 0.6
 set ytics nomirror autofreq scale 0.6
 set mxtics 10
 set mytics 10
-set grid xtics ytics lt 1 lw 0.6 lc rgb "#e2e2e2"
 set datafile separator comma
 set yrange [1e-3:10]
 set key top right noreverse Right
 
 eval panel(0.525, 0.745, 0.155, 0.87)
-set title "By the size of the block:\n2W wide, W deep" offset 0, -0.3
+set title "Error by the size of the\nblock, 2W wide, W deep" offset 0, -0.3
 set xlabel "W / a" offset 0, 0.3
 set ylabel "error of the half-width a [%]" offset 1
 set xrange [2:110]
 set xtics (2, 5, 10, 20, 50, 100)
+eval gridlines
 plot "fe_block_size.csv" using 1:(100*$2) with linespoints ls FUGE title "bottom held", \
      "" using 1:(100*$3) with linespoints ls FUGE_TOO title "sides too"
 
 eval panel(0.77, 0.99, 0.155, 0.87)
-set title "By the elements,\nh wide" offset 0, -0.3
+set title "Error by the elements,\nh wide" offset 0, -0.3
 set xlabel "a / h"
 unset ylabel
 set format y ""
 set xrange [4:70]
 set xtics (5, 10, 20, 50)
+eval gridlines
 plot "fe_block_elements.csv" using 1:(100*$2) with linespoints ls FUGE title "elements", \
      "" using 1:(100*$3) with points ls OTHER_TOO ps 1.1 title "half-plane, hats"
 unset multiplot

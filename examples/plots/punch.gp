@@ -13,14 +13,16 @@ stats "punch_halfwidth.dat" using 1:2 name "h" nooutput
 last = h_max_y
 
 eval panel(0.075, 0.485, 0.16, 0.90)
-set title "Punch y = 0.05 x^4 mm on a half-plane, F = 30 kN/mm" offset 0, -0.3
+set title "The paper's punch y = 0.05 x^4 mm, 30 kN/mm" offset 0, -0.3
 set xlabel "x [mm]" offset 0, 0.3
 set ylabel "pressure [kN/mm^2]" offset 0.7
 set xrange [-0.88:0.88]
 set yrange [0:31]
 set samples 2001
-set label 1 sprintf("half model of %d cells,\n%.0f µm wide, from x = 0;\nlight: mirror image", c_records, 1e3*spacing) \
-  at 0, 12 center
+eval gridlines
+set label 1 \
+  sprintf("E = 10^6 N/mm^2 as in the paper,\nfive times that of steel;\n%d cells of %.0f µm from x = 0,\nlight: mirrored", \
+  c_records, 1e3*spacing) at 0, 14.5 center
 set key at graph 0.5, 0.13 center center maxrows 1 width -1
 plot p(x) with lines ls KNOWN title "exact", \
      "punch_pressure.dat" using (-$1):($2/1e3) with points ls FUGE ps 0.6 lc rgb sky notitle, \
@@ -28,14 +30,13 @@ plot p(x) with lines ls KNOWN title "exact", \
 unset label 1
 
 eval panel(0.575, 0.985, 0.16, 0.90)
-set title "Half contact length"
+set title "Half contact length: steps, refined edges"
 set xlabel "load F [kN/mm]"
 set ylabel "a [mm]"
 set xrange [0:53]
 set yrange [0:0.9]
 set key at graph 0.99, 0.04 right bottom maxrows 3 noreverse Right
-set arrow 1 from 50, 0.59 to 50, last - 0.02 lw 1 lc rgb grey size 1.2, 20 filled
-set label 1 "50 kN/mm is the highest load\nasked for: the stairs end" at 52.5, 0.55 right textcolor rgb "#444444"
+eval gridlines
 plot [F=0.001:53] b(F) with lines ls KNOWN title "exact", \
      "punch_halfwidth.dat" using 1:2 with steps lw 1.5 lc rgb vermilion title "outer end of the last cell in contact", \
      "+" using (h_max_x + $0*(50 - h_max_x)):(last) every ::0::1 with lines lw 1.5 lc rgb vermilion notitle, \

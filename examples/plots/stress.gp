@@ -13,7 +13,6 @@ set cbrange [0:1]
 unset colorbox
 unset key
 set border 15 lw 1 front
-unset grid
 set tics out nomirror scale 0.6
 set size ratio -1
 set style textbox opaque noborder fillcolor rgb "#ffffff" margins 0.5, 0.3
@@ -25,6 +24,9 @@ place(k, row) = panel(0.075 + 0.49*k, 0.50 + 0.49*k - 0.015, 0.575 - 0.495*row, 
 across(k, n, width) = width*((k + 0.5)/n - 0.5)
 down(k, n, width) = 0.5*width*(k + 0.5)/n
 
+set label 9 \
+  "Largest shear stress in the plane: bright at each step of the scale; × the largest one, orange the contact" \
+  at screen 0.5, 0.965 center
 # The paper's punch, in mm.
 set xlabel "x [mm]" offset 0, 0.4
 set ylabel "z [mm]" offset 1.5
@@ -36,6 +38,7 @@ set label 1 "33 cells" at graph 0.025, 0.06 left front boxed
 set label 2 "without a grid" at graph 0.975, 0.06 right front boxed
 do for [k=1:2] {
   eval place(k - 1, 0)
+  if (k == 2) { unset label 9 }
   F = word("10 30", k)
   a = (F*1e3/(0.75*pi*1e6/(1 - 0.25**2)*0.05))**0.25
   punch(x) = abs(x) < a ? 0 : 0.05*(a**4 - x**4)
@@ -43,7 +46,8 @@ do for [k=1:2] {
   nz = value(sprintf("punch_%d_size_y", k))
   x_max = across(value(sprintf("punch_%d_index_max_x", k)), nx, 2.4)
   z_max = down(value(sprintf("punch_%d_index_max_y", k)), nz, 2.4)
-  set title sprintf("Punch, %s kN/mm: a fringe 0.5 kN/mm^2", F) offset 0, -0.5
+  set title sprintf("Punch, %s kN/mm: steps of 0.5, largest %.1f kN/mm^2", F, \
+    value(sprintf("punch_%d_max", k))/1e3) offset 0, -0.5
   plot sprintf("stress_punch_%s.dat", F) matrix using (across($1, nx, 2.4)):(down($2, nz, 2.4)):(bright($3/500)) \
          with image, \
        "+" using 1:(punch($1)):(-0.12) with filledcurves fillcolor rgb solid, \
@@ -62,7 +66,7 @@ set xtics 1
 set ytics 1
 unset label 2
 eval place(0, 1)
-set title "Flat punch, F at a/4: a fringe 0.03 F/a"
+set title "Flat punch, F at a/4: steps of 0.03 F/a"
 set label 1 "F" at 0.36, -0.1 left front textcolor rgb "black"
 set arrow 1 from 0.25, -0.19 to 0.25, -0.01 front lw 2 lc rgb "black" size 0.06, 25 filled
 plot "stress_tilt.dat" matrix using (across($1, tilt_size_x, 4)):(down($2, tilt_size_y, 4)):(bright($3/0.03)) \
@@ -73,7 +77,7 @@ unset label 1
 unset arrow 1
 
 eval place(1, 1)
-set title "Ball, plane y = 0: a fringe 0.04 p_0"
+set title sprintf("Ball, plane y = 0: steps of 0.04, largest %.2f p_0", ball_max)
 set label 1 "rectangles" at graph 0.025, 0.06 left front boxed
 set label 2 "without a grid" at graph 0.975, 0.06 right front boxed
 gap(x) = abs(x) < 1 ? 0 : -0.1*(x**2 - 1)

@@ -15,7 +15,7 @@ unset contour
 set multiplot
 
 eval panel(0.085, 0.485, 0.58, 0.95)
-set title "On the axis: stresses, largest shear stress" offset 0, -0.3
+set title "Stresses on the axis: fuge on the known curves" offset 0, -0.3
 set xlabel "stress / p_0" offset 0, 0.3
 set ylabel "z / a" offset 0.5
 set xrange [-1.05:0.7]
@@ -24,6 +24,7 @@ set ytics 1
 set yzeroaxis lt 1 lw 1 lc rgb "#777777"
 set key bottom left
 set datafile separator comma
+eval gridlines
 plot "stress_axis.csv" using 4:1 every ::1 with lines ls KNOWN title "known", \
      "" using 5:1 every ::1 with lines ls KNOWN notitle, \
      "" using (0.5*abs($4 - $5)):1 every ::1 with lines ls KNOWN notitle, \
@@ -35,7 +36,7 @@ plot "stress_axis.csv" using 4:1 every ::1 with lines ls KNOWN title "known", \
 unset yzeroaxis
 
 eval panel(0.60, 0.985, 0.58, 0.95)
-set title "Cylinder: error of the largest shear stress"
+set title "Cylinder: error of its largest shear stress"
 set xlabel "cells"
 set ylabel "error / p_0"
 set xrange [12:700]
@@ -45,21 +46,21 @@ set xtics (16, 32, 64, 128, 256, 512)
 set ytics autofreq nomirror
 set format y "10^{%L}"
 set key top right noreverse Right
+eval gridlines
 plot 0.1/x**2 with lines ls KNOWN lw 1.5 dt 2 title "second order", \
-     "stress_cylinder.csv" using 1:3 every ::1 with linespoints ls FUGE_THIRD title "FUGE\\_MEAN", \
-     "" using 1:2 every ::1 with linespoints ls FUGE ps 1.0 title "FUGE\\_CENTRE", \
-     "" using 1:4 every ::1 with linespoints lc rgb sky pt 5 ps 0.5 title "FUGE\\_HAT"
+     "stress_cylinder.csv" using 1:3 every ::1 with linespoints ls FUGE_THIRD title "mean over cells", \
+     "" using 1:2 every ::1 with linespoints ls FUGE ps 1.0 title "at centres of cells", \
+     "" using 1:4 every ::1 with linespoints lc rgb sky pt 5 ps 0.5 title "hats"
 unset logscale
 set format y "%g"
 
 set datafile separator whitespace
 set border 15 front
 set tics out
-unset grid
 unset key
 set size ratio -1
 eval panel(0.27, 0.60, 0.07, 0.445)
-set title "Ball: von Mises stress, ν = 0.3; blue: the contact"
+set title "Ball, ν = 0.3: the largest von Mises stress is below the middle; blue: the contact"
 set xlabel "r / a"
 set ylabel "z / a" offset 0
 set xrange [0:2]
@@ -73,6 +74,11 @@ set cblabel "von Mises stress / p_0" offset 0.5
 set colorbox user origin 0.625, 0.07 size 0.02, 0.375
 set label 1 sprintf("%.4f", b_max) at 0.32, z_of(b_index_max_y) left front textcolor rgb "#ffffff"
 set arrow 1 from 0.29, z_of(b_index_max_y) to 0.01, z_of(b_index_max_y) front lw 1 lc rgb "#ffffff" size 0.05, 20 filled
+# Below the lines of the map, near the axis and at the bottom.
+array lower_z[3] = [0.92, 1.19, 1.525]
+do for [k=1:3] { set label 10 + k sprintf("%.1f", 0.6 - 0.1*k) at 0.04, lower_z[k] - 0.06 left front font "sans,9" }
+set label 14 "0.2" at 0.14, 1.94 left front font "sans,9"
+set label 15 "0.1" at 1.74, 1.94 right front font "sans,9"
 plot "stress_ball_mises.dat" matrix using (x_of($1)):(z_of($2)):3 with image, \
      $contours using 1:2 with lines lw 0.8 lc rgb "#333333", \
      "+" using ($1 <= 1 ? $1 : NaN):(0) with lines lw 4 lc rgb blue

@@ -14,7 +14,6 @@ load system("dirname '".ARG0."'")."/style.gp"
 eval picture("stress_rough", 800, 640)
 set multiplot
 set border 15 lw 1 front
-unset grid
 set tics out nomirror scale 0.6
 set size ratio -1
 unset key
@@ -28,7 +27,7 @@ set ytics 4
 set xlabel "x / shortest wave" offset 0, 0.3
 set ylabel "y / shortest wave" offset 0.5
 eval panel(0.085, 0.405, 0.535, 0.94)
-set title "Pressure at z = 0" offset 0, -0.3
+set title "Pressure at z = 0: spots" offset 0, -0.3
 set cbrange [0:p_max]
 set cblabel "pressure / mean" offset 0.3
 set cbtics 5
@@ -39,20 +38,21 @@ plot "stress_rough_pressure.dat" matrix using (along($1, p_size_x)):(along($2, p
 
 eval panel(0.565, 0.885, 0.535, 0.94)
 unset ylabel
-set title sprintf("Von Mises stress at z = %.2f waves", depth/wave)
+set title sprintf("Von Mises stress at z = %.2f waves: largest", depth/wave)
 set cbrange [0:m_max]
 set cblabel "von Mises stress / mean pressure"
 set cbtics 2
-set colorbox user origin 0.905, 0.095 size 0.016, 0.84
+set colorbox user origin 0.905, 0.54 size 0.016, 0.395
 plot "stress_rough_depth.dat" matrix using (along($1, m_size_x)):(along($2, m_size_y)):3 with image, \
      "+" using 1:(0) with lines dt 2 lw 1.5 lc rgb blue
 
-unset colorbox
+set colorbox user origin 0.905, 0.097 size 0.016, 0.25
+set cblabel "as above"
 eval panel(0.085, 0.885, 0.095, 0.40)
 set yrange [c_size_y/wave:0]
 set ytics 1
 set ylabel "z / shortest wave" offset 0.5
-set title "Von Mises stress on the vertical cut along the dashed lines"
+set title "Von Mises stress on the vertical cut along the dashed lines: the spots blur within two waves"
 plot "stress_rough_cut.dat" matrix using (along($1, c_size_x)):(($2 + 0.5)/wave):3 with image, \
      "+" using 1:(depth/wave) with lines dt 2 lw 1.5 lc rgb blue
 unset multiplot

@@ -44,5 +44,11 @@ pressures = 'set palette defined (0 "#fff7ec", 0.25 "#fdd49e", 0.5 "#fc8d59", 0.
 
 set border 3 lw 1
 set tics nomirror scale 0.6
-set grid lt 1 lw 0.6 lc rgb "#e2e2e2"
 set key Left reverse samplen 1.8 spacing 1.1
+
+# eval gridlines: draw the grid of the next plot, whose place, ranges and tics are set. Its own grid would have a hole
+# where the legend is, wider than its text.
+text_colour(colour) = sprintf('set title tc rgb "%s"; set xlabel tc rgb "%s"; set ylabel tc rgb "%s"; ', \
+  colour, colour, colour).sprintf('set xtics tc rgb "%s"; set ytics tc rgb "%s"; ', colour, colour)
+gridlines = 'set grid xtics ytics lt 1 lw 0.6 lc rgb "#e2e2e2"; unset key; '.text_colour("#ff000000") \
+  .'plot NaN notitle; '.text_colour("#000000").'unset grid; set key on'

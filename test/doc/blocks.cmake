@@ -1,8 +1,9 @@
 # Code in the pages of the manual becomes programs that are tests.
 #
-# fuge_page_programs(page [file ..]): each block ```fortran with a `program`, in fixed form with a
-# `PROGRAM`, and each block ```c with a `main`, is compiled; the block ```text after it is what the
-# program has to print. The programs run in a folder with copies of the files.
+# fuge_page_programs(page [file ..]): each block ```fortran that begins with a `program`, in fixed
+# form with a `PROGRAM`, or with a `module` for the program below it, and each block ```c with a
+# `main`, is compiled; the block ```text after it is what the program has to print. The programs run
+# in a folder with copies of the files.
 # fuge_page_calls(page): each block ```fortran that begins with `use fuge`, and each block ```c
 # that begins with `#include <fuge.h>`, is a piece of a program; where a comment says
 # `name = value, value    name = value`, these are the values that it has to find.
@@ -90,7 +91,7 @@ function(fuge_page_programs page)
       set(name "")
     elseif(name)
       message(FATAL_ERROR "${page}: after the program ${name} there is no block ```text with what it prints")
-    elseif((language STREQUAL "fortran" AND code MATCHES "^(program|      PROGRAM) ")
+    elseif((language STREQUAL "fortran" AND code MATCHES "^(program|module|      PROGRAM) ")
         OR (language STREQUAL "c" AND code MATCHES "int main\\("))
       math(EXPR count "${count} + 1")
       fuge_needs_fftw(left_out "${code}")

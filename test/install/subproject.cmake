@@ -1,6 +1,7 @@
 # fuge as a subproject: of projects in C, C++ and Fortran, by add_subdirectory and FetchContent, with FFTW and without.
-# The projects share one folder and so one build of the library; what differs without FFTW is built again.
-# ctest sets SOURCE_DIR, WITH_FFTW, the compilers, SCRATCH, GENERATOR and MAKE_PROGRAM.
+# The projects share one folder and so one build of the library; what differs without FFTW is built again, and what
+# is as in the build in BUILT is taken from there.
+# ctest sets SOURCE_DIR, WITH_FFTW, the compilers, SCRATCH, GENERATOR, MAKE_PROGRAM and BUILT.
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
@@ -11,12 +12,12 @@ function(expect_subproject language by fftw)
     "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/subproject" -B "${SCRATCH}" -G "${GENERATOR}"
     "-DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}" "-DCMAKE_RUNTIME_OUTPUT_DIRECTORY=${SCRATCH}/$<0:>"
     -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_Fortran_COMPILER=${Fortran_COMPILER}
-    "-DFUGE=${SOURCE_DIR}" -DLANGUAGE=${language} -DBY=${by} -DFUGE_WITH_FFTW=${fftw} -DFUGE_MPI=OFF
+    ${taking} "-DFUGE=${SOURCE_DIR}" -DLANGUAGE=${language} -DBY=${by} -DFUGE_WITH_FFTW=${fftw} -DFUGE_MPI=OFF
     -DCMAKE_INSTALL_PREFIX=${SCRATCH}/prefix)
   foreach(program IN ITEMS consumer consumer_c transform)
     file(REMOVE "${SCRATCH}/${program}")
   endforeach()
-  run("${what}: build" "${CMAKE_COMMAND}" --build "${SCRATCH}" --parallel 2)
+  run("${what}: build" ${compiling} "${CMAKE_COMMAND}" --build "${SCRATCH}" --parallel 2)
   foreach(program IN ITEMS consumer consumer_c)
     if(program STREQUAL "consumer" OR EXISTS "${SCRATCH}/${program}")
       expect_answer("${what}" "${SCRATCH}/${program}")
@@ -46,6 +47,14 @@ function(expect_no_traces)
 endfunction()
 
 file(REMOVE_RECURSE "${SCRATCH}")
+set(taking)
+if(BUILT)
+  prepare_compiling()
+  # The project's flags: fuge adds its own.
+  string(REGEX REPLACE " -std=.*" "" flags "${flags}")
+  set(taking "-DCMAKE_Fortran_FLAGS=${flags}"
+    "-DCMAKE_Fortran_COMPILER_LAUNCHER=${CMAKE_CURRENT_LIST_DIR}/take_built.sh")
+endif()
 if(WITH_FFTW)
   expect_subproject(C add_subdirectory ON)
   expect_subproject(CXX FetchContent ON)
