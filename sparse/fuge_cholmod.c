@@ -233,11 +233,12 @@ static analysis analyse_groups(const cholmod_sparse *a, cholmod_sparse *graph, c
                                SuiteSparse_long *group_member, int dissect, cholmod_common *common)
 {
   SuiteSparse_long groups = (SuiteSparse_long)graph->nrow, *order = NULL;
-  SuiteSparse_long *group_order = malloc(graph->nrow * sizeof *group_order);
+  SuiteSparse_long *group_order = calloc(graph->nrow, sizeof *group_order);
   analysis s = { NULL, NULL, NULL, 0.0, 0.0 };
 
-  if (group_order && (dissect ? cholmod_l_metis(graph, NULL, 0, 1, group_order, common)
-                              : cholmod_l_camd(graph, NULL, 0, group_member, group_order, common)))
+  /* CAMD 2.4.6 reads memory that is not its own if the only group is a member. */
+  if (group_order && (groups == 1 || (dissect ? cholmod_l_metis(graph, NULL, 0, 1, group_order, common)
+                                              : cholmod_l_camd(graph, NULL, 0, group_member, group_order, common))))
     order = expand((SuiteSparse_long)a->nrow, groups, begin, group_member, group_order);
   if (order)
     s = analyse_order(a, order, common);

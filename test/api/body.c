@@ -102,6 +102,28 @@ static void test_sparse(void) {
   CHECK_STATUS(fuge_body_sparse(N, column, row, value, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK(body == NULL);
 }
+
+/* Springs that are all touched: CAMD 2.4.6 reads memory that is not its own where one node of its graph is last. */
+static void test_sparse_touched_everywhere(void) {
+  const int column[3] = {0, 1, 3}, row[3] = {0, 0, 1}, touch[2] = {0, 1};
+  const double spring = 2.0, springs[3] = {2.0, 1.0, 2.0}, outward[2] = {1.0, 1.0};
+  double alpha[4];
+  fuge_body *body = NULL;
+
+  CHECK_STATUS(fuge_body_sparse(1, column, row, &spring, &body, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_body_set_contact(body, 1, 1, touch, outward), FUGE_DONE);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_get_influence(body, alpha, 1), FUGE_DONE);
+  CHECK_NEAR(alpha[0], 0.5, 1e-15);
+  fuge_body_free(&body);
+  CHECK_STATUS(fuge_body_sparse(2, column, row, springs, &body, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_body_set_contact(body, 2, 1, touch, outward), FUGE_DONE);
+  CHECK_STATUS(fuge_body_condense(body), FUGE_DONE);
+  CHECK_STATUS(fuge_body_get_influence(body, alpha, 2), FUGE_DONE);
+  CHECK_NEAR(alpha[0], 2.0 / 3.0, 1e-15);
+  CHECK_NEAR(alpha[1], -1.0 / 3.0, 1e-15);
+  fuge_body_free(&body);
+}
 #endif
 
 /* Between two stops, without supports: all of the load goes to one of them. */
@@ -241,6 +263,7 @@ int main(void) {
   test_dense_and_band();
 #ifdef HAVE_SPARSE
   test_sparse();
+  test_sparse_touched_everywhere();
 #endif
   test_floating();
   test_rigid_modes();

@@ -81,7 +81,8 @@ def main() -> None:
     if foreign:
         sys.exit(f"the system is not bare: {foreign}")
     enter = ["chroot"] if os.geteuid() == 0 else ["unshare", "--map-root-user", "chroot"]
-    environment = {"PYTHONPATH": "/site", "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
+    environment = {"PYTHONPATH": "/site", "PYTHONDONTWRITEBYTECODE": "1", "PYTHONFAULTHANDLER": "1",
+                   "OPENBLAS_NUM_THREADS": "1"}
     subprocess.run([*enter, str(root), str(python), "/program.py"], check=True,
                    env={**environment, "PATH": os.environ["PATH"]})
     shutil.rmtree(root)
