@@ -47,7 +47,7 @@ contains
     type(contact_solution), intent(in) :: solution
     real(dp), intent(out) :: force_error
     real(dp), allocatable :: length(:)
-    real(dp) :: by_modes, by_set, largest
+    real(dp) :: by_modes, by_set, largest, worst
 
     force_error = 0.0_dp
     largest = maxval(abs(solution%force))
@@ -58,7 +58,9 @@ contains
     if (.not. canonical%plain) call error_by_modes(canonical, factor, problem, motion, solution, by_modes, length)
     ! Without rounding of modes `length` is not allocated, and counts as absent.
     call error_by_contact_set(canonical, alpha, factor, solution, by_set, length)
-    force_error = min(max(solution%force_error, by_modes, by_set)/largest, 1.0_dp)
+    worst = max(solution%force_error, by_modes, by_set)
+    ! The quotient of others could overflow.
+    if (worst < largest) force_error = worst/largest
   end subroutine estimate_force_error
 
   !> The largest change of a force by the rounding of modes and of prescribed motions, an estimate: one solve with the
