@@ -81,8 +81,8 @@ enum {
   FUGE_DONE = 0,                   /* done */
   FUGE_WARN_RESIDUAL = 1,          /* done, but the residual is above the tolerance */
   FUGE_WARN_NOT_UNIQUE = 2,        /* done, but the solution is not unique: either the forces
-                                      (alpha singular on the contact), or a motion that the
-                                      contact does not resist */
+                                      (alpha singular on the points that touch), or a motion
+                                      that the contact does not resist, or both */
   FUGE_WARN_ILL_CONDITIONED = 3,   /* done, but the forces may be far off: the equations hold, but
                                       info.force_error is above 1e-3 */
   FUGE_WARN_PAIRS = 4,             /* done, but pairs share a node */

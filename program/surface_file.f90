@@ -9,8 +9,8 @@ module surface_file
 
   public :: read_heights, rms_height, rms_slope
 
-  !> Squares of heights do not overflow.
-  real(dp), parameter :: LARGEST_HEIGHT = 1.0e140_dp
+  !> Squares of heights over spacings do not overflow: neither is above this length, and no spacing below its inverse.
+  real(dp), parameter :: LARGEST_LENGTH = 1.0e70_dp
 
 contains
 
@@ -29,9 +29,11 @@ contains
     if (info%failed()) return
     surface%origin_x = settings%scale*surface%origin_x
     surface%origin_y = settings%scale*surface%origin_y
-    if (maxval(abs(surface%height)) > LARGEST_HEIGHT/max(settings%height_scale, 1.0_dp)) then
+    if (maxval(abs(surface%height)) > LARGEST_LENGTH/max(settings%height_scale, 1.0_dp) &
+        .or. max(surface%spacing_x, surface%spacing_y) > LARGEST_LENGTH &
+        .or. min(surface%spacing_x, surface%spacing_y) < 1.0_dp/LARGEST_LENGTH) then
       info%status = FUGE_ERR_OVERFLOW
-      info%message = '"'//path//'": its heights are out of range after --height-scale or --scale'
+      info%message = '"'//path//'": its heights or spacings are out of range after --height-scale or --scale'
       return
     end if
     surface%height = settings%height_scale*surface%height

@@ -50,7 +50,8 @@ contains
     self%fraction = real(self%cells, dp)/real(size(surface%height), dp)
     self%approach = solution%motion(1)
     self%mean_gap = sum(solution%gap)/real(size(surface%height), dp)
-    self%contact_pressure = self%load/self%area
+    ! A load that rounds to zero presses no cell.
+    if (self%cells > 0) self%contact_pressure = self%load/self%area
     self%largest_pressure = maxval(solution%force)/cell
     self%residual = info%residual
     self%status = info%status

@@ -121,13 +121,17 @@ def _points(left: float, right: float, below: float | None) -> tuple[Doubles, Do
 def _cut_through_cells(contact: Contact, cells: Cells, poisson: float, along: str, below: float | None) -> Cut:
     force = contact.force.reshape(cells.shape)
     peak = peak_cell(force)
-    axis = 1 if along == "y" and len(cells.shape) == 2 else 0
+    if along == "y" and len(cells.shape) == 1:
+        raise error(Status.ERR_OPTION, "along='y' is for areas: on a line the cut is along x")
+    axis = 1 if along == "y" else 0
     row = force if force.ndim == 1 else (force[peak[0]] if axis == 0 else force[:, peak[1]])
     first, last = strongest_run(row > 0.0, peak[-1] if axis == 0 else peak[0])
     width = cells.spacing[axis]
     length = (last - first + 1) * width
     beside = max(int(np.ceil(_BESIDE * (last - first + 1))), 3)
     begin, end = max(first - beside, 0), min(last + beside, row.size - 1)
+    if begin == end:
+        raise error(Status.ERR_GRID, "a cut needs two cells and more: use functions such as fuge.halfplane_stress")
     columns = np.unique(np.linspace(begin, end, min(end - begin + 1, _COLUMNS)).astype(int))
     depth = np.linspace(0.0, below or _BELOW * length, _DEPTHS)
     if force.ndim == 1:
@@ -142,8 +146,9 @@ def _cut_through_cells(contact: Contact, cells: Cells, poisson: float, along: st
 def _line_stress(force: Doubles, cells: Cells, columns: NDArray[np.intp], depth: Doubles) -> Doubles:
     """xx, zz, xz, (depths, columns, 3)."""
     element, width, x = cast(Element, cells.element), cells.spacing[0], cells.centres(0)
-    if cells.boundary == "free":
-        return halfplane_stress(x, width, force, element, x[columns], depth[:, None])
+    loaded = force != 0.0
+    if cells.boundary == "free" and np.count_nonzero(loaded) * columns.size <= _TRANSFORMS * force.size:
+        return halfplane_stress(x[loaded], width, force[loaded], element, x[columns], depth[:, None])
     boundary = cast(Boundary, cells.boundary)
     parts = [
         halfplane_stress_grid(width, force, element, part, boundary)[:, columns] for part in _batches(depth, force.size)
@@ -167,13 +172,13 @@ def _area_stress(
 ) -> Doubles:
     """Tensors, (depths, columns, 6)."""
     width_x, width_y = cells.spacing
-    pressed = force > 0.0
-    if cells.boundary == "free" and np.count_nonzero(pressed) * columns.size <= _TRANSFORMS * force.size:
+    loaded = force != 0.0
+    if cells.boundary == "free" and np.count_nonzero(loaded) * columns.size <= _TRANSFORMS * force.size:
         x, y = np.meshgrid(cells.centres(0), cells.centres(1))
         px = cells.centres(0)[columns if axis == 0 else peak[1]]
         py = cells.centres(1)[columns if axis == 1 else peak[0]]
         return halfspace_stress(
-            x[pressed], y[pressed], width_x, width_y, force[pressed], poisson, px, py, depth[:, None]
+            x[loaded], y[loaded], width_x, width_y, force[loaded], poisson, px, py, depth[:, None]
         )
     boundary = cast(AreaBoundary, cells.boundary)
     parts = []

@@ -405,9 +405,11 @@ class CallbackOperator(Operator):
     def _set_other(self, name: str, argument: str, other: Operator) -> None:
         if not isinstance(other, Operator):
             raise TypeError(f"{argument} must be an Operator, not {type(other).__name__}")
-        self._handle.need(other._handle)
+        if other is self:
+            raise error(Status.ERR_OPTION, f"{argument} is this operator itself, but must be another one")
         with other._handle.reading(closed=True) as pointer:
             self._set(name, pointer)
+            self._handle.need(other._handle)
         if self.grid is None:
             self.grid = other.grid if other.n == self.n else None
 

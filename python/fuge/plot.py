@@ -71,6 +71,11 @@ def _value(value: float, unit: str | None) -> str:
     return number if unit is None else f"{number} {unit}"
 
 
+def _largest(values: NDArray[np.float64]) -> float:
+    """The value of the largest magnitude, with its sign."""
+    return float(values.flat[int(np.abs(values).argmax())])
+
+
 def _title(ax: Axes, text: str) -> None:
     ax.set_title(text, loc="left", fontsize="medium")
 
@@ -212,7 +217,7 @@ def line(
     style = "default" if name == "force" or element == "hat" or values.size > 400 else "steps-mid"
     axes.plot(places.values, values, color=BLUE, drawstyle=style)
     shown = f"{name.capitalize()} along {'xy'[axis]}{where}" if name == "pressure" else "Contact forces"
-    _finish_line(axes, shown, places, _label(name, pressure_unit), float(values.max()), pressure_unit)
+    _finish_line(axes, shown, places, _label(name, pressure_unit), values, pressure_unit)
     return axes
 
 
@@ -228,16 +233,20 @@ def _smooth_line(
     axes.plot(places, pressure, color=BLUE)
     label = _label("pressure", pressure_unit)
     drawn = _Places(places, _label("x", unit))
-    _finish_line(axes, "Pressure along x", drawn, label, float(pressure.max()), pressure_unit)
+    _finish_line(axes, "Pressure along x", drawn, label, pressure, pressure_unit)
     return axes
 
 
-def _finish_line(axes: Axes, shown: str, places: _Places, label: str, largest: float, unit: str | None) -> None:
+def _finish_line(
+    axes: Axes, shown: str, places: _Places, label: str, values: NDArray[np.float64], unit: str | None
+) -> None:
     axes.set_xlabel(places.label)
     axes.set_ylabel(label)
     axes.margins(x=0.0)
-    axes.set_ylim(bottom=0.0)
-    _title(axes, f"{shown}: largest {_value(largest, unit)}")
+    # Tied points and upper stops may pull.
+    if values.min() >= 0.0:
+        axes.set_ylim(bottom=0.0)
+    _title(axes, f"{shown}: largest {_value(_largest(values), unit)}")
 
 
 def map(
@@ -272,7 +281,7 @@ def map(
     touching = np.where(contact.force.reshape(values.shape) == 0.0, np.nan, values)
     across = _places(contact, 0, x, unit), _places(contact, 1, y, unit)
     _image(axes, touching, *across, PRESSURES, GREY, _label(name, pressure_unit))
-    _title(axes, f"{name.capitalize()}: {_touching(contact)}, largest {_value(float(values.max()), pressure_unit)}")
+    _title(axes, f"{name.capitalize()}: {_touching(contact)}, largest {_value(_largest(values), pressure_unit)}")
     return axes
 
 

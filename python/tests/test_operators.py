@@ -235,6 +235,12 @@ class Callback(unittest.TestCase):
         with self.assertRaises(fuge.CallOrderError):
             fuge.CallbackOperator(2, lambda f: f).set_coarser(fuge.CallbackOperator(1, lambda f: f))
 
+    def test_itself(self):
+        operator = fuge.CallbackOperator(2, lambda f: f)
+        for name in ("set_coarser", "set_auxiliary"):
+            with self.assertRaisesRegex(fuge.InputError, "is this operator itself"):
+                getattr(operator, name)(operator)
+
     def test_forces_can_be_kept(self):
         kept = []
 

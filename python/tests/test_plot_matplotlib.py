@@ -83,6 +83,26 @@ class Lines(Pictures):
         np.testing.assert_array_equal(ax.lines[0].get_ydata(), contact.force / self.spacing)
         self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("x", "pressure"))
 
+    def test_forces_that_pull(self):
+        # Tied points, of which some pull: by sums as by transforms, on areas and on lines.
+        tied = {"gap_upper": 0.0}
+        area = fuge.HalfspaceOperator(12, 10, 0.1, 0.1, 2.0)
+        line = fuge.HalfplaneOperator(24, 0.1, 2.0)
+        wave = np.cos(np.arange(120)).reshape(10, 12)
+        for operator, gap, name in ((area, wave, "halfspace_stress"), (line, wave.ravel()[:24], "halfplane_stress")):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", fuge.GridWarning)
+                contact = fuge.solve(operator, gap, 0.5, **tied)
+            self.assertLess(contact.force.min(), -0.1 * contact.force.max())
+            with mock.patch.object(fuge._cuts, "_TRANSFORMS", 1000):
+                by_sums = fuge.plot.stress(contact).collections[0].get_array()
+            a_sum = mock.Mock(side_effect=AssertionError("a sum"))
+            with mock.patch.multiple(fuge._cuts, _TRANSFORMS=0, **{name: a_sum}):
+                by_transforms = fuge.plot.stress(contact).collections[0].get_array()
+            np.testing.assert_allclose(by_sums, by_transforms, rtol=0, atol=1e-9 * by_sums.max())
+            ax = fuge.plot.line(contact)
+            self.assertLess(ax.get_ylim()[0], contact.pressure.min() if operator is line else 0.0)
+
     def test_without_a_grid(self):
         contact = fuge.solve_smooth_punch(lambda x: (x**2 / 2, x), -1.0, 1.0, 2.0, 0.2)
         (curve,) = self.drawn(fuge.plot.line(contact)).lines
@@ -289,6 +309,8 @@ class Stresses(Pictures):
             np.testing.assert_array_equal(np.concatenate(found), depth)
 
     def test_refusals(self):
+        with self.assertRaisesRegex(fuge.InputError, "along='y' is for areas"):
+            fuge.plot.stress(self.barrel, along="y")
         contact = fuge.solve(np.eye(2), 0.0, 1.0)
         self.assertRaisesRegex(fuge.InputError, "use HalfplaneOperator", fuge.plot.stress, contact)
         # A layer on a half-plane has the pressures of the cells, but other stresses.

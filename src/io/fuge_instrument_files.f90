@@ -55,6 +55,8 @@ contains
       format = archive_format(name)
       return
     end if
+    ! Headers of text may begin with the same letters.
+    if (is_text(content)) return
     do k = 1, size(SIGNATURES)
       if (.not. begins_with(content, SIGNATURES(k)%bytes(:SIGNATURES(k)%length))) cycle
       format = SIGNATURES(k)%name
@@ -63,7 +65,7 @@ contains
     do k = 1, size(UTF_16)
       if (begins_with(content, UTF_16(k))) format = 'text in UTF-16'
     end do
-    if (len_trim(format) == 0 .and. .not. is_text(content)) format = 'a binary file'
+    if (len_trim(format) == 0) format = 'a binary file'
   end function instrument_format
 
   pure function begins_with(content, bytes) result(begins)
@@ -116,7 +118,7 @@ contains
       call report(info, FUGE_ERR_FILE, file%name//' is '//format//': unpack it and pass the file of heights in it')
     else
       call report(info, FUGE_ERR_FILE, file%name//' is '//format//', which fuge does not read: read it with '//READERS &
-                  //' in Python and pass the heights, see tutorial_python.md')
+                  //' in Python and pass the heights (Python tutorial, "Measured surfaces")')
     end if
   end subroutine refuse_instrument
 

@@ -81,8 +81,8 @@ contains
   !> absent). `monitor` hears of each iteration and may cancel; without a load there are none. On return info%status
   !> is FUGE_DONE, with a message only if the contact reaches the rim of a free grid, or the first of these warnings
   !> that is true: FUGE_WARN_RESIDUAL with the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on
-  !> the contact (the forces are then one of many possible) or the contact does not resist a mode (its motion is then
-  !> one of many possible, and the forces are unique); FUGE_WARN_ILL_CONDITIONED if info%force_error, the estimated
+  !> the points that touch, with or without force (the forces are then one of many possible), or the contact does not
+  !> resist a mode (its motion is then one of many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error, the estimated
   !> error of the forces, is above 1e-3. Or it is an error that leaves `solution` untouched:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,

@@ -60,6 +60,11 @@ if(FUGE_WITH_FFTW)
   set_tests_properties(program_surface_steep PROPERTIES PASS_REGULAR_EXPRESSION
     "# note: the mean slope [^\n]*--height-scale"
     FIXTURES_REQUIRED program_surfaces WORKING_DIRECTORY "${folder}")
+  # Its load rounds to zero, and no cell touches.
+  add_test(NAME program_surface_no_load COMMAND fuge_program --surface plain.txt --boundary free --modulus 1
+    --spacing 1e-10 --pressure 1e-310)
+  set_tests_properties(program_surface_no_load PROPERTIES PASS_REGULAR_EXPRESSION ", 0\\.0000[0-9E+]*, [^,]*,[^,]*,0"
+    FIXTURES_REQUIRED program_surfaces WORKING_DIRECTORY "${folder}")
 else()
   surface_refuses(without_fftw "FFTW" --surface ball.txt ${free})
 endif()
@@ -75,8 +80,9 @@ surface_refuses(spacing "--spacing: \"ball.txt\" has spacings of its own, 3.5000
 surface_refuses(spacings "--spacing 1,2,3: one or two lengths" --surface plain.txt --spacing 1,2,3 ${free})
 surface_refuses(scale "--scale 0: it has to be > 0" --surface ball.txt --scale 0 ${free})
 surface_refuses(scales "--scale 1,2: one number is needed" --surface ball.txt --scale 1,2 ${free})
-surface_refuses(out_of_range "its heights are out of range after --height-scale" --surface ball.txt --height-scale 1e300
-  ${free})
+surface_refuses(out_of_range "its heights or spacings are out of range after --height-scale" --surface ball.txt
+  --height-scale 1e300 ${free})
+surface_refuses(too_fine "its heights or spacings are out of range" --surface plain.txt --spacing 1e-160 ${free})
 surface_refuses(no_load "with --surface one of --pressure and --load is needed" --surface ball.txt --modulus 1)
 surface_refuses(two_loads "with --surface one of --pressure and --load is needed" --surface ball.txt ${free} --pressure 1)
 surface_refuses(load "--load 100,: numbers with commas between them are needed, not \"100,\"" --surface ball.txt

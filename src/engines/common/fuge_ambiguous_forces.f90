@@ -22,6 +22,8 @@ module fuge_ambiguous_forces
   real(dp), parameter :: NO_DISPLACEMENT = 1.0e-12_dp
   !> Forces below this fraction of the others are none.
   real(dp), parameter :: NO_FORCE = 1.0e-10_dp
+  !> Of more independent combinations than this, one is taken to be allowed.
+  integer, parameter :: MOST_COMBINATIONS = 32
 
 contains
 
@@ -129,11 +131,14 @@ contains
     logical, dimension(size(points)) :: idle, pushes, pulls
     integer :: j, sense
 
-    ! A combination that takes forces of the wrong sign closes a point, as a motion would.
     idle = .not. loaded(points) .and. maxval(abs(basis), dim=2) > NO_FORCE
+    ! Combinations give any forces to so few points. Of very many one is taken to be allowed, because the search would
+    ! take longer than the solve.
+    may = size(basis, 2) > 0
+    if (count(idle) <= size(basis, 2) .or. size(basis, 2) > MOST_COMBINATIONS) return
+    ! A combination that takes forces of the wrong sign closes a point, as a motion would.
     pulls = idle .and. solution%gap(points) < 0.5_dp*canonical%upper(points)
     pushes = idle .and. .not. pulls
-    may = .false.
     do j = 1, size(direction)
       do sense = -1, 1, 2
         direction = 0.0_dp

@@ -54,7 +54,7 @@ module fuge_contact_iterate
     real(dp) :: rounding = 0.0_dp
     !> Tensions up to this are rounding.
     real(dp) :: tension_noise = 0.0_dp
-    !> With modes: the largest displacement by forces of size 1, of all products so far; length per force.
+    !> The largest displacement by forces of size 1, as far as it has been asked for; 0 before; length per force.
     real(dp) :: softness = 0.0_dp
     !> Do forces of the set that store no energy grow for ever, so that there is no solution?
     logical :: unbounded = .false.

@@ -41,7 +41,7 @@ contains
   end subroutine restart
 
   !> Is `pivot`, one over a step length, so small that the next step may be rounding? Values of a good preconditioner
-  !> are about 1, and without one the first pivot is of that order.
+  !> are about 1, and without one `contact_preconditioner` divides by a typical compliance.
   elemental function is_suspect(self, pivot)
     class(lanczos_values), intent(in) :: self
     real(dp), intent(in) :: pivot
