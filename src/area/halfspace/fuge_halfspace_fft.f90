@@ -3,17 +3,16 @@
 module fuge_halfspace_fft
   use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
-  use fuge_grid_store, only: grid_store
+  use fuge_grid_operator_type, only: grid_operator
   use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, count_coarser, halfspace_grid, &
     least_magnitude, periodic
   use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
   use fuge_kinds, only: dp
-  use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_OPTION, FUGE_ERR_SIZE
+    FUGE_ERR_OPTION
   implicit none
   private
 
@@ -24,7 +23,7 @@ module fuge_halfspace_fft
   !> solves, which takes a third of the memory again.
   !>
   !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
-  type, extends(fuge_operator), public :: fuge_halfspace_operator
+  type, extends(grid_operator), public :: fuge_halfspace_operator
     private
     !> No cells before `set`.
     type(halfspace_grid) :: surface
@@ -37,7 +36,6 @@ module fuge_halfspace_fft
     !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
     !> of a periodic surface.
     type(grid_kernel) :: influence, inverse
-    type(grid_store) :: coarser
   contains
     procedure :: set
     procedure :: set_threads
@@ -45,11 +43,9 @@ module fuge_halfspace_fft
     procedure :: apply
     procedure :: datum
     procedure :: magnitude => halfspace_magnitude
-    procedure :: has_preconditioner
     procedure :: precondition
     procedure :: grid
     procedure :: coarsen
-    procedure :: kept_coarser
     procedure :: free_rim
     procedure :: window
     procedure, private :: copy
@@ -218,23 +214,10 @@ contains
     real(dp), intent(out) :: displacement(:)
     integer, intent(out) :: status
 
-    call check_sizes(self, size(force), size(displacement), status)
+    call self%check_sizes(size(force), size(displacement), status)
     if (status /= FUGE_DONE) return
     call self%influence%convolve(self%plan, size(force), force, displacement, self%threads, status)
   end subroutine apply
-
-  pure subroutine check_sizes(self, first, second, status)
-    class(fuge_halfspace_operator), intent(in) :: self
-    integer, intent(in) :: first, second
-    integer, intent(out) :: status
-
-    status = FUGE_DONE
-    if (any(self%surface%cells < 1)) then
-      status = FUGE_ERR_CALL_ORDER
-    else if (first /= self%points() .or. second /= self%points()) then
-      status = FUGE_ERR_SIZE
-    end if
-  end subroutine check_sizes
 
   !> What is subtracted from all coefficients, length per force; 0 unless the surface is periodic in one direction only.
   function datum(self)
@@ -254,14 +237,6 @@ contains
     magnitude = max(maxval(abs(displacement)), least_magnitude(self%surface, sum(abs(force))))
   end subroutine halfspace_magnitude
 
-  !> True after `set`.
-  function has_preconditioner(self) result(preconditioned)
-    class(fuge_halfspace_operator), intent(in) :: self
-    logical :: preconditioned
-
-    preconditioned = all(self%surface%cells > 0)
-  end function has_preconditioner
-
   !> The inverse on a periodic surface, exact except for the constant. A free surface is taken
   !> for periodic, which changes little, because the coefficients of the inverse fall off
   !> with the third power of the distance, and takes a quarter of the time of a product.
@@ -273,7 +248,7 @@ contains
     real(dp), intent(out) :: force(:)
     integer, intent(out) :: status
 
-    call check_sizes(self, size(displacement), size(force), status)
+    call self%check_sizes(size(displacement), size(force), status)
     if (status /= FUGE_DONE) return
     call self%inverse%convolve(self%plan, size(force), displacement, force, self%threads, status)
   end subroutine precondition
@@ -297,29 +272,16 @@ contains
     type(fuge_info) :: info
     integer :: stat
 
+    if (levels < 1 .or. levels > count_coarser(self%surface)) return
     allocate (wider, stat=stat)
     if (stat /= 0) return
-    call set_wider(self, levels, wider, info)
-    if (.not. info%failed()) call move_alloc(wider, coarse)
-  end subroutine coarsen
-
-  !> Set `wider` as `coarsen` says, or report a failure.
-  subroutine set_wider(self, levels, wider, info)
-    class(fuge_halfspace_operator), intent(in) :: self
-    integer, intent(in) :: levels
-    type(fuge_halfspace_operator), intent(inout) :: wider
-    type(fuge_info), intent(out) :: info
-
-    if (levels < 1 .or. levels > count_coarser(self%surface)) then
-      call report(info, FUGE_ERR_SIZE, 'levels = '//text(levels)//': the grid has too few cells')
-      return
-    end if
     call copy_numbers(wider, self)
     wider%surface = coarsened(self%surface, levels)
     wider%measured = .false.
     if (wider%points() < FEWEST_FOR_THREADS) wider%threads = 1
     call prepare(wider, info)
-  end subroutine set_wider
+    if (.not. info%failed()) call move_alloc(wider, coarse)
+  end subroutine coarsen
 
   !> True in each direction that is not periodic and has more than one cell.
   function free_rim(self) result(free)
@@ -347,41 +309,5 @@ contains
     call prepare(smaller, info)
     if (.not. info%failed()) call move_alloc(smaller, part)
   end subroutine window
-
-  !> As `coarsen`, but the wider cells are kept with those of the finest grid, for the next solve and for
-  !> solves in other threads.
-  subroutine kept_coarser(self, levels, coarse)
-    class(fuge_halfspace_operator), intent(in) :: self
-    integer, intent(in) :: levels
-    class(fuge_operator), pointer, intent(out) :: coarse
-    integer :: k
-
-    nullify (coarse)
-    k = self%coarser%place(levels)
-    if (k < 1) return
-    call lock(LOCK_GRIDS)
-    if (.not. associated(self%coarser%grid(k)%operator)) call keep_coarser(self, levels, k)
-    coarse => self%coarser%grid(k)%operator
-    call unlock(LOCK_GRIDS)
-  end subroutine kept_coarser
-
-  !> Make element k of the kept grids, unless memory is short.
-  subroutine keep_coarser(self, levels, k)
-    class(fuge_halfspace_operator), intent(in) :: self
-    integer, intent(in) :: levels, k
-    type(fuge_halfspace_operator), pointer :: wider
-    type(fuge_info) :: info
-    integer :: stat
-
-    allocate (wider, stat=stat)
-    if (stat /= 0) return
-    call set_wider(self, levels, wider, info)
-    if (info%failed()) then
-      deallocate (wider)
-      return
-    end if
-    call wider%coarser%refer_to(self%coarser, k)
-    self%coarser%grid(k)%operator => wider
-  end subroutine keep_coarser
 
 end module fuge_halfspace_fft

@@ -6,10 +6,10 @@ module fuge_c_callback_grid
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
   use fuge_c_callback, only: callback_operator, find_callback
   use fuge_c_types, only: operator_handle, report_to_c, require_count, require_pointer
-  use fuge_halfplane_fft, only: fuge_halfplane_operator
-  use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_grid_operator_type, only: grid_operator
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_ranks, only: shared_ranks
   use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, &
     FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
   implicit none
@@ -126,18 +126,23 @@ contains
     type(callback_operator), intent(in) :: callback
     type(operator_handle), intent(in) :: handle
     type(fuge_info), intent(inout) :: info
+    type(shared_ranks) :: ranks
     integer :: cells(2)
+    logical :: known
 
-    select type (known => handle%operator)
-    type is (fuge_halfplane_operator)
-      cells = known%grid()
-    type is (fuge_halfspace_operator)
-      cells = known%grid()
+    cells = handle%operator%grid()
+    ranks = handle%operator%ranks()
+    select type (auxiliary => handle%operator)
+    class is (grid_operator)
+      known = ranks%is_alone()
     class default
+      known = .false.
+    end select
+    if (.not. known) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'auxiliary has to be an operator of fuge_operator_halfplane or ' &
                   //'fuge_operator_halfspace')
       return
-    end select
+    end if
     if (product(cells) /= callback%n) then
       call report(info, FUGE_ERR_SIZE, 'auxiliary has '//text(product(cells))//' points, op has '//text(callback%n))
     else if (any(callback%cells > 0 .and. callback%cells /= cells)) then

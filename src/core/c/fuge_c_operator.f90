@@ -4,8 +4,8 @@ module fuge_c_operator
   use fuge_c_arrays, only: find_array
   use fuge_c_types, only: operator_handle, report_to_c, require_count, require_pointer, set_handle, take_handle
   use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_grid_operator_type, only: grid_operator
   use fuge_halfplane_fft, only: fuge_halfplane_operator
-  use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_input_checks, only: check_finite, is_finite_everywhere
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
@@ -72,9 +72,7 @@ contains
     if (.not. info%failed()) then
       call c_f_pointer(operator, handle)
       select type (surface => handle%operator)
-      type is (fuge_halfplane_operator)
-        call surface%set_threads(int(threads), info)
-      type is (fuge_halfspace_operator)
+      class is (grid_operator)
         call surface%set_threads(int(threads), info)
       class default
         call report(info, FUGE_ERR_UNSUPPORTED, 'only operators of fuge_operator_halfplane and ' &
@@ -155,9 +153,7 @@ contains
     select type (operator)
     type is (fuge_dense_operator)
       own = .true.
-    type is (fuge_halfplane_operator)
-      own = .true.
-    type is (fuge_halfspace_operator)
+    class is (grid_operator)
       own = .true.
     end select
   end function is_of_library

@@ -7,16 +7,14 @@
 module fuge_halfplane_fft
   use fuge_convolution, only: convolution_kernel
   use fuge_fft, only: fft_plan
-  use fuge_grid_store, only: grid_store
+  use fuge_grid_operator_type, only: grid_operator
   use fuge_halfplane_line, only: check_line, circle_of, coarsened, count_coarser, halfplane_line, least_magnitude, &
     FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_spectra, only: compute_line_spectra
   use fuge_kinds, only: dp
-  use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_SIZE
+  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -29,7 +27,7 @@ module fuge_halfplane_fft
   !> solves, which takes as much memory again.
   !>
   !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
-  type, extends(fuge_operator), public :: fuge_halfplane_operator
+  type, extends(grid_operator), public :: fuge_halfplane_operator
     private
     !> No cells before `set`.
     type(halfplane_line) :: line
@@ -40,7 +38,6 @@ module fuge_halfplane_fft
     !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
     !> of a periodic surface.
     type(convolution_kernel) :: influence, inverse
-    type(grid_store) :: coarser
   contains
     procedure :: set
     procedure :: set_threads
@@ -48,11 +45,9 @@ module fuge_halfplane_fft
     procedure :: apply
     procedure :: datum
     procedure :: magnitude => halfplane_magnitude
-    procedure :: has_preconditioner
     procedure :: precondition
     procedure :: grid
     procedure :: coarsen
-    procedure :: kept_coarser
     procedure, private :: copy
     generic :: assignment(=) => copy
   end type fuge_halfplane_operator
@@ -178,22 +173,9 @@ contains
     real(dp), intent(out) :: displacement(:)
     integer, intent(out) :: status
 
-    call check_sizes(self, size(force), size(displacement), status)
+    call self%check_sizes(size(force), size(displacement), status)
     if (status == FUGE_DONE) call self%influence%convolve(self%plan, force, displacement, status)
   end subroutine apply
-
-  pure subroutine check_sizes(self, first, second, status)
-    class(fuge_halfplane_operator), intent(in) :: self
-    integer, intent(in) :: first, second
-    integer, intent(out) :: status
-
-    status = FUGE_DONE
-    if (self%line%cells < 1) then
-      status = FUGE_ERR_CALL_ORDER
-    else if (first /= self%line%cells .or. second /= self%line%cells) then
-      status = FUGE_ERR_SIZE
-    end if
-  end subroutine check_sizes
 
   !> What is subtracted from all coefficients, length per force; 0 for a periodic surface.
   function datum(self)
@@ -213,14 +195,6 @@ contains
     magnitude = max(maxval(abs(displacement)), least_magnitude(self%line, sum(abs(force))))
   end subroutine halfplane_magnitude
 
-  !> True after `set`.
-  function has_preconditioner(self) result(preconditioned)
-    class(fuge_halfplane_operator), intent(in) :: self
-    logical :: preconditioned
-
-    preconditioned = self%line%cells > 0
-  end function has_preconditioner
-
   !> The inverse on a periodic surface, exact except for the constant. A free surface is taken
   !> for periodic, which changes little, because the coefficients of the inverse fall off
   !> with the square of the distance, and takes half the time of a product.
@@ -232,7 +206,7 @@ contains
     real(dp), intent(out) :: force(:)
     integer, intent(out) :: status
 
-    call check_sizes(self, size(displacement), size(force), status)
+    call self%check_sizes(size(displacement), size(force), status)
     if (status == FUGE_DONE) call self%inverse%convolve(self%plan, displacement, force, status)
   end subroutine precondition
 
@@ -264,42 +238,5 @@ contains
     call wider%set(line%cells, line%spacing, line%e_star, info, line%element, line%boundary, threads)
     if (.not. info%failed()) call move_alloc(wider, coarse)
   end subroutine coarsen
-
-  !> As `coarsen`, but the wider cells are kept with those of the finest grid, for the next solve and for
-  !> solves in other threads.
-  subroutine kept_coarser(self, levels, coarse)
-    class(fuge_halfplane_operator), intent(in) :: self
-    integer, intent(in) :: levels
-    class(fuge_operator), pointer, intent(out) :: coarse
-    integer :: k
-
-    nullify (coarse)
-    k = self%coarser%place(levels)
-    if (k < 1) return
-    call lock(LOCK_GRIDS)
-    if (.not. associated(self%coarser%grid(k)%operator)) call keep_coarser(self, levels, k)
-    coarse => self%coarser%grid(k)%operator
-    call unlock(LOCK_GRIDS)
-  end subroutine kept_coarser
-
-  !> Make element k of the kept grids, unless it has too few cells or memory is short.
-  subroutine keep_coarser(self, levels, k)
-    class(fuge_halfplane_operator), intent(in) :: self
-    integer, intent(in) :: levels, k
-    class(fuge_operator), allocatable :: coarse
-    type(fuge_halfplane_operator), pointer :: kept
-    integer :: stat
-
-    call self%coarsen(levels, coarse)
-    if (.not. allocated(coarse)) return
-    allocate (kept, stat=stat)
-    if (stat /= 0) return
-    select type (coarse)
-    type is (fuge_halfplane_operator)
-      call move_contents(kept, coarse)
-    end select
-    call kept%coarser%refer_to(self%coarser, k)
-    self%coarser%grid(k)%operator => kept
-  end subroutine keep_coarser
 
 end module fuge_halfplane_fft

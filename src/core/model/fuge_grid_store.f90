@@ -6,7 +6,7 @@ module fuge_grid_store
   private
 
   type, public :: stored_grid
-    class(fuge_operator), pointer :: operator => null()
+    class(fuge_operator), allocatable :: operator
   end type stored_grid
 
   !> Element k of `grid` has cells 2**k times as wide as the finest grid. Made when they are first asked for; the
@@ -100,9 +100,9 @@ contains
 
   !> A procedure of its own, because gfortran 12 does not compile it with bounds checks for an element of an array.
   subroutine free_operator(operator)
-    class(fuge_operator), pointer, intent(inout) :: operator
+    class(fuge_operator), allocatable, intent(inout) :: operator
 
-    if (associated(operator)) deallocate (operator)
+    if (allocated(operator)) deallocate (operator)
   end subroutine free_operator
 
 end module fuge_grid_store

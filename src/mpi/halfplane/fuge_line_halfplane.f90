@@ -62,11 +62,9 @@ module fuge_line_halfplane
     procedure :: apply
     procedure :: datum
     procedure :: magnitude => line_magnitude
-    procedure :: has_preconditioner
     procedure :: precondition
     procedure :: grid
     procedure :: coarsen
-    procedure :: new_coarser
     procedure :: first_rows
     procedure, private :: copy
     generic :: assignment(=) => copy
@@ -290,14 +288,6 @@ contains
                     least_magnitude(self%line, ranks%total(sum(abs(force)))))
   end subroutine line_magnitude
 
-  !> True after `set`.
-  function has_preconditioner(self) result(preconditioned)
-    class(fuge_mpi_halfplane_operator), intent(in) :: self
-    logical :: preconditioned
-
-    preconditioned = self%line%cells > 0
-  end function has_preconditioner
-
   !> As that of `fuge_halfplane_operator`. All ranks call it; `status` as for `apply`.
   subroutine precondition(self, displacement, force, status)
     class(fuge_mpi_halfplane_operator), intent(in) :: self
@@ -351,26 +341,6 @@ contains
     call prepare(wider, info)
     done = .not. info%failed()
   end function set_wider
-
-  !> As for `shared_operator`.
-  subroutine new_coarser(self, levels, wider)
-    class(fuge_mpi_halfplane_operator), intent(in) :: self
-    integer, intent(in) :: levels
-    class(shared_operator), pointer, intent(out) :: wider
-    type(fuge_mpi_halfplane_operator), pointer :: made
-    logical :: done
-    integer :: stat
-
-    nullify (wider)
-    allocate (made, stat=stat)
-    done = self%agreed(stat)
-    if (done) done = set_wider(self, coarsened(self%line, levels), made)
-    if (done) then
-      wider => made
-    else if (stat == 0) then
-      deallocate (made)
-    end if
-  end subroutine new_coarser
 
   !> As for `fuge_operator`.
   subroutine first_rows(self, levels, first)

@@ -36,11 +36,9 @@ module fuge_slab_halfspace
     procedure :: points
     procedure :: apply
     procedure :: magnitude => slab_magnitude
-    procedure :: has_preconditioner
     procedure :: precondition
     procedure :: grid
     procedure :: coarsen
-    procedure :: new_coarser
     procedure :: free_rim
     procedure :: window
     procedure :: first_rows
@@ -211,14 +209,6 @@ contains
                     least_magnitude(self%surface, ranks%total(sum(abs(force)))))
   end subroutine slab_magnitude
 
-  !> True after `set`.
-  function has_preconditioner(self) result(preconditioned)
-    class(fuge_mpi_halfspace_operator), intent(in) :: self
-    logical :: preconditioned
-
-    preconditioned = all(self%surface%cells > 0)
-  end function has_preconditioner
-
   !> As that of `fuge_halfspace_operator`. All ranks call it; `status` as for `apply`.
   subroutine precondition(self, displacement, force, status)
     class(fuge_mpi_halfspace_operator), intent(in) :: self
@@ -290,26 +280,6 @@ contains
     if (.not. self%agreed(stat)) return
     if (set_smaller(self, surface, smaller)) call move_alloc(smaller, part)
   end subroutine window
-
-  !> As for `shared_operator`.
-  subroutine new_coarser(self, levels, wider)
-    class(fuge_mpi_halfspace_operator), intent(in) :: self
-    integer, intent(in) :: levels
-    class(shared_operator), pointer, intent(out) :: wider
-    type(fuge_mpi_halfspace_operator), pointer :: made
-    logical :: done
-    integer :: stat
-
-    nullify (wider)
-    allocate (made, stat=stat)
-    done = self%agreed(stat)
-    if (done) done = set_smaller(self, coarsened(self%surface, levels), made)
-    if (done) then
-      wider => made
-    else if (stat == 0) then
-      deallocate (made)
-    end if
-  end subroutine new_coarser
 
   !> As for `fuge_operator`.
   subroutine first_rows(self, levels, first)

@@ -1,15 +1,14 @@
 !> What operators have in common whose cells the ranks of an MPI communicator share.
 module fuge_shared_operator
   use, intrinsic :: iso_c_binding, only: c_associated, c_loc, c_null_ptr, c_ptr
-  use fuge_grid_store, only: grid_store
+  use fuge_grid_operator_type, only: grid_operator
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
-  use fuge_operator_type, only: fuge_operator
   use fuge_rank_communicator, only: check_mpi, free_communicator, new_communicator, rank_communicator
+  use fuge_number_text, only: text
   use fuge_ranks, only: shared_ranks
   use fuge_shared_problem, only: differ
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
-    FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED
   use mpi_f08, only: MPI_Comm
   implicit none
   private
@@ -17,19 +16,16 @@ module fuge_shared_operator
   public :: owns
 
   !> Cells in rows, of which each rank has some, one after the other; a line of cells has rows of one cell.
-  type, abstract, extends(fuge_operator), public :: shared_operator
+  type, abstract, extends(grid_operator), public :: shared_operator
     !> Let FFTW time its algorithms.
     logical :: measured = .false.
     !> All ranks; coarser grids refer to those of the finest one.
     type(rank_communicator), pointer :: group => null()
-    !> Wider cells for the solves.
-    type(grid_store) :: coarser
     !> Address of the variable that owns the group.
     type(c_ptr), private :: group_owner = c_null_ptr
   contains
     procedure(find_rows), deferred :: own_rows
-    procedure(make_wider), deferred :: new_coarser
-    procedure :: kept_coarser
+    procedure :: set_threads
     procedure :: comm
     procedure :: ranks
     procedure :: apply_with_magnitude
@@ -37,7 +33,6 @@ module fuge_shared_operator
     procedure :: take_group
     procedure :: leave
     procedure :: check_same
-    procedure :: check_sizes
     procedure :: agreed
   end type shared_operator
 
@@ -48,15 +43,6 @@ module fuge_shared_operator
       class(shared_operator), intent(in) :: self
       integer :: rows(2)
     end function find_rows
-
-    !> An operator of cells 2**levels times as wide, levels >= 1, for the same ranks, which all call it; none without
-    !> memory on any of them.
-    subroutine make_wider(self, levels, wider)
-      import :: shared_operator
-      class(shared_operator), intent(in) :: self
-      integer, intent(in) :: levels
-      class(shared_operator), pointer, intent(out) :: wider
-    end subroutine make_wider
   end interface
 
 contains
@@ -134,25 +120,15 @@ contains
     end if
   end subroutine check_same
 
-  !> As `coarsen`, but the wider cells are kept for the next solve. All ranks call it.
-  subroutine kept_coarser(self, levels, coarse)
-    class(shared_operator), intent(in) :: self
-    integer, intent(in) :: levels
-    class(fuge_operator), pointer, intent(out) :: coarse
-    class(shared_operator), pointer :: wider
-    integer :: k
+  !> FUGE_ERR_UNSUPPORTED: ranks share the products.
+  subroutine set_threads(self, threads, info)
+    class(shared_operator), intent(inout) :: self
+    integer, intent(in) :: threads
+    type(fuge_info), intent(out) :: info
 
-    nullify (coarse)
-    k = self%coarser%place(levels)
-    if (.not. self%agreed(merge(0, 1, k > 0))) return
-    if (.not. associated(self%coarser%grid(k)%operator)) then
-      call self%new_coarser(levels, wider)
-      if (.not. associated(wider)) return
-      call wider%coarser%refer_to(self%coarser, k)
-      self%coarser%grid(k)%operator => wider
-    end if
-    coarse => self%coarser%grid(k)%operator
-  end subroutine kept_coarser
+    call report(info, FUGE_ERR_UNSUPPORTED, 'threads = '//text(threads)//' for '//text(self%points()) &
+                //' points of a rank: the products of this operator are shared by ranks, each of them one thread')
+  end subroutine set_threads
 
   !> The communicator of the operator, a duplicate of that of `set`; only after `set`.
   function comm(self)
@@ -170,20 +146,6 @@ contains
     if (.not. associated(self%group)) return
     if (self%group%members() > 1) ranks%group => self%group
   end function ranks
-
-  !> Has each rank arrays of the right size? `status`, the same on all: 0, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE.
-  subroutine check_sizes(self, first, second, status)
-    class(shared_operator), intent(in) :: self
-    integer, intent(in) :: first, second
-    integer, intent(out) :: status
-    type(shared_ranks) :: ranks
-
-    status = FUGE_ERR_CALL_ORDER
-    if (.not. associated(self%group)) return
-    ranks = self%ranks()
-    status = FUGE_DONE
-    if (.not. ranks%everywhere(first == self%points() .and. second == self%points())) status = FUGE_ERR_SIZE
-  end subroutine check_sizes
 
   !> Did an allocation succeed on all ranks?
   function agreed(self, stat)

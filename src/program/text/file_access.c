@@ -1,7 +1,7 @@
 /* What Fortran does not know of files: which paths lead to the same one, and whether all that was written is there.
  * file_access.f90 has the interfaces. */
 #define _XOPEN_SOURCE 700
-#include "../files/text/written_file.h"
+#include "../../files/text/written_file.h"
 #include <stdlib.h>
 #if defined(_WIN32)
 #include <io.h>
