@@ -2,7 +2,7 @@
 # fuge_status.f90, which is where fuge_status_text takes them from: cmake -D ROOT=... -P status_texts.cmake
 cmake_minimum_required(VERSION 3.20)
 
-set(source "${ROOT}/src/base/fuge_status.f90")
+set(source "${ROOT}/src/core/base/fuge_status.f90")
 file(STRINGS "${source}" codes REGEX "parameter, public :: FUGE_(DONE|WARN_[A-Z_]+|ERR_[A-Z_]+) = -?[0-9]+$")
 list(TRANSFORM codes REPLACE ".* :: (FUGE_[A-Z_]+) = (-?[0-9]+)" "\\2 \\1")
 file(STRINGS "${source}" texts REGEX "^    '.*'(, &|])$")

@@ -1,92 +1,74 @@
-"""Draw who may use whom: folders.py TABLE PICTURE [--check]
+"""Draw who may use whom: components.py TABLE PICTURE [--check]
 
-TABLE is src/folders.txt, PICTURE the SVG that is written. An arrow leads from a folder to one that it may
-use. Arrows that follow from others are left out, and a box names the exceptions: folders that the arrows
-lead to and that it may not use. With --check nothing is written; the exit status says whether PICTURE is
+TABLE is src/components.txt, PICTURE the SVG that is written. An arrow leads from a component to one that it may use;
+arrows that follow from others are left out. With --check nothing is written; the exit status says whether PICTURE is
 what TABLE gives.
 
-Folders lie in layers, each above all that it may use; folders with the same arrows share a frame. The order
-within the layers is the one with the fewest crossings that a search from many starts finds.
+Components lie in layers, each above all that it may use; those with the same arrows share a frame. The order within the
+layers is the one with the fewest crossings that a search from many starts finds.
 """
 
-import functools
 import itertools
 import pathlib
 import random
 import sys
 import textwrap
 
-# What a folder holds, in a few words for its box; one that is not here shows its name only.
+# What a component holds, in a few words for its box.
 HOLDS = {
-    ".": "fuge.f90, the facade",
-    "base": "kinds, status, constants",
-    "numerics": "LAPACK, FFT, series",
-    "model": "problem, operator, certificate",
-    "halfplane": "influence, FFT, edges",
-    "halfspace": "influence of rectangles",
-    "hertz": "ellipse in closed form",
-    "engines/common": "canonical problem, equilibrium",
-    "engines/active_set": "block pivoting, KKT factor",
-    "engines/tableau": "the paper's simplex method",
-    "engines/iterative": "projected conjugate gradients",
-    "engines/path": "parametric pivoting",
-    "solver": "the choice of the engine",
-    "condensation": "stiffness to influence",
-    "pairs": "surfaces to contact points",
-    "bodies": "contact in one call",
-    "fe_files": "files of FE programs",
-    "stress/common": "measures, peaks",
-    "stress/halfplane": "stresses under cells",
-    "stress/halfspace": "stresses under areas",
-    "stress/round": "stresses under rings",
-    "smooth_punch": "contact without a grid",
-    "round_punch": "round contact without a grid",
-    "io": "matrices, profiles",
-    "c": "C interface",
-    "f77": "FORTRAN 77 interface",
+    "core": "problem, engines, certificate, half-plane",
+    "area": "half-space, rings, Hertz",
+    "punch": "smooth and round punches, no grid",
+    "stress": "stresses inside, the largest",
+    "fe": "stiffness, pairs, bodies",
+    "files": "surfaces, matrices, meshes, results",
+    "facade": "the module fuge",
+    "f77": "FORTRAN 77",
+    "mpi": "surfaces over MPI",
+    "sparse": "CHOLMOD",
+    "program": "the program fuge",
 }
-PUBLIC = {".", "c", "f77"}
+SIX = {"core", "area", "punch", "stress", "fe", "files"}
 
-BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 86, 36, 8, 8, 8
-# For a page of 800 pixels: longer lines than LINE_LENGTH letters are broken, or BUT_NOT_LENGTH in boxes with
-# exceptions, which are few in a layer.
-NAME_SIZE, TEXT_SIZE, LINE_HEIGHT, LINE_LENGTH, BUT_NOT_LENGTH = 13.5, 13, 16, 13, 24
+BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 72, 36, 14, 8, 8
+# For a page of 800 pixels: longer lines than LINE_LENGTH letters are broken.
+NAME_SIZE, TEXT_SIZE, LINE_HEIGHT, LINE_LENGTH = 14.5, 13.5, 17, 18
 STARTS = 20
 
 
 def read_table(path):
-    """The folders that each folder may use."""
+    """The components that each component may use."""
     rows = {}
     for line in path.read_text().splitlines():
         if line.strip() and not line.startswith("#"):
-            folder, _, used = line.partition(":")
-            rows[folder.strip()] = used.split()
-    return {folder: set(used) for folder, used in rows.items()}
+            name, _, used = line.partition(":")
+            rows[name.strip()] = used.split()
+    return {name: set(used) for name, used in rows.items()}
 
 
 def reachable(arrows, start):
     found, ahead = set(), list(arrows[start])
     while ahead:
-        folder = ahead.pop()
-        if folder not in found:
-            found.add(folder)
-            ahead.extend(arrows[folder])
+        name = ahead.pop()
+        if name not in found:
+            found.add(name)
+            ahead.extend(arrows[name])
     return found
 
 
 def reduced(may_use):
     """The arrows that do not follow from others."""
-    return {folder: {used for used in targets
+    return {name: {used for used in targets
                      if not any(used in reachable(may_use, other) for other in targets - {used})}
-            for folder, targets in may_use.items()}
+            for name, targets in may_use.items()}
 
 
 def framed(arrows):
     """Folders with the same arrows, in and out, as one node: a tuple of names."""
-    users = {folder: frozenset(user for user in arrows if folder in arrows[user]) for folder in arrows}
+    users = {name: frozenset(user for user in arrows if name in arrows[user]) for name in arrows}
     groups = {}
-    for folder in arrows:
-        groups.setdefault((frozenset(arrows[folder]), users[folder]), []).append(folder)
+    for name in arrows:
+        groups.setdefault((frozenset(arrows[name]), users[name]), []).append(name)
     nodes = {name: tuple(group) for group in groups.values() for name in group}
     return {node: {nodes[used] for used in arrows[node[0]]} for node in nodes.values()}
 
@@ -156,41 +138,31 @@ def text_width(text, size):
     return 0.55*size*len(text)
 
 
-def box_lines(folder, exceptions):
-    """Lines of name, contents and exceptions of a folder, as far as there are any."""
-    return broken_lines(folder, ", ".join(sorted(used.split("/")[-1] for used in exceptions[folder])))
+def box_lines(component):
+    """Lines of name and contents of a component."""
+    return component, textwrap.wrap(HOLDS.get(component, ""), LINE_LENGTH)
 
 
-@functools.cache
-def broken_lines(folder, but_not):
-    name = "fuge.f90" if folder == "." else f"{folder}/"
-    names = [name] if len(name) <= LINE_LENGTH else [f"{part}/" for part in folder.split("/")]
-    length = BUT_NOT_LENGTH if but_not else LINE_LENGTH
-    contents = textwrap.wrap(HOLDS.get(folder, "").removeprefix("fuge.f90, "), length)
-    return names, contents, textwrap.wrap(f"but not {but_not}", length) if but_not else []
-
-
-def box_width(folder, exceptions):
-    names, contents, but_not = box_lines(folder, exceptions)
+def box_width(component):
+    name, contents = box_lines(component)
     # Bold letters are wider.
-    return 8 + max(*(1.2*text_width(line, NAME_SIZE) for line in names),
-                   *(text_width(line, TEXT_SIZE) for line in contents + but_not + [""]))
+    return 12 + max(1.2*text_width(name, NAME_SIZE), *(text_width(line, TEXT_SIZE) for line in [*contents, ""]))
 
 
-def node_width(node, exceptions):
+def node_width(node):
     if node[0] == "":
         return 8
-    boxes = sum(box_width(folder, exceptions) for folder in node) + BOX_GAP*(len(node) - 1)
+    boxes = sum(box_width(component) for component in node) + BOX_GAP*(len(node) - 1)
     return boxes + (2*FRAME_PAD if len(node) > 1 else 0)
 
 
-def placed(layers, steps, exceptions):
+def placed(layers, steps):
     """The middle of each node: as near to its neighbours as the boxes allow."""
     middle = {}
     for layer in layers:
         right = 0.0
         for node in layer:
-            width = node_width(node, exceptions)
+            width = node_width(node)
             middle[node] = right + 0.5*width
             right += width + BOX_GAP
     near = {node: [] for node in middle}
@@ -205,15 +177,15 @@ def placed(layers, steps, exceptions):
                 weights = [10.0 if "" == node[0] == other[0] else 1.0 for other in near[node]]
                 aim = sum(weight*at for weight, at in zip(weights, aims))/sum(weights)
                 middle[node] += 0.5*(aim - middle[node])
-            spread(layer, middle, exceptions)
+            spread(layer, middle)
     return middle
 
 
-def spread(layer, middle, exceptions):
+def spread(layer, middle):
     """Move nodes apart that overlap, half the way each."""
     for _ in range(60):
         for left, right in itertools.pairwise(layer):
-            room = 0.5*(node_width(left, exceptions) + node_width(right, exceptions)) + BOX_GAP
+            room = 0.5*(node_width(left) + node_width(right)) + BOX_GAP
             overlap = room - (middle[right] - middle[left])
             if overlap > 0:
                 middle[left] -= 0.5*overlap
@@ -223,27 +195,26 @@ def spread(layer, middle, exceptions):
 def draw(may_use):
     """The picture as the text of an SVG file."""
     arrows = reduced(may_use)
-    exceptions = {folder: reachable(arrows, folder) - may_use[folder] for folder in arrows}
     layers, steps = layered(framed(arrows))
     layers = ordered(layers, steps)
-    middle = placed(layers, steps, exceptions)
-    left = min(middle[node] - 0.5*node_width(node, exceptions) for node in middle) - MARGIN
-    right = max(middle[node] + 0.5*node_width(node, exceptions) for node in middle) + MARGIN
+    middle = placed(layers, steps)
+    left = min(middle[node] - 0.5*node_width(node) for node in middle) - MARGIN
+    right = max(middle[node] + 0.5*node_width(node) for node in middle) + MARGIN
     pitch = BOX_HEIGHT + 2*FRAME_PAD + LAYER_GAP
     top = {node: MARGIN + FRAME_PAD + (len(layers) - 1 - k)*pitch for k, layer in enumerate(layers) for node in layer}
     middle = {node: x - left for node, x in middle.items()}
     width, height = right - left, len(layers)*pitch - LAYER_GAP + 2*MARGIN
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}" '
              f'viewBox="0 0 {width:.0f} {height:.0f}" font-family="Helvetica, Arial, sans-serif">',
-             "<title>Which folder of src may use which: src/folders.txt, drawn by doc/site/folders.py</title>",
+             "<title>Which component may use which: src/components.txt, drawn by doc/site/components.py</title>",
              '<rect width="100%" height="100%" fill="#ffffff"/>',
              '<defs><marker id="tip" viewBox="0 0 10 8" refX="9" refY="4" markerWidth="8" markerHeight="6.4" '
              'orient="auto"><path d="M0,0 L10,4 L0,8 z" fill="#4a5563"/></marker></defs>']
-    parts += arrow_paths(steps, middle, top, exceptions)
+    parts += arrow_paths(steps, middle, top)
     for layer in layers:
         for node in layer:
             if node[0] != "":
-                parts += node_shapes(node, middle[node], top[node], exceptions)
+                parts += node_shapes(node, middle[node], top[node])
     return "\n".join(parts) + "\n</svg>\n"
 
 
@@ -253,20 +224,20 @@ def extent(node, top):
     return top[node] - pad, top[node] + BOX_HEIGHT + pad
 
 
-def ports(nodes, steps, middle, exceptions, side):
+def ports(nodes, steps, middle, side):
     """Where each arrow leaves (side 0) or reaches (side 1) a node: in the order of their other ends."""
     at = {}
     for node in nodes:
         mine = sorted((step for step in steps if step[side] == node), key=lambda step: middle[step[1 - side]])
-        span = 0.0 if node[0] == "" else 0.5*node_width(node, exceptions)
+        span = 0.0 if node[0] == "" else 0.5*node_width(node)
         for k, step in enumerate(mine):
             at[step] = middle[node] + span*((k + 0.5)/len(mine) - 0.5)
     return at
 
 
-def arrow_paths(steps, middle, top, exceptions):
-    leaves = ports(middle, steps, middle, exceptions, 0)
-    reaches = ports(middle, steps, middle, exceptions, 1)
+def arrow_paths(steps, middle, top):
+    leaves = ports(middle, steps, middle, 0)
+    reaches = ports(middle, steps, middle, 1)
     following = {step[0]: step for step in steps if step[0][0] == ""}
     parts = []
     for step in steps:
@@ -290,30 +261,29 @@ def arrow_paths(steps, middle, top, exceptions):
     return parts
 
 
-def node_shapes(node, x, y, exceptions):
+def node_shapes(node, x, y):
     parts = []
-    width = node_width(node, exceptions)
+    width = node_width(node)
     begin = x - 0.5*width
     if len(node) > 1:
         parts.append(f'<rect x="{begin:.1f}" y="{y - FRAME_PAD:.1f}" width="{width:.1f}" '
                      f'height="{BOX_HEIGHT + 2*FRAME_PAD}" rx="8" fill="#f3f5f8" stroke="#9aa5b1" '
                      'stroke-dasharray="4 3"/>')
         begin += FRAME_PAD
-    for folder in node:
-        parts += box_shapes(folder, begin, y, exceptions)
-        begin += box_width(folder, exceptions) + BOX_GAP
+    for name in node:
+        parts += box_shapes(name, begin, y)
+        begin += box_width(name) + BOX_GAP
     return parts
 
 
-def box_shapes(folder, begin, y, exceptions):
-    width = box_width(folder, exceptions)
-    fill = "#fbe9d0" if folder in PUBLIC else "#dcecf7" if folder.startswith("engines/") else "#e9f3e4"
+def box_shapes(component, begin, y):
+    width = box_width(component)
+    fill = "#dcecf7" if component in SIX else "#fbe9d0"
     parts = [f'<rect x="{begin:.1f}" y="{y:.1f}" width="{width:.1f}" height="{BOX_HEIGHT}" rx="5" '
              f'fill="{fill}" stroke="#4a5563"/>']
-    names, contents, but_not = box_lines(folder, exceptions)
-    looks = [(text, f'font-size="{NAME_SIZE}" font-weight="bold"') for text in names]
+    name, contents = box_lines(component)
+    looks = [(name, f'font-size="{NAME_SIZE}" font-weight="bold"')]
     looks += [(text, f'font-size="{TEXT_SIZE}" fill="#333333"') for text in contents]
-    looks += [(text, f'font-size="{TEXT_SIZE}" fill="#a33a1e"') for text in but_not]
     first = y + 0.5*(BOX_HEIGHT - LINE_HEIGHT*(len(looks) - 1)) + 5
     for k, (text, look) in enumerate(looks):
         parts.append(f'<text x="{begin + 0.5*width:.1f}" y="{first + LINE_HEIGHT*k:.1f}" text-anchor="middle" '
@@ -327,7 +297,7 @@ def main():
     if sys.argv[3:] != ["--check"]:
         picture.write_text(text)
     elif not picture.exists() or picture.read_text() != text:
-        sys.exit(f"{picture} is not what {table} gives: run\n  python3 doc/site/folders.py {table} {picture}")
+        sys.exit(f"{picture} is not what {table} gives: run\n  python3 doc/site/components.py {table} {picture}")
 
 
 if __name__ == "__main__":
