@@ -20,7 +20,7 @@ module fuge_problem_type
   implicit none
   private
 
-  public :: set_problem, check_problem, check_load, check_play
+  public :: set_problem, check_problem, check_load, check_play, move_solution
 
   !> The data of a contact problem except the operator, in the units of the operator. Set the
   !> components by name: later versions may have more. What is not allocated has the default
@@ -254,5 +254,14 @@ contains
         //text(expected))
     end if
   end subroutine check_length
+
+  !> Move the arrays of `source` to `solution`.
+  pure subroutine move_solution(source, solution)
+    type(fuge_solution), intent(inout) :: source, solution
+
+    call move_alloc(source%force, solution%force)
+    call move_alloc(source%gap, solution%gap)
+    call move_alloc(source%motion, solution%motion)
+  end subroutine move_solution
 
 end module fuge_problem_type
