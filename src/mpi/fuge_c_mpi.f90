@@ -17,7 +17,8 @@ module fuge_c_mpi
 
 contains
 
-  !> As fuge_operator_halfspace_mpi, with the handle that Fortran has of the communicator.
+  !> As fuge_operator_halfspace_mpi, with the handle that Fortran has of the communicator. The arguments are eleven,
+  !> as in the header: the grid, the communicator, the operator, the message.
   function c_operator_halfspace_mpi(nx, ny, spacing_x, spacing_y, e_star, element, boundary, comm, destination, &
                                     message, length) bind(c, name='fuge_operator_halfspace_comm') result(status)
     integer(c_int), intent(in), value :: nx, ny, element, boundary, comm
@@ -40,7 +41,8 @@ contains
     status = report_to_c(info, message, length)
   end function c_operator_halfspace_mpi
 
-  !> As fuge_operator_halfplane_mpi, with the handle that Fortran has of the communicator.
+  !> As fuge_operator_halfplane_mpi, with the handle that Fortran has of the communicator. The arguments are nine, as
+  !> in the header: the cells, the communicator, the operator, the message.
   function c_operator_halfplane_mpi(n, spacing, e_star, element, boundary, comm, destination, message, length) &
     bind(c, name='fuge_operator_halfplane_comm') result(status)
     integer(c_int), intent(in), value :: n, element, boundary, comm

@@ -24,7 +24,8 @@ module fuge_cholmod_factor
   interface
     !> Factor and pivots (n). `order` (last): on entry the rows to eliminate last, on return their order of
     !> elimination; all zero if that order is not worthwhile for `columns` solves. `failed` is the row at which a
-    !> factorisation stopped, else 0. Result: 0 done, 1 not definite, 2 no memory.
+    !> factorisation stopped, else 0. Result: 0 done, 1 not definite, 2 no memory. The arguments are ten, because C
+    !> takes the columns of the matrix as plain arrays.
     function cholmod_factorise(n, column, row, value, last, order, columns, factor, pivots, failed) &
       bind(c, name='fuge_cholmod_factorise') result(status)
       import :: c_int, c_double, c_ptr

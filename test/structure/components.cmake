@@ -2,10 +2,12 @@
 #
 # Holds every `use` of a module of fuge in SOURCES against SOURCES/components.txt, which has the components, and against
 # folders.txt of each component that has one, and names each line that breaks a rule. Also: the tables have just the
-# folders that there are, components do not use each other in circles, a module has the name of its file, and a folder
-# has at most 15 files.
+# folders that there are, components do not use each other in circles, a module has the name of its file, a folder has
+# at most 15 files, a procedure at most 8 arguments unless its docstring says why it has more, and nothing reaches the
+# space of the points through two components.
 cmake_minimum_required(VERSION 3.20)
 set(MOST_FILES 15)
+set(MOST_ARGUMENTS 8)
 
 get_filename_component(SOURCES "${SOURCES}" REALPATH)
 set(offences)
@@ -153,6 +155,28 @@ function(may_use folder target result)
   set(${result} ${allowed} PARENT_SCOPE)
 endfunction()
 
+# Each procedure with many arguments has a docstring that says why.
+function(check_arguments file text)
+  string(REGEX REPLACE "&[ \t]*\n *" "" text "${text}")
+  string(REGEX MATCHALL "\n[^\n!']*(subroutine|function) +[a-z_0-9]+ *[(][^)]*[)]" heads "${text}")
+  foreach(head IN LISTS heads)
+    string(REGEX REPLACE "[^,]" "" commas "${head}")
+    string(LENGTH "${commas}" count)
+    if(count LESS MOST_ARGUMENTS)
+      continue()
+    endif()
+    string(FIND "${text}" "${head}" place)
+    string(SUBSTRING "${text}" 0 ${place} before)
+    string(REGEX MATCH "(\n *!>[^\n]*)+$" said "${before}")
+    if(NOT said MATCHES "argument")
+      string(REGEX REPLACE "^.*(subroutine|function) +([a-z_0-9]+).*$" "\\2" procedure "${head}")
+      math(EXPR count "${count} + 1")
+      offence("${file}: ${procedure} has ${count} arguments, and its docstring does not say why")
+    endif()
+  endforeach()
+  set(offences ${offences} PARENT_SCOPE)
+endfunction()
+
 set(uses_found 0)
 foreach(file IN LISTS files)
   if(NOT file MATCHES "[.]f90$")
@@ -171,6 +195,13 @@ foreach(file IN LISTS files)
   endforeach()
   if(folder MATCHES "^variants")
     continue()
+  endif()
+  if(text MATCHES "[a-z_]+%[a-z_]+%[a-z_]+%space%")
+    offence("${file} reaches through to the space of points: ${CMAKE_MATCH_0}")
+  endif()
+  # LAPACK and FORTRAN 77 have arguments as they have.
+  if(NOT name STREQUAL "fuge_lapack" AND NOT folder STREQUAL "f77")
+    check_arguments("${file}" "${text}")
   endif()
   string(REGEX MATCHALL "\n *use *(, *non_intrinsic)? *(::)? *[a-z][a-z_0-9]*" used_modules "${text}")
   foreach(line IN LISTS used_modules)

@@ -57,6 +57,13 @@ expect_offence(core/room/fuge_planted.f90 "module fuge_planted\nend module fuge_
   "core/folders.txt lacks the folder core/room\n")
 expect_offence(core/folders.txt "room : base\n" "core/folders.txt names room, a folder without sources\n")
 expect_offence(area/folders.txt "hertz : core/room\n" "area/folders.txt lets hertz use core/room, which is not a folder\n")
+# Arguments and chains.
+expect_offence(core/base/fuge_planted.f90
+  "module fuge_planted\ncontains\n  !> A sum.\n  subroutine add(a, b, c, &\n    d, e, f, g, h, i)\n  end subroutine add\nend module fuge_planted\n"
+  "core/base/fuge_planted.f90: add has 9 arguments, and its docstring does not say why\n")
+expect_offence(core/base/fuge_planted.f90
+  "module fuge_planted\ncontains\n  subroutine add(scene)\n    call scene%rows%all%space%agree(info)\n  end subroutine add\nend module fuge_planted\n"
+  "core/base/fuge_planted.f90 reaches through to the space of points: scene%rows%all%space%\n")
 # One file too many.
 file(GLOB files "${SOURCES}/core/c/*.f90")
 list(LENGTH files count)

@@ -364,7 +364,8 @@ contains
   end function opposite
 
   !> Twice the transforms of single rows, of the waves `first` .. `last`: column 1, 2, .. of `lines`, `length` complex
-  !> numbers of which `rows` belong to rows.
+  !> numbers of which `rows` belong to rows. The arguments are nine, because lines of a transform are plain arrays
+  !> with their sizes.
   pure subroutine gather(n, circle, first, last, rows, length, zero, work, lines)
     integer, intent(in) :: n, circle, first, last, rows, length
     logical, intent(in) :: zero(:)

@@ -9,7 +9,7 @@ module fuge_c_callback_grid
   use fuge_grid_operator_type, only: grid_operator
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, &
     FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
   implicit none
@@ -126,15 +126,15 @@ contains
     type(callback_operator), intent(in) :: callback
     type(operator_handle), intent(in) :: handle
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: cells(2)
     logical :: known
 
     cells = handle%operator%grid()
-    ranks = handle%operator%ranks()
+    space = handle%operator%space()
     select type (auxiliary => handle%operator)
     class is (grid_operator)
-      known = ranks%is_alone()
+      known = space%is_alone()
     class default
       known = .false.
     end select

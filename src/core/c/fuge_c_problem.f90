@@ -11,7 +11,7 @@ module fuge_c_problem
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: check_load, check_play
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_SIZE
   implicit none
   private
@@ -205,11 +205,11 @@ contains
   function points_of_all_ranks(handle) result(n)
     type(solver_handle), intent(in) :: handle
     integer :: n
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     n = points_of(handle)
-    ranks = handle%operator%operator%ranks()
-    if (.not. ranks%is_alone()) n = product(handle%operator%operator%grid())
+    space = handle%operator%operator%space()
+    if (.not. space%is_alone()) n = product(handle%operator%operator%grid())
   end function points_of_all_ranks
 
   !> Back to one free translation, without a load yet.

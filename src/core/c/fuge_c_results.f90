@@ -9,7 +9,7 @@ module fuge_c_results
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_kinds, only: dp
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
@@ -49,12 +49,12 @@ contains
     type(c_ptr), intent(in), value :: solver, resultant
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     real(dp), allocatable :: sums(:)
 
     status = find_solution(solver, resultant, 'resultant', handle)
     if (status /= FUGE_DONE) return
-    ranks = handle%operator%operator%ranks()
+    space = handle%operator%operator%space()
     associate (problem => handle%problem, force => handle%solution%force)
       if (allocated(problem%modes)) then
         allocate (sums(size(problem%modes, 2)))
@@ -64,7 +64,7 @@ contains
         sums = sum(force)
       end if
     end associate
-    call ranks%add(sums)
+    call space%add(sums)
     call copy_reals(sums, resultant)
   end function c_get_resultant
 

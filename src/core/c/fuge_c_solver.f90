@@ -4,7 +4,7 @@ module fuge_c_solver
   use fuge_c_types, only: c_options, solver_handle, from_c, message_for_c, report_to_c, require_pointer, set_handle, &
     take_handle
   use fuge_options_type, only: fuge_options, check_options
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
   implicit none
   private
@@ -82,13 +82,13 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
     type(fuge_info) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     call find_solver(solver, handle, info)
     if (associated(handle)) then
       if (.not. info%failed()) call require_problem(handle, 'fuge_solve', info)
-      ranks = handle%operator%operator%ranks()
-      call ranks%agree(info)
+      space = handle%operator%operator%space()
+      call space%agree(info)
     end if
     if (.not. info%failed()) then
       call handle%solver%solve(handle%operator%operator, handle%problem, handle%solution, info, handle%options, &

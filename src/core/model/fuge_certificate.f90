@@ -9,7 +9,7 @@ module fuge_certificate
   use fuge_operator_products, only: multiply_with_magnitude
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
@@ -101,49 +101,49 @@ contains
     real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:), elastic(:)
     real(dp) :: suspect
     logical, allocatable :: included(:)
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: n, stat
 
     suspect = LEAST_SUSPECT
     if (present(enough)) suspect = max(suspect, enough)
 
-    ranks = operator%ranks()
-    if (.not. ranks%everywhere(sizes_agree(operator, problem, solution))) then
+    space = operator%space()
+    if (.not. space%everywhere(sizes_agree(operator, problem, solution))) then
       call report(info, FUGE_ERR_SIZE, 'certificate: an array is missing or not as long as the operator has points')
       return
     end if
     ! Violations stay huge: a product with NaN would show nothing.
-    if (.not. ranks%everywhere(all(ieee_is_finite(solution%force)))) return
+    if (.not. space%everywhere(all(ieee_is_finite(solution%force)))) return
     n = operator%points()
     allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), elastic(n), included(n), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
-    call ranks%agree(info)
+    call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call multiply_with_magnitude(operator, solution%force, error, elastic, info)
     if (info%failed()) return
 
     included = .true.
     if (allocated(problem%excluded)) included = .not. problem%excluded
-    call find_rigid_displacement(problem, solution, operator%datum(), ranks, rigid_displacement, rigid_magnitude)
+    call find_rigid_displacement(problem, solution, operator%datum(), space, rigid_displacement, rigid_magnitude)
     error = (problem%gap - rigid_displacement) + error - solution%gap
     magnitude = abs(problem%gap - rigid_displacement) + elastic
     if (allocated(problem%modes)) then
       ! Motions are solved for together: each one that moves a point is rounded like the largest magnitude of its body.
       rigid_magnitude = rigid_magnitude + max(count(abs(problem%modes) > 0.0_dp, 2), 1) &
                         *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included), &
-                                           ranks)
+                                           space)
     end if
-    violation%equilibrium = equilibrium_violation(problem, solution, ranks)
-    violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, ranks)
-    call contact_violations(problem, solution, magnitude, included, ranks, violation)
+    violation%equilibrium = equilibrium_violation(problem, solution, space)
+    violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space)
+    call contact_violations(problem, solution, magnitude, included, space, violation)
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
-                                           .not. allocated(problem%modes), ranks)
+                                           .not. allocated(problem%modes), space)
     if (.not. violation%gap_equation > suspect) return
     call take_out_rounding(operator, problem, solution%force, elastic, included, magnitude, rigid_magnitude, error, &
                            info)
     if (info%failed()) return
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
-                                           .not. allocated(problem%modes), ranks)
+                                           .not. allocated(problem%modes), space)
   end subroutine find_violation
 
   !> Where all forces that displace a point are zero but for rounding, so is its magnitude, with which nothing can be
@@ -160,17 +160,17 @@ contains
     logical, intent(in) :: included(:)
     real(dp), intent(inout) :: error(:)
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     real(dp), allocatable, dimension(:) :: largest, of_bodies, rounding, terms
     integer :: stat
 
-    ranks = operator%ranks()
+    space = operator%space()
     allocate (largest(size(force)), of_bodies(size(force)), rounding(size(force)), terms(size(force)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the certificate of '//text(size(force))//' points')
-    call ranks%agree(info)
+    call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    largest = ranks%largest(maxval(abs(force)))
-    if (allocated(problem%modes)) largest = largest_of_bodies(problem%modes, abs(force), ranks)
+    largest = space%largest(maxval(abs(force)))
+    if (allocated(problem%modes)) largest = largest_of_bodies(problem%modes, abs(force), space)
     where (.not. included) largest = 0.0_dp
     call multiply_with_magnitude(operator, largest, of_bodies, terms, info)
     if (info%failed()) return
@@ -181,9 +181,9 @@ contains
       rounding = NO_SCALE*(abs(problem%gap) + rigid_magnitude)
     end where
     terms = merge(terms + elastic, 0.0_dp, included)
-    largest = ranks%largest(maxval(terms + rigid_magnitude, mask=included))
+    largest = space%largest(maxval(terms + rigid_magnitude, mask=included))
     if (allocated(problem%modes)) then
-      of_bodies = largest_of_bodies(problem%modes, terms, ranks)
+      of_bodies = largest_of_bodies(problem%modes, terms, space)
       ! A body that no force displaces has no lengths of its own.
       where (of_bodies > 0.0_dp) largest = of_bodies
     end if
@@ -196,18 +196,18 @@ contains
   end subroutine take_out_rounding
 
   !> R q less the displacement by the `datum`, (n), and the magnitude of its terms.
-  subroutine find_rigid_displacement(problem, solution, datum, ranks, rigid_displacement, rigid_magnitude)
+  subroutine find_rigid_displacement(problem, solution, datum, space, rigid_displacement, rigid_magnitude)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: datum
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp), intent(out) :: rigid_displacement(:), rigid_magnitude(:)
     real(dp) :: shift
     integer :: j
 
-    shift = datum*ranks%total(sum(solution%force))
+    shift = datum*space%total(sum(solution%force))
     ! Forces of both signs may cancel in the sum, but not their rounding.
-    rigid_magnitude = abs(datum)*ranks%total(sum(abs(solution%force)))
+    rigid_magnitude = abs(datum)*space%total(sum(abs(solution%force)))
     if (allocated(problem%modes)) then
       rigid_displacement = -shift
       do j = 1, size(solution%motion)
@@ -222,17 +222,17 @@ contains
 
   !> The error of equation (9); for one translation, the error that all points share (that of v_0)
   !> and the rest are judged separately.
-  function gap_violation(error, magnitude, force, gap, rigid_magnitude, included, translation, ranks) result(violation)
+  function gap_violation(error, magnitude, force, gap, rigid_magnitude, included, translation, space) result(violation)
     real(dp), intent(in) :: error(:), magnitude(:), force(:), gap(:), rigid_magnitude(:)
     logical, intent(in) :: included(:), translation
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp) :: violation
     real(dp) :: at_reference(4), key, largest, shared, rounding, excess
     integer :: k, reference
 
     violation = 0.0_dp
-    if (.not. ranks%anywhere(any(included))) return
-    largest = ranks%largest(maxval(abs(force)))
+    if (.not. space%anywhere(any(included))) return
+    largest = space%largest(maxval(abs(force)))
     if (largest > 0.0_dp) then
       ! A force of rounding size is no contact.
       reference = minloc(magnitude, dim=1, mask=included .and. abs(force) > sqrt(epsilon(shared))*largest)
@@ -245,7 +245,7 @@ contains
       key = merge(magnitude(reference), gap(reference), largest > 0.0_dp)
       at_reference = [error(reference), magnitude(reference), gap(reference), rigid_magnitude(reference)]
     end if
-    call ranks%take_from_least(key, at_reference)
+    call space%take_from_least(key, at_reference)
     shared = 0.0_dp
     if (translation) shared = at_reference(1)
     do k = 1, size(error)
@@ -256,18 +256,18 @@ contains
       excess = max(abs(error(k) - shared) - 2.0_dp*epsilon(shared)*rounding, 0.0_dp)
       violation = max(violation, relative(excess, magnitude(k) + at_reference(2)))
     end do
-    violation = ranks%largest(violation)
+    violation = space%largest(violation)
     if (translation) violation = max(violation, &
       relative(abs(shared), max(at_reference(4), abs(at_reference(3)), at_reference(2))))
   end function gap_violation
 
   !> Signs and complementarity, equation (10) at both stops.
-  subroutine contact_violations(problem, solution, magnitude, included, ranks, violation)
+  subroutine contact_violations(problem, solution, magnitude, included, space, violation)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: magnitude(:)
     logical, intent(in) :: included(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     type(fuge_violation), intent(inout) :: violation
     real(dp), allocatable :: body_forces(:)
     logical, allocatable :: loaded(:)
@@ -276,12 +276,12 @@ contains
 
     violation%sign = 0.0_dp
     violation%complementarity = 0.0_dp
-    largest = ranks%largest(maxval(abs(solution%force)))
+    largest = space%largest(maxval(abs(solution%force)))
     upper = huge(upper)
     body_force = largest
     ! Not by assignment, for which gfortran compares bounds that are not there yet.
     if (allocated(problem%modes)) then
-      allocate (body_forces, source=largest_of_bodies(problem%modes, abs(solution%force), ranks))
+      allocate (body_forces, source=largest_of_bodies(problem%modes, abs(solution%force), space))
       allocate (loaded, source=is_loaded(problem))
     end if
     do k = 1, size(magnitude)
@@ -310,17 +310,17 @@ contains
       end associate
     end do
     parts = [violation%sign, violation%complementarity]
-    call ranks%raise(parts)
+    call space%raise(parts)
     violation%sign = parts(1)
     violation%complementarity = parts(2)
   end subroutine contact_violations
 
   !> Equation (11) in the free modes; in the others q must be as prescribed. A resultant of zero may consist of rounding
   !> alone: of the forces of its body, or of all forces if no load acts on the body.
-  function equilibrium_violation(problem, solution, ranks) result(violation)
+  function equilibrium_violation(problem, solution, space) result(violation)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp) :: violation
     real(dp) :: sums(2)
     integer :: j
@@ -331,10 +331,10 @@ contains
         relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
     end do
     if (allocated(problem%modes)) then
-      violation = max(violation, imbalance_in_modes(problem, solution%force, ranks))
+      violation = max(violation, imbalance_in_modes(problem, solution%force, space))
     else if (.not. is_prescribed(problem, 1)) then
       sums = [sum(solution%force), sum(abs(solution%force))]
-      call ranks%add(sums)
+      call space%add(sums)
       violation = max(violation, relative(abs(sums(1) - problem%resultant(1)), &
                                           max(sums(2), abs(problem%resultant(1)))))
     end if
@@ -343,26 +343,26 @@ contains
   !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
   !> at least to a part of the largest force of the body, since along an axis without a load forces at tied points may be
   !> the rounding of those along the other axes.
-  function imbalance_in_modes(problem, force, ranks) result(violation)
+  function imbalance_in_modes(problem, force, space) result(violation)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp) :: violation
     real(dp) :: body_forces(size(force)), own, largest, imbalance, sums(2), extremes(4)
     logical :: loaded(size(force))
     integer :: j
 
     violation = 0.0_dp
-    body_forces = largest_of_bodies(problem%modes, abs(force), ranks)
+    body_forces = largest_of_bodies(problem%modes, abs(force), space)
     loaded = is_loaded(problem)
     do j = 1, size(problem%modes, 2)
       if (is_prescribed(problem, j)) cycle
       associate (mode => problem%modes(:, j), resultant => problem%resultant(j))
         extremes = [maxval(body_forces, mask=abs(mode) > 0.0_dp), maxval(abs(force)), maxval(abs(mode)), &
                     merge(1.0_dp, 0.0_dp, any(loaded .and. abs(mode) > 0.0_dp))]
-        call ranks%raise(extremes)
+        call space%raise(extremes)
         sums = [sum(mode*force), sum(abs(mode*force))]
-        call ranks%add(sums)
+        call space%add(sums)
         own = extremes(1)
         largest = extremes(2)
         if (extremes(4) > 0.0_dp) largest = own
@@ -379,12 +379,12 @@ contains
   !> may be as large at a soft point beside a stiff one, but not where the forces are.
   !>
   !> `error` (n) of equation (9), `elastic` (n) the terms of A f, `rigid_magnitude` (n) those of the motions.
-  function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, ranks) result(violation)
+  function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space) result(violation)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: error(:), elastic(:), rigid_magnitude(:)
     logical, intent(in) :: included(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp) :: violation
     real(dp) :: open(size(error)), share(size(error)), largest, length
     integer :: k
@@ -393,18 +393,18 @@ contains
     ! Forces that push with one load between them do not dwarf it.
     if (problem%is_plain()) return
     share = merge(abs(solution%force), 0.0_dp, included)
-    largest = ranks%largest(maxval(share))
+    largest = space%largest(maxval(share))
     if (.not. largest > 0.0_dp) return
     share = share/largest
-    share = share/ranks%total(sum(share))
-    length = data_length(problem, solution%force, elastic, included, ranks)
-    if (DWARFED*ranks%total(sum(share*elastic)) <= length) return
+    share = share/space%total(sum(share))
+    length = data_length(problem, solution%force, elastic, included, space)
+    if (DWARFED*space%total(sum(share*elastic)) <= length) return
     ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
     open = max(abs(error) - 2.0_dp*epsilon(open)*(abs(problem%gap) + rigid_magnitude), epsilon(open)*elastic)
     do k = 1, size(open)
       open(k) = max(open(k), stop_distance_at(problem, solution, k))
     end do
-    violation = relative(ranks%total(sum(share*open)), length)
+    violation = relative(space%total(sum(share*open)), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
 
@@ -426,12 +426,12 @@ contains
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     logical :: sizes_agree
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: m
 
     m = problem%mode_count()
-    ranks = operator%ranks()
-    sizes_agree = (operator%points() > 0 .or. .not. ranks%is_alone()) .and. size_of(problem%gap) == operator%points() &
+    space = operator%space()
+    sizes_agree = (operator%points() > 0 .or. .not. space%is_alone()) .and. size_of(problem%gap) == operator%points() &
       .and. size_of(solution%force) == operator%points() &
       .and. size_of(solution%gap) == operator%points() .and. size_of(solution%motion) == m
     if (allocated(problem%modes)) sizes_agree = sizes_agree .and. size(problem%modes, 1) == operator%points()

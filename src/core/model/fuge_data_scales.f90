@@ -2,7 +2,7 @@
 module fuge_data_scales
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   implicit none
   private
 
@@ -14,12 +14,12 @@ contains
   !> motions, the plays, and what the loads displace.
   !>
   !> `force` (n), not all zero, makes the terms `elastic` (n) of A f; loads that are smaller displace less. `included`
-  !> (n) marks the points that take part. `ranks` may share the points.
-  function data_length(problem, force, elastic, included, ranks) result(length)
+  !> (n) marks the points that take part. `space` may share the points.
+  function data_length(problem, force, elastic, included, space) result(length)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:), elastic(:)
     logical, intent(in) :: included(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp) :: length
     real(dp) :: gap(size(elastic)), extremes(4), load, arm
     integer :: j
@@ -28,7 +28,7 @@ contains
     load = 0.0_dp
     do j = 1, problem%mode_count()
       arm = 1.0_dp
-      if (allocated(problem%modes)) arm = ranks%largest(maxval(abs(problem%modes(:, j)), mask=included))
+      if (allocated(problem%modes)) arm = space%largest(maxval(abs(problem%modes(:, j)), mask=included))
       if (.not. is_prescribed(problem, j)) then
         if (arm > 0.0_dp) load = max(load, abs(problem%resultant(j))/arm)
       else if (allocated(problem%modes)) then
@@ -39,21 +39,21 @@ contains
     end do
     extremes = [maxval(abs(gap), mask=included), maxval(gap, mask=included), -minval(gap, mask=included), &
                 maxval(elastic, mask=included)]
-    call ranks%raise(extremes)
+    call space%raise(extremes)
     length = extremes(1)
     if (.not. allocated(problem%modes)) then
       if (.not. is_prescribed(problem, 1)) length = extremes(2) + extremes(3)
     end if
     if (allocated(problem%gap_upper)) length = max(length, &
-      ranks%largest(maxval(problem%gap_upper, mask=included .and. problem%gap_upper < huge(length))))
-    length = length + min(load/ranks%total(sum(abs(force))), 1.0_dp)*extremes(4)
+      space%largest(maxval(problem%gap_upper, mask=included .and. problem%gap_upper < huge(length))))
+    length = length + min(load/space%total(sum(abs(force))), 1.0_dp)*extremes(4)
   end function data_length
 
   !> At each point, the largest of `values` (>= 0) among the points that some mode moves together
   !> with it; 0 for a point that no mode moves. Ranks, `sharing`, may share the points.
   function largest_of_bodies(modes, values, sharing) result(largest)
     real(dp), intent(in) :: modes(:, :), values(:)
-    type(shared_ranks), intent(in), optional :: sharing
+    type(point_space), intent(in), optional :: sharing
     real(dp) :: largest(size(values)), of_mode(size(modes, 2))
     integer :: j
 

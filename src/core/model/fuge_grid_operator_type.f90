@@ -3,7 +3,7 @@ module fuge_grid_operator_type
   use fuge_grid_store, only: grid_store
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_operator_type, only: fuge_operator
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
   implicit none
   private
@@ -46,12 +46,12 @@ contains
     class(grid_operator), intent(in) :: self
     integer, intent(in) :: first, second
     integer, intent(out) :: status
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     status = FUGE_ERR_CALL_ORDER
     if (any(self%grid() < 1)) return
-    ranks = self%ranks()
-    status = merge(FUGE_DONE, FUGE_ERR_SIZE, ranks%everywhere(first == self%points() .and. second == self%points()))
+    space = self%space()
+    status = merge(FUGE_DONE, FUGE_ERR_SIZE, space%everywhere(first == self%points() .and. second == self%points()))
   end subroutine check_sizes
 
   !> As `coarsen`, but the wider cells are kept with those of the finest grid, for the next solve and for
@@ -60,18 +60,18 @@ contains
     class(grid_operator), intent(in) :: self
     integer, intent(in) :: levels
     class(fuge_operator), pointer, intent(out) :: coarse
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: k
 
     nullify (coarse)
-    ranks = self%ranks()
+    space = self%space()
     k = self%coarser%place(levels)
-    if (.not. ranks%everywhere(k > 0)) return
+    if (.not. space%everywhere(k > 0)) return
     ! Ranks wait for each other: a thread that held the lock meanwhile might keep another one from being waited for.
-    if (ranks%is_alone()) call lock(LOCK_GRIDS)
+    if (space%is_alone()) call lock(LOCK_GRIDS)
     if (.not. allocated(self%coarser%grid(k)%operator)) call keep_coarser(self, levels, k)
     if (allocated(self%coarser%grid(k)%operator)) coarse => self%coarser%grid(k)%operator
-    if (ranks%is_alone()) call unlock(LOCK_GRIDS)
+    if (space%is_alone()) call unlock(LOCK_GRIDS)
   end subroutine kept_coarser
 
   !> Make element k of the kept grids, unless it has too few cells or memory is short.

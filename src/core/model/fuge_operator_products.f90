@@ -5,7 +5,7 @@ module fuge_operator_products
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_CALLBACK, &
     FUGE_ERR_OVERFLOW, LOWEST_STATUS
   implicit none
@@ -26,13 +26,13 @@ contains
     real(dp), intent(in) :: force(:)
     real(dp), intent(out), contiguous :: displacement(:)
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: status
 
     call operator%apply(force, displacement, status)
     call judge_product(force, displacement, status, info)
-    ranks = operator%ranks()
-    call ranks%agree(info)
+    space = operator%space()
+    call space%agree(info)
   end subroutine multiply
 
   !> As `multiply`, with the size of the terms of each displacement, `magnitude` (n), length.
@@ -41,13 +41,13 @@ contains
     real(dp), intent(in) :: force(:)
     real(dp), intent(out), contiguous :: displacement(:), magnitude(:)
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: status
 
     call operator%apply_with_magnitude(force, displacement, magnitude, status)
     call judge_product(force, displacement, status, info)
-    ranks = operator%ranks()
-    call ranks%agree(info)
+    space = operator%space()
+    call space%agree(info)
   end subroutine multiply_with_magnitude
 
   !> Count a product and report what is wrong with it.
@@ -74,7 +74,7 @@ contains
     real(dp), intent(in) :: displacement(:)
     real(dp), intent(out), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: status
 
     call operator%precondition(displacement, force, status)
@@ -85,8 +85,8 @@ contains
       call report_not_finite(displacement, 'displacement', force, 'force', 'preconditioner', info%preconditionings, &
                              info)
     end if
-    ranks = operator%ranks()
-    call ranks%agree(info)
+    space = operator%space()
+    call space%agree(info)
   end subroutine precondition
 
   !> An error of the library keeps its meaning; any other status is the operator's own.

@@ -5,7 +5,7 @@
 module fuge_operator_type
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: FUGE_DONE, FUGE_ERR_SIZE
   implicit none
   private
@@ -41,7 +41,7 @@ module fuge_operator_type
     !> The same body, but forces and displacements of a part of its cells only.
     procedure :: window => no_window
     !> The processes that share the points.
-    procedure :: ranks => no_other_ranks
+    procedure :: space => no_other_ranks
     !> Which rows of the grid each of them has.
     procedure :: first_rows => all_rows_here
   end type fuge_operator
@@ -142,11 +142,11 @@ contains
 
   !> Where ranks of MPI share the points, `points` and all arrays are those of this rank, `grid` is the whole one,
   !> and all ranks call a procedure together. Alone, as in this default, one process has them all.
-  function no_other_ranks(self) result(ranks)
+  function no_other_ranks(self) result(space)
     class(fuge_operator), intent(in) :: self
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
-    if (self%points() < 0) nullify (ranks%group)
+    if (self%points() < 0) nullify (space%group)
   end function no_other_ranks
 
   !> On the grid that is `levels` times coarser, 0 for that of this operator, rank r has the rows `first`(r) to

@@ -5,7 +5,7 @@ module fuge_certified_solution
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED
   implicit none
@@ -27,16 +27,16 @@ contains
     real(dp), intent(in) :: tolerance
     type(fuge_info), intent(inout) :: info
     type(fuge_violation) :: violation
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     call find_violation(operator, problem, solution, violation, info, enough=tolerance)
     if (info%failed()) return
-    ranks = operator%ranks()
-    info%contacts = ranks%total_count(count(abs(solution%force) > 0.0_dp))
+    space = operator%space()
+    info%contacts = space%total_count(count(abs(solution%force) > 0.0_dp))
     info%residual = violation%worst()
     if (violation%unresolved > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'the forces reach ' &
-                  //text(ranks%largest(maxval(abs(solution%force))))//' and dwarf the ' &
+                  //text(space%largest(maxval(abs(solution%force))))//' and dwarf the ' &
                   //'data: lengths are off by '//text(violation%unresolved)//' of the gaps; look for missing ' &
                   //'rigid motions, or for gaps that no forces can close or open')
     else if (info%residual > tolerance) then

@@ -98,13 +98,13 @@ contains
 
     none = .false.
     if (canonical%plain .or. canonical%has_translation) return
-    if (canonical%ranks%anywhere(any(canonical%excluded))) return
+    if (canonical%space%anywhere(any(canonical%excluded))) return
     m = size(canonical%load)
     do j = 1, m
       sums(j) = sum(canonical%modes(:, j))
       sums(m + j) = sum(abs(canonical%modes(:, j)))
     end do
-    call canonical%ranks%add(sums)
+    call canonical%space%add(sums)
     none = all(abs(sums(:m)) <= NO_RESULTANT*sums(m + 1:))
   end function equal_forces_have_no_resultant
 
@@ -124,16 +124,16 @@ contains
     logical :: complete, two_sided
     integer :: points
 
-    associate (upper => canonical%upper, ranks => canonical%ranks)
-      points = ranks%total_count(size(gap))
-      two_sided = ranks%everywhere(all(upper < huge(1.0_dp)))
-      complete = ranks%everywhere(all(state /= FUGE_OPEN))
+    associate (upper => canonical%upper, space => canonical%space)
+      points = space%total_count(size(gap))
+      two_sided = space%everywhere(all(upper < huge(1.0_dp)))
+      complete = space%everywhere(all(state /= FUGE_OPEN))
       extremes = max(maxval(abs(canonical%gap)), maxval(upper, mask=upper < huge(1.0_dp)))
       extremes(2) = max(extremes(2), maxval(abs(gap)))
-      call ranks%raise(extremes)
+      call space%raise(extremes)
       largest = extremes(1)
       sums = [sum(canonical%gap), sum(upper, mask=upper < huge(1.0_dp)), sum(upper, mask=state == FUGE_AT_UPPER_STOP)]
-      call ranks%add(sums)
+      call space%add(sums)
     end associate
     sums = sums/real(points, dp)
     rounding = ROUNDINGS*epsilon(rounding)*extremes(2)*sqrt(real(points, dp))

@@ -11,7 +11,7 @@ module fuge_product_engine
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_set_derivative, only: find_derivative_by_products
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_UNSUPPORTED
@@ -60,7 +60,7 @@ contains
     end if
     self%is_general = is_general(problem)
     self%is_prescribed = .not. (self%is_general .or. problem%is_plain())
-    if (self%is_general) call make_canonical(problem, self%canonical, info, operator%ranks())
+    if (self%is_general) call make_canonical(problem, self%canonical, info, operator%space())
     if (info%failed()) return
     call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, info)
     ! Do not retry a solve that the operator or the monitor has ended.
@@ -135,7 +135,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(canonical_problem) :: canonical
     type(fuge_problem) :: problem
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     if (self%is_general) then
       call find_derivative_by_products(operator, self%canonical, self%last%state, self%last%tolerance, gap_change, &
@@ -143,12 +143,12 @@ contains
       return
     end if
     call set_problem(0.0_dp*gap_change, 1.0_dp, problem, info)
-    ranks = operator%ranks()
-    call ranks%agree(info)
+    space = operator%space()
+    call space%agree(info)
     if (info%failed()) return
     problem%prescribed = [self%is_prescribed]
     problem%motion = [0.0_dp]
-    call make_canonical(problem, canonical, info, operator%ranks())
+    call make_canonical(problem, canonical, info, operator%space())
     if (.not. info%failed()) call find_derivative_by_products(operator, canonical, self%last%state, &
                                                               self%last%tolerance, gap_change, load_change, change, &
                                                               info)

@@ -3,7 +3,7 @@ module fuge_rim_contact
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report
   implicit none
   private
@@ -18,23 +18,23 @@ contains
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: force(:)
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer, allocatable :: rows(:)
     integer :: cells(2), count, first
 
     cells = operator%grid()
     if (.not. any(operator%free_rim())) return
-    ranks = operator%ranks()
+    space = operator%space()
     call operator%first_rows(0, rows)
-    if (ranks%anywhere(.not. allocated(rows))) return
-    associate (me => ranks%number() + lbound(rows, 1))
-      if (ranks%anywhere(size(force) /= cells(1)*(rows(me + 1) - rows(me)))) return
+    if (space%anywhere(.not. allocated(rows))) return
+    associate (me => space%number() + lbound(rows, 1))
+      if (space%anywhere(size(force) /= cells(1)*(rows(me + 1) - rows(me)))) return
       call count_rim_points(cells, operator%free_rim(), rows(me), rows(me + 1) - 1, force, count, first)
     end associate
-    count = ranks%total_count(count)
+    count = space%total_count(count)
     if (count == 0) return
     if (first == 0) first = huge(first)
-    first = int(ranks%least(real(first, dp)))
+    first = int(space%least(real(first, dp)))
     call report(info, info%status, 'the contact reaches the rim of the grid at '//text(count) &
                 //' point(s), the first is '//index_text(first) &
                 //': if the bodies do not end there, the grid is too small')

@@ -78,7 +78,8 @@ contains
   end subroutine find_derivative
 
   !> Forces (n) and free motions (m) of the set in `contact` (n), whose factor has lost digits where alpha is badly
-  !> conditioned or there are several modes: corrected once by the residuals.
+  !> conditioned or there are several modes: corrected once by the residuals. The arguments are nine, because the
+  !> datum is taken out of alpha for the residuals.
   subroutine solve_refined(canonical, alpha, datum, factor, contact, reduced_gap, load, force, motion)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in), contiguous :: alpha(:, :)

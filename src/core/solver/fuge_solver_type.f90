@@ -15,7 +15,7 @@ module fuge_solver_type
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_ITERATIVE
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, move_solution, set_problem
   use fuge_product_engine, only: product_engine
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_shared_problem, only: check_shared_problem, differ
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_OPTION
   use fuge_unloaded_contact, only: is_unloaded, solve_without_load
@@ -53,8 +53,8 @@ contains
   !> is FUGE_DONE, with a message only if the contact reaches the rim of a free grid, or the first of these warnings
   !> that is true: FUGE_WARN_RESIDUAL with the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on
   !> the points that touch, with or without force (the forces are then one of many possible), or the contact does not
-  !> resist a mode (its motion is then one of many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error, the estimated
-  !> error of the forces, is above 1e-3. Or it is an error that leaves `solution` untouched:
+  !> resist a mode (its motion is then one of many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error,
+  !> the estimated error of the forces, is above 1e-3. Or it is an error that leaves `solution` untouched:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
   !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.
@@ -69,7 +69,7 @@ contains
     type(fuge_options) :: chosen
     type(fuge_solution) :: candidate
     type(monitor_relay) :: relay
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     class(contact_engine), pointer :: engine
 
     if (present(options)) chosen = options
@@ -78,21 +78,21 @@ contains
     self%by_matrix%has_solution = .false.
     self%by_products%has_solution = .false.
     self%last_report = fuge_info()
-    ranks = operator%ranks()
+    space = operator%space()
     call check_options(chosen, info)
-    call ranks%agree(info)
+    call space%agree(info)
     if (info%failed()) return
-    if (ranks%total_count(operator%points()) < 1) then
+    if (space%total_count(operator%points()) < 1) then
       call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before the solve')
       return
     end if
     call check_problem(problem, operator%points(), info)
-    call ranks%agree(info)
-    if (.not. (ranks%is_alone() .or. info%failed())) call check_shared_problem(problem, chosen, ranks, info)
+    call space%agree(info)
+    if (.not. (space%is_alone() .or. info%failed())) call check_shared_problem(problem, chosen, space, info)
     if (info%failed()) return
 
     if (is_unloaded(problem)) then
-      call solve_without_load(problem, ranks, candidate, info)
+      call solve_without_load(problem, space, candidate, info)
       if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
     else
       engine => chosen_engine(self, operator, chosen)
@@ -199,18 +199,18 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(out) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     info = self%last_report
-    ranks = operator%ranks()
+    space = operator%space()
     if (self%solved_by_products) then
-      call check_changes(self%by_products, ranks, operator%points(), gap_change, load_change, info)
+      call check_changes(self%by_products, space, operator%points(), gap_change, load_change, info)
     else
-      call check_changes(self%by_matrix, ranks, operator%points(), gap_change, load_change, info)
+      call check_changes(self%by_matrix, space, operator%points(), gap_change, load_change, info)
     end if
-    call ranks%agree(info)
+    call space%agree(info)
     if (info%failed()) return
-    if (differ(load_change, ranks)) then
+    if (differ(load_change, space)) then
       call report(info, FUGE_ERR_OPTION, 'load_change differs between the ranks')
       return
     end if
@@ -222,16 +222,16 @@ contains
   end subroutine derivative_by_loads
 
   !> Refuse changes that fit no solution of n points.
-  subroutine check_changes(engine, ranks, n, gap_change, load_change, info)
+  subroutine check_changes(engine, space, n, gap_change, load_change, info)
     class(contact_engine), intent(in) :: engine
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     integer, intent(in) :: n
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_info), intent(inout) :: info
     integer :: all_points, points
 
     points = engine%last_points()
-    all_points = ranks%total_count(points)
+    all_points = space%total_count(points)
     if (.not. engine%has_solution .or. all_points < 1) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
     else if (size(gap_change) /= n .or. points /= n) then

@@ -3,7 +3,7 @@ module fuge_unloaded_contact
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -22,9 +22,9 @@ contains
   end function is_unloaded
 
   !> The limit of a vanishing load: the bodies just touch at the smallest gap.
-  subroutine solve_without_load(problem, ranks, solution, info)
+  subroutine solve_without_load(problem, space, solution, info)
     type(fuge_problem), intent(in) :: problem
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     integer :: stat
@@ -32,10 +32,10 @@ contains
     allocate (solution%force(problem%points()), solution%gap(problem%points()), solution%motion(1), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(problem%points()) &
                                //' points')
-    call ranks%agree(info)
+    call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     solution%force = 0.0_dp
-    solution%motion = ranks%least(minval(problem%gap))
+    solution%motion = space%least(minval(problem%gap))
     solution%gap = problem%gap - solution%motion(1)
   end subroutine solve_without_load
 

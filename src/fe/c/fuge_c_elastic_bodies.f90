@@ -209,6 +209,7 @@ contains
     status = report_change(info, handle)
   end function c_bodies_set_rigid_modes
 
+  !> The arguments are nine, as in the header: the handle, the body, its surface.
   function c_bodies_set_contact(bodies, body, dimensions, nodes, node, most, faces, face, dof) &
     bind(c, name='fuge_bodies_set_contact') result(status)
     type(c_ptr), intent(in), value :: bodies, node, face, dof
@@ -225,6 +226,7 @@ contains
     status = report_to_bodies(info, handle)
   end function c_bodies_set_contact
 
+  !> The arguments are nine, as in the header: the handle, the body, its surface.
   function c_bodies_set_opposite(bodies, body, dimensions, nodes, node, most, faces, face, dof) &
     bind(c, name='fuge_bodies_set_opposite') result(status)
     type(c_ptr), intent(in), value :: bodies, node, face, dof

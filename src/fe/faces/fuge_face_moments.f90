@@ -226,7 +226,8 @@ contains
   end subroutine add_point
 
   !> Add what is special to smooth surfaces, with the `values` of N'. Returns the unit normal of the opposite one, and
-  !> `weight`, the area of the smooth surface.
+  !> `weight`, the area of the smooth surface. The arguments are nine, because a point of integration has a place on
+  !> either face.
   pure subroutine add_smooth_point(face, opposite, place, facing, area, values, moments, normal, weight)
     type(face_nodes), intent(in) :: face, opposite
     real(dp), intent(in) :: place(2), facing(2), area, values(MOST_NODES)

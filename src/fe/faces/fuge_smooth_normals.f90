@@ -264,7 +264,8 @@ contains
     end do
   end subroutine continue_borders
 
-  !> Sides, unit vectors, that lead from corner `k` of face `f` to where the normal is known, and that normal.
+  !> Sides, unit vectors, that lead from corner `k` of face `f` to where the normal is known, and that normal. The
+  !> arguments are nine, because both known normals and their sides are results.
   pure subroutine find_sides(surface, around, data, f, k, stage, sides, others, count)
     type(fuge_surface_mesh), intent(in) :: surface
     type(node_faces), intent(in) :: around

@@ -289,7 +289,8 @@ contains
   end subroutine fill_point
 
   !> How the gap of node `i` along `direction` depends on the degrees of freedom. `place`, zeros, is left as it was.
-  !> `resultant`: how it depends on a translation of the opposite surface, `direction` but for smooth bodies.
+  !> `resultant`: how it depends on a translation of the opposite surface, `direction` but for smooth bodies. The
+  !> arguments are nine, because a row is filled from both surfaces into arrays of the caller.
   pure subroutine fill_row(contact, opposite, draft, i, direction, place, dof, normal, resultant)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(pair_draft), intent(in) :: draft
@@ -319,7 +320,8 @@ contains
   end subroutine fill_row
 
   !> Add the terms of the nodes of one surface, with weights along `direction` and along each axis; a degree of freedom
-  !> that both bodies share comes once.
+  !> that both bodies share comes once. The arguments are nine, because the row and its places are arrays of the
+  !> caller.
   pure subroutine add_terms(surface, nodes, weight, axes, direction, place, used, dof, normal)
     type(fuge_surface_mesh), intent(in) :: surface
     integer, intent(in) :: nodes(:)

@@ -60,7 +60,8 @@ contains
     end do
   end subroutine pair_faces
 
-  !> The parts of face `f` that have an opposite, `parts(:count)`.
+  !> The parts of face `f` that have an opposite, `parts(:count)`. The arguments are nine, because the work space of
+  !> all faces is the caller's.
   pure subroutine find_parts(contact, opposite, faces, f, near, parts, count, alike, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(opposite_faces), intent(in) :: faces
@@ -112,7 +113,8 @@ contains
     if (covered < SMALLEST_PART*whole) count = 0
   end subroutine find_parts
 
-  !> Add the common parts of one face and one opposite.
+  !> Add the common parts of one face and one opposite. The arguments are ten, because a common part is known from
+  !> both faces and their frame.
   pure subroutine add_parts(other, number, reach, face, direction, frame, own, parts, count, stat)
     type(face_nodes), intent(in) :: other, face
     integer, intent(in) :: number
@@ -260,7 +262,8 @@ contains
 
   !> Add the weights of one opposite face to those of the nodes of a face. `along` are the normals of the smooth surface
   !> at these nodes. Between `smooth` surfaces the gap is along the normal at each place if the normals are `turning`,
-  !> else along one direction for each node.
+  !> else along one direction for each node. The arguments are eleven, because weights depend on the nodes, on the
+  !> faces and on three choices of the method.
   pure subroutine add_part(nodes, along, opposite, f, coefficient, positive, smooth, turning, moments, draft, stat)
     integer, intent(in) :: nodes(:), f
     real(dp), intent(in) :: along(:, :)

@@ -51,7 +51,8 @@ contains
     draft%weight = max(draft%weight, 0.0_dp)
   end subroutine pair_nodes
 
-  !> Find the nearest face along the normal of node `i`, which belongs to face `f`.
+  !> Find the nearest face along the normal of node `i`, which belongs to face `f`. The arguments are ten, because the
+  !> work space of all nodes is the caller's.
   pure subroutine pair_node(contact, opposite, faces, f, i, normal, along_face, near, draft, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(opposite_faces), intent(in) :: faces
@@ -91,7 +92,7 @@ contains
     call add_pair(opposite, faces, i, best_face, best_place, x, normal, along_face, draft, stat)
   end subroutine pair_node
 
-  !> Enter a node and the place across from it.
+  !> Enter a node and the place across from it. The arguments are ten, because they are all that is known of a pair.
   pure subroutine add_pair(opposite, faces, i, f, place, x, normal, along_face, draft, stat)
     type(fuge_surface_mesh), intent(in) :: opposite
     type(opposite_faces), intent(in) :: faces

@@ -11,6 +11,7 @@ module fuge_c_mesh_rows
 
 contains
 
+  !> The arguments are nine, as in the header: the mesh, the rows of the matrix, the result, the message.
   function c_mesh_get_surface_dof(handle, name, dimensions, rows, node, direction, dof, message, length) &
     bind(c, name='fuge_mesh_get_surface_dof') result(status)
     type(c_ptr), intent(in), value :: handle, name, node, direction, dof, message
@@ -30,6 +31,7 @@ contains
     status = report_to_c(info, message, length)
   end function c_mesh_get_surface_dof
 
+  !> The arguments are eleven, as in the header: the mesh, the rows of the matrix, the result, the message.
   function c_mesh_get_set_dof(handle, name, along, rows, node, direction, capacity, dof, number, message, length) &
     bind(c, name='fuge_mesh_get_set_dof') result(status)
     type(c_ptr), intent(in), value :: handle, name, node, direction, dof, number, message
@@ -53,7 +55,7 @@ contains
     status = report_to_c(info, message, length)
   end function c_mesh_get_set_dof
 
-  !> What both functions are given.
+  !> What both functions are given. The arguments are nine, because each pointer has an array that it stands for.
   subroutine find_arguments(handle, name, rows, node, direction, mesh, nodes, directions, info)
     type(c_ptr), intent(in) :: handle, name, node, direction
     integer(c_int), intent(in) :: rows

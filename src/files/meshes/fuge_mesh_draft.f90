@@ -170,7 +170,8 @@ contains
     end do
   end subroutine finish_sets
 
-  !> Places of the members of set k; `owner` is k where a member is in it already.
+  !> Places of the members of set k; `owner` is k where a member is in it already. The arguments are nine, because the
+  !> work space of all sets is the caller's.
   pure subroutine finish_set(draft, table, from, what, k, owner, set, info, status)
     type(mesh_draft), intent(in) :: draft
     type(row_table), intent(in) :: table

@@ -12,7 +12,7 @@ module fuge_line_halfplane
   use fuge_memory, only: check_memory
   use fuge_operator_type, only: fuge_operator
   use fuge_rank_communicator, only: free_communicator, members_here, rank_communicator, split_communicator
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_shared_operator, only: owns, shared_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
   use mpi_f08, only: MPI_Comm
@@ -281,11 +281,11 @@ contains
     class(fuge_mpi_halfplane_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
-    ranks = self%ranks()
-    magnitude = max(ranks%largest(maxval(abs(displacement))), &
-                    least_magnitude(self%line, ranks%total(sum(abs(force)))))
+    space = self%space()
+    magnitude = max(space%largest(maxval(abs(displacement))), &
+                    least_magnitude(self%line, space%total(sum(abs(force)))))
   end subroutine line_magnitude
 
   !> As that of `fuge_halfplane_operator`. All ranks call it; `status` as for `apply`.

@@ -7,7 +7,7 @@ module fuge_slab_files
   use, intrinsic :: iso_fortran_env, only: int8
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_shared_operator, only: shared_operator
   use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use mpi_f08, only: MPI_Bcast, MPI_File, MPI_File_close, MPI_File_open, MPI_File_read_at, MPI_File_read_at_all, &
@@ -41,32 +41,32 @@ contains
     real(dp), allocatable, intent(inout) :: values(:)
     type(fuge_info), intent(out) :: info
     real(dp), allocatable :: rows(:)
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     type(MPI_File) :: file
     type(MPI_Status) :: status
     integer :: begin, count, error, stat
 
     call require_grid(operator, info)
     if (info%failed()) return
-    ranks = operator%ranks()
+    space = operator%space()
     allocate (rows(operator%points()), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(operator%points())//' values')
-    call ranks%agree(info)
+    call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    call require_file(path, 'read', 'cannot be opened', ranks, info)
+    call require_file(path, 'read', 'cannot be opened', space, info)
     if (info%failed()) return
     call MPI_File_open(operator%comm(), path, MPI_MODE_RDONLY, MPI_INFO_NULL, file, error)
     if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be opened')
-    call ranks%agree(info)
+    call space%agree(info)
     if (info%failed()) return
     call read_header(path, file, operator, begin, info)
-    call ranks%agree(info)
+    call space%agree(info)
     if (.not. info%failed()) then
       call MPI_File_read_at_all(file, place_of(operator, begin), rows, size(rows), MPI_DOUBLE_PRECISION, status, error)
       count = -1
       if (error == MPI_SUCCESS) call MPI_Get_count(status, MPI_DOUBLE_PRECISION, count)
       if (count /= size(rows)) call report(info, FUGE_ERR_FILE, path//' ends too early')
-      call ranks%agree(info)
+      call space%agree(info)
     end if
     call MPI_File_close(file, error)
     if (.not. info%failed()) call move_alloc(rows, values)
@@ -79,43 +79,43 @@ contains
     class(shared_operator), intent(in) :: operator
     real(dp), intent(in), contiguous :: values(:)
     type(fuge_info), intent(out) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     type(MPI_File) :: file
     integer :: closed, error, cells(2)
 
     call require_grid(operator, info)
     if (info%failed()) return
-    ranks = operator%ranks()
+    space = operator%space()
     if (size(values) /= operator%points()) call report(info, FUGE_ERR_SIZE, text(size(values))//' value(s): the rows ' &
                                                        //'of this rank have '//text(operator%points()))
-    call ranks%agree(info)
+    call space%agree(info)
     if (info%failed()) return
-    if (ranks%number() == 0) call create_file(path, info)
-    call ranks%agree(info)
-    if (.not. info%failed()) call require_file(path, 'write', 'cannot be opened for writing', ranks, info)
+    if (space%number() == 0) call create_file(path, info)
+    call space%agree(info)
+    if (.not. info%failed()) call require_file(path, 'write', 'cannot be opened for writing', space, info)
     if (info%failed()) return
     call MPI_File_open(operator%comm(), path, ior(MPI_MODE_CREATE, MPI_MODE_WRONLY), MPI_INFO_NULL, file, error)
     if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be opened for writing')
-    call ranks%agree(info)
+    call space%agree(info)
     if (info%failed()) return
     cells = operator%grid()
     call MPI_File_set_size(file, HEADER + 8_MPI_OFFSET_KIND*cells(1)*cells(2), error)
-    if (error == MPI_SUCCESS .and. ranks%number() == 0) then
+    if (error == MPI_SUCCESS .and. space%number() == 0) then
       call MPI_File_write_at(file, 0_MPI_OFFSET_KIND, header_of(cells), HEADER, MPI_CHARACTER, MPI_STATUS_IGNORE, error)
     end if
     if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be written')
-    call ranks%agree(info)
+    call space%agree(info)
     if (.not. info%failed()) then
       call MPI_File_write_at_all(file, place_of(operator, HEADER), values, size(values), MPI_DOUBLE_PRECISION, &
                                  MPI_STATUS_IGNORE, error)
       if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be written: is the disk full?')
-      call ranks%agree(info)
+      call space%agree(info)
     end if
     call MPI_File_close(file, closed)
     if (closed /= MPI_SUCCESS .and. .not. info%failed()) then
       call report(info, FUGE_ERR_FILE, path//' cannot be closed: is the disk full?')
     end if
-    call ranks%agree(info)
+    call space%agree(info)
   end subroutine fuge_mpi_write_rows
 
   !> Create the file, unless it exists.
@@ -131,16 +131,16 @@ contains
 
   !> Refuse a file that a rank cannot open for this `action` (FUGE_ERR_FILE, on all ranks): where some can and some
   !> cannot, MPI_File_open would wait without end.
-  subroutine require_file(path, action, reason, ranks, info)
+  subroutine require_file(path, action, reason, space, info)
     character(len=*), intent(in) :: path, action, reason
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     type(fuge_info), intent(inout) :: info
     integer :: status, unit
 
     open (newunit=unit, file=path, status='old', action=action, access='stream', iostat=status)
     if (status == 0) close (unit, iostat=status)
     if (status /= 0) call report(info, FUGE_ERR_FILE, path//' '//reason)
-    call ranks%agree(info)
+    call space%agree(info)
   end subroutine require_file
 
   subroutine require_grid(operator, info)
@@ -204,12 +204,12 @@ contains
     integer, intent(out) :: begin
     type(fuge_info), intent(inout) :: info
     character(len=LONGEST_HEADER) :: bytes
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: error
 
-    ranks = operator%ranks()
+    space = operator%space()
     begin = 0
-    if (ranks%number() == 0) then
+    if (space%number() == 0) then
       bytes = ' '
       call MPI_File_read_at(file, 0_MPI_OFFSET_KIND, bytes, len(bytes), MPI_CHARACTER, MPI_STATUS_IGNORE, error)
       if (error /= MPI_SUCCESS) then

@@ -7,7 +7,7 @@ module fuge_slab_halfspace
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_shared_operator, only: owns, shared_operator
   use fuge_slab_parts, only: prepare_parts, slab_parts
   use fuge_slab_rows, only: rows_of_ranks => first_rows
@@ -202,11 +202,11 @@ contains
     class(fuge_mpi_halfspace_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
-    ranks = self%ranks()
-    magnitude = max(ranks%largest(maxval(abs(displacement))), &
-                    least_magnitude(self%surface, ranks%total(sum(abs(force)))))
+    space = self%space()
+    magnitude = max(space%largest(maxval(abs(displacement))), &
+                    least_magnitude(self%surface, space%total(sum(abs(force)))))
   end subroutine slab_magnitude
 
   !> As that of `fuge_halfspace_operator`. All ranks call it; `status` as for `apply`.

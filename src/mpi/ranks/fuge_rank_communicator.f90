@@ -2,7 +2,7 @@
 module fuge_rank_communicator
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_ranks, only: rank_group
+  use fuge_point_space, only: rank_group
   use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_MESSAGE_LENGTH
   use mpi_f08, only: MPI_Allreduce, MPI_Alltoallv, MPI_Bcast, MPI_Comm, MPI_Comm_dup, MPI_Comm_free, MPI_Comm_rank, &
     MPI_Comm_size, MPI_Comm_split, MPI_Comm_split_type, MPI_Finalized, MPI_Initialized, operator(/=), MPI_CHARACTER, &

@@ -6,7 +6,7 @@ module fuge_shared_operator
   use fuge_kinds, only: dp
   use fuge_rank_communicator, only: check_mpi, free_communicator, new_communicator, rank_communicator
   use fuge_number_text, only: text
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_shared_problem, only: differ
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED
   use mpi_f08, only: MPI_Comm
@@ -27,7 +27,7 @@ module fuge_shared_operator
     procedure(find_rows), deferred :: own_rows
     procedure :: set_threads
     procedure :: comm
-    procedure :: ranks
+    procedure :: space
     procedure :: apply_with_magnitude
     procedure :: join
     procedure :: take_group
@@ -114,7 +114,7 @@ contains
 
     call self%group%agree(info)
     if (info%failed()) return
-    if (differ(numbers, self%ranks())) then
+    if (differ(numbers, self%space())) then
       call report(info, FUGE_ERR_OPTION, 'the grid differs between the ranks: pass the same '//which &
                   //' and options on all of them')
     end if
@@ -139,23 +139,23 @@ contains
   end function comm
 
   !> The ranks of the communicator; where it has one, that is alone.
-  function ranks(self)
+  function space(self)
     class(shared_operator), intent(in) :: self
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     if (.not. associated(self%group)) return
-    if (self%group%members() > 1) ranks%group => self%group
-  end function ranks
+    if (self%group%members() > 1) space%group => self%group
+  end function space
 
   !> Did an allocation succeed on all ranks?
   function agreed(self, stat)
     class(shared_operator), intent(in) :: self
     integer, intent(in) :: stat
     logical :: agreed
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
-    ranks = self%ranks()
-    agreed = ranks%everywhere(stat == 0)
+    space = self%space()
+    agreed = space%everywhere(stat == 0)
   end function agreed
 
   !> As for `fuge_operator`. All ranks decide together whether the product is finite.
@@ -164,13 +164,13 @@ contains
     real(dp), intent(in) :: force(:)
     real(dp), intent(out) :: displacement(:), magnitude(:)
     integer, intent(out) :: status
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     magnitude = 0.0_dp
-    ranks = self%ranks()
+    space = self%space()
     call self%apply(force, displacement, status)
-    if (.not. ranks%everywhere(status == FUGE_DONE)) return
-    if (ranks%everywhere(is_finite_everywhere(displacement))) call self%magnitude(force, displacement, magnitude)
+    if (.not. space%everywhere(status == FUGE_DONE)) return
+    if (space%everywhere(is_finite_everywhere(displacement))) call self%magnitude(force, displacement, magnitude)
   end subroutine apply_with_magnitude
 
 end module fuge_shared_operator

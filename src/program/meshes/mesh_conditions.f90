@@ -203,7 +203,8 @@ contains
   end subroutine split_path
 
   !> One line of a table: nodes, axes and a value. Nodes are of `body`, if it is not empty. `of_deck`: from an input
-  !> file, where supports have a first and a last direction. The first line of a table may be a heading.
+  !> file, where supports have a first and a last direction. The first line of a table may be a heading. The arguments
+  !> are nine, because tables of options and of input files share it.
   subroutine take_line(line, place, body, is_load, of_deck, is_first, bodies, supports, info)
     character(len=*), intent(in) :: line, place, body
     logical, intent(in) :: is_load, of_deck, is_first

@@ -110,7 +110,8 @@ contains
                                      int(plane_state), model%px, model%pz, components, info, symmetric)
   end subroutine fill_displacement
 
-  !> The arrays behind pointers, none of which may be NULL.
+  !> The arrays behind pointers, none of which may be NULL. The arguments are nine, because each pointer has an array
+  !> that it stands for.
   subroutine find_arrays(n, x, width, force, points, px, pz, model, info)
     integer(c_int), intent(in) :: n, points
     type(c_ptr), intent(in) :: x, width, force, px, pz

@@ -116,7 +116,8 @@ contains
     if (.not. info%failed()) cells = int(nx)*int(ny)
   end function cells_of
 
-  !> The arrays behind pointers, none of which may be NULL; `cells` is valid unless an error is known already.
+  !> The arrays behind pointers, none of which may be NULL; `cells` is valid unless an error is known already. The
+  !> arguments are nine, because each pointer has an array that it stands for.
   subroutine find_arrays(cells, force, depths, depth, field, name, components, arrays, info)
     integer, intent(in) :: cells, components
     integer(c_int), intent(in) :: depths

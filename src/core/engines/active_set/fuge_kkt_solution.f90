@@ -227,7 +227,8 @@ contains
   end subroutine list_points
 
   !> Residuals of the gaps (n), at the `points` of the contact only, and of equilibrium (m). `high`, `low` and `column`
-  !> are work space as long as `points`.
+  !> are work space as long as `points`. The arguments are twelve, because three of them are work space that the
+  !> caller keeps.
   pure subroutine find_residual(canonical, gap, gap_rounding, regularisation, points, force, motion, high, low, &
                                 column, residual, missing)
     type(canonical_problem), intent(in) :: canonical

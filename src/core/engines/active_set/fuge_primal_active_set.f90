@@ -9,7 +9,7 @@ module fuge_primal_active_set
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_kkt_factor, only: kkt_factor
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
@@ -61,7 +61,7 @@ contains
       previous = force
       if (any(is_tensile(solution%force, rounding, solution%state, tied))) then
         call step_to_blocking(solution%force, rounding, tied, solution%state, force, newest, locked, &
-                              shared_ranks())
+                              point_space())
       else
         force = solution%force
         if (newest > 0) locked = locked .and. locked(newest)

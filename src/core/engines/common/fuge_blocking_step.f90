@@ -3,7 +3,7 @@
 module fuge_blocking_step
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   implicit none
   private
 
@@ -39,16 +39,16 @@ contains
   !> whose target is tensile joined by rounding: it is locked out until the forces have changed.
   !>
   !> All (n). Forces up to `noise` >= 0 are rounding; `tied` points may pull; `state` and `force` of the working
-  !> set; `newest` the point that has just joined, or 0; `locked` points must not join again. `ranks` may share the
+  !> set; `newest` the point that has just joined, or 0; `locked` points must not join again. `space` may share the
   !> points: then one of them has the newest point, and one that which opens.
-  subroutine step_to_blocking(target, noise, tied, state, force, newest, locked, ranks)
+  subroutine step_to_blocking(target, noise, tied, state, force, newest, locked, space)
     real(dp), intent(in) :: target(:), noise(:)
     logical, intent(in) :: tied(:)
     integer, intent(inout) :: state(:)
     logical, intent(inout) :: locked(:)
     real(dp), intent(inout) :: force(:)
     integer, intent(in) :: newest
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp) :: owner(1), step_length
     integer :: k
 
@@ -58,14 +58,14 @@ contains
         if (.not. abs(force(newest)) > 0.0_dp) k = newest
       end if
     end if
-    if (ranks%anywhere(k > 0)) then
+    if (space%anywhere(k > 0)) then
       if (k > 0) locked(k) = .true.
     else
       call find_blocking(force, target, is_tensile(target, noise, state, tied), step_length, k)
-      owner = real(ranks%number(), dp)
-      call ranks%take_from_least(merge(step_length, huge(step_length), k > 0), owner)
-      step_length = ranks%least(step_length)
-      if (abs(owner(1) - real(ranks%number(), dp)) > 0.0_dp) k = 0
+      owner = real(space%number(), dp)
+      call space%take_from_least(merge(step_length, huge(step_length), k > 0), owner)
+      step_length = space%least(step_length)
+      if (abs(owner(1) - real(space%number(), dp)) > 0.0_dp) k = 0
       where (state /= FUGE_OPEN) force = force + step_length*(target - force)
       where (.not. tied) force = real(state, dp)*max(state*force, 0.0_dp)
     end if

@@ -12,7 +12,7 @@ module fuge_canonical_problem
   use fuge_number_text, only: index_text, text
   use fuge_orthogonal_modes, only: bodies_of_modes, make_orthogonal, mode_change, mode_fault
   use fuge_problem_type, only: fuge_problem
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_shared_equilibrium, only: find_shared_equilibrium, move_to_edge
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_UNSUPPORTED
@@ -46,7 +46,7 @@ module fuge_canonical_problem
     !> The paper's problem: one translation, one-sided, all points.
     logical :: plain = .false.
     !> The ranks that share the points; the arrays are those of this one.
-    type(shared_ranks) :: ranks = shared_ranks()
+    type(point_space) :: space = point_space()
     !> Number of the body of each point, (n), 0 for a point that no mode moves; not allocated for one body.
     integer, allocatable, private :: body(:)
     !> Positions of the free modes among all, and how to get from `modes` to those given.
@@ -84,10 +84,10 @@ contains
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(out) :: canonical
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks), intent(in), optional :: sharing
+    type(point_space), intent(in), optional :: sharing
     integer :: j, n, m, stat
 
-    if (present(sharing)) canonical%ranks = sharing
+    if (present(sharing)) canonical%space = sharing
     n = problem%points()
     canonical%plain = problem%is_plain()
     allocate (canonical%gap(n), canonical%upper(n), canonical%excluded(n), stat=stat)
@@ -105,7 +105,7 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
     end if
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call allocate_rows(problem, canonical, info)
     if (info%failed()) return
@@ -149,7 +149,7 @@ contains
               stat=stat)
     if (stat == 0 .and. allocated(problem%prescribed)) allocate (canonical%prescribed_modes(n, m), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
   end subroutine allocate_rows
 
   !> Subtract the displacements by the prescribed motions from the gaps.
@@ -197,13 +197,13 @@ contains
 
     allocate (columns(size(modes, 1), size(canonical%free)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(size(modes, 1))//' points')
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     do j = 1, size(canonical%free)
       columns(:, j) = modes(:, canonical%free(j))
     end do
     call make_orthogonal(columns, canonical%excluded, canonical%modes, canonical%change, canonical%has_translation, &
-                         fault, canonical%ranks)
+                         fault, canonical%space)
     if (fault%stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
     else if (fault%idle > 0) then
@@ -404,19 +404,19 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium')
     end if
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     canonical%feasible_force = 0.0_dp
     if (size(canonical%load) < 1) return
-    if (canonical%ranks%everywhere(all(canonical%excluded))) then
+    if (canonical%space%everywhere(all(canonical%excluded))) then
       ! Without a load too: gaps could not be counted from any point.
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'all points are excluded: nothing resists the free motions; ' &
                   //'prescribe them, or let points take part')
       return
     end if
     call canonical%change%orthogonal_load(problem%resultant(canonical%free), canonical%load, rounding)
-    body = bodies_of_modes(canonical%modes, canonical%ranks)
-    if (any(body > 1) .and. .not. canonical%ranks%is_alone()) then
+    body = bodies_of_modes(canonical%modes, canonical%space)
+    if (any(body > 1) .and. .not. canonical%space%is_alone()) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'mode '//index_text(canonical%free(maxloc(body, dim=1)))//' moves no ' &
                   //'point that mode '//index_text(canonical%free(1))//' moves: ranks share one body, so solve each ' &
                   //'body by itself, or all of them on one rank')
@@ -431,7 +431,7 @@ contains
     if (any(abs(remainder) > 0.0_dp)) then
       call report_no_equilibrium(problem, canonical%free, canonical%change, canonical%excluded, &
                                  any(canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded), remainder, &
-                                 canonical%ranks, info)
+                                 canonical%space, info)
     end if
   end subroutine require_equilibrium
 
@@ -466,7 +466,7 @@ contains
     n = size(canonical%gap)
     allocate (modes(n, size(columns)), force(n), pushes(n), pulls(n), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium of '//text(n)//' points')
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     columns = pack([(j, j=1, size(member))], member)
     modes = canonical%modes(:, columns)
@@ -476,12 +476,12 @@ contains
     pulls = pushes .and. canonical%upper < huge(1.0_dp)
     ! The orthogonal modes of a body share their rounding.
     noise = max(rounding(columns), epsilon(noise)*maxval(abs(canonical%load(columns))))
-    call find_shared_equilibrium(canonical%ranks, modes, canonical%load(columns), pushes, pulls, force, rest, noise)
+    call find_shared_equilibrium(canonical%space, modes, canonical%load(columns), pushes, pulls, force, rest, noise)
     if (any(abs(rest) > 0.0_dp)) then
       remainder(columns) = rest
       return
     end if
-    call move_to_edge(canonical%ranks, modes, noise, canonical%load, columns, force, info)
+    call move_to_edge(canonical%space, modes, noise, canonical%load, columns, force, info)
     if (.not. info%failed()) canonical%feasible_force = canonical%feasible_force + force
   end subroutine balance_body
 

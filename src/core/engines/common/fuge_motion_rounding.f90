@@ -8,7 +8,7 @@ module fuge_motion_rounding
   use fuge_data_scales, only: is_prescribed
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   implicit none
   private
 
@@ -21,31 +21,31 @@ contains
   !> share the points.
   function exact_modes(problem, sharing) result(exact)
     type(fuge_problem), intent(in) :: problem
-    type(shared_ranks), intent(in), optional :: sharing
+    type(point_space), intent(in), optional :: sharing
     logical :: exact(problem%mode_count())
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     real(dp) :: extremes(2)
     integer :: j, k
 
     exact = .true.
     if (.not. allocated(problem%modes)) return
-    if (present(sharing)) ranks = sharing
+    if (present(sharing)) space = sharing
     do j = 1, size(exact)
       associate (mode => problem%modes(:, j))
         extremes = [maxval(mode, mask=abs(mode) > 0.0_dp), -minval(mode, mask=abs(mode) > 0.0_dp)]
       end associate
-      call ranks%raise(extremes)
+      call space%raise(extremes)
       exact(j) = extremes(1) <= -extremes(2)
       do k = 1, size(exact)
-        if (k /= j .and. exact(j)) exact(j) = is_constant_beside(problem%modes(:, j), problem%modes(:, k), ranks)
+        if (k /= j .and. exact(j)) exact(j) = is_constant_beside(problem%modes(:, j), problem%modes(:, k), space)
       end do
     end do
   end function exact_modes
 
   !> Does a mode move either no point that the `other` one moves, or all of them?
-  function is_constant_beside(mode, other, ranks) result(constant)
+  function is_constant_beside(mode, other, space) result(constant)
     real(dp), intent(in) :: mode(:), other(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     logical :: constant
     real(dp) :: found(2)
     integer :: k
@@ -54,7 +54,7 @@ contains
     do k = 1, size(mode)
       if (abs(other(k)) > 0.0_dp) found(merge(1, 2, abs(mode(k)) > 0.0_dp)) = 1.0_dp
     end do
-    call ranks%raise(found)
+    call space%raise(found)
     constant = .not. all(found > 0.0_dp)
   end function is_constant_beside
 
@@ -80,7 +80,7 @@ contains
     type(fuge_problem), intent(in) :: problem
     logical, intent(in) :: exact(:)
     real(dp), intent(in) :: force(:)
-    type(shared_ranks), intent(in), optional :: sharing
+    type(point_space), intent(in), optional :: sharing
     real(dp) :: load(size(exact))
     integer :: j
 

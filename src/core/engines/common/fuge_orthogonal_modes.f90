@@ -6,7 +6,7 @@ module fuge_orthogonal_modes
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgesv
   use fuge_pivoted_qr, only: orthonormalise, orthonormalise_in_order
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_shared_columns, only: orthonormalise_shared, swap_columns
   implicit none
   private
@@ -61,23 +61,23 @@ contains
     type(mode_change), intent(out) :: change
     logical, intent(out) :: has_translation
     type(mode_fault), intent(out) :: fault
-    type(shared_ranks), intent(in), optional :: sharing
-    type(shared_ranks) :: ranks
+    type(point_space), intent(in), optional :: sharing
+    type(point_space) :: space
     real(dp), allocatable :: scaled(:, :)
     integer :: body(size(columns, 2)), j, m
 
-    if (present(sharing)) ranks = sharing
+    if (present(sharing)) space = sharing
     m = size(columns, 2)
     has_translation = .false.
     modes = 0.0_dp
     allocate (change%coefficients(m, m), change%units(m), scaled(size(columns, 1), m), stat=fault%stat)
-    call share_fault(ranks, fault)
+    call share_fault(space, fault)
     if (fault%stat /= 0) return
     do j = 1, m
       scaled(:, j) = merge(0.0_dp, columns(:, j), excluded)
       change%units(j) = maxval(abs(scaled(:, j)))
     end do
-    call ranks%raise(change%units)
+    call space%raise(change%units)
     if (any(.not. change%units > 0.0_dp)) then
       fault%idle = minloc(change%units, dim=1)
       return
@@ -86,32 +86,32 @@ contains
       scaled(:, j) = scaled(:, j)/change%units(j)
     end do
     change%coefficients = 0.0_dp
-    if (is_orthogonal(scaled, ranks)) then
-      call keep_modes(scaled, excluded, ranks, modes, change%coefficients, has_translation)
+    if (is_orthogonal(scaled, space)) then
+      call keep_modes(scaled, excluded, space, modes, change%coefficients, has_translation)
       return
     end if
-    body = bodies_of_modes(scaled, ranks)
+    body = bodies_of_modes(scaled, space)
     do j = 1, m
       if (body(j) == j) then
-        call orthogonalise_body(columns, excluded, ranks, body == j, modes, change, has_translation, fault)
+        call orthogonalise_body(columns, excluded, space, body == j, modes, change, has_translation, fault)
       end if
       if (fault%found()) return
     end do
   end subroutine make_orthogonal
 
   !> No rank has memory where one has none.
-  subroutine share_fault(ranks, fault)
-    type(shared_ranks), intent(in) :: ranks
+  subroutine share_fault(space, fault)
+    type(point_space), intent(in) :: space
     type(mode_fault), intent(inout) :: fault
 
-    if (ranks%anywhere(fault%stat /= 0)) fault%stat = 1
+    if (space%anywhere(fault%stat /= 0)) fault%stat = 1
   end subroutine share_fault
 
   !> The modes of one body among the given ones (n, m), marked in `member` (m).
-  subroutine orthogonalise_body(given, excluded, ranks, member, modes, change, has_translation, fault)
+  subroutine orthogonalise_body(given, excluded, space, member, modes, change, has_translation, fault)
     real(dp), intent(in) :: given(:, :)
     logical, intent(in) :: excluded(:), member(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp), intent(inout) :: modes(:, :)
     type(mode_change), intent(inout) :: change
     logical, intent(inout) :: has_translation
@@ -121,24 +121,24 @@ contains
     integer :: columns(count(member)), constant, j
 
     allocate (own(size(given, 1), size(columns)), stat=fault%stat)
-    call share_fault(ranks, fault)
+    call share_fault(space, fault)
     if (fault%stat /= 0) return
     columns = pack([(j, j=1, size(member))], member)
     do j = 1, size(columns)
       own(:, j) = merge(0.0_dp, given(:, columns(j)), excluded)
     end do
-    call find_datum(own, ranks, constant, datum)
+    call find_datum(own, space, constant, datum)
     sense = 1.0_dp
     if (constant > 0) then
       do j = 1, size(columns)
         where (abs(own(:, constant)) > 0.0_dp) own(:, j) = own(:, j) - datum(j)
       end do
-      if (ranks%anywhere(any(own(:, constant) < 0.0_dp))) sense = -1.0_dp
+      if (space%anywhere(any(own(:, constant) < 0.0_dp))) sense = -1.0_dp
     end if
     do j = 1, size(columns)
       own(:, j) = own(:, j)/change%units(columns(j))
     end do
-    call orthogonalise_columns(own, excluded, ranks, columns, modes, coefficients, has_translation, fault)
+    call orthogonalise_columns(own, excluded, space, columns, modes, coefficients, has_translation, fault)
     if (fault%found()) return
     do j = 1, size(columns)
       ! The constant is 1 or -1 in its own unit.
@@ -149,10 +149,10 @@ contains
   end subroutine orthogonalise_body
 
   !> `own` (n, k), the modes of one body, as basis*coefficients (k, k); the basis becomes the `columns` (k) of `modes`.
-  subroutine orthogonalise_columns(own, excluded, ranks, columns, modes, coefficients, has_translation, fault)
+  subroutine orthogonalise_columns(own, excluded, space, columns, modes, coefficients, has_translation, fault)
     real(dp), intent(in) :: own(:, :)
     logical, intent(in) :: excluded(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     integer, intent(in) :: columns(:)
     real(dp), intent(inout) :: modes(:, :)
     real(dp), intent(out) :: coefficients(:, :)
@@ -164,19 +164,19 @@ contains
 
     coefficients = 0.0_dp
     allocate (basis, source=own, stat=fault%stat)
-    call share_fault(ranks, fault)
+    call share_fault(space, fault)
     if (fault%stat /= 0) return
-    if (ranks%is_alone()) then
+    if (space%is_alone()) then
       call orthonormalise(basis, DEPENDENT, order, rank, fault%stat)
     else
-      call orthonormalise_shared(ranks, basis, DEPENDENT, .true., order, rank)
+      call orthonormalise_shared(space, basis, DEPENDENT, .true., order, rank)
     end if
     if (fault%stat /= 0) return
     if (rank < size(columns)) then
       fault%dependent = columns(order(rank + 1))
       return
     end if
-    call replace_by_constant(basis, excluded, ranks, replaced)
+    call replace_by_constant(basis, excluded, space, replaced)
     if (replaced > 0) then
       has_translation = .true.
       do i = 1, replaced - 1
@@ -184,10 +184,10 @@ contains
           call swap_columns(j, j + 1, basis)
         end do
       end do
-      if (ranks%is_alone()) then
+      if (space%is_alone()) then
         call orthonormalise_in_order(basis, fault%stat)
       else
-        call orthonormalise_shared(ranks, basis, 0.0_dp, .false., order, rank)
+        call orthonormalise_shared(space, basis, 0.0_dp, .false., order, rank)
       end if
       if (fault%stat /= 0) return
     end if
@@ -195,22 +195,22 @@ contains
     do j = 1, size(basis, 1)
       if (all(abs(own(j, :)) <= 0.0_dp)) basis(j, :) = 0.0_dp
     end do
-    points = ranks%total(real(count(.not. excluded), dp))
+    points = space%total(real(count(.not. excluded), dp))
     basis = basis*sqrt(points)
     if (replaced > 0) basis(:, 1) = merge(0.0_dp, 1.0_dp, excluded)
     modes(:, columns) = basis
-    call find_coefficients(own, basis, points, ranks, coefficients, fault)
+    call find_coefficients(own, basis, points, space, coefficients, fault)
   end subroutine orthogonalise_columns
 
   !> By what the modes of one body, the columns of `own` (n, m), are counted from far away: `datum` (m), to be
   !> subtracted from them where mode `constant` moves a point; the difference is exact. Without it their rounding would
   !> be that of the distance.
   !>
-  !> `constant` is 0, and so are all of `datum`, if no mode is a constant on the points that it moves. `ranks` share the
+  !> `constant` is 0, and so are all of `datum`, if no mode is a constant on the points that it moves. `space` share the
   !> points.
-  subroutine find_datum(own, ranks, constant, datum)
+  subroutine find_datum(own, space, constant, datum)
     real(dp), intent(in) :: own(:, :)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     integer, intent(out) :: constant
     real(dp), intent(out) :: datum(:)
     real(dp) :: extremes(2)
@@ -219,13 +219,13 @@ contains
     datum = 0.0_dp
     constant = 0
     do j = size(datum), 1, -1
-      extremes = extremes_where(own(:, j), own(:, j), ranks)
+      extremes = extremes_where(own(:, j), own(:, j), space)
       if (extremes(1) >= extremes(2)) constant = j
     end do
     if (constant == 0) return
     do j = 1, size(datum)
       if (j == constant) cycle
-      extremes = extremes_where(own(:, j), own(:, constant), ranks)
+      extremes = extremes_where(own(:, j), own(:, constant), space)
       ! A difference of two numbers is exact if neither is more than twice the other one (P. H. Sterbenz, 1974).
       if (extremes(1) > 0.0_dp .and. extremes(2) <= 2.0_dp*extremes(1)) then
         datum(j) = extremes(2)
@@ -236,9 +236,9 @@ contains
   end subroutine find_datum
 
   !> The least and the largest one of the values at points that `mode` (n) moves, (2).
-  function extremes_where(values, mode, ranks) result(extremes)
+  function extremes_where(values, mode, space) result(extremes)
     real(dp), intent(in) :: values(:), mode(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp) :: extremes(2)
     integer :: k
 
@@ -246,15 +246,15 @@ contains
     do k = 1, size(values)
       if (abs(mode(k)) > 0.0_dp) extremes = max(extremes, [-values(k), values(k)])
     end do
-    call ranks%raise(extremes)
+    call space%raise(extremes)
     extremes(1) = -extremes(1)
   end function extremes_where
 
   !> The columns `own` (n, m) as basis*coefficients, (m, m). Sums over many points are rounded, which would make a tilt
   !> of a large motion: so what the first coefficients leave of the columns is expressed too.
-  subroutine find_coefficients(own, basis, points, ranks, coefficients, fault)
+  subroutine find_coefficients(own, basis, points, space, coefficients, fault)
     real(dp), intent(in) :: own(:, :), basis(:, :), points
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp), intent(out) :: coefficients(:, :)
     type(mode_fault), intent(inout) :: fault
     real(dp), allocatable :: remainder(:, :)
@@ -264,12 +264,12 @@ contains
     m = size(own, 2)
     coefficients = 0.0_dp
     allocate (remainder(size(basis, 1), m), stat=fault%stat)
-    call share_fault(ranks, fault)
+    call share_fault(space, fault)
     if (fault%stat /= 0) return
     remainder = own
     do pass = 1, 2
       products = [((dot_product(basis(:, i), remainder(:, j)), i=1, m), j=1, m)]
-      call ranks%add(products)
+      call space%add(products)
       change = reshape(products, shape(change))/points
       coefficients = coefficients + change
       if (pass == 2) exit
@@ -285,7 +285,7 @@ contains
   !> to one body. `modes` (n, m), where ranks, `sharing`, share the points those of this rank.
   function bodies_of_modes(modes, sharing) result(body)
     real(dp), intent(in) :: modes(:, :)
-    type(shared_ranks), intent(in), optional :: sharing
+    type(point_space), intent(in), optional :: sharing
     integer :: body(size(modes, 2))
     integer :: first, j, k, low, high
 
@@ -307,14 +307,14 @@ contains
   end function bodies_of_modes
 
   !> Join bodies that any of the ranks has found to be one.
-  subroutine join_bodies(ranks, body)
-    type(shared_ranks), intent(in) :: ranks
+  subroutine join_bodies(space, body)
+    type(point_space), intent(in) :: space
     integer, intent(inout) :: body(:)
     real(dp) :: joined(size(body)**2)
     integer :: i, j, k
 
     joined = [((merge(1.0_dp, 0.0_dp, body(i) == body(j)), i=1, size(body)), j=1, size(body))]
-    call ranks%raise(joined)
+    call space%raise(joined)
     body = [(j, j=1, size(body))]
     ! Each pass takes the least number one mode further.
     do k = 1, size(body)
@@ -325,38 +325,38 @@ contains
   end subroutine join_bodies
 
   !> Are the columns orthogonal to each other?
-  function is_orthogonal(matrix, ranks) result(orthogonal)
+  function is_orthogonal(matrix, space) result(orthogonal)
     real(dp), intent(in) :: matrix(:, :)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     logical :: orthogonal
     real(dp) :: inner, lengths(size(matrix, 2))
     integer :: i, j
 
-    lengths = [(length_of(matrix(:, j), ranks), j=1, size(matrix, 2))]
+    lengths = [(length_of(matrix(:, j), space), j=1, size(matrix, 2))]
     orthogonal = .true.
     do j = 2, size(matrix, 2)
       do i = 1, j - 1
-        inner = ranks%total(dot_product(matrix(:, i), matrix(:, j)))
+        inner = space%total(dot_product(matrix(:, i), matrix(:, j)))
         orthogonal = orthogonal .and. abs(inner) <= DEPENDENT*lengths(i)*lengths(j)
       end do
     end do
   end function is_orthogonal
 
   !> The norm of the values of all ranks.
-  function length_of(values, ranks) result(length)
+  function length_of(values, space) result(length)
     real(dp), intent(in) :: values(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp) :: length
 
     length = norm2(values)
-    if (.not. ranks%is_alone()) length = sqrt(ranks%total(length**2))
+    if (.not. space%is_alone()) length = sqrt(space%total(length**2))
   end function length_of
 
   !> Keep orthogonal modes, `scaled` (n, m), but for their size; a constant one becomes the first.
-  subroutine keep_modes(scaled, excluded, ranks, modes, coefficients, has_translation)
+  subroutine keep_modes(scaled, excluded, space, modes, coefficients, has_translation)
     real(dp), intent(in) :: scaled(:, :)
     logical, intent(in) :: excluded(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp), intent(inout) :: modes(:, :), coefficients(:, :)
     logical, intent(out) :: has_translation
     real(dp) :: unit
@@ -365,50 +365,50 @@ contains
     m = size(scaled, 2)
     first = 0
     do j = m, 1, -1
-      if (is_constant(scaled(:, j), excluded, ranks)) first = j
+      if (is_constant(scaled(:, j), excluded, space)) first = j
     end do
     has_translation = first > 0
     do j = 1, m
       ! A cyclic shift brings the constant mode to the front.
       position = modulo(j - max(first, 1), m) + 1
-      unit = length_of(scaled(:, j), ranks)/sqrt(ranks%total(real(count(.not. excluded), dp)))
+      unit = length_of(scaled(:, j), space)/sqrt(space%total(real(count(.not. excluded), dp)))
       ! The constant is 1, not -1 or its rounding.
-      if (j == first) unit = merge(-1.0_dp, 1.0_dp, ranks%anywhere(any(scaled(:, j) < 0.0_dp)))
+      if (j == first) unit = merge(-1.0_dp, 1.0_dp, space%anywhere(any(scaled(:, j) < 0.0_dp)))
       modes(:, position) = scaled(:, j)/unit
       if (j == first) modes(:, position) = merge(0.0_dp, 1.0_dp, excluded)
       coefficients(position, j) = unit
     end do
   end subroutine keep_modes
 
-  function is_constant(values, excluded, ranks)
+  function is_constant(values, excluded, space)
     real(dp), intent(in) :: values(:)
     logical, intent(in) :: excluded(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     logical :: is_constant
 
-    is_constant = ranks%least(minval(values, mask=.not. excluded)) >= ranks%largest(maxval(values, mask=.not. excluded))
+    is_constant = space%least(minval(values, mask=.not. excluded)) >= space%largest(maxval(values, mask=.not. excluded))
   end function is_constant
 
   !> Replace a column of an orthonormal basis by the constant vector if that lies in its span; `column` is 0 if it does
   !> not.
-  subroutine replace_by_constant(basis, excluded, ranks, column)
+  subroutine replace_by_constant(basis, excluded, space, column)
     real(dp), intent(inout) :: basis(:, :)
     logical, intent(in) :: excluded(:)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     integer, intent(out) :: column
     real(dp) :: components(size(basis, 2)), rest
     integer :: j, k
 
     components = [(sum(basis(:, j), mask=.not. excluded), j=1, size(components))]
-    call ranks%add(components)
+    call space%add(components)
     rest = 0.0_dp
     do k = 1, size(basis, 1)
       rest = max(rest, abs(merge(0.0_dp, 1.0_dp, excluded(k)) - dot_product(basis(k, :), components)))
     end do
     column = 0
-    if (ranks%largest(rest) > CONSTANT_TOLERANCE*ranks%total(real(size(basis, 1), dp))) return
+    if (space%largest(rest) > CONSTANT_TOLERANCE*space%total(real(size(basis, 1), dp))) return
     column = maxloc(abs(components), dim=1)
-    basis(:, column) = merge(0.0_dp, 1.0_dp, excluded)/sqrt(ranks%total(real(count(.not. excluded), dp)))
+    basis(:, column) = merge(0.0_dp, 1.0_dp, excluded)/sqrt(space%total(real(count(.not. excluded), dp)))
   end subroutine replace_by_constant
 
   !> Motions in the given modes, (m), from `motion` (m) in the orthogonal ones.

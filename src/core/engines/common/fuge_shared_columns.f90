@@ -2,7 +2,7 @@
 module fuge_shared_columns
   use fuge_kinds, only: dp
   use fuge_pivoted_qr, only: factorise_pivoted
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   implicit none
   private
 
@@ -16,8 +16,8 @@ contains
   !> By Gram-Schmidt orthogonalisation, twice (L. Giraud, J. Langou, M. Rozloznik, The loss of orthogonality in the
   !> Gram-Schmidt orthogonalization process, 2005). `matrix` (rows of this rank, n); `pivoted`: the longest remaining
   !> column comes next, else the columns come in their order; `order` (n): place of each column before.
-  subroutine orthonormalise_shared(ranks, matrix, tolerance, pivoted, order, rank)
-    type(shared_ranks), intent(in) :: ranks
+  subroutine orthonormalise_shared(space, matrix, tolerance, pivoted, order, rank)
+    type(point_space), intent(in) :: space
     real(dp), intent(inout), contiguous :: matrix(:, :)
     real(dp), intent(in) :: tolerance
     logical, intent(in) :: pivoted
@@ -30,7 +30,7 @@ contains
     first = 0.0_dp
     do k = 1, size(matrix, 2)
       lengths = [(dot_product(matrix(:, j), matrix(:, j)), j=1, size(lengths))]
-      call ranks%add(lengths)
+      call space%add(lengths)
       next = k
       if (pivoted) next = k - 1 + maxloc(lengths(k:), dim=1)
       if (next /= k) then
@@ -44,7 +44,7 @@ contains
       if (.not. lengths(1) > tolerance*first) return
       matrix(:, k) = matrix(:, k)/lengths(1)
       rank = k
-      call project_rest(ranks, k, matrix)
+      call project_rest(space, k, matrix)
     end do
   end subroutine orthonormalise_shared
 
@@ -63,8 +63,8 @@ contains
   end subroutine swap_columns
 
   !> Take from the columns behind number `k` what they have of those up to it.
-  subroutine project_rest(ranks, k, matrix)
-    type(shared_ranks), intent(in) :: ranks
+  subroutine project_rest(space, k, matrix)
+    type(point_space), intent(in) :: space
     integer, intent(in) :: k
     real(dp), intent(inout), contiguous :: matrix(:, :)
     real(dp) :: parts(k)
@@ -73,7 +73,7 @@ contains
     do j = k + 1, size(matrix, 2)
       do pass = 1, 2
         parts = [(dot_product(matrix(:, i), matrix(:, j)), i=1, k)]
-        call ranks%add(parts)
+        call space%add(parts)
         do i = 1, k
           matrix(:, j) = matrix(:, j) - parts(i)*matrix(:, i)
         end do
@@ -83,8 +83,8 @@ contains
 
   !> `spanning` (m, m ranks), the same on all ranks: columns that span what the columns of `rows` (m, :) of all ranks
   !> span, of the size of these. `stat` is not 0 without memory on any of the ranks.
-  subroutine gather_spanning_rows(ranks, rows, spanning, stat)
-    type(shared_ranks), intent(in) :: ranks
+  subroutine gather_spanning_rows(space, rows, spanning, stat)
+    type(point_space), intent(in) :: space
     real(dp), intent(in) :: rows(:, :)
     real(dp), intent(out) :: spanning(:, :)
     integer, intent(out) :: stat
@@ -94,7 +94,7 @@ contains
 
     m = size(rows, 1)
     spanning = 0.0_dp
-    begin = m*ranks%number()
+    begin = m*space%number()
     allocate (factors(size(rows, 2), m), stat=stat)
     if (stat == 0) then
       factors = transpose(rows)
@@ -107,9 +107,9 @@ contains
       end do
     end if
     values = reshape(spanning, shape(values))
-    call ranks%add(values)
+    call space%add(values)
     spanning = reshape(values, shape(spanning))
-    if (.not. ranks%everywhere(stat == 0)) stat = 1
+    if (.not. space%everywhere(stat == 0)) stat = 1
   end subroutine gather_spanning_rows
 
 end module fuge_shared_columns

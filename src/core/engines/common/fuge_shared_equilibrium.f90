@@ -4,7 +4,7 @@ module fuge_shared_equilibrium
   use fuge_equilibrium, only: find_equilibrium, find_newest, is_in_equilibrium, is_negligible, proves_no_equilibrium
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -29,9 +29,9 @@ module fuge_shared_equilibrium
 
 contains
 
-  !> As find_equilibrium, with the arguments of the points of this rank; all `ranks` call it.
-  subroutine find_shared_equilibrium(ranks, modes, resultant, pushes, pulls, force, remainder, rounding)
-    type(shared_ranks), intent(in) :: ranks
+  !> As find_equilibrium, with the arguments of the points of this rank; all `space` call it.
+  subroutine find_shared_equilibrium(space, modes, resultant, pushes, pulls, force, remainder, rounding)
+    type(point_space), intent(in) :: space
     real(dp), intent(in) :: modes(:, :), resultant(:), rounding(:)
     logical, intent(in) :: pushes(:), pulls(:)
     real(dp), intent(out) :: force(:)
@@ -41,14 +41,14 @@ contains
     integer :: iteration, k, most
     logical :: balanced, found, has_all
 
-    has_all = ranks%total_count(size(force)) == size(force)
+    has_all = space%total_count(size(force)) == size(force)
     remainder = 0.0_dp
-    if (has_all .or. ranks%is_alone()) then
+    if (has_all .or. space%is_alone()) then
       call find_equilibrium(modes, resultant, pushes, pulls, force, remainder, rounding)
     end if
-    if (ranks%anywhere(has_all)) then
+    if (space%anywhere(has_all)) then
       ! One rank has all points, as of coarse grids.
-      call ranks%take_from_least(merge(0.0_dp, 1.0_dp, has_all), remainder)
+      call space%take_from_least(merge(0.0_dp, 1.0_dp, has_all), remainder)
       return
     end if
     force = 0.0_dp
@@ -60,10 +60,10 @@ contains
       call judge(offered, resultant, rounding, remainder, terms, balanced)
       if (balanced) exit
       rest = rounding + epsilon(rest)*terms
-      call offer(ranks, modes, remainder, rest, pushes, pulls, offered, found)
+      call offer(space, modes, remainder, rest, pushes, pulls, offered, found)
       if (.not. found) then
         if (is_negligible(remainder, resultant, terms)) exit
-        if (ranks%everywhere(proves_no_equilibrium(modes, rest, pushes, pulls, remainder))) return
+        if (space%everywhere(proves_no_equilibrium(modes, rest, pushes, pulls, remainder))) return
         exit
       end if
       call solve_offered(resultant, rounding, offered, remainder)
@@ -93,8 +93,8 @@ contains
 
   !> Offer the point of all ranks that closes most along the remainder, unless it has been offered; `found` if there is
   !> one.
-  subroutine offer(ranks, modes, remainder, rest, pushes, pulls, offered, found)
-    type(shared_ranks), intent(in) :: ranks
+  subroutine offer(space, modes, remainder, rest, pushes, pulls, offered, found)
+    type(point_space), intent(in) :: space
     real(dp), intent(in) :: modes(:, :), remainder(:), rest(:)
     logical, intent(in) :: pushes(:), pulls(:)
     type(offered_points), intent(inout) :: offered
@@ -108,17 +108,17 @@ contains
     if (newest > 0) then
       key = -abs(work)
       chosen = [modes(newest, :), merge(1.0_dp, 0.0_dp, pushes(newest)), merge(1.0_dp, 0.0_dp, pulls(newest)), &
-                real(ranks%number(), dp)]
+                real(space%number(), dp)]
     end if
-    found = ranks%anywhere(key < huge(key))
-    call ranks%take_from_least(key, chosen)
+    found = space%anywhere(key < huge(key))
+    call space%take_from_least(key, chosen)
     if (.not. found) return
     associate (n => offered%count, m => size(remainder))
       n = n + 1
       offered%rows(:, n) = chosen(:m)
       offered%pushes(n) = chosen(m + 1) > 0.0_dp
       offered%pulls(n) = chosen(m + 2) > 0.0_dp
-      offered%own(n) = merge(newest, 0, abs(chosen(m + 3) - real(ranks%number(), dp)) <= 0.0_dp)
+      offered%own(n) = merge(newest, 0, abs(chosen(m + 3) - real(space%number(), dp)) <= 0.0_dp)
       offered%force(n) = 0.0_dp
     end associate
   end subroutine offer
@@ -145,8 +145,8 @@ contains
   !>
   !> `modes` (n, p) those in `columns` (p) with the `noise` (p) of their loads; `force` (n) carries them. Error:
   !> FUGE_ERR_MEMORY.
-  subroutine move_to_edge(ranks, modes, noise, load, columns, force, info)
-    type(shared_ranks), intent(in) :: ranks
+  subroutine move_to_edge(space, modes, noise, load, columns, force, info)
+    type(point_space), intent(in) :: space
     real(dp), intent(in) :: modes(:, :), noise(:)
     integer, intent(in) :: columns(:)
     real(dp), intent(inout) :: load(:), force(:)
@@ -156,13 +156,13 @@ contains
     real(dp) :: carried(size(noise)), weight(size(noise)), rest(size(noise)), least
     integer :: j, stat
 
-    least = NO_FORCE*ranks%largest(maxval(abs(force)))
-    if (ranks%total_count(count(abs(force) > least)) >= size(columns) .or. .not. all(noise > 0.0_dp)) return
+    least = NO_FORCE*space%largest(maxval(abs(force)))
+    if (space%total_count(count(abs(force) > least)) >= size(columns) .or. .not. all(noise > 0.0_dp)) return
     associate (n => size(force))
       allocate (nearest(n), weighted(n, size(noise)), pushes(n), pulls(n), stat=stat)
     end associate
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the load of '//text(size(force))//' points')
-    call ranks%agree(info)
+    call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     ! Loads with little rounding are met best.
     weight = minval(noise)/noise
@@ -171,9 +171,9 @@ contains
     end do
     pushes = force > least
     pulls = force < -least
-    call find_shared_equilibrium(ranks, weighted, load(columns)*weight, pushes, pulls, nearest, rest, noise*weight)
+    call find_shared_equilibrium(space, weighted, load(columns)*weight, pushes, pulls, nearest, rest, noise*weight)
     carried = matmul(nearest, modes)
-    call ranks%add(carried)
+    call space%add(carried)
     if (.not. all(abs(load(columns) - carried) <= ROUNDINGS*noise)) return
     load(columns) = carried
     force = nearest

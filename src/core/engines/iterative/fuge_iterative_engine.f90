@@ -23,7 +23,7 @@ module fuge_iterative_engine
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
   use fuge_set_compliance, only: probe_compliance
@@ -60,7 +60,8 @@ contains
   !> operator, on return that of this one. `solution` may be unallocated; after an error it is
   !> undefined. Errors:
   !> FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT,
-  !> FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED.
+  !> FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED. The arguments are nine, because the solver keeps what one solve leaves to
+  !> the next.
   subroutine solve_by_iteration(operator, problem, canonical, options, monitor, history, last, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -77,11 +78,11 @@ contains
     type(search_settings) :: coarse_settings, settings
     real(dp) :: force, length
     integer :: coarse_products, fine_products
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     history%started_warm = .false.
-    ranks = operator%ranks()
-    coarse_settings%limit = iteration_limit(options, ranks%total_count(operator%points()) + 1)
+    space = operator%space()
+    coarse_settings%limit = iteration_limit(options, space%total_count(operator%points()) + 1)
     settings = coarse_settings
     settings%tolerance = options%tolerance
     settings%coarse_grid = .false.
@@ -121,7 +122,7 @@ contains
     last%tolerance = options%tolerance
     ! The history needs memory of its own.
     call discard(iterate)
-    call history%store(problem, scene%rows%ranks, solution)
+    call history%store(problem, scene%rows%point_space, solution)
   end subroutine solve_by_iteration
 
   !> The solution in the units of the problem. Error: FUGE_ERR_MEMORY.
@@ -219,11 +220,11 @@ contains
     else
       same = all((last%state /= FUGE_OPEN) .eqv. iterate%contact)
     end if
-    associate (ranks => iterate%segments%ranks)
-      call ranks%agree(info)
+    associate (space => iterate%segments%space)
+      call space%agree(info)
       if (info%failed()) return
       if (.not. iterate%least_compliance > 0.0_dp) then
-        if (ranks%everywhere(same)) iterate%least_compliance = last%least_compliance
+        if (space%everywhere(same)) iterate%least_compliance = last%least_compliance
       end if
     end associate
     last%state = states_of(iterate)
@@ -243,15 +244,15 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: start(:)
 
-    call history%predict(problem, scene%rows%ranks, start)
+    call history%predict(problem, scene%rows%point_space, start)
     if (.not. allocated(start)) return
     ! Forces of another order of magnitude are no start, and their squares would overflow.
-    if (2*(exponent(scene%rows%ranks%largest(maxval(abs(start)))) - exponent(scaling%load)) > LARGEST_EXPONENT) return
+    if (2*(exponent(scene%rows%largest(maxval(abs(start)))) - exponent(scaling%load)) > LARGEST_EXPONENT) return
     start = start/scaling%load
     call start_iterate(iterate, scene, start, info)
     if (info%failed()) return
     call choose_contact(scene, iterate)
-    if (scene%rows%ranks%anywhere(any(iterate%contact))) then
+    if (scene%rows%anywhere(any(iterate%contact))) then
       call make_feasible(operator, scene, iterate, info)
       if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
       if (info%failed()) return
@@ -276,10 +277,10 @@ contains
     type(fuge_info), intent(inout) :: info
 
     scene%prescribed = .not. problem%is_plain()
-    call choose_scaling(problem, scene%rows%ranks, scaling)
-    call check_range(problem, scene%rows%ranks, info)
+    call choose_scaling(problem, scene%rows%point_space, scaling)
+    call check_range(problem, scene%rows%point_space, info)
     if (.not. info%failed()) call reduce_gap(problem%gap, scaling, scene%gap, info)
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
   end subroutine set_simple_scene
 
   !> Start `iterate` by coarser grids, and where the contact is small by a window of the finest one; where the operator
@@ -316,13 +317,13 @@ contains
 
   !> What the iteration subtracts from gaps, the prescribed motion or else the least gap, and what
   !> it divides forces and lengths by: the load, or 1 for a prescribed motion.
-  subroutine choose_scaling(problem, ranks, scaling)
+  subroutine choose_scaling(problem, space, scaling)
     type(fuge_problem), intent(in) :: problem
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     type(scene_scaling), intent(out) :: scaling
 
     if (problem%is_plain()) then
-      scaling%gap_datum = ranks%least(minval(problem%gap))
+      scaling%gap_datum = space%least(minval(problem%gap))
       scaling%load = problem%resultant(1)
     else
       scaling%gap_datum = problem%motion(1)
@@ -360,16 +361,16 @@ contains
     n = size(scene%gap)
     allocate (force(n), gap(n), motion(1), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    largest = scene%rows%ranks%largest(maxval(iterate%force))
+    largest = scene%rows%largest(maxval(iterate%force))
     where (iterate%force <= ROUNDINGS*epsilon(1.0_dp)*largest) iterate%force = 0.0_dp
     force = scaling%load*iterate%force
     gap = scaling%load*max(deformed_gap(scene%gap, iterate%displacement, iterate%motion), 0.0_dp)
     where (iterate%contact) gap = 0.0_dp
     motion = scaling%gap_datum
     if (.not. iterate%prescribed) then
-      motion = (scaling%load*iterate%motion + operator%datum()*scene%rows%ranks%total(sum(force))) &
+      motion = (scaling%load*iterate%motion + operator%datum()*scene%rows%total(sum(force))) &
                + scaling%gap_datum
     end if
     call move_alloc(force, solution%force)
@@ -390,10 +391,10 @@ contains
     if (.not. scene%is_simple() .or. .not. scene%prescribed) return
     ! Without any motion there is none to change.
     if (problem%mode_count() < 1) return
-    mean = scene%rows%ranks%total(sum(scene%gap))/real(scene%points(), dp)
-    largest = scene%rows%ranks%largest(max(maxval(abs(scene%gap)), maxval(abs(problem%gap))))
+    mean = scene%rows%total(sum(scene%gap))/real(scene%points(), dp)
+    largest = scene%rows%largest(max(maxval(abs(scene%gap)), maxval(abs(problem%gap))))
     if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), &
-                                                      scene%rows%ranks%largest(maxval(abs(scene%gap))))
+                                                      scene%rows%largest(maxval(abs(scene%gap))))
     if (mean > ROUNDINGS*epsilon(mean)*largest) return
     if (.not. equal_forces_displace_nothing(operator, info)) return
     if (info%failed()) return
@@ -408,16 +409,16 @@ contains
 
   !> Refuse gaps so large that their squares overflow, after division by the load if there is one.
   !> Error: FUGE_ERR_OVERFLOW.
-  subroutine check_range(problem, ranks, info)
+  subroutine check_range(problem, space, info)
     type(fuge_problem), intent(in) :: problem
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     type(fuge_info), intent(inout) :: info
     integer :: excess
 
     if (.not. problem%is_plain()) then
-      excess = exponent(ranks%largest(maxval(abs(problem%gap - problem%motion(1)))))
+      excess = exponent(space%largest(maxval(abs(problem%gap - problem%motion(1)))))
     else
-      excess = exponent(ranks%largest(maxval(problem%gap)) - ranks%least(minval(problem%gap))) &
+      excess = exponent(space%largest(maxval(problem%gap)) - space%least(minval(problem%gap))) &
                - exponent(problem%resultant(1))
     end if
     if (2*excess <= LARGEST_EXPONENT) return

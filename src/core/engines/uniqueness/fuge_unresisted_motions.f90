@@ -6,7 +6,7 @@ module fuge_unresisted_motions
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_pivoted_qr, only: orthogonal_complement
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_shared_columns, only: gather_spanning_rows
   use fuge_shared_equilibrium, only: find_shared_equilibrium
   use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM
@@ -40,20 +40,20 @@ contains
     n = size(solution%state)
     allocate (work(n), loaded(n), resists_closing(n), resists_opening(n), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call mark_loaded(canonical, solution, work, loaded)
-    call find_unresisted_basis(canonical%modes, loaded, basis, canonical%ranks)
+    call find_unresisted_basis(canonical%modes, loaded, basis, canonical%space)
     associate (state => solution%state, gap => solution%gap)
       ! A point that touches without force resists in one sense only.
       resists_closing = loaded .or. ((state > FUGE_OPEN .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
       resists_opening = loaded .or. ((state < FUGE_OPEN .or. gap >= canonical%upper) .and. .not. canonical%excluded)
     end associate
     do j = 1, size(basis, 2)
-      call find_shared_equilibrium(canonical%ranks, canonical%modes, basis(:, j), resists_closing, resists_opening, &
+      call find_shared_equilibrium(canonical%space, canonical%modes, basis(:, j), resists_closing, resists_opening, &
                                    work, motion, epsilon(motion)*spread(maxval(abs(basis(:, j))), 1, size(motion)))
       if (any(abs(motion) > 0.0_dp)) return
-      call find_shared_equilibrium(canonical%ranks, canonical%modes, -basis(:, j), resists_closing, resists_opening, &
+      call find_shared_equilibrium(canonical%space, canonical%modes, -basis(:, j), resists_closing, resists_opening, &
                                    work, motion, epsilon(motion)*spread(maxval(abs(basis(:, j))), 1, size(motion)))
       if (any(abs(motion) > 0.0_dp)) return
     end do
@@ -94,7 +94,7 @@ contains
     if (canonical%has_bodies()) then
       scale = max(scale, canonical%force_scale(solution%force))
     else
-      scale = max(scale, canonical%ranks%largest(maxval(abs(solution%force))))
+      scale = max(scale, canonical%space%largest(maxval(abs(solution%force))))
     end if
     loaded = solution%state /= FUGE_OPEN .and. (abs(solution%force) > NO_FORCE*scale &
                                                 .or. .not. canonical%upper > 0.0_dp)
@@ -108,21 +108,21 @@ contains
     real(dp), intent(in) :: modes(:, :)
     logical, intent(in) :: resists(:)
     real(dp), allocatable, intent(out) :: basis(:, :)
-    type(shared_ranks), intent(in), optional :: sharing
-    type(shared_ranks) :: ranks
+    type(point_space), intent(in), optional :: sharing
+    type(point_space) :: space
     real(dp), allocatable :: rows(:, :), spanning(:, :)
     integer :: m, status
 
-    if (present(sharing)) ranks = sharing
+    if (present(sharing)) space = sharing
     m = size(modes, 2)
-    allocate (rows(m, count(resists)), spanning(m, m*ranks%members()), stat=status)
-    if (ranks%everywhere(status == 0)) then
+    allocate (rows(m, count(resists)), spanning(m, m*space%members()), stat=status)
+    if (space%everywhere(status == 0)) then
       call pack_rows(modes, resists, rows)
-      if (ranks%is_alone()) then
+      if (space%is_alone()) then
         call orthogonal_complement(rows, DEPENDENT, basis, status)
         return
       end if
-      call gather_spanning_rows(ranks, rows, spanning, status)
+      call gather_spanning_rows(space, rows, spanning, status)
       if (status == 0) then
         call orthogonal_complement(spanning, DEPENDENT, basis, status)
         return

@@ -7,7 +7,7 @@ module fuge_complete_contact
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
@@ -30,7 +30,7 @@ contains
     type(fuge_info), intent(inout) :: info
     logical :: nothing
     real(dp), allocatable :: force(:), displacement(:), magnitude(:)
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     real(dp) :: first(1), mean, measure
     integer :: n, points, stat
 
@@ -38,24 +38,24 @@ contains
     n = operator%points()
     allocate (force(n), displacement(n), magnitude(n), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to displace '//text(n)//' points by equal forces')
-    ranks = operator%ranks()
-    call ranks%agree(info)
+    space = operator%space()
+    call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    points = ranks%total_count(n)
+    points = space%total_count(n)
     force = 1.0_dp/real(max(points, 1), dp)
     call compute_displacement(operator, .true., force, displacement, info)
     if (info%failed()) return
-    mean = ranks%total(sum(displacement))/real(points, dp)
+    mean = space%total(sum(displacement))/real(points, dp)
     call operator%magnitude(force, displacement, magnitude)
-    measure = ranks%total(sum(magnitude))/real(points, dp)
+    measure = space%total(sum(magnitude))/real(points, dp)
     force = 0.0_dp
     ! The first point of the first rank that has any.
-    first = [real(ranks%number(), dp)]
-    call ranks%take_from_least(merge(first(1), huge(first), n > 0), first)
-    if (n > 0 .and. .not. real(ranks%number(), dp) > first(1)) force(1) = 1.0_dp
+    first = [real(space%number(), dp)]
+    call space%take_from_least(merge(first(1), huge(first), n > 0), first)
+    if (n > 0 .and. .not. real(space%number(), dp) > first(1)) force(1) = 1.0_dp
     call compute_displacement(operator, .true., force, displacement, info)
     if (info%failed()) return
-    measure = max(measure, ranks%largest(maxval(abs(displacement))))
+    measure = max(measure, space%largest(maxval(abs(displacement))))
     nothing = abs(mean) <= ROUNDING*measure
     if (mean < 0.0_dp .and. .not. nothing) call report(info, FUGE_ERR_NOT_DEFINITE, 'equal forces with the sum 1 ' &
       //'store the negative energy '//text(0.5_dp*mean)//': the operator is not positive definite')

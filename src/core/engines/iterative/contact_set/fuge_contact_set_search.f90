@@ -87,7 +87,7 @@ contains
       if (undetermined .and. .not. info%failed()) then
         call solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
         if (info%failed()) exit
-        if (scene%rows%ranks%everywhere(all(iterate%contact))) exit
+        if (scene%rows%everywhere(all(iterate%contact))) exit
         stalls_left = stalls_left - 1
         cycle
       end if
@@ -98,7 +98,7 @@ contains
       fresh = fresh .and. info%products == products
       wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
       if (settings%coarse_grid) then
-        if (wrong <= WRONG_ON_COARSE*scene%rows%ranks%total_count(count(iterate%contact))) exit
+        if (wrong <= WRONG_ON_COARSE*scene%rows%total_count(count(iterate%contact))) exit
       end if
       if (wrong == 0) then
         ! Without a step the displacements are still those of a product with feasible forces.
@@ -144,7 +144,7 @@ contains
 
     undetermined = .false.
     if (.not. (iterate%prescribed .and. scene%is_simple())) return
-    if (scene%rows%ranks%everywhere(all(iterate%contact))) undetermined = equal_forces_displace_nothing(operator, info)
+    if (scene%rows%everywhere(all(iterate%contact))) undetermined = equal_forces_displace_nothing(operator, info)
   end function has_undetermined_forces
 
   !> Leave a complete contact whose forces are undetermined: its equations fix the differences of
@@ -164,7 +164,7 @@ contains
     real(dp) :: sums(2)
 
     sums = [sum(scene%gap), sum(abs(scene%gap))]
-    call scene%rows%ranks%add(sums)
+    call scene%rows%add(sums)
     if (.not. settings%coarse_grid .and. sums(1) < -ROUNDINGS*epsilon(1.0_dp)*sums(2)) then
       call report_unbounded(1, info)
       return
@@ -174,9 +174,9 @@ contains
     iterate%prescribed = .true.
     if (info%failed()) return
     if (settings%coarse_grid .and. .not. sums(1) > 0.0_dp) then
-      iterate%force = iterate%force - scene%rows%ranks%least(minval(iterate%force))
+      iterate%force = iterate%force - scene%rows%least(minval(iterate%force))
     else
-      iterate%force = iterate%force - scene%rows%ranks%total(sum(iterate%force))/real(scene%points(), dp)
+      iterate%force = iterate%force - scene%rows%total(sum(iterate%force))/real(scene%points(), dp)
       iterate%contact = iterate%force > 0.0_dp
       call make_feasible(operator, scene, iterate, info)
     end if
@@ -292,7 +292,7 @@ contains
     real(dp) :: noise
     real(dp) :: largest
 
-    largest = scene%rows%ranks%largest(maxval(abs(iterate%force)))
+    largest = scene%rows%largest(maxval(abs(iterate%force)))
     noise = SAFETY**2*settings%tolerance*largest
     if (noise*iterate%softness > penetration_noise(settings, iterate)) then
       noise = max(penetration_noise(settings, iterate)/iterate%softness, ROUNDINGS*epsilon(noise)*largest)
@@ -323,7 +323,7 @@ contains
     n = size(scene%gap)
     allocate (feasible(n), noise(n), locked(n), tied(n), state(n), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the active-set method on '//text(n)//' points')
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     found = .false.
     locked = .false.
@@ -342,14 +342,14 @@ contains
       if (info%failed()) exit
       noise = iterate%tension_noise
       state = states_of(iterate)
-      if (scene%rows%ranks%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
-        call step_to_blocking(iterate%force, noise, tied, state, feasible, newest, locked, scene%rows%ranks)
+      if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
+        call step_to_blocking(iterate%force, noise, tied, state, feasible, newest, locked, scene%rows%point_space)
         iterate%contact = state /= FUGE_OPEN
         iterate%force = feasible
       else
         if (found) call keep_lock(scene, newest, locked)
         newest = deepest_open_point(scene, iterate, penetration_noise(settings, iterate), locked)
-        found = scene%rows%ranks%anywhere(newest > 0)
+        found = scene%rows%anywhere(newest > 0)
         if (.not. (found .and. iterate%converged)) exit
         call join_contact(scene, newest, iterate)
         ! What penetrates a contact complete but for one point is rounding.
@@ -374,7 +374,7 @@ contains
 
     keep = .false.
     if (newest > 0) keep = locked(newest)
-    keep = scene%rows%ranks%anywhere(keep)
+    keep = scene%rows%anywhere(keep)
     locked = locked .and. keep
   end subroutine keep_lock
 
@@ -405,8 +405,8 @@ contains
     state = states_of(iterate)
     ! Where the balance is at the other stop, or open, it decides.
     where (abs(force) > 0.0_dp) state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, force > 0.0_dp)
-    if (scene%rows%ranks%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
-      call step_to_blocking(iterate%force, noise, tied, state, force, 0, locked, scene%rows%ranks)
+    if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
+      call step_to_blocking(iterate%force, noise, tied, state, force, 0, locked, scene%rows%point_space)
       iterate%force = force
     end if
   end subroutine step_from_balance

@@ -39,7 +39,7 @@ contains
 
     if (canonical%largest_load() > 0.0_dp) scaling%load = canonical%largest_load()
     if (canonical%has_translation) then
-      least = canonical%ranks%least(minval(canonical%gap, mask=.not. canonical%excluded))
+      least = canonical%space%least(minval(canonical%gap, mask=.not. canonical%excluded))
       ! Not where all points are excluded.
       if (least < huge(least)) scaling%gap_datum = least
     end if
@@ -76,8 +76,8 @@ contains
 
     n = size(canonical%gap)
     m = size(canonical%load)
-    excludes = canonical%ranks%anywhere(any(canonical%excluded))
-    has_play = canonical%ranks%anywhere(any(canonical%upper < huge(1.0_dp)))
+    excludes = canonical%space%anywhere(any(canonical%excluded))
+    has_play = canonical%space%anywhere(any(canonical%upper < huge(1.0_dp)))
     allocate (scene%gap(n), stat=stat)
     if (stat == 0 .and. excludes) allocate (scene%excluded(n), stat=stat)
     if (stat == 0 .and. has_play) allocate (scene%play(n), stat=stat)
@@ -85,7 +85,7 @@ contains
       allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
     end if
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps and modes of '//text(n)//' points')
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
   end subroutine allocate_scene
 
   !> No motion displaces the points marked in `excluded` (n).
@@ -106,7 +106,7 @@ contains
     logical :: loaded
 
     loaded = size(canonical%load) == 1 .and. .not. allocated(problem%modes)
-    if (loaded) loaded = .not. canonical%ranks%anywhere(any(canonical%upper < huge(1.0_dp)))
+    if (loaded) loaded = .not. canonical%space%anywhere(any(canonical%upper < huge(1.0_dp)))
     if (loaded) loaded = canonical%load(1) > 0.0_dp
   end function is_loaded_translation
 
@@ -118,7 +118,7 @@ contains
     real(dp) :: largest
     integer :: excess
 
-    largest = canonical%ranks%largest(maxval(abs(canonical%gap - scaling%gap_datum), mask=.not. canonical%excluded))
+    largest = canonical%space%largest(maxval(abs(canonical%gap - scaling%gap_datum), mask=.not. canonical%excluded))
     ! All points are excluded.
     if (largest < 0.0_dp) return
     excess = exponent(largest) - exponent(scaling%load)
@@ -152,7 +152,7 @@ contains
       allocate (motion(problem%mode_count()), stat=stat)
       if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
     end if
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
     if (info%failed()) return
     found%state = states_of(iterate)
     call drop_rounding(scene, found%state, iterate, info)
@@ -165,7 +165,7 @@ contains
       found%motion = scaling%load*iterate%motion
     end if
     if (canonical%has_translation) then
-      found%motion(1) = (found%motion(1) + operator%datum()*canonical%ranks%total(sum(found%force))) &
+      found%motion(1) = (found%motion(1) + operator%datum()*canonical%space%total(sum(found%force))) &
                         + scaling%gap_datum
     end if
     call report_unresisted_motion(canonical, found, info)
@@ -196,8 +196,8 @@ contains
     if (.not. (pulls .and. allocated(scene%modes))) return
     allocate (dropped, source=iterate%force, stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces of '//text(size(state))//' points')
-    segments%ranks = scene%rows%ranks
-    call segments%ranks%agree(info)
+    segments%space = scene%rows%point_space
+    call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call segments%find(abs(dropped) > 0.0_dp, info)
     if (.not. info%failed()) call projection%set(scene%modes, segments, info)
@@ -220,7 +220,7 @@ contains
     integer :: k
 
     pulls = .false.
-    least = max(ROUNDINGS*epsilon(least)*scene%rows%ranks%largest(maxval(abs(iterate%force))), &
+    least = max(ROUNDINGS*epsilon(least)*scene%rows%largest(maxval(abs(iterate%force))), &
                 rounding_force(scene, iterate))
     do k = 1, size(state)
       if (abs(iterate%force(k)) <= least) iterate%force(k) = 0.0_dp
@@ -229,7 +229,7 @@ contains
         pulls = .true.
       end if
     end do
-    pulls = scene%rows%ranks%anywhere(pulls)
+    pulls = scene%rows%anywhere(pulls)
   end subroutine clear_rounding
 
   !> Gaps between the stops, in the units of the problem, as is the play `upper` (n); 0 at points that are excluded.
@@ -252,7 +252,8 @@ contains
   end subroutine set_gaps
 
   !> c = g + A f - R q at the points that are excluded; `motion` q (m) in the modes R of the problem, `displacement` (n)
-  !> in units of the scene. Error: FUGE_ERR_MEMORY.
+  !> in units of the scene. Error: FUGE_ERR_MEMORY. The arguments are nine, because excluded points need the problem
+  !> both as given and as a scene.
   subroutine set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, displacement, found, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -268,11 +269,11 @@ contains
 
     allocate (scaled(size(displacement)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of the excluded points')
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
     if (info%failed()) return
     shift = 0.0_dp
     if (scene%absorbs_datum .or. .not. scene%prescribed) then
-      shift = operator%datum()*canonical%ranks%total(sum(found%force))
+      shift = operator%datum()*canonical%space%total(sum(found%force))
     end if
     ! No rigid motion has been taken out of these displacements: the modes of the scene are zero there.
     scaled = 0.0_dp

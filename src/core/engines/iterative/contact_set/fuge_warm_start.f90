@@ -8,7 +8,7 @@ module fuge_warm_start
   use fuge_data_scales, only: is_prescribed
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   implicit none
   private
 
@@ -85,11 +85,11 @@ contains
     step%fingerprint = 0.0_dp
   end subroutine clear
 
-  !> Keep a solution, of points that `ranks` may share. Where memory is short all are forgotten.
-  subroutine store(self, problem, ranks, solution)
+  !> Keep a solution, of points that `space` may share. Where memory is short all are forgotten.
+  subroutine store(self, problem, space, solution)
     class(load_history), intent(inout) :: self
     type(fuge_problem), intent(in) :: problem
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     type(fuge_solution), intent(in) :: solution
     type(load_step) :: step
     logical :: forgotten
@@ -97,7 +97,7 @@ contains
 
     allocate (step%values(problem%points()), step%resultant(problem%mode_count()), step%motion(problem%mode_count()), &
               stat=stat)
-    forgotten = ranks%anywhere(stat /= 0)
+    forgotten = space%anywhere(stat /= 0)
     if (forgotten .or. stat /= 0) then
       call self%forget()
       return
@@ -110,13 +110,13 @@ contains
       if (.not. is_prescribed(problem, j)) then
         step%resultant(j) = problem%resultant(j)
       else if (allocated(problem%modes)) then
-        step%resultant(j) = ranks%total(dot_product(problem%modes(:, j), solution%force))
+        step%resultant(j) = space%total(dot_product(problem%modes(:, j), solution%force))
       else
-        step%resultant(j) = ranks%total(sum(solution%force))
+        step%resultant(j) = space%total(sum(solution%force))
       end if
     end do
     step%motion = solution%motion
-    step%fingerprint = fingerprint(problem, ranks)
+    step%fingerprint = fingerprint(problem, space)
     if (differs(step, self%last)) call move_step(self%last, self%before)
     call move_step(step, self%last)
   end subroutine store
@@ -144,9 +144,9 @@ contains
   end function differs
 
   !> Sums that hardly any change of gaps, plays, modes or excluded points leaves as they are.
-  function fingerprint(problem, ranks) result(sums)
+  function fingerprint(problem, space) result(sums)
     type(fuge_problem), intent(in) :: problem
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp) :: sums(4)
     integer :: j
 
@@ -159,7 +159,7 @@ contains
         sums(4) = sums(4) + real(j, dp)*mixed_sum(problem%modes(:, j))
       end do
     end if
-    call ranks%add(sums)
+    call space%add(sums)
   end function fingerprint
 
   !> A sum with weights that depend on the place; scaled, so that it does not overflow.
@@ -184,30 +184,30 @@ contains
   !>
   !> Extrapolated if resultants and prescribed motions go on in the direction of the last step, or back, and nothing
   !> else has changed; otherwise the last forces, scaled with the resultants.
-  subroutine predict(self, problem, ranks, start)
+  subroutine predict(self, problem, space, start)
     class(load_history), intent(inout) :: self
     type(fuge_problem), intent(in) :: problem
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp), allocatable, intent(inout) :: start(:)
     real(dp) :: steps
     logical :: extrapolate
     integer :: stat
 
     if (allocated(start)) deallocate (start)
-    if (.not. ranks%everywhere(fits(self%last, problem))) return
-    call find_steps(self, problem, ranks, steps, extrapolate)
+    if (.not. space%everywhere(fits(self%last, problem))) return
+    call find_steps(self, problem, space, steps, extrapolate)
     if (self%step_length >= self%too_long) then
       self%too_long = LONGER*self%too_long
       return
     end if
     allocate (start(problem%points()), stat=stat)
-    if (ranks%anywhere(stat /= 0)) then
+    if (space%anywhere(stat /= 0)) then
       if (allocated(start)) deallocate (start)
       return
     end if
     if (extrapolate) then
       call extrapolate_forces(self%last%values, self%before%values, steps, allocated(problem%gap_upper), &
-                              ranks%largest(maxval(self%last%values)), start)
+                              space%largest(maxval(self%last%values)), start)
     else
       start = load_factor(self%last, problem)*self%last%values
       if (.not. allocated(problem%gap_upper)) start = max(start, 0.0_dp)
@@ -226,10 +226,10 @@ contains
 
   !> How many times the last step it is to the new problem; negative: back. `extrapolate` if the last two solutions show
   !> the way there. Sets self%step_length.
-  subroutine find_steps(self, problem, ranks, steps, extrapolate)
+  subroutine find_steps(self, problem, space, steps, extrapolate)
     class(load_history), intent(inout) :: self
     type(fuge_problem), intent(in) :: problem
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp), intent(out) :: steps
     logical, intent(out) :: extrapolate
     real(dp), dimension(problem%mode_count()) :: new, last, before, scale
@@ -238,14 +238,14 @@ contains
     steps = 0.0_dp
     extrapolate = .false.
     self%step_length = -1.0_dp
-    sums = fingerprint(problem, ranks)
+    sums = fingerprint(problem, space)
     if (problem%mode_count() < 1 .or. any(abs(self%last%fingerprint - sums) > 0.0_dp)) return
     last = controls(problem, self%last%resultant, self%last%motion)
     new = controls(problem, problem%resultant, problem%motion)
     scale = max(abs(last), abs(new))
     where (.not. scale > 0.0_dp) scale = 1.0_dp
     new = new/scale - last/scale
-    if (.not. ranks%everywhere(fits(self%before, problem))) return
+    if (.not. space%everywhere(fits(self%before, problem))) return
     if (any(abs(self%before%fingerprint - sums) > 0.0_dp)) return
     before = controls(problem, self%before%resultant, self%before%motion)
     ! The motions of the last two solves may be far apart where the new one only has resultants, and vice versa.

@@ -68,15 +68,16 @@ contains
     real(dp), intent(out) :: length, force
     logical :: exact(problem%mode_count())
 
-    exact = exact_modes(problem, scene%rows%ranks)
+    exact = exact_modes(problem, scene%rows%point_space)
     length = epsilon(length)*largest_term(scene, iterate)
     if (allocated(problem%prescribed) .or. .not. all(exact)) then
       length = length + largest_rounding(problem, exact, iterate%segments, solution%motion)/load
     end if
     force = 0.0_dp
     if (all(exact) .or. .not. allocated(scene%modes)) return
-    force = iterate%projection%largest_force(iterate%segments, canonical%largest_loads( &
-                                             load_rounding(problem, exact, solution%force, scene%rows%ranks)/load))
+    associate (rounding => load_rounding(problem, exact, solution%force, scene%rows%point_space))
+      force = iterate%projection%largest_force(iterate%segments, canonical%largest_loads(rounding/load))
+    end associate
   end subroutine find_rounding
 
   !> The largest length on the contact set that is lost in modes and prescribed motions.
@@ -94,7 +95,7 @@ contains
         largest = max(largest, mode_rounding_at(problem, exact, motion, k) + abs(gap_rounding_at(problem, k)))
       end do
     end do
-    largest = segments%ranks%largest(largest)
+    largest = segments%space%largest(largest)
   end function largest_rounding
 
 end module fuge_iteration_error

@@ -44,10 +44,10 @@ contains
       allocate (terms(size(iterate%work)), unit(size(iterate%work)), stat=stat)
       if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements of ' &
                                  //text(size(iterate%work))//' points')
-      call scene%rows%ranks%agree(info)
+      call scene%rows%agree(info)
       if (info%failed()) return
       call operator%magnitude(iterate%direction, iterate%work, terms)
-      iterate%softness = iterate%segments%ranks%largest(maxval(terms))/force
+      iterate%softness = iterate%segments%space%largest(maxval(terms))/force
       if (.not. all(operator%grid() > 0)) then
         unit = 0.0_dp
         unit(iterate%segments%first(1)) = 1.0_dp
@@ -56,7 +56,7 @@ contains
                                                         softness_so_far(scene, iterate))
       end if
     end if
-    iterate%softness = max(iterate%softness, iterate%segments%ranks%largest(maxval(abs(iterate%work)))/force)
+    iterate%softness = max(iterate%softness, iterate%segments%space%largest(maxval(abs(iterate%work)))/force)
   end subroutine find_softness
 
   !> The largest displacement over the largest force; 0 without forces, or where displacements include rigid ones.
@@ -69,7 +69,7 @@ contains
     softness = 0.0_dp
     if (allocated(scene%modes) .or. .not. allocated(iterate%displacement)) return
     largest = [maxval(abs(iterate%force)), maxval(abs(iterate%displacement))]
-    call scene%rows%ranks%raise(largest)
+    call scene%rows%raise(largest)
     if (largest(1) > 0.0_dp) softness = largest(2)/largest(1)
   end function softness_so_far
 
@@ -100,7 +100,7 @@ contains
     do i = 1, size(iterate%segments%first)
       total = total + sum(abs(iterate%direction(iterate%segments%first(i):iterate%segments%last(i))))
     end do
-    total = iterate%segments%ranks%total(total)
+    total = iterate%segments%space%total(total)
   end function total_force
 
   !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search
@@ -154,10 +154,10 @@ contains
       stays = stays .or. force < -iterate%tension_noise
       step_length = min(step_length, max(force, 0.0_dp)/loss)
     end do
-    associate (ranks => scene%rows%ranks)
-      iterate%unbounded = ranks%everywhere(iterate%unbounded)
-      step_length = ranks%least(step_length)
-      stays = ranks%anywhere(stays)
+    associate (space => scene%rows%point_space)
+      iterate%unbounded = space%everywhere(iterate%unbounded)
+      step_length = space%least(step_length)
+      stays = space%anywhere(stays)
     end associate
     if (iterate%unbounded .or. stays) return
     step_length = step_length + BEYOND*force_scale(scene, iterate)/max_abs_over(iterate%segments, iterate%direction)
@@ -174,7 +174,7 @@ contains
     length = maxval(abs(scene%gap), mask=iterate%contact)
     if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=iterate%contact .and. iterate%at_upper))
     if (allocated(scene%balance)) length = max(length, iterate%softness*maxval(abs(scene%balance)))
-    length = scene%rows%ranks%largest(length)
+    length = scene%rows%largest(length)
     ! Under a load the forces do not grow together.
     if (.not. scene%prescribed) length = max(length, iterate%least_magnitude)
   end function length_of
@@ -185,7 +185,7 @@ contains
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: force
 
-    force = scene%rows%ranks%largest(maxval(abs(iterate%force)))
+    force = scene%rows%largest(maxval(abs(iterate%force)))
     if (.not. force > 0.0_dp .and. iterate%softness > 0.0_dp) force = length_of(scene, iterate)/iterate%softness
   end function force_scale
 

@@ -114,20 +114,20 @@ contains
     n = size(iterate%contact)
     allocate (probe%residual(n), probe%direction(n), probe%work(n), probe%contact(n), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to estimate the error of '//text(n)//' forces')
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     probe%prescribed = iterate%prescribed
     probe%softness = iterate%softness
     if (.not. probe%softness > 0.0_dp) probe%softness = softness_so_far(scene, iterate)
     call mark_touching(scene, rounding, iterate, probe%contact)
-    probe%segments%ranks = scene%rows%ranks
+    probe%segments%space = scene%rows%point_space
     call probe%segments%find(probe%contact, info)
     if (allocated(scene%modes) .and. .not. info%failed()) call probe%projection%set(scene%modes, probe%segments, info)
     if (info%failed()) return
     probe%direction = 0.0_dp
     ! The minimal standard generator (S. K. Park, K. W. Miller, Communications of the ACM 31, 1988).
     ! Ranks have lengths of their own.
-    seed = 1043618065_int64 + scene%rows%ranks%number()
+    seed = 1043618065_int64 + scene%rows%number()
     do k = 1, n
       seed = mod(16807_int64*seed, 2147483647_int64)
       probe%residual(k) = merge(2.0_dp*real(seed, dp)/2147483647.0_dp - 1.0_dp, 0.0_dp, probe%contact(k))

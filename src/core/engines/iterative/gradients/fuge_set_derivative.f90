@@ -48,7 +48,7 @@ contains
     call set_scene(operator, canonical, gap_change, load_change, scene, info)
     if (info%failed()) return
     if (allocated(scene%modes)) then
-      call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted, canonical%ranks)
+      call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted, canonical%space)
       call refuse_unresisted(scene%load, unresisted, info)
       if (info%failed()) return
     end if
@@ -56,7 +56,7 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(n)//' points')
     end if
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call start_iterate(iterate, scene, info=info)
     if (info%failed()) return
@@ -92,7 +92,7 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
     end if
-    call canonical%ranks%agree(info)
+    call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     scene%modes = canonical%modes
     scene%balance = 0.0_dp
@@ -172,7 +172,7 @@ contains
       iterate%displacement = iterate%displacement + matmul(scene%modes, iterate%rigid_motion)
     end if
     if (canonical%has_translation) then
-      associate (by_datum => operator%datum()*canonical%ranks%total(sum(iterate%force)))
+      associate (by_datum => operator%datum()*canonical%space%total(sum(iterate%force)))
         free_motion(1) = free_motion(1) + by_datum
         iterate%displacement = iterate%displacement + by_datum
       end associate

@@ -36,7 +36,7 @@ contains
     end if
     if (allocated(scene%excluded)) iterate%contact = iterate%contact .and. .not. scene%excluded
     if (scene%prescribed) return
-    if (scene%rows%ranks%anywhere(any(iterate%contact))) return
+    if (scene%rows%anywhere(any(iterate%contact))) return
     iterate%contact = .true.
     if (allocated(scene%excluded)) iterate%contact = .not. scene%excluded
   end subroutine choose_contact
@@ -54,7 +54,7 @@ contains
       wrong = count(iterate%contact .and. iterate%force < -iterate%tension_noise) &
               + count(.not. iterate%contact &
                       .and. deformed_gap(scene%gap, iterate%displacement, iterate%motion) < -noise)
-      wrong = scene%rows%ranks%total_count(wrong)
+      wrong = scene%rows%total_count(wrong)
       return
     end if
     wrong = 0
@@ -65,7 +65,7 @@ contains
         wrong = wrong + 1
       end if
     end do
-    wrong = scene%rows%ranks%total_count(wrong)
+    wrong = scene%rows%total_count(wrong)
   end function count_wrong_points
 
   !> Does the force of point `k`, in contact, pull away from its stop?
@@ -128,7 +128,7 @@ contains
     if (stat == 0 .and. extrapolate) allocate (measure(size(scene%gap)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(scene%gap)) &
                                //' points')
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     if (allocated(scene%play)) then
       do k = 1, size(scene%gap)
@@ -220,10 +220,10 @@ contains
       deepest = k
       greatest = depth
     end do
-    associate (ranks => scene%rows%ranks)
-      owner = real(ranks%number(), dp)
-      call ranks%take_from_least(merge(-greatest, huge(greatest), deepest > 0), owner)
-      if (abs(owner(1) - real(ranks%number(), dp)) > 0.0_dp) deepest = 0
+    associate (space => scene%rows%point_space)
+      owner = real(space%number(), dp)
+      call space%take_from_least(merge(-greatest, huge(greatest), deepest > 0), owner)
+      if (abs(owner(1) - real(space%number(), dp)) > 0.0_dp) deepest = 0
     end associate
   end function deepest_open_point
 
@@ -235,7 +235,7 @@ contains
     integer :: k
 
     if (.not. allocated(scene%play)) then
-      tension = scene%rows%ranks%largest(max(0.0_dp, -minval(iterate%force)))
+      tension = scene%rows%largest(max(0.0_dp, -minval(iterate%force)))
       return
     end if
     tension = 0.0_dp
@@ -243,7 +243,7 @@ contains
       if (.not. iterate%contact(k)) cycle
       if (is_tensile(scene, iterate, k)) tension = max(tension, abs(iterate%force(k)))
     end do
-    tension = scene%rows%ranks%largest(tension)
+    tension = scene%rows%largest(tension)
   end function greatest_tension
 
   !> Are the forces accurate enough to tell which of them will be tensile: is their error below the fraction `decisive`
@@ -266,7 +266,7 @@ contains
                                                                              iterate%force(k) - iterate%work(k)))
       end do
       extremes = [force_error(1), tension(1)]
-      call scene%rows%ranks%raise(extremes)
+      call scene%rows%raise(extremes)
       decided = extremes(1) <= decisive*extremes(2)
       return
     end if
@@ -284,7 +284,7 @@ contains
       end do
     end do
     extremes = [maxval(force_error), maxval(tension)]
-    call scene%rows%ranks%raise(extremes)
+    call scene%rows%raise(extremes)
     decided = extremes(1) <= decisive*extremes(2)
   end function tension_is_decided
 

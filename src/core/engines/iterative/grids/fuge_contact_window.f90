@@ -14,7 +14,7 @@ module fuge_contact_window
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_shared_transfer, only: prolong_to
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
@@ -95,8 +95,8 @@ contains
     if (info%failed()) return
     own = [1, coarser_rows(finest, level)]
     if (.not. rows%is_alone()) own = rows%own()
-    if (.not. rows%ranks%everywhere(is_on_grid(finest, level, own, start))) return
-    box = contact_box(finest, level, own, rows%ranks, start)
+    if (.not. rows%everywhere(is_on_grid(finest, level, own, start))) return
+    box = contact_box(finest, level, own, rows%point_space, start)
     do
       if (.not. is_worthwhile(box)) return
       call operator%window(box%first, box%last, part)
@@ -135,10 +135,10 @@ contains
   end function is_on_grid
 
   !> The cells of the finest grid that carry force on the grid that is `level` times coarser, with a margin. `force`:
-  !> those of the rows own(1) .. own(2) of that grid, which `ranks` share.
-  function contact_box(finest, level, own, ranks, force) result(box)
+  !> those of the rows own(1) .. own(2) of that grid, which `space` share.
+  function contact_box(finest, level, own, space, force) result(box)
     integer, intent(in) :: finest(2), level, own(2)
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     real(dp), intent(in), contiguous :: force(:)
     type(cell_box) :: box
     real(dp) :: reach(4)
@@ -155,9 +155,9 @@ contains
         box%last = max(box%last, [i, j])
       end do
     end do
-    if (.not. ranks%is_alone()) then
+    if (.not. space%is_alone()) then
       reach = real([-box%first, box%last], dp)
-      call ranks%raise(reach)
+      call space%raise(reach)
       box%first = -int(reach(1:2))
       box%last = int(reach(3:4))
     end if
@@ -206,7 +206,7 @@ contains
     part_scene%rows = rows
     call box%gather(scene%gap, scene%rows, rows, part_scene%gap, info)
     if (info%failed()) return
-    if (.not. scene%prescribed) part_scene%gap = part_scene%gap - rows%ranks%least(minval(part_scene%gap))
+    if (.not. scene%prescribed) part_scene%gap = part_scene%gap - rows%least(minval(part_scene%gap))
     part_info = fuge_info(iterations=info%iterations)
     call nested_iteration(part, coarse_settings, part_scene, coarsest_level(part), 1, monitor, start, work, part_info)
     if (allocated(start) .and. .not. part_info%failed()) call prolong_to(part, start, part_info)
@@ -244,8 +244,8 @@ contains
       if (own(2) == n(2)) at_last(2) = any(force(n(1)*(own(2) - own(1)) + 1:) > 0.0_dp)
     end if
     do k = 1, 2
-      at_first(k) = rows%ranks%anywhere(at_first(k))
-      at_last(k) = rows%ranks%anywhere(at_last(k))
+      at_first(k) = rows%anywhere(at_first(k))
+      at_last(k) = rows%anywhere(at_last(k))
     end do
     at_first = at_first .and. box%first > 1
     at_last = at_last .and. box%last < box%cells
@@ -271,7 +271,7 @@ contains
     range = self%rows_here(fine)
     allocate (cut(n(1)*max(range(2) - range(1) + 1, 0)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a window of '//text(product(n))//' points')
-    call fine%ranks%agree(info)
+    call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call self%copy_rows(range, first_row(fine), whole, cut)
     if (fine%is_alone()) then
@@ -299,7 +299,7 @@ contains
     allocate (whole(self%cells(1)*(own(2) - own(1) + 1)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the starting forces on ' &
                                //text(self%cells(1)*(own(2) - own(1) + 1))//' points')
-    call fine%ranks%agree(info)
+    call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     n = self%extent()
     if (fine%is_alone()) then
@@ -350,7 +350,7 @@ contains
     type(shared_rows), intent(in) :: fine
     type(shared_rows), intent(out) :: box_rows
 
-    box_rows%ranks = fine%ranks
+    box_rows%point_space = fine%point_space
     box_rows%cells = self%extent()
     allocate (box_rows%first, source=fine%first)
     box_rows%first = min(max(fine%first - self%first(2), 0), box_rows%cells(2)) + 1
@@ -370,17 +370,17 @@ contains
   !> The first row of each rank.
   pure function first_rows(rows) result(first)
     type(shared_rows), intent(in) :: rows
-    integer :: first(rows%ranks%members())
+    integer :: first(rows%members())
 
-    first = rows%first(0:rows%ranks%members() - 1)
+    first = rows%first(0:rows%members() - 1)
   end function first_rows
 
   !> The last row of each rank.
   pure function last_rows(rows) result(last)
     type(shared_rows), intent(in) :: rows
-    integer :: last(rows%ranks%members())
+    integer :: last(rows%members())
 
-    last = rows%first(1:rows%ranks%members()) - 1
+    last = rows%first(1:rows%members()) - 1
   end function last_rows
 
 end module fuge_contact_window

@@ -44,7 +44,8 @@ contains
   !> `start` in: the forces of grid first + 1, or unallocated; out: those of grid `last`, or of the last one before it
   !> that the operator has; unallocated if it has none, or if the search on the last one failed. `work` counts in units
   !> of a cell. Errors: those of find_contact_set, but FUGE_ERR_ITERATION_LIMIT only if the limit of `settings` is
-  !> reached, and no FUGE_ERR_NOT_DEFINITE; FUGE_ERR_MEMORY.
+  !> reached, and no FUGE_ERR_NOT_DEFINITE; FUGE_ERR_MEMORY. The arguments are nine, because a window goes through
+  !> some of the grids only.
   subroutine nested_iteration(operator, settings, scene, first, last, monitor, start, work, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -134,7 +135,7 @@ contains
       return
     end if
     ! Means may all be far above the least gap of the finest grid: beside them small displacements would be rounding.
-    if (.not. scene%prescribed) coarse%gap = coarse%gap - rows%ranks%least(minval(coarse%gap))
+    if (.not. scene%prescribed) coarse%gap = coarse%gap - rows%least(minval(coarse%gap))
     if (allocated(start)) call prolong_to(operator, start, info)
     if (.not. info%failed()) call start_iterate(iterate, coarse, start, info)
     if (.not. info%failed()) call find_contact_set(operator, settings, coarse, monitor, iterate, info)

@@ -15,7 +15,7 @@ module fuge_contact_preconditioner
   use fuge_operator_type, only: fuge_operator
   use fuge_preconditioner_levels, only: apply_levels, count_contacts, create_level, exists, level_force, &
     preconditioner_level
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_rigid_images, only: rigid_images
   use fuge_shared_exchange, only: count_segments
   use fuge_shared_rows, only: rows_of, shared_rows
@@ -81,9 +81,9 @@ contains
     real(dp), intent(in) :: compliance
     type(fuge_info), intent(inout) :: info
     type(contact_segments) :: segments
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
-    ranks = operator%ranks()
+    space = operator%space()
     if (.not. operator%has_preconditioner()) then
       ! Only avoids overflow: conjugate gradients do not depend on a factor. The first one is kept, so that what they
       ! find on one set can be compared with another.
@@ -93,9 +93,9 @@ contains
       return
     end if
     if (self%depth > 0 .and. .not. self%is_close .and. (self%has_uniform .or. .not. zero_sum)) then
-      if (ranks%everywhere(all(contact .eqv. self%contact))) return
+      if (space%everywhere(all(contact .eqv. self%contact))) return
     end if
-    segments%ranks = ranks
+    segments%space = space
     call segments%find(contact, info)
     if (self%depth == 1 .and. self%has_uniform .and. zero_sum .and. .not. info%failed()) then
       call keep_uniform(self, segments, contact)
@@ -129,14 +129,14 @@ contains
     real(dp) :: total
     integer :: changed, stat
 
-    changed = segments%ranks%total_count(count(contact .neqv. self%contact))
+    changed = segments%space%total_count(count(contact .neqv. self%contact))
     self%is_close = real(changed, dp) <= CLOSE*real(segments%points, dp)
     if (.not. self%is_close) return
     stat = 0
     if (.not. allocated(self%centred)) allocate (self%centred(size(contact)), stat=stat)
     if (stat == 0) self%centred = 0.0_dp
     total = sum_over(segments, self%uniform)
-    self%is_close = segments%ranks%everywhere(stat == 0) .and. total > 0.0_dp
+    self%is_close = segments%space%everywhere(stat == 0) .and. total > 0.0_dp
     if (self%is_close) self%sum_of_uniform = total
   end subroutine keep_uniform
 
@@ -154,7 +154,7 @@ contains
     integer :: j, stat
 
     if (self%depth == 0) return
-    if (self%rigid%fits(segments%ranks, projection%rank, contact, CLOSE)) then
+    if (self%rigid%fits(segments%space, projection%rank, contact, CLOSE)) then
       call self%rigid%measure(segments, stat)
       if (stat == 0) return
     end if
@@ -167,7 +167,7 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(contact))//' points')
     end if
-    call segments%ranks%agree(info)
+    call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     self%rigid%contact = contact
     do j = 1, projection%rank
@@ -296,7 +296,7 @@ contains
     class(fuge_operator), intent(in) :: operator
     logical, intent(in) :: contact(:)
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: n, stat
 
     n = operator%points()
@@ -304,10 +304,10 @@ contains
     if (.not. allocated(self%contact)) allocate (self%contact(n), self%uniform(n), stat=stat)
     if (stat == 0) self%contact = contact
     self%depth = 1
-    ranks = operator%ranks()
-    if (ranks%everywhere(stat == 0)) call find_levels(self, operator, contact, stat, info)
+    space = operator%space()
+    if (space%everywhere(stat == 0)) call find_levels(self, operator, contact, stat, info)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
-    call ranks%agree(info)
+    call space%agree(info)
     if (self%depth > 1 .and. .not. info%failed()) call count_contacts(self%levels(:self%depth), contact, info)
   end subroutine prepare_levels
 
@@ -319,7 +319,7 @@ contains
     integer, intent(out) :: stat
     type(fuge_info), intent(inout) :: info
     type(shared_rows) :: rows
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     integer :: l, n
 
     stat = 0
@@ -328,16 +328,16 @@ contains
     if (info%failed()) return
     if (count_segments(rows, contact) < MANY_SEGMENTS) return
     n = size(contact)
-    ranks = operator%ranks()
+    space = operator%space()
     if (.not. allocated(self%levels)) then
       allocate (self%levels(MAX_LEVELS), self%forces(MAX_LEVELS), stat=stat)
       if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%residual(n), stat=stat)
       if (stat == 0) self%levels(1)%rows = rows
     end if
     do l = 2, MAX_LEVELS
-      if (.not. ranks%everywhere(stat == 0)) return
+      if (.not. space%everywhere(stat == 0)) return
       call create_level(operator, l, self%levels(l), self%forces(l), stat)
-      if (.not. ranks%everywhere(stat == 0)) return
+      if (.not. space%everywhere(stat == 0)) return
       if (.not. exists(self%levels(l))) exit
       self%depth = l
     end do
@@ -349,15 +349,15 @@ contains
     logical, intent(in) :: contact(:)
     real(dp), intent(inout), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
     real(dp), allocatable :: unit(:)
     integer :: stat
 
     allocate (unit(size(contact)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(size(contact)) &
                                //' points')
-    ranks = operator%ranks()
-    call ranks%agree(info)
+    space = operator%space()
+    call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     unit = merge(1.0_dp, 0.0_dp, contact)
     call precondition(operator, unit, force, info)

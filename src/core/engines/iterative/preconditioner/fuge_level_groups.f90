@@ -43,7 +43,7 @@ contains
     real(dp), intent(inout), contiguous :: sums(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: collected(:), part(:)
-    integer, dimension(0:fine%ranks%members() - 1) :: first, last
+    integer, dimension(0:fine%members() - 1) :: first, last
     integer :: begin, k, me, stat
 
     if (is_local(fine)) then
@@ -53,7 +53,7 @@ contains
       return
     end if
     call find_groups(fine, first, last)
-    me = fine%ranks%number()
+    me = fine%number()
     allocate (part(last(me) - first(me) + 1), stat=stat)
     if (stat /= 0) then
       ! The ranks agree on errors where they collect.
@@ -166,11 +166,11 @@ contains
     real(dp), allocatable, intent(out) :: part(:)
     integer, intent(out) :: before
     type(fuge_info), intent(inout) :: info
-    integer, dimension(0:fine%ranks%members() - 1) :: first, last
+    integer, dimension(0:fine%members() - 1) :: first, last
     integer :: me
 
     call find_groups(fine, first, last)
-    me = fine%ranks%number()
+    me = fine%number()
     before = fine%first(me) - GROUP*(first(me) - 1) - 1
     call coarse%fetch(1, values, first, last, part, info)
   end subroutine fetch_groups

@@ -8,7 +8,7 @@ module fuge_rigid_images
   use fuge_contact_segments, only: contact_segments, dot_over
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgesv
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   implicit none
   private
 
@@ -30,10 +30,10 @@ module fuge_rigid_images
 contains
 
   !> Are there images of `rank` motions for a set that differs from `contact` (n) in at most the fraction `close` of its
-  !> points? `ranks` may share these.
-  function fits(self, ranks, rank, contact, close)
+  !> points? `space` may share these.
+  function fits(self, space, rank, contact, close)
     class(rigid_images), intent(in) :: self
-    type(shared_ranks), intent(in) :: ranks
+    type(point_space), intent(in) :: space
     integer, intent(in) :: rank
     logical, intent(in) :: contact(:)
     real(dp), intent(in) :: close
@@ -44,7 +44,7 @@ contains
     if (fits) fits = size(self%images, 2) == rank
     if (.not. fits) return
     counts = real([count(contact .neqv. self%contact), count(contact)], dp)
-    call ranks%add(counts)
+    call space%add(counts)
     fits = counts(1) <= close*counts(2)
   end function fits
 
@@ -59,7 +59,7 @@ contains
     r = size(self%images, 2)
     if (allocated(self%products)) deallocate (self%products)
     allocate (self%products(r, r), stat=stat)
-    if (.not. segments%ranks%everywhere(stat == 0)) stat = max(stat, 1)
+    if (.not. segments%space%everywhere(stat == 0)) stat = max(stat, 1)
     if (stat /= 0) return
     do j = 1, r
       do i = 1, r

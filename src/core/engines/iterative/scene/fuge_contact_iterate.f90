@@ -9,7 +9,7 @@ module fuge_contact_iterate
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -103,9 +103,9 @@ contains
     if (stat == 0 .and. scene%prescribed) allocate (iterate%start(n), stat=stat)
     if (stat == 0 .and. allocated(scene%modes)) allocate (iterate%rigid_motion(size(scene%load)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    iterate%segments%ranks = scene%rows%ranks
+    iterate%segments%space = scene%rows%point_space
     iterate%prescribed = scene%prescribed
     if (present(start)) then
       iterate%force = start
@@ -158,7 +158,7 @@ contains
     ! Forces to start from may be the rounding of those under another load.
     if (scene%is_unloaded() .and. .not. info%failed()) then
       largest = [maxval(abs(iterate%force)), maxval(abs(iterate%displacement))]
-      call scene%rows%ranks%raise(largest)
+      call scene%rows%raise(largest)
       if (largest(1) > 0.0_dp) iterate%softness = max(iterate%softness, largest(2)/largest(1))
     end if
   end subroutine make_feasible
@@ -195,11 +195,11 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     real(dp) :: total
 
-    total = iterate%segments%ranks%total(sum(iterate%force))
+    total = iterate%segments%space%total(sum(iterate%force))
     if (total > 0.0_dp) then
       iterate%force = iterate%force/total
     else
-      total = real(iterate%segments%ranks%total_count(count(iterate%contact)), dp)
+      total = real(iterate%segments%space%total_count(count(iterate%contact)), dp)
       where (iterate%contact) iterate%force = 1.0_dp/total
     end if
   end subroutine restore_load
@@ -318,7 +318,7 @@ contains
       if (iterate%contact(k) .or. scene%play(k) >= huge(depth) .or. scene%gap(k) >= OUT_OF_REACH) cycle
       depth = max(depth, deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion) - scene%play(k))
     end do
-    depth = scene%rows%ranks%largest(depth)
+    depth = scene%rows%largest(depth)
   end function find_penetration
 
   !> The least magnitude as the certificate forms it, over the contact points: the size of the gap less the rigid
@@ -336,7 +336,7 @@ contains
     if (info%failed()) return
     offset = 0.0_dp
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
-    if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%ranks%total(sum(iterate%force))
+    if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%total(sum(iterate%force))
     if (allocated(scene%modes)) then
       iterate%rounding = ROUNDINGS*epsilon(offset)*largest_term(scene, iterate)
       call add_magnitudes(operator, scene, offset, iterate, elastic, info)
@@ -362,7 +362,7 @@ contains
     allocate (lengths(size(scene%gap)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(scene%gap)) &
                                //' points')
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
   end subroutine new_lengths
 
   !> The magnitudes of scenes with modes, in iterate%work (n). On return `elastic` (n) has the displacement without its
@@ -403,7 +403,7 @@ contains
         largest = max(largest, abs(scene%gap(k)) + rigid)
       end do
     end do
-    largest = scene%rows%ranks%largest(largest)
+    largest = scene%rows%largest(largest)
   end function largest_term
 
   !> Is the residual within `tolerance`, relative to the least magnitude, or rounding?
@@ -429,7 +429,7 @@ contains
         least = min(least, abs(gap(k) + offset) + magnitude(k))
       end do
     end do
-    least = segments%ranks%least(least)
+    least = segments%space%least(least)
   end function least_sum
 
   !> The least of `values` (n) over the segments, 0 if there are none.
@@ -443,7 +443,7 @@ contains
     do i = 1, size(segments%first)
       least = min(least, minval(values(segments%first(i):segments%last(i))))
     end do
-    least = segments%ranks%least(least)
+    least = segments%space%least(least)
   end function least_over
 
   !> Forces up to this one are rounding. Without a load there is none to compare them with: then those count that
@@ -460,7 +460,7 @@ contains
     length = maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH)
     if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=scene%play < huge(length) &
                                                            .and. scene%gap < OUT_OF_REACH))
-    length = scene%rows%ranks%largest(length)
+    length = scene%rows%largest(length)
     if (.not. length > 0.0_dp) then
       ! Nothing asks for forces.
       rounding = huge(rounding)
@@ -485,12 +485,12 @@ contains
     real(dp), intent(in), contiguous :: force(:)
     real(dp), intent(inout), contiguous :: displacement(:)
     type(fuge_info), intent(inout) :: info
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
     call multiply(operator, force, displacement, info)
     if (.not. with_datum .or. info%failed()) return
-    ranks = operator%ranks()
-    displacement = displacement + operator%datum()*ranks%total(sum(force))
+    space = operator%space()
+    displacement = displacement + operator%datum()*space%total(sum(force))
   end subroutine compute_displacement
 
   !> Gap of a point in the deformed state; negative where the point penetrates. Scaled as in

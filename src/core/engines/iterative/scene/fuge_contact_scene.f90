@@ -141,7 +141,7 @@ contains
 
     allocate (taking_part(size(scene%gap)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(scene%gap))//' cells')
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     taking_part = 1.0_dp
     if (allocated(scene%excluded)) taking_part = merge(0.0_dp, 1.0_dp, scene%excluded)
@@ -163,7 +163,7 @@ contains
     if (allocated(scene%excluded)) then
       allocate (taking_part(size(values)), stat=stat)
       if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(values))//' cells')
-      call scene%rows%ranks%agree(info)
+      call scene%rows%agree(info)
       if (stat /= 0 .or. info%failed()) return
       taking_part = merge(0.0_dp, values, scene%excluded)
       call restrict_rows(scene%rows, rows, finest, level, taking_part, coarse, info)
@@ -186,7 +186,7 @@ contains
     if (.not. allocated(scene%play)) return
     allocate (play(size(scene%play)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the play of '//text(size(scene%play))//' cells')
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     play = merge(1.0_dp, 0.0_dp, scene%play >= huge(1.0_dp))
     call restrict_part(scene, coarse%rows, play, finest, level, share, endless, info)
@@ -213,14 +213,14 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(size(share))//' cells')
     end if
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     coarse%load = scene%load
     do j = 1, size(scene%load)
       call restrict_part(scene, coarse%rows, scene%modes(:, j), finest, level, share, mode, info)
       if (info%failed()) return
       sizes = [maxval(abs(scene%modes(:, j))), maxval(abs(mode))]
-      call scene%rows%ranks%raise(sizes)
+      call scene%rows%raise(sizes)
       coarse%modes(:, j) = merge(mode, 0.0_dp, sizes(2) > LEFT_OF_MODE*sizes(1))
     end do
   end subroutine restrict_modes
@@ -239,14 +239,14 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium on '//text(size(scene%gap))//' cells')
     end if
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     pushes = .true.
     if (allocated(scene%excluded)) pushes = .not. scene%excluded
     pulls = .false.
     if (allocated(scene%play)) pulls = pushes .and. scene%play < huge(1.0_dp)
-    call find_shared_equilibrium(scene%rows%ranks, scene%modes, scene%load, pushes, pulls, scene%balance, remainder, &
-                                 epsilon(remainder)*spread(maxval(abs(scene%load)), 1, size(remainder)))
+    call find_shared_equilibrium(scene%rows%point_space, scene%modes, scene%load, pushes, pulls, scene%balance, &
+                                 remainder, epsilon(remainder)*spread(maxval(abs(scene%load)), 1, size(remainder)))
     possible = .not. any(abs(remainder) > 0.0_dp)
   end subroutine find_balance
 

@@ -4,7 +4,7 @@
 !> segments of its own, and sums and maxima are those over the segments of all ranks.
 module fuge_contact_segments
   use fuge_kinds, only: dp
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -21,7 +21,7 @@ module fuge_contact_segments
     !> Number of points in all segments, of all ranks.
     integer :: points = 0
     !> The ranks that share the points.
-    type(shared_ranks) :: ranks = shared_ranks()
+    type(point_space) :: space = point_space()
   contains
     procedure :: find
   end type contact_segments
@@ -44,7 +44,7 @@ contains
     if (allocated(self%first)) deallocate (self%first, self%last)
     allocate (self%first(number), self%last(number), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the segments of the contact set')
-    call self%ranks%agree(info)
+    call self%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     number = 0
     inside = .false.
@@ -59,7 +59,7 @@ contains
       end if
     end do
     if (inside) self%last(number) = n
-    self%points = self%ranks%total_count(sum(self%last - self%first + 1))
+    self%points = self%space%total_count(sum(self%last - self%first + 1))
   end subroutine find
 
   !> Sum of `x` (n) over the segments.
@@ -80,7 +80,7 @@ contains
         total = total + x(k)
       end do
     end do
-    total = segments%ranks%total(total + sum(partial))
+    total = segments%space%total(total + sum(partial))
   end function sum_over
 
   !> Inner product of `x` and `y`, both (n), over the segments.
@@ -101,7 +101,7 @@ contains
         inner = inner + x(k)*y(k)
       end do
     end do
-    inner = segments%ranks%total(inner + sum(partial))
+    inner = segments%space%total(inner + sum(partial))
   end function dot_over
 
   !> `inner` = the inner product of `x` and `y` over the segments, `total` = the sum of `y`; both (n).
@@ -128,9 +128,9 @@ contains
     end do
     inner = inner + sum(products)
     total = total + sum(values)
-    if (segments%ranks%is_alone()) return
+    if (segments%space%is_alone()) return
     sums = [inner, total]
-    call segments%ranks%add(sums)
+    call segments%space%add(sums)
     inner = sums(1)
     total = sums(2)
   end subroutine dot_and_sum_over
@@ -159,7 +159,7 @@ contains
         inner = inner + y(k)*z(k)
       end do
     end do
-    inner = segments%ranks%total(inner + sum(partial))
+    inner = segments%space%total(inner + sum(partial))
   end subroutine subtract_and_dot_over
 
   !> Subtract `mean` from `x` (n) over the segments; `largest` is the largest |x| then, 0 if there is none.
@@ -185,7 +185,7 @@ contains
         largest = max(largest, abs(x(k)))
       end do
     end do
-    largest = segments%ranks%largest(max(largest, maxval(partial)))
+    largest = segments%space%largest(max(largest, maxval(partial)))
   end subroutine center_over
 
   !> Largest |x| over the segments, 0 if there is none; `x` (n).
@@ -201,7 +201,7 @@ contains
         largest = max(largest, abs(x(k)))
       end do
     end do
-    largest = segments%ranks%largest(largest)
+    largest = segments%space%largest(largest)
   end function max_abs_over
 
 end module fuge_contact_segments

@@ -20,7 +20,8 @@ contains
   !> `direction` (n), force, zero off the set; `image` (n), length, the displacements by it; `force` (n) and
   !> `residual` (n), length, are changed on the set: the residuals by `shift` less their step;
   !> `displacement` (n) everywhere. `total` and `largest` are the sum and the largest magnitude of the new residuals,
-  !> 0 without contact; `penetration` as deepest_penetration.
+  !> 0 without contact; `penetration` as deepest_penetration. The arguments are thirteen, because one pass over the
+  !> points updates all that follows from the forces.
   subroutine step_over(segments, step_length, shift, reduced_gap, motion, direction, image, force, displacement, &
                             residual, total, largest, penetration)
     type(contact_segments), intent(in) :: segments
@@ -44,9 +45,9 @@ contains
     end do
     call move_open_points(last + 1, size(reduced_gap), step_length, reduced_gap, motion, image, displacement, &
                           least_gaps)
-    total = segments%ranks%total(sum(totals))
+    total = segments%space%total(sum(totals))
     extremes = [maxval(magnitudes), max(0.0_dp, -minval(least_gaps))]
-    call segments%ranks%raise(extremes)
+    call segments%space%raise(extremes)
     largest = extremes(1)
     penetration = extremes(2)
   end subroutine step_over
@@ -76,7 +77,8 @@ contains
 
   !> The step of forces, displacements and residuals of the contact points `first` .. `last`; `totals` gain the
   !> residuals, `magnitudes` rise to their magnitudes. `image` (n) are the displacements by `direction` (n), of
-  !> which the residuals get what exceeds `shift`.
+  !> which the residuals get what exceeds `shift`. The arguments are eleven, because the arrays of the pass are
+  !> contiguous only one by one.
   pure subroutine move_contact_points(first, last, step_length, shift, direction, image, force, displacement, &
                                       residual, totals, magnitudes)
     integer, intent(in) :: first, last
@@ -123,7 +125,7 @@ contains
       last = segments%last(i)
     end do
     call deepen(last + 1, size(reduced_gap), reduced_gap, motion, displacement, deepest)
-    depth = segments%ranks%largest(maxval(deepest))
+    depth = segments%space%largest(maxval(deepest))
   end function deepest_penetration
 
   !> Raise `deepest` to the penetrations of the points `first` .. `last`.

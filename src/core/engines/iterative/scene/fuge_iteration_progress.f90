@@ -26,10 +26,10 @@ contains
     if (iterate%residual_norm > 0.0_dp) then
       relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
     end if
-    contacts = scene%rows%ranks%total_count(count(iterate%contact))
+    contacts = scene%rows%total_count(count(iterate%contact))
     call tell_monitor(monitor, info%iterations, relative, contacts, status)
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
-    call scene%rows%ranks%agree(info)
+    call scene%rows%agree(info)
   end subroutine tell_progress
 
 end module fuge_iteration_progress

@@ -51,7 +51,7 @@ contains
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(modes, 1))//' points')
     end if
-    call segments%ranks%agree(info)
+    call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     self%rank = 0
     do j = 1, m
@@ -69,7 +69,7 @@ contains
     integer :: i, pass, r
 
     ! Not that on the set, where all that is left of a mode may be rounding.
-    usual_size = segments%ranks%largest(maxval(abs(mode)))*sqrt(real(segments%points, dp))
+    usual_size = segments%space%largest(maxval(abs(mode)))*sqrt(real(segments%points, dp))
     if (.not. usual_size > 0.0_dp) return
     r = self%rank + 1
     self%basis(:, r) = mode
@@ -185,7 +185,7 @@ contains
         force = max(force, sum(parts*abs(self%basis(k, :self%rank))))
       end do
     end do
-    force = segments%ranks%largest(force)
+    force = segments%space%largest(force)
   end function largest_force
 
   !> What `force` (n) lacks of the resultants, and the sizes of their terms, (m).
@@ -206,7 +206,7 @@ contains
         end do
       end do
     end do
-    call segments%ranks%add(terms)
+    call segments%space%add(terms)
     terms = terms + abs(load)
   end subroutine find_missing
 

@@ -27,19 +27,19 @@ contains
     logical, intent(inout) :: contact(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: part(:)
-    integer :: own(2), first(0:rows%ranks%members() - 1)
+    integer :: own(2), first(0:rows%members() - 1)
 
     if (rows%is_alone()) then
       call exchange_extrapolated(tensile, penetrating, measure, contact)
-    else if (rows%ranks%everywhere(size(contact) == 0 .or. size(contact) == product(rows%cells))) then
+    else if (rows%everywhere(size(contact) == 0 .or. size(contact) == product(rows%cells))) then
       ! One rank has them all.
       call exchange_extrapolated(tensile, penetrating, measure, contact)
     else
       call fetch_neighbours(rows, tensile, penetrating, measure, contact, first, part, info)
       if (info%failed()) return
       own = rows%own()
-      if (size(contact) > 0) call exchange_part(part, own(1) - first(rows%ranks%number()), contact, info)
-      call rows%ranks%agree(info)
+      if (size(contact) > 0) call exchange_part(part, own(1) - first(rows%number()), contact, info)
+      call rows%agree(info)
     end if
   end subroutine exchange_in_line
 
@@ -58,7 +58,7 @@ contains
     allocate (values(2*size(contact)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(contact)) &
                                //' points')
-    call rows%ranks%agree(info)
+    call rows%agree(info)
     first = 0
     if (stat /= 0 .or. info%failed()) return
     do k = 1, size(contact)
@@ -113,12 +113,12 @@ contains
     type(shared_rows), intent(in) :: rows
     logical, intent(in) :: mask(:)
     integer :: longest
-    real(dp) :: runs(4, 0:rows%ranks%members() - 1), open_run
+    real(dp) :: runs(4, 0:rows%members() - 1), open_run
     integer :: r
 
     ! Of each rank: the longest run, that at the beginning, that at the end; 1 if they are all its cells.
     runs = 0.0_dp
-    runs(:, rows%ranks%number()) = runs_of(mask)
+    runs(:, rows%number()) = runs_of(mask)
     call add_columns(rows, runs)
     longest = 0
     open_run = 0.0_dp
@@ -155,7 +155,7 @@ contains
     type(shared_rows), intent(in) :: rows
     logical, intent(in) :: contact(:)
     integer :: number
-    real(dp) :: ends(4, 0:rows%ranks%members() - 1)
+    real(dp) :: ends(4, 0:rows%members() - 1)
     integer :: n, r
     logical :: before
 
@@ -165,7 +165,7 @@ contains
     if (rows%is_alone()) return
     ! Of each rank: the runs that begin in it; 1 if it has cells; 1 if the first, and the last one are in contact.
     ends = 0.0_dp
-    if (n > 0) ends(:, rows%ranks%number()) = real([number, 1, merge(1, 0, contact(1)), merge(1, 0, contact(n))], dp)
+    if (n > 0) ends(:, rows%number()) = real([number, 1, merge(1, 0, contact(1)), merge(1, 0, contact(n))], dp)
     call add_columns(rows, ends)
     number = 0
     before = .false.
@@ -184,7 +184,7 @@ contains
     real(dp) :: values(size(columns))
 
     values = reshape(columns, shape(values))
-    call rows%ranks%add(values)
+    call rows%add(values)
     columns = reshape(values, shape(columns))
   end subroutine add_columns
 

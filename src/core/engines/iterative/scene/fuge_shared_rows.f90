@@ -3,7 +3,7 @@ module fuge_shared_rows
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_ranks, only: shared_ranks
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   implicit none
   private
@@ -11,14 +11,12 @@ module fuge_shared_rows
   public :: rows_of
 
   !> Which rows each rank has. Alone, as before it is set, a process has them all, and nothing is exchanged.
-  type, public :: shared_rows
-    type(shared_ranks) :: ranks = shared_ranks()
+  type, extends(point_space), public :: shared_rows
     !> Cells of the whole grid in each direction; 0 where a process is alone.
     integer :: cells(2) = 0
     !> Rank r has the rows first(r) .. first(r + 1) - 1, (0:ranks); not allocated where a process is alone.
     integer, allocatable :: first(:)
   contains
-    procedure :: is_alone
     procedure :: own
     procedure :: points
     procedure :: fetch
@@ -34,29 +32,21 @@ contains
     type(shared_rows), intent(out) :: rows
     type(fuge_info), intent(inout) :: info
 
-    rows%ranks = operator%ranks()
+    rows%point_space = operator%space()
     if (rows%is_alone()) return
     rows%cells = (operator%grid() - 1)/2**levels + 1
     call operator%first_rows(levels, rows%first)
     if (.not. allocated(rows%first)) call report(info, FUGE_ERR_MEMORY, 'no memory for the rows of ' &
-                                                 //text(rows%ranks%members())//' ranks')
-    call rows%ranks%agree(info)
+                                                 //text(rows%members())//' ranks')
+    call rows%agree(info)
   end subroutine rows_of
-
-  !> Does one process have all rows?
-  pure function is_alone(self)
-    class(shared_rows), intent(in) :: self
-    logical :: is_alone
-
-    is_alone = self%ranks%is_alone()
-  end function is_alone
 
   !> The first and the last row of this rank; not where a process is alone.
   pure function own(self) result(range)
     class(shared_rows), intent(in) :: self
     integer :: range(2)
 
-    range = [self%first(self%ranks%number()), self%first(self%ranks%number() + 1) - 1]
+    range = [self%first(self%number()), self%first(self%number() + 1) - 1]
   end function own
 
   !> Number of points of all ranks, of which this one has `here`.
@@ -83,7 +73,7 @@ contains
     integer, dimension(0:size(first) - 1) :: to, from
     integer :: begin, done, me, r, stat
 
-    me = self%ranks%number()
+    me = self%number()
     do r = 0, size(first) - 1
       to(r) = length*overlap(self%own(), [first(r), last(r)])
       from(r) = length*overlap([self%first(r), self%first(r + 1) - 1], [first(me), last(me)])
@@ -97,7 +87,7 @@ contains
       sent(done + 1:done + to(r)) = values(begin + 1:begin + to(r))
       done = done + to(r)
     end do
-    call self%ranks%group%exchange(to, sent, from, part)
+    call self%group%exchange(to, sent, from, part)
   end subroutine fetch
 
   !> `values`: to the rows of this rank, `length` values each, the sums of what all ranks have for them.
@@ -115,7 +105,7 @@ contains
     integer, dimension(0:size(first) - 1) :: to, from
     integer :: begin, done, me, r, stat
 
-    me = self%ranks%number()
+    me = self%number()
     do r = 0, size(first) - 1
       to(r) = length*overlap([self%first(r), self%first(r + 1) - 1], [first(me), last(me)])
       from(r) = length*overlap(self%own(), [first(r), last(r)])
@@ -123,7 +113,7 @@ contains
     allocate (received(sum(from)), values(length*(self%first(me + 1) - self%first(me))), stat=stat)
     call agree_on_memory(self, length, stat, info)
     if (info%failed()) return
-    call self%ranks%group%exchange(to, part, from, received)
+    call self%group%exchange(to, part, from, received)
     values = 0.0_dp
     done = 0
     do r = 0, size(first) - 1
@@ -140,7 +130,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to exchange rows of '//text(length)//' cells')
-    call rows%ranks%agree(info)
+    call rows%agree(info)
   end subroutine agree_on_memory
 
   !> Number of rows that two ranges of rows, their first and last ones, have in common.

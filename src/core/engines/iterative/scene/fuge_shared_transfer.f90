@@ -36,11 +36,11 @@ contains
     real(dp), allocatable, intent(inout) :: force(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: near(:), values(:), wide(:)
-    integer, dimension(0:coarse%ranks%members() - 1) :: first, last
+    integer, dimension(0:coarse%members() - 1) :: first, last
     integer :: begin, ends, r, rows(2), stat
 
     rows = coarse%own()
-    if (.not. coarse%ranks%everywhere(size(force) == coarse%cells(1)*(rows(2) - rows(1) + 1))) then
+    if (.not. coarse%everywhere(size(force) == coarse%cells(1)*(rows(2) - rows(1) + 1))) then
       deallocate (force)
       return
     end if
@@ -53,12 +53,12 @@ contains
     call coarse%fetch(coarse%cells(1), force, first, last, near, info)
     if (info%failed()) return
     rows = fine%own()
-    begin = first(fine%ranks%number())
-    ends = last(fine%ranks%number())
+    begin = first(fine%number())
+    ends = last(fine%number())
     allocate (wide(fine%cells(1)*max(ends - begin + 1, 0)), values(fine%cells(1)*(rows(2) - rows(1) + 1)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the starting forces on ' &
                                //text(fine%cells(1)*(rows(2) - rows(1) + 1))//' points')
-    call fine%ranks%agree(info)
+    call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call interpolate_rows(coarse%cells(1), fine%cells(1), max(ends - begin + 1, 0), near, wide)
     call interpolate_columns(fine%cells(1), coarse%cells(2), fine%cells(2), begin, ends, rows, wide, values)
@@ -75,7 +75,7 @@ contains
     real(dp), allocatable, intent(out) :: coarse(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: sums(:)
-    integer, dimension(0:fine%ranks%members() - 1) :: first, last
+    integer, dimension(0:fine%members() - 1) :: first, last
     integer :: me, n, r, stat
 
     if (fine%is_alone()) then
@@ -87,12 +87,12 @@ contains
       last(r) = coarse_row(fine%first(r + 1) - 1, level)
       if (fine%first(r + 1) == fine%first(r)) last(r) = first(r) - 1
     end do
-    me = fine%ranks%number()
+    me = fine%number()
     n = coarser%cells(1)
     allocate (sums(n*(last(me) - first(me) + 1)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(product(coarser%cells)) &
                                //' cells')
-    call fine%ranks%agree(info)
+    call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call sum_cells(cells(1), fine%own(), n, level, first(me), last(me), values, sums)
     call coarser%collect(n, sums, first, last, coarse, info)

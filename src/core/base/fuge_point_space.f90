@@ -1,9 +1,9 @@
-!> The processes that share the points of a problem: sums, maxima and exchanges among them.
+!> All points of a problem, wherever they are: sums and maxima of values on them, and what is true anywhere or everywhere.
 !>
-!> Each process, a rank, holds some of the points and runs the same solve as the others. Whatever decides how the solve
-!> goes on is the same on all of them, because it comes from here. Alone, as without a group, a process has all points,
-!> and every procedure leaves what it is given.
-module fuge_ranks
+!> Processes may share the points. Each of them, a rank, holds some and runs the same solve as the others. Whatever
+!> decides how the solve goes on is the same on all of them, because it comes from here. Alone, as without a group, a
+!> process has all points, and every procedure leaves what it is given.
+module fuge_point_space
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   implicit none
@@ -53,8 +53,8 @@ module fuge_ranks
     end subroutine agree_on_errors
   end interface
 
-  !> The group that this process belongs to, or none: then it is alone.
-  type, public :: shared_ranks
+  !> The points here and those of the other ranks of the group; without a group all points are here.
+  type, public :: point_space
     class(rank_group), pointer :: group => null()
   contains
     procedure :: is_alone
@@ -70,13 +70,13 @@ module fuge_ranks
     procedure :: everywhere
     procedure :: take_from_least
     procedure :: agree
-  end type shared_ranks
+  end type point_space
 
 contains
 
   !> Does this process have all points?
   pure function is_alone(self)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     logical :: is_alone
 
     is_alone = .not. associated(self%group)
@@ -84,7 +84,7 @@ contains
 
   !> Number of ranks.
   pure function members(self)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     integer :: members
 
     members = 1
@@ -93,7 +93,7 @@ contains
 
   !> Number of this rank, from 0.
   pure function number(self)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     integer :: number
 
     number = 0
@@ -102,7 +102,7 @@ contains
 
   !> Replace each of `values` by its sum over the ranks.
   subroutine add(self, values)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     real(dp), intent(inout), contiguous :: values(:)
 
     if (associated(self%group)) call self%group%add(values)
@@ -110,7 +110,7 @@ contains
 
   !> Replace each of `values` by its maximum over the ranks.
   subroutine raise(self, values)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     real(dp), intent(inout), contiguous :: values(:)
 
     if (associated(self%group)) call self%group%raise(values)
@@ -118,7 +118,7 @@ contains
 
   !> The sum of `value` over the ranks.
   function total(self, value)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     real(dp), intent(in) :: value
     real(dp) :: total
     real(dp) :: values(1)
@@ -132,7 +132,7 @@ contains
 
   !> The sum of the counts `value` over the ranks, at most the largest default integer.
   function total_count(self, value)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     integer, intent(in) :: value
     integer :: total_count
 
@@ -142,7 +142,7 @@ contains
 
   !> The maximum of `value` over the ranks.
   function largest(self, value)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     real(dp), intent(in) :: value
     real(dp) :: largest
     real(dp) :: values(1)
@@ -156,7 +156,7 @@ contains
 
   !> The minimum of `value` over the ranks.
   function least(self, value)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     real(dp), intent(in) :: value
     real(dp) :: least
 
@@ -166,7 +166,7 @@ contains
 
   !> Is `flag` true on any rank?
   function anywhere(self, flag)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     logical, intent(in) :: flag
     logical :: anywhere
 
@@ -176,7 +176,7 @@ contains
 
   !> Is `flag` true on all ranks?
   function everywhere(self, flag)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     logical, intent(in) :: flag
     logical :: everywhere
 
@@ -186,7 +186,7 @@ contains
 
   !> Replace `values` by those of the rank whose `key` is least, the lowest of several.
   subroutine take_from_least(self, key, values)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     real(dp), intent(in) :: key
     real(dp), intent(inout), contiguous :: values(:)
     real(dp) :: owner
@@ -200,10 +200,10 @@ contains
 
   !> If `info` is an error on any rank, give it to all ranks; the message names the rank.
   subroutine agree(self, info)
-    class(shared_ranks), intent(in) :: self
+    class(point_space), intent(in) :: self
     type(fuge_info), intent(inout) :: info
 
     if (associated(self%group)) call self%group%agree(info)
   end subroutine agree
 
-end module fuge_ranks
+end module fuge_point_space
