@@ -5,7 +5,7 @@
 !> Its finite Hilbert transform is pi sum_k c_k T_(k+1)(t) inside the contact and, with w the
 !> root of w + 1/w = 2 t with |w| < 1, pi sum_k c_k w**(k+1) outside (F. G. Tricomi, Integral
 !> Equations, 1957, section 4.3; K. L. Johnson, Contact Mechanics, 1985, section 2.7). See
-!> doc/theory.md, "Smooth punches".
+!> doc/theory_punch.md, "Smooth punches".
 module fuge_smooth_contact_type
   use fuge_chebyshev, only: second_kind_sum
   use fuge_kinds, only: dp

@@ -3,7 +3,7 @@
 !> The ends of the contact are unknowns of their own, and the pressure is a Chebyshev series
 !> times the square root of the distances from both ends. For a smooth profile this is a spectral
 !> method: the error decreases faster than any power of the number of coefficients. See
-!> doc/theory.md, "Smooth punches".
+!> doc/theory_punch.md, "Smooth punches".
 module fuge_smooth_punch
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_4
   use fuge_elastic_moduli, only: check_e_star

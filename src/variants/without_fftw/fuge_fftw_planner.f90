@@ -1,6 +1,6 @@
 !> What `fuge_fft` calls where FFTW's procedures for a shared planner are missing: with MKL, and without FFTW.
 !>
-!> It takes the place of src/numerics/fuge_fftw_planner.f90. MKL needs no lock but that of `fuge_fft`.
+!> It takes the place of src/core/numerics/fuge_fftw_planner.f90. MKL needs no lock but that of `fuge_fft`.
 module fuge_fftw_planner
   use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_ptr
   implicit none
