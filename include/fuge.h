@@ -248,9 +248,13 @@ enum {                          /* element: what a force and a displacement stan
 };
 
 /* Influence matrix of cells on an elastic half-plane.
- *   x, width  in   n; centres and widths of the cells, in any order; length
- *   e_star    in   E/(1-nu^2) in plane strain, E in plane stress; force per length^2
- *   alpha     out  lda x n, lda >= n; displacement per force per unit depth
+ *   x, width   in   n; centres and widths of the cells, in any order; length
+ *   e_star     in   E/(1-nu^2) in plane strain, E in plane stress; force per length^2
+ *   symmetric  in   1: the model is symmetric about x = 0, and only its cells with x >= 0 are
+ *                   passed: a force is the sum over a cell and its mirror image, the load is
+ *                   the whole load.  The first cell lies at x = 0, its own image, or ends
+ *                   there.  0: all cells are passed
+ *   alpha      out  lda x n, lda >= n; displacement per force per unit depth
  * The displacement by a line load is zero at the distance D, twice the length that the
  * cells cover, so all coefficients are positive.  Cells that overlap by more than 1e-4 of the
  * narrower one are refused, FUGE_ERR_WIDTH: they would press on one place twice.
@@ -258,14 +262,8 @@ enum {                          /* element: what a force and a displacement stan
  * FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OVERFLOW,
  * FUGE_ERR_MEMORY. */
 int fuge_halfplane_matrix(int n, const double *x, const double *width, double e_star,
-                          int element, double *alpha, int lda, char *message, size_t len);
-
-/* The same for a model symmetric about x = 0, of which only the cells with x >= 0 are
- * passed: a force is the sum over a cell and its mirror image, the load is the whole load.  The
- * first cell lies at x = 0, its own image, or ends there. */
-int fuge_halfplane_symmetric_matrix(int n, const double *x, const double *width, double e_star,
-                                    int element, double *alpha, int lda,
-                                    char *message, size_t len);
+                          int element, int symmetric, double *alpha, int lda,
+                          char *message, size_t len);
 
 enum {                          /* kind of an end of an interval that graded cells cover */
   FUGE_END_PLAIN = 0,           /* cells do not become narrower, as at an axis of symmetry */
@@ -308,10 +306,10 @@ enum {                          /* kind of an edge; all but the first are edges 
  *   element     in   as for the matrix.  With FUGE_MEAN the gap has to be the mean over
  *                    a cell too; if it is the gap at the centre, use FUGE_HAT, whose
  *                    forces are the same
- *   symmetric   in   1: the model of fuge_halfplane_symmetric_matrix, with x[0] = 0 or
+ *   symmetric   in   1: half of a symmetric model, as for the matrix, with x[0] = 0 or
  *                    width/2 if it starts on the axis.  An interval that touches the axis
  *                    comes out whole, left = -right, any other one at x > 0 only.
- *                    0: the model of fuge_halfplane_matrix
+ *                    0: all cells are passed
  *   capacity    in   length of the six arrays, each of which may be NULL
  *   left, right out  the edges, from left to right; length
  *   left_error, right_error  out  estimates of their errors, to an order of magnitude; length.

@@ -18,7 +18,12 @@ extern "C" {
  *   e_star            in   as in fuge_halfplane_matrix; force per length^2
  *   element           in   FUGE_CENTRE or FUGE_MEAN: uniform pressure f/(width_x width_y),
  *                          displacement at the centre, or mean over the rectangle
+ *   symmetric_x       in   1: the model is symmetric about x = 0, and only its rectangles with
+ *                          x >= 0 are passed; 0: all of them are
+ *   symmetric_y       in   the same about y = 0
  *   alpha             out  lda x n, lda >= n; displacement per force
+ * In a symmetric model a force is the sum over a rectangle and its mirror images, the load is
+ * the whole load.  A rectangle on the axis has its centre there: it is its own image.
  * Displacements vanish far away, so the approach is absolute.  Relative error of a
  * coefficient: at most 4e-16, for the numbers given; where the rectangles are cells of one
  * grid, up to rounding of x and y, for that grid.  FUGE_CENTRE needs equal rectangles
@@ -27,19 +32,8 @@ extern "C" {
  * FUGE_ERR_NOT_FINITE, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OVERFLOW,
  * FUGE_ERR_MEMORY. */
 int fuge_halfspace_matrix(int n, const double *x, const double *y, const double *width_x,
-                          const double *width_y, double e_star, int element, double *alpha,
-                          int lda, char *message, size_t len);
-
-/* The same for a symmetric model, of which a half or a quarter is passed.
- *   symmetric_x  in  1: symmetric about x = 0, only the rectangles with x >= 0 are passed
- *   symmetric_y  in  1: likewise about y = 0
- * A force is the sum over a rectangle and its mirror images, the load is the whole load.
- * A rectangle on the axis has its centre there: it is its own image. */
-int fuge_halfspace_symmetric_matrix(int n, const double *x, const double *y,
-                                    const double *width_x, const double *width_y,
-                                    double e_star, int element, int symmetric_x,
-                                    int symmetric_y, double *alpha, int lda,
-                                    char *message, size_t len);
+                          const double *width_y, double e_star, int element, int symmetric_x,
+                          int symmetric_y, double *alpha, int lda, char *message, size_t len);
 
 enum {                          /* boundary, beside FUGE_FREE and FUGE_PERIODIC */
   FUGE_PERIODIC_X = 2,          /* the cells repeat along x, and beyond them along y is free surface */

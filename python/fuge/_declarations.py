@@ -11,8 +11,7 @@ fuge_displacement_shares: int double double doubles doubles buffer size_t
 fuge_read_profile: int text int doubles doubles ints buffer size_t
 fuge_sample_profile: int int doubles doubles int doubles doubles buffer size_t
 fuge_level_profile: int int doubles doubles int buffer size_t
-fuge_halfplane_matrix: int int doubles doubles double int doubles int buffer size_t
-fuge_halfplane_symmetric_matrix: int int doubles doubles double int doubles int buffer size_t
+fuge_halfplane_matrix: int int doubles doubles double int int doubles int buffer size_t
 fuge_graded_cells: int double double int int int int int doubles doubles buffer size_t
 fuge_contact_edges: int int doubles doubles doubles int int int doubles doubles doubles doubles ints ints ints buffer
   size_t
@@ -52,8 +51,7 @@ fuge_get_derivatives: int fuge_solver doubles doubles doubles doubles doubles
 fuge_get_info: int fuge_solver fuge_info
 fuge_get_history: int fuge_solver int int ints doubles ints
 fuge_solver_message: int fuge_solver buffer size_t
-fuge_halfspace_matrix: int int doubles doubles doubles doubles double int doubles int buffer size_t
-fuge_halfspace_symmetric_matrix: int int doubles doubles doubles doubles double int int int doubles int buffer size_t
+fuge_halfspace_matrix: int int doubles doubles doubles doubles double int int int doubles int buffer size_t
 fuge_operator_halfspace: int int int double double double int int fuge_operator* buffer size_t
 fuge_ring_matrix: int int doubles double int doubles int buffer size_t
 fuge_ring_displacement: int int doubles doubles double int doubles doubles buffer size_t
@@ -153,22 +151,15 @@ fuge_round_free: void fuge_round*
 fuge_round_get_report: int fuge_round fuge_round_report buffer size_t
 fuge_round_get_pressure: int fuge_round int doubles doubles buffer size_t
 fuge_round_get_gap: int fuge_round int doubles doubles doubles buffer size_t
-fuge_halfplane_stress: int int doubles doubles doubles int int doubles doubles doubles buffer size_t
-fuge_halfplane_symmetric_stress: int int doubles doubles doubles int int doubles doubles doubles buffer size_t
-fuge_halfplane_displacement: int int doubles doubles doubles int double double int int doubles doubles doubles buffer
-  size_t
-fuge_halfplane_symmetric_displacement: int int doubles doubles doubles int double double int int doubles doubles
-  doubles buffer size_t
+fuge_halfplane_stress: int int doubles doubles doubles int int int doubles doubles doubles buffer size_t
+fuge_halfplane_displacement: int int doubles doubles doubles int double double int int int doubles doubles doubles
+  buffer size_t
 fuge_smooth_stress: int fuge_smooth int doubles doubles doubles buffer size_t
 fuge_smooth_displacement: int fuge_smooth double double int int doubles doubles doubles buffer size_t
-fuge_halfspace_stress: int int doubles doubles doubles doubles doubles double int doubles doubles doubles doubles
-  buffer size_t
-fuge_halfspace_symmetric_stress: int int doubles doubles doubles doubles doubles double int int int doubles doubles
-  doubles doubles buffer size_t
-fuge_halfspace_displacement: int int doubles doubles doubles doubles doubles double double int doubles doubles doubles
+fuge_halfspace_stress: int int doubles doubles doubles doubles doubles double int int int doubles doubles doubles
   doubles buffer size_t
-fuge_halfspace_symmetric_displacement: int int doubles doubles doubles doubles doubles double double int int int
-  doubles doubles doubles doubles buffer size_t
+fuge_halfspace_displacement: int int doubles doubles doubles doubles doubles double double int int int doubles doubles
+  doubles doubles buffer size_t
 fuge_halfplane_stress_grid: int int double doubles int int int doubles doubles buffer size_t
 fuge_halfplane_displacement_grid: int int double doubles int int double double int int doubles doubles buffer size_t
 fuge_halfspace_stress_grid: int int int double double doubles int double int doubles doubles buffer size_t
@@ -184,12 +175,9 @@ fuge_principal_stresses: int int doubles doubles buffer size_t
 fuge_von_mises: int int doubles doubles buffer size_t
 fuge_tresca: int int doubles doubles buffer size_t
 fuge_mean_stress: int int doubles doubles buffer size_t
-fuge_halfplane_peak: int int doubles doubles doubles int int double int fuge_stress_peak buffer size_t
-fuge_halfplane_symmetric_peak: int int doubles doubles doubles int int double int fuge_stress_peak buffer size_t
+fuge_halfplane_peak: int int doubles doubles doubles int int double int int fuge_stress_peak buffer size_t
 fuge_smooth_peak: int fuge_smooth int double int fuge_stress_peak buffer size_t
-fuge_halfspace_peak: int int doubles doubles doubles doubles doubles double int fuge_stress_peak buffer size_t
-fuge_halfspace_symmetric_peak: int int doubles doubles doubles doubles doubles double int int int fuge_stress_peak
-  buffer size_t
+fuge_halfspace_peak: int int doubles doubles doubles doubles doubles double int int int fuge_stress_peak buffer size_t
 fuge_ring_peak: int int doubles doubles double int fuge_stress_peak buffer size_t
 fuge_round_peak: int fuge_round double int fuge_stress_peak buffer size_t
 """
