@@ -97,7 +97,7 @@ endif()
 
 install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")
 if(TARGET fuge_mpi)
-  install(FILES mpi/include/fuge_mpi.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers})
+  install(FILES src/mpi/include/fuge_mpi.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers})
 endif()
 # Only the public modules are for users. gfortran's files of these are complete in themselves; those of other
 # compilers (flang) refer to the files of the modules that they use.

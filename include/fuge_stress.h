@@ -9,7 +9,9 @@
 #define FUGE_STRESS_H
 
 #include <stddef.h>
-#include "fuge_smooth.h"
+#include "fuge_area.h"
+#include "fuge_core.h"
+#include "fuge_punch.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -283,7 +285,8 @@ typedef struct fuge_stress_peak {
   int location;                 /* FUGE_PEAK_... */
   int reserved_int[7];
   double value;                 /* force per length^2; +infinity if singular */
-  double place[3];              /* x, y, z, length; y is 0 in a plane; about an axis: radius, 0, z */
+  double place[3];              /* x, y, z, length; y is 0 in a plane; about an axis it is radius,
+                                   0, z */
   double tensor[6];             /* xx, yy, zz, yz, xz, xy there; about an axis x is the radius */
   double reserved[6];
 } fuge_stress_peak;

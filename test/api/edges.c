@@ -1,4 +1,4 @@
-/* Section "edges of contact" of fuge.h. */
+/* Section "edges of contact" of fuge_core.h. */
 #include "check.h"
 
 enum { N = 64, MOST = 3 };

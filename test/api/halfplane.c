@@ -1,4 +1,4 @@
-/* Section "half-plane" of fuge.h. */
+/* Section "half-plane" of fuge_core.h. */
 #include "check.h"
 
 enum { N = 5, LDA = 7 };

@@ -1,4 +1,4 @@
-/* Section "operators" of fuge.h. */
+/* Section "operators" of fuge_core.h. */
 #include <limits.h>
 #include "table1.h"
 

@@ -1,4 +1,4 @@
-/* Section "solver" of fuge.h: life cycle, data, call order, failures of a solve. */
+/* Section "solver" of fuge_core.h: life cycle, data, call order, failures of a solve. */
 #include "table1.h"
 
 static void check_solved(fuge_solver *solver) {
