@@ -58,6 +58,7 @@ class Site:
         self.c_names = {}
         for path in sorted([*(root/"include").glob("*.h"), *(root/"src/mpi/include").glob("*.h")]):
             self.place[path] = path.name.replace(".", "_")
+            self.c_names[path.name] = f"{self.place[path]}.html"
             self.c_names.update({name: f"{self.place[path]}.html#{name}"
                                  for name in headers.anchors(path.read_text())})
 
@@ -88,7 +89,7 @@ class Site:
     def put_start(self):
         """The landing page."""
         settings = (self.root/"doc/site/ford.md").read_text()
-        version = re.search(r'FUGE_VERSION "(.*)"', (self.root/"include/fuge.h").read_text()).group(1)
+        version = re.search(r'FUGE_VERSION "(.*)"', (self.root/"include/fuge_core.h").read_text()).group(1)
         settings = settings.replace("project: fuge\n", f"project: fuge\nversion: {version}\n")
         readme = self.root/"README.md"
         body = landing.page(readme.read_text())

@@ -13,23 +13,9 @@ module fuge_c_halfspace
 
 contains
 
-  !> Eleven arguments, as in the header: the rectangles, the matrix, the message.
-  function c_halfspace_matrix(n, x, y, width_x, width_y, e_star, element, alpha, lda, message, length) &
-    bind(c, name='fuge_halfspace_matrix') result(status)
-    integer(c_int), intent(in), value :: n, element, lda
-    type(c_ptr), intent(in), value :: x, y, width_x, width_y, alpha, message
-    real(c_double), intent(in), value :: e_star
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-
-    status = c_halfspace_symmetric_matrix(n, x, y, width_x, width_y, e_star, element, 0_c_int, 0_c_int, alpha, lda, &
-                                          message, length)
-  end function c_halfspace_matrix
-
   !> Thirteen arguments, as in the header: the rectangles, the symmetry, the matrix, the message.
-  function c_halfspace_symmetric_matrix(n, x, y, width_x, width_y, e_star, element, symmetric_x, symmetric_y, &
-                                        alpha, lda, message, length) &
-    bind(c, name='fuge_halfspace_symmetric_matrix') result(status)
+  function c_halfspace_matrix(n, x, y, width_x, width_y, e_star, element, symmetric_x, symmetric_y, alpha, lda, &
+                              message, length) bind(c, name='fuge_halfspace_matrix') result(status)
     integer(c_int), intent(in), value :: n, element, symmetric_x, symmetric_y, lda
     type(c_ptr), intent(in), value :: x, y, width_x, width_y, alpha, message
     real(c_double), intent(in), value :: e_star
@@ -43,10 +29,10 @@ contains
     call find_array(n, y, 'y', centre_y, info)
     call find_array(n, width_x, 'width_x', breadth_x, info)
     call find_array(n, width_y, 'width_y', breadth_y, info)
-    if (.not. info%failed()) call fuge_halfspace_matrix(centre_x, centre_y, breadth_x, breadth_y, e_star, int(element), &
-                                                        matrix, info, symmetric_x /= 0, symmetric_y /= 0)
+    if (.not. info%failed()) call fuge_halfspace_matrix(centre_x, centre_y, breadth_x, breadth_y, e_star, &
+                                                        int(element), matrix, info, symmetric_x /= 0, symmetric_y /= 0)
     status = report_to_c(info, message, length)
-  end function c_halfspace_symmetric_matrix
+  end function c_halfspace_matrix
 
   !> Ten arguments, as in the header: the grid, the operator, the message.
   function c_operator_halfspace(nx, ny, spacing_x, spacing_y, e_star, element, boundary, destination, message, length) &

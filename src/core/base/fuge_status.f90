@@ -1,8 +1,8 @@
 !> Status codes, their texts, and the report that every call fills.
 !>
 !> 0 is done, positive is done with a warning, negative is an error that leaves all outputs
-!> untouched. This is the one table of codes and texts: include/fuge.h, doc/errors.md and the man
-!> page repeat them, and a test compares them.
+!> untouched. This is the one table of codes and texts: include/fuge_core.h, doc/errors.md and the
+!> man page repeat them, and a test compares them.
 !>
 !> Messages name points, rows, degrees of freedom and modes by their index, which counts from 1
 !> in Fortran and from 0 in C. Both languages share the procedures that compose messages, most of

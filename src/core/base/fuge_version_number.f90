@@ -1,4 +1,4 @@
-!> The version of the library. include/fuge.h repeats it, and a test compares the two.
+!> The version of the library. include/fuge_core.h repeats it, and a test compares the two.
 module fuge_version_number
   implicit none
   private

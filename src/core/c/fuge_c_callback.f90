@@ -18,7 +18,7 @@ module fuge_c_callback
   public :: find_callback
 
   abstract interface
-    !> fuge_apply of fuge.h: `output` from `input`, both n long; nonzero is a failure.
+    !> fuge_apply of fuge_core.h: `output` from `input`, both n long; nonzero is a failure.
     function c_apply(n, input, output, user) bind(c) result(status)
       import :: c_int, c_double, c_ptr
       integer(c_int), intent(in), value :: n

@@ -12,51 +12,27 @@ module fuge_c_halfplane
 
 contains
 
-  !> Nine arguments, as in the header: the cells, the matrix, the message.
-  function c_halfplane_matrix(n, x, width, e_star, element, alpha, lda, message, length) &
+  !> Ten arguments, as in the header: the cells, the symmetry, the matrix, the message.
+  function c_halfplane_matrix(n, x, width, e_star, element, symmetric, alpha, lda, message, length) &
     bind(c, name='fuge_halfplane_matrix') result(status)
-    integer(c_int), intent(in), value :: n, element, lda
+    integer(c_int), intent(in), value :: n, element, symmetric, lda
     type(c_ptr), intent(in), value :: x, width, alpha, message
     real(c_double), intent(in), value :: e_star
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_info) :: info
-
-    call fill_matrix(n, x, width, e_star, element, .false., alpha, lda, info)
-    status = report_to_c(info, message, length)
-  end function c_halfplane_matrix
-
-  !> Nine arguments, as in the header: the cells, the matrix, the message.
-  function c_halfplane_symmetric_matrix(n, x, width, e_star, element, alpha, lda, message, length) &
-    bind(c, name='fuge_halfplane_symmetric_matrix') result(status)
-    integer(c_int), intent(in), value :: n, element, lda
-    type(c_ptr), intent(in), value :: x, width, alpha, message
-    real(c_double), intent(in), value :: e_star
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    type(fuge_info) :: info
-
-    call fill_matrix(n, x, width, e_star, element, .true., alpha, lda, info)
-    status = report_to_c(info, message, length)
-  end function c_halfplane_symmetric_matrix
-
-  !> The influence matrix of a whole or a `symmetric` model. Nine arguments: those of the two functions that call it.
-  subroutine fill_matrix(n, x, width, e_star, element, symmetric, alpha, lda, info)
-    integer(c_int), intent(in) :: n, element, lda
-    type(c_ptr), intent(in) :: x, width, alpha
-    real(c_double), intent(in) :: e_star
-    logical, intent(in) :: symmetric
-    type(fuge_info), intent(inout) :: info
     real(c_double), pointer :: centre(:), breadth(:), matrix(:, :)
+    type(fuge_info) :: info
 
     call find_matrix(n, alpha, lda, matrix, info)
     call require_pointer(x, 'x', info)
     call require_pointer(width, 'width', info)
-    if (info%failed()) return
-    call c_f_pointer(x, centre, [n])
-    call c_f_pointer(width, breadth, [n])
-    call fuge_halfplane_matrix(centre, breadth, e_star, int(element), matrix, info, symmetric)
-  end subroutine fill_matrix
+    if (.not. info%failed()) then
+      call c_f_pointer(x, centre, [n])
+      call c_f_pointer(width, breadth, [n])
+      call fuge_halfplane_matrix(centre, breadth, e_star, int(element), matrix, info, symmetric /= 0)
+    end if
+    status = report_to_c(info, message, length)
+  end function c_halfplane_matrix
 
   !> Eleven arguments, as in the header: the interval and its ends, the cells, the message.
   function c_graded_cells(left, right, left_end, right_end, left_beyond, right_beyond, n, x, width, message, length) &

@@ -7,7 +7,7 @@ module fuge_c_monitor
   private
 
   abstract interface
-    !> fuge_progress of fuge.h.
+    !> fuge_progress of fuge_core.h.
     function c_progress(iteration, residual, contacts, user) bind(c) result(cancel)
       import :: c_int, c_double, c_ptr
       integer(c_int), intent(in), value :: iteration, contacts

@@ -16,7 +16,7 @@ module fuge_c_smooth
   public :: find_contact, procedure_at
 
   abstract interface
-    !> fuge_smooth_profile of fuge_smooth.h.
+    !> fuge_smooth_profile of fuge_punch.h.
     function c_profile(n, x, gap, slope, user) bind(c) result(status)
       import :: c_int, c_double, c_ptr
       integer(c_int), intent(in), value :: n

@@ -4,7 +4,6 @@ module fuge_c_halfplane_stress
   use fuge_c_arrays, only: find_array
   use fuge_c_types, only: report_to_c, require_count
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
-  use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   implicit none
   private
@@ -17,98 +16,44 @@ module fuge_c_halfplane_stress
 
 contains
 
-  !> Eleven arguments, as in the header: the cells, the points, the message.
-  function c_halfplane_stress(n, x, width, force, element, points, px, pz, stress, message, length) &
+  !> Twelve arguments, as in the header: the cells, the symmetry, the points, the stresses, the message.
+  function c_halfplane_stress(n, x, width, force, element, symmetric, points, px, pz, stress, message, length) &
     bind(c, name='fuge_halfplane_stress') result(status)
-    integer(c_int), intent(in), value :: n, element, points
+    integer(c_int), intent(in), value :: n, element, symmetric, points
     type(c_ptr), intent(in), value :: x, width, force, px, pz, stress, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_info) :: info
-
-    call fill_stress(n, x, width, force, element, .false., points, px, pz, stress, info)
-    status = report_to_c(info, message, length)
-  end function c_halfplane_stress
-
-  !> Eleven arguments, as in the header: the cells, the points, the message.
-  function c_halfplane_symmetric_stress(n, x, width, force, element, points, px, pz, stress, message, length) &
-    bind(c, name='fuge_halfplane_symmetric_stress') result(status)
-    integer(c_int), intent(in), value :: n, element, points
-    type(c_ptr), intent(in), value :: x, width, force, px, pz, stress, message
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    type(fuge_info) :: info
-
-    call fill_stress(n, x, width, force, element, .true., points, px, pz, stress, info)
-    status = report_to_c(info, message, length)
-  end function c_halfplane_symmetric_stress
-
-  !> Stresses of a whole or a `symmetric` model. Eleven arguments: those of the two functions that call it.
-  subroutine fill_stress(n, x, width, force, element, symmetric, points, px, pz, stress, info)
-    integer(c_int), intent(in) :: n, element, points
-    type(c_ptr), intent(in) :: x, width, force, px, pz, stress
-    logical, intent(in) :: symmetric
-    type(fuge_info), intent(inout) :: info
     type(loaded_points) :: model
     real(c_double), pointer :: components(:, :)
+    type(fuge_info) :: info
 
     call find_arrays(n, x, width, force, points, px, pz, model, info)
     call find_array(3, points, stress, 'stress', components, info)
-    if (info%failed()) return
-    call fuge_halfplane_stress(model%x, model%width, model%force, int(element), model%px, model%pz, components, info, &
-                               symmetric)
-  end subroutine fill_stress
+    if (.not. info%failed()) call fuge_halfplane_stress(model%x, model%width, model%force, int(element), model%px, &
+                                                        model%pz, components, info, symmetric /= 0)
+    status = report_to_c(info, message, length)
+  end function c_halfplane_stress
 
-  !> Fourteen arguments, as in the header: the cells, the body, the points, the message.
-  function c_halfplane_displacement(n, x, width, force, element, young, poisson, plane_state, points, px, pz, &
-                                    displacement, message, length) &
+  !> Fifteen arguments, as in the header: the cells, the body, the symmetry, the points, the displacements, the message.
+  function c_halfplane_displacement(n, x, width, force, element, young, poisson, plane_state, symmetric, points, px, &
+                                    pz, displacement, message, length) &
     bind(c, name='fuge_halfplane_displacement') result(status)
-    integer(c_int), intent(in), value :: n, element, plane_state, points
+    integer(c_int), intent(in), value :: n, element, plane_state, symmetric, points
     type(c_ptr), intent(in), value :: x, width, force, px, pz, displacement, message
     real(c_double), intent(in), value :: young, poisson
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_info) :: info
-
-    call fill_displacement(n, x, width, force, element, .false., [young, poisson], plane_state, points, px, pz, &
-                           displacement, info)
-    status = report_to_c(info, message, length)
-  end function c_halfplane_displacement
-
-  !> Fourteen arguments, as in the header: the cells, the body, the points, the message.
-  function c_halfplane_symmetric_displacement(n, x, width, force, element, young, poisson, plane_state, points, px, &
-                                              pz, displacement, message, length) &
-    bind(c, name='fuge_halfplane_symmetric_displacement') result(status)
-    integer(c_int), intent(in), value :: n, element, plane_state, points
-    type(c_ptr), intent(in), value :: x, width, force, px, pz, displacement, message
-    real(c_double), intent(in), value :: young, poisson
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    type(fuge_info) :: info
-
-    call fill_displacement(n, x, width, force, element, .true., [young, poisson], plane_state, points, px, pz, &
-                           displacement, info)
-    status = report_to_c(info, message, length)
-  end function c_halfplane_symmetric_displacement
-
-  !> Displacements of a whole or a `symmetric` model; `elastic` has Young's modulus and Poisson's ratio. Thirteen
-  !> arguments: those of the two functions that call it.
-  subroutine fill_displacement(n, x, width, force, element, symmetric, elastic, plane_state, points, px, pz, &
-                               displacement, info)
-    integer(c_int), intent(in) :: n, element, plane_state, points
-    type(c_ptr), intent(in) :: x, width, force, px, pz, displacement
-    logical, intent(in) :: symmetric
-    real(dp), intent(in) :: elastic(2)
-    type(fuge_info), intent(inout) :: info
     type(loaded_points) :: model
     real(c_double), pointer :: components(:, :)
+    type(fuge_info) :: info
 
     call find_arrays(n, x, width, force, points, px, pz, model, info)
     call find_array(2, points, displacement, 'displacement', components, info)
-    if (info%failed()) return
-    call fuge_halfplane_displacement(model%x, model%width, model%force, int(element), elastic(1), elastic(2), &
-                                     int(plane_state), model%px, model%pz, components, info, symmetric)
-  end subroutine fill_displacement
+    if (.not. info%failed()) call fuge_halfplane_displacement(model%x, model%width, model%force, int(element), young, &
+                                                              poisson, int(plane_state), model%px, model%pz, &
+                                                              components, info, symmetric /= 0)
+    status = report_to_c(info, message, length)
+  end function c_halfplane_displacement
 
   !> The arrays behind pointers, none of which may be NULL. The arguments are nine, because each pointer has an array
   !> that it stands for.

@@ -16,23 +16,9 @@ module fuge_c_halfspace_stress
 
 contains
 
-  !> Fourteen arguments, as in the header: the rectangles, the points, the stresses, the message.
-  function c_halfspace_stress(n, x, y, width_x, width_y, force, poisson, points, px, py, pz, stress, message, length) &
-    bind(c, name='fuge_halfspace_stress') result(status)
-    integer(c_int), intent(in), value :: n, points
-    type(c_ptr), intent(in), value :: x, y, width_x, width_y, force, px, py, pz, stress, message
-    real(c_double), intent(in), value :: poisson
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-
-    status = c_halfspace_symmetric_stress(n, x, y, width_x, width_y, force, poisson, 0_c_int, 0_c_int, points, px, py, &
-                                          pz, stress, message, length)
-  end function c_halfspace_stress
-
   !> Sixteen arguments, as in the header: the rectangles, the symmetry, the points, the stresses, the message.
-  function c_halfspace_symmetric_stress(n, x, y, width_x, width_y, force, poisson, symmetric_x, symmetric_y, points, &
-                                        px, py, pz, stress, message, length) &
-    bind(c, name='fuge_halfspace_symmetric_stress') result(status)
+  function c_halfspace_stress(n, x, y, width_x, width_y, force, poisson, symmetric_x, symmetric_y, points, px, py, pz, &
+                              stress, message, length) bind(c, name='fuge_halfspace_stress') result(status)
     integer(c_int), intent(in), value :: n, symmetric_x, symmetric_y, points
     type(c_ptr), intent(in), value :: x, y, width_x, width_y, force, px, py, pz, stress, message
     real(c_double), intent(in), value :: poisson
@@ -49,27 +35,13 @@ contains
                                                         arrays%force, poisson, arrays%px, arrays%py, arrays%pz, found, &
                                                         info, symmetric_x /= 0, symmetric_y /= 0)
     status = report_to_c(info, message, length)
-  end function c_halfspace_symmetric_stress
-
-  !> Fifteen arguments, as in the header: the rectangles, the body, the points, the displacements, the message.
-  function c_halfspace_displacement(n, x, y, width_x, width_y, force, young, poisson, points, px, py, pz, &
-                                    displacement, message, length) &
-    bind(c, name='fuge_halfspace_displacement') result(status)
-    integer(c_int), intent(in), value :: n, points
-    type(c_ptr), intent(in), value :: x, y, width_x, width_y, force, px, py, pz, displacement, message
-    real(c_double), intent(in), value :: young, poisson
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-
-    status = c_halfspace_symmetric_displacement(n, x, y, width_x, width_y, force, young, poisson, 0_c_int, 0_c_int, &
-                                                points, px, py, pz, displacement, message, length)
-  end function c_halfspace_displacement
+  end function c_halfspace_stress
 
   !> Seventeen arguments, as in the header: the rectangles, the body, the symmetry, the points, the displacements, the
   !> message.
-  function c_halfspace_symmetric_displacement(n, x, y, width_x, width_y, force, young, poisson, symmetric_x, &
-                                              symmetric_y, points, px, py, pz, displacement, message, length) &
-    bind(c, name='fuge_halfspace_symmetric_displacement') result(status)
+  function c_halfspace_displacement(n, x, y, width_x, width_y, force, young, poisson, symmetric_x, symmetric_y, &
+                                    points, px, py, pz, displacement, message, length) &
+    bind(c, name='fuge_halfspace_displacement') result(status)
     integer(c_int), intent(in), value :: n, symmetric_x, symmetric_y, points
     type(c_ptr), intent(in), value :: x, y, width_x, width_y, force, px, py, pz, displacement, message
     real(c_double), intent(in), value :: young, poisson
@@ -87,7 +59,7 @@ contains
                                                               arrays%pz, found, info, symmetric_x /= 0, &
                                                               symmetric_y /= 0)
     status = report_to_c(info, message, length)
-  end function c_halfspace_symmetric_displacement
+  end function c_halfspace_displacement
 
   !> The arrays of `n` rectangles. Eight arguments, those of the functions that call it.
   subroutine find_rectangles(n, x, y, width_x, width_y, force, arrays, info)

@@ -24,33 +24,28 @@ module fuge_c_stress_peak
 
 contains
 
-  !> Eleven arguments, as in the header: the cells, the body, the measure, the result, the message.
-  function c_halfplane_peak(n, x, width, force, element, plane_state, poisson, measure, destination, message, length) &
-    bind(c, name='fuge_halfplane_peak') result(status)
-    integer(c_int), intent(in), value :: n, element, plane_state, measure
+  !> Twelve arguments, as in the header: the cells, the body, the symmetry, the measure, the result, the message.
+  function c_halfplane_peak(n, x, width, force, element, plane_state, poisson, symmetric, measure, destination, &
+                            message, length) bind(c, name='fuge_halfplane_peak') result(status)
+    integer(c_int), intent(in), value :: n, element, plane_state, symmetric, measure
     type(c_ptr), intent(in), value :: x, width, force, destination, message
     real(c_double), intent(in), value :: poisson
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
+    real(c_double), pointer :: centre(:), breadth(:), forces(:)
+    type(fuge_stress_peak) :: peak
     type(fuge_info) :: info
 
-    call search_below_cells(n, x, width, force, element, plane_state, poisson, measure, .false., destination, info)
+    call require_count(n, 1, 'n', 'cells', info)
+    call find_array(n, x, 'x', centre, info)
+    call find_array(n, width, 'width', breadth, info)
+    call find_array(n, force, 'force', forces, info)
+    call require_pointer(destination, 'peak', info)
+    if (.not. info%failed()) call fuge_halfplane_peak(centre, breadth, forces, int(element), int(plane_state), &
+                                                      poisson, int(measure), peak, info, symmetric /= 0)
+    call give_peak(peak, destination, info)
     status = report_to_c(info, message, length)
   end function c_halfplane_peak
-
-  !> Eleven arguments, as in the header: the cells, the body, the measure, the result, the message.
-  function c_halfplane_symmetric_peak(n, x, width, force, element, plane_state, poisson, measure, destination, &
-                                      message, length) bind(c, name='fuge_halfplane_symmetric_peak') result(status)
-    integer(c_int), intent(in), value :: n, element, plane_state, measure
-    type(c_ptr), intent(in), value :: x, width, force, destination, message
-    real(c_double), intent(in), value :: poisson
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    type(fuge_info) :: info
-
-    call search_below_cells(n, x, width, force, element, plane_state, poisson, measure, .true., destination, info)
-    status = report_to_c(info, message, length)
-  end function c_halfplane_symmetric_peak
 
   function c_smooth_peak(source, plane_state, poisson, measure, destination, message, length) &
     bind(c, name='fuge_smooth_peak') result(status)
@@ -70,36 +65,30 @@ contains
     status = report_to_c(info, message, length)
   end function c_smooth_peak
 
-  !> Eleven arguments, as in the header: the rectangles, the body, the measure, the result, the message.
-  function c_halfspace_peak(n, x, y, width_x, width_y, force, poisson, measure, destination, message, length) &
-    bind(c, name='fuge_halfspace_peak') result(status)
-    integer(c_int), intent(in), value :: n, measure
-    type(c_ptr), intent(in), value :: x, y, width_x, width_y, force, destination, message
-    real(c_double), intent(in), value :: poisson
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    type(fuge_info) :: info
-
-    call search_below_rectangles(n, x, y, width_x, width_y, force, poisson, .false., .false., measure, destination, &
-                                 info)
-    status = report_to_c(info, message, length)
-  end function c_halfspace_peak
-
   !> Thirteen arguments, as in the header: the rectangles, the body, the symmetry, the measure, the result, the message.
-  function c_halfspace_symmetric_peak(n, x, y, width_x, width_y, force, poisson, symmetric_x, symmetric_y, measure, &
-                                      destination, message, length) &
-    bind(c, name='fuge_halfspace_symmetric_peak') result(status)
+  function c_halfspace_peak(n, x, y, width_x, width_y, force, poisson, symmetric_x, symmetric_y, measure, destination, &
+                            message, length) bind(c, name='fuge_halfspace_peak') result(status)
     integer(c_int), intent(in), value :: n, symmetric_x, symmetric_y, measure
     type(c_ptr), intent(in), value :: x, y, width_x, width_y, force, destination, message
     real(c_double), intent(in), value :: poisson
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
+    real(c_double), pointer :: centre_x(:), centre_y(:), breadth_x(:), breadth_y(:), forces(:)
+    type(fuge_stress_peak) :: peak
     type(fuge_info) :: info
 
-    call search_below_rectangles(n, x, y, width_x, width_y, force, poisson, symmetric_x /= 0, symmetric_y /= 0, &
-                                 measure, destination, info)
+    call require_count(n, 1, 'n', 'rectangles', info)
+    call find_array(n, x, 'x', centre_x, info)
+    call find_array(n, y, 'y', centre_y, info)
+    call find_array(n, width_x, 'width_x', breadth_x, info)
+    call find_array(n, width_y, 'width_y', breadth_y, info)
+    call find_array(n, force, 'force', forces, info)
+    call require_pointer(destination, 'peak', info)
+    if (.not. info%failed()) call fuge_halfspace_peak(centre_x, centre_y, breadth_x, breadth_y, forces, poisson, &
+                                                      int(measure), peak, info, symmetric_x /= 0, symmetric_y /= 0)
+    call give_peak(peak, destination, info)
     status = report_to_c(info, message, length)
-  end function c_halfspace_symmetric_peak
+  end function c_halfspace_peak
 
   function c_ring_peak(n, radius, force, poisson, measure, destination, message, length) &
     bind(c, name='fuge_ring_peak') result(status)
@@ -138,52 +127,6 @@ contains
     call give_peak(peak, destination, info)
     status = report_to_c(info, message, length)
   end function c_round_peak
-
-  !> A whole or a `symmetric` model of a half-plane. Eleven arguments: those of the two functions that call it.
-  subroutine search_below_cells(n, x, width, force, element, plane_state, poisson, measure, symmetric, destination, &
-                                info)
-    integer(c_int), intent(in) :: n, element, plane_state, measure
-    type(c_ptr), intent(in) :: x, width, force, destination
-    real(c_double), intent(in) :: poisson
-    logical, intent(in) :: symmetric
-    type(fuge_info), intent(inout) :: info
-    real(c_double), pointer :: centre(:), breadth(:), forces(:)
-    type(fuge_stress_peak) :: peak
-
-    call require_count(n, 1, 'n', 'cells', info)
-    call find_array(n, x, 'x', centre, info)
-    call find_array(n, width, 'width', breadth, info)
-    call find_array(n, force, 'force', forces, info)
-    call require_pointer(destination, 'peak', info)
-    if (info%failed()) return
-    call fuge_halfplane_peak(centre, breadth, forces, int(element), int(plane_state), poisson, int(measure), peak, &
-                             info, symmetric)
-    call give_peak(peak, destination, info)
-  end subroutine search_below_cells
-
-  !> A whole or a symmetric model of a half-space. Twelve arguments: those of the two functions that call it.
-  subroutine search_below_rectangles(n, x, y, width_x, width_y, force, poisson, symmetric_x, symmetric_y, measure, &
-                                     destination, info)
-    integer(c_int), intent(in) :: n, measure
-    type(c_ptr), intent(in) :: x, y, width_x, width_y, force, destination
-    real(c_double), intent(in) :: poisson
-    logical, intent(in) :: symmetric_x, symmetric_y
-    type(fuge_info), intent(inout) :: info
-    real(c_double), pointer :: along_x(:), along_y(:), breadth(:), length(:), forces(:)
-    type(fuge_stress_peak) :: peak
-
-    call require_count(n, 1, 'n', 'rectangles', info)
-    call find_array(n, x, 'x', along_x, info)
-    call find_array(n, y, 'y', along_y, info)
-    call find_array(n, width_x, 'width_x', breadth, info)
-    call find_array(n, width_y, 'width_y', length, info)
-    call find_array(n, force, 'force', forces, info)
-    call require_pointer(destination, 'peak', info)
-    if (info%failed()) return
-    call fuge_halfspace_peak(along_x, along_y, breadth, length, forces, poisson, int(measure), peak, info, &
-                             symmetric_x, symmetric_y)
-    call give_peak(peak, destination, info)
-  end subroutine search_below_rectangles
 
   !> Fill the struct of C, unless there is an error.
   subroutine give_peak(peak, destination, info)

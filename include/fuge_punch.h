@@ -1,10 +1,11 @@
-/* fuge - smooth punches, on a half-plane and round ones on a half-space.  SPDX-License-Identifier: BSD-3-Clause
+/* fuge - smooth punches and round ones, without a grid.  SPDX-License-Identifier: BSD-3-Clause
  *
  * Included by fuge.h, whose conventions hold here too. */
-#ifndef FUGE_SMOOTH_H
-#define FUGE_SMOOTH_H
+#ifndef FUGE_PUNCH_H
+#define FUGE_PUNCH_H
 
 #include <stddef.h>
+#include "fuge_core.h"
 
 #ifdef __cplusplus
 extern "C" {
