@@ -22,6 +22,8 @@ TOPICS = {
 }
 # The modules that give the names of topics with a library of their own.
 LIBRARIES = {"Sparse stiffness": "fuge_sparse", "Surfaces over MPI": "fuge_mpi"}
+# The section of doc/index.md that is a table of what to call, with links to pages of all groups.
+CHOICES = "What do you have?"
 # Pages whose headings do not say what they are among others.
 TITLES = {"readme": "Overview"}
 
@@ -43,6 +45,8 @@ def tree(site):
     groups, named = [], {"index"}
     for section in re.split(r"^## ", start.read_text(), flags=re.M)[1:]:
         title, _, text = section.partition("\n")
+        if title.strip() == CHOICES:
+            continue
         entries = []
         for target in targets(text):
             name = site.place.get((start.parent/target.split("#")[0]).resolve())
