@@ -14,7 +14,7 @@ program rough_grids
   use bench_surfaces, only: bench_surface, make_rough_surface, set_operator
   use bench_watch, only: stopwatch
   use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    fuge_solver, FUGE_ITERATIVE
+    fuge_solver, FUGE_DONE, FUGE_ITERATIVE, FUGE_WARN_ILL_CONDITIONED
   implicit none
 
   integer, parameter :: COARSEST = 128, FINEST = 2048, PERIODS = 16
@@ -129,7 +129,8 @@ contains
     call watch%start()
     call solver%solve(operator, contact, solution, info, fuge_options(FUGE_ITERATIVE, tolerance=tolerance))
     call watch%stop()
-    if (info%status /= 0) error stop 'a rough surface was not solved'
+    ! At the loose tolerance the estimate of the forces' error is above what comes without a warning.
+    if (all(info%status /= [FUGE_DONE, FUGE_WARN_ILL_CONDITIONED])) error stop 'a rough surface was not solved'
     found%n = surface%n
     found%time = watch%best
     found%peak = maxval(solution%force)/surface%cell()**2
