@@ -36,6 +36,8 @@ WORDS = {"graded": ((r"\| cylinder \|", "| cylinder, edges |"), (r"\| flat \|", 
          "products_of_scenes": ((r"\b4096\b", "2^12"), (r"\b65536\b", "2^16"), (r"\b262144\b", "2^18"),
                                 (r"(\d+)x(\d+)", r"\1 x \2")),
          "steps": ((r"\b(quartic|light|heavy)_(\d+)", r"\1 2^\2"),)}
+# Engines that solve with a given matrix.
+DENSE_ENGINES = {"tableau": "tableau", "active_set": "active set", "iterative": "iteration with a matrix"}
 LEFT_OUT = {"steps": ("excess", "difference")}
 ENGINES = ("tableau", "active_set", "iterative_dense", "iterative_fft")
 # Errors that differ by less are rounding and the remaining residual of the solve.
@@ -295,6 +297,25 @@ def bound_table(directory):
     return head + "".join(rows)
 
 
+def condition_table(directory):
+    """Largest errors of each engine's forces, and how many are silent, for each condition number: of all kinds of problems
+    that `force_error_table` has solved."""
+    found, columns = {}, []
+    for engine, name in DENSE_ENGINES.items():
+        rows = contents(directory, f"force_error_{engine}.md").splitlines()[2:]
+        columns += [f"{name}: largest error", "silent"]
+        for row in rows:
+            _, condition, answers, error, *_, silent, _ = (cell.strip() for cell in row.strip("|").split("|"))
+            worst, missed, all_answers = found.setdefault(condition, {}).get(engine, (0.0, 0, 0))
+            found[condition][engine] = (max(worst, float(error)), missed + int(silent), all_answers + int(answers))
+    if not found or any(len(cells) < len(DENSE_ENGINES) for cells in found.values()):
+        return ""
+    return table(["condition", *columns],
+                 [[condition, *(text for worst, silent, answers in cells.values()
+                                for text in (short(worst), f"{silent} of {answers}"))]
+                  for condition, cells in found.items()])
+
+
 def line_ratios(data, n):
     """Times of the fastest code for quadratic programs over those of the active set, on contacts with n points."""
     for problem in KNOWN:
@@ -327,7 +348,8 @@ def main():
     area_report.write_growth(os.path.join(directory, "area_growth.csv"), data)
     parts = {"choice": choice_table(data), "orders": order_table(data), "dense": dense_table(data),
              "products": products_table(data), "growth": growth_table(data), "crossings": crossing_list(data),
-             "bound": bound_table(directory), "speed": speed_text(data), **area_report.tables(data),
+             "bound": tidied(bound_table(directory)), "conditions": condition_table(directory),
+             "estimates": tidied(contents(directory, "force_error_active_set.md")), "speed": speed_text(data), **area_report.tables(data),
              **call_tables.tables(contents(directory, "choices.md"), contents(directory, "costs_bodies.md")),
              **{name: tidied(contents(directory, f"{program}.md"), ROWS.get(name, ""), WORDS.get(name, ()),
                              LEFT_OUT.get(name, ()))

@@ -40,7 +40,7 @@ def tidied(text, rows="", words=(), columns=()):
             lines.insert(k, "")
     text = re.sub(r"\b(\d)(\.\d*)?E([+-]\d+)", _plain_power, "\n".join(lines).strip("\n"))
     text = re.sub(r"(?<![\d\w])\.(?=\d)", "0.", text)
-    text = re.sub(r"(?<![\w.^])(\d+(?:\.\d+)?) (us|ms|s)\b(?! a )", _plain_time, text)
+    text = re.sub(r"(?<![\w.^])(\d+(?:\.\d+)?(?:e-?\d+)?) (us|ms|s)\b(?! a )", _plain_time, text)
     for pattern, word in words:
         text = re.sub(pattern, word, text)
     return text + "\n" if text else ""
@@ -51,9 +51,11 @@ def _without(columns, lines):
     kept, result = None, []
     for line in lines:
         cells = line.strip("|").split("|")
-        if kept is None or not line:
+        if kept is None:
             kept = [k for k, cell in enumerate(cells) if cell.strip() not in columns]
-        result.append("|" + "|".join(cells[k] for k in kept) + "|" if line else "")
+        if not line:
+            kept = None
+        result.append("|" + "|".join(cells[k] for k in kept) + "|" if line else line)
     return result
 
 
