@@ -8,7 +8,7 @@
 
 # Operators by FFT, stresses on grids, transforms.
 set(fuge_of_fftw
-  "(halfplane|halfspace)_?operator|operator_(halfplane|halfspace)|(stress|displacement)_grid|fuge(fa|ft|fx|ax)[^a-z]"
+  "(halfplane|halfspace)_?operator|operator_(halfplane|halfspace)|(stress|displacement)_grid|fugefx[^a-z]"
   "fft_plan|set_grid_store|use fuge_(convolution|grid_convolution|grid_plan|grid_waves|halfspace_waves)")
 list(JOIN fuge_of_fftw "|" fuge_of_fftw)
 
@@ -76,6 +76,10 @@ function(fuge_is_left_out result)
     set(left_out TRUE)
   elseif(fuge_left_out_components)
     fuge_components_of_text(components "${text}")
+    # Procedures for FORTRAN 77 that condense bodies.
+    if(text MATCHES "fuge[cr]b[^a-z]")
+      list(APPEND components fe)
+    endif()
     foreach(component IN LISTS fuge_left_out_components)
       if(component IN_LIST components)
         set(left_out TRUE)
