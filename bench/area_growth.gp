@@ -23,7 +23,7 @@ set multiplot
 eval panel(0.09, 0.485, 0.345, 0.92)
 set title 'Time of operator and first solve' offset 0, -0.3
 set ylabel 'time [s]' offset 0.5
-set yrange [1e-3:1e2]
+set yrange [1e-3:2e2]
 set key at screen 0.5, 0.02 center bottom maxrows 4 width 1
 plot for [c = 1:7] 'area_growth.csv' using 2:(of(word(names, c), $3)) with linespoints lt kind[c] title title[c]
 eval panel(0.585, 0.98, 0.345, 0.92)

@@ -15,6 +15,7 @@ import sys
 import textwrap
 
 import area_report
+import call_tables
 from report_text import Table, cell, fit, memory, power, seconds, short, table, tidied, total
 
 KNOWN = ("quartic", "cylinder", "wave", "flat", "tilted", "lifted")
@@ -29,6 +30,15 @@ PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", 
             "steps": "load_steps", "stresses": "stresses", "rough": "rough_grids"}
 # The rows of these that the manual has; all of the others.
 ROWS = {"graded": r"\| (?:contact|---|(?:cylinder|flat|lifted) \| (?:64|256) )"}
+# Words of the programs, and those of the manual; and columns that the manual does not have.
+WORDS = {"graded": ((r"\| cylinder \|", "| cylinder, edges |"), (r"\| flat \|", "| flat face, corners |"),
+                    (r"\| lifted \|", "| tilted face that lifts off, one edge and one corner |")),
+         "products_of_scenes": ((r"\b4096\b", "2^12"), (r"\b65536\b", "2^16"), (r"\b262144\b", "2^18"),
+                                (r"(\d+)x(\d+)", r"\1 x \2")),
+         "steps": ((r"\b(quartic|light|heavy)_(\d+)", r"\1 2^\2"),)}
+# Engines that solve with a given matrix.
+DENSE_ENGINES = {"tableau": "tableau", "active_set": "active set", "iterative": "iteration with a matrix"}
+LEFT_OUT = {"steps": ("excess", "difference")}
 ENGINES = ("tableau", "active_set", "iterative_dense", "iterative_fft")
 # Errors that differ by less are rounding and the remaining residual of the solve.
 ROUNDING = 2e-12
@@ -269,8 +279,9 @@ def machine_texts(directory):
     if not said:
         return {}
     own = said.split("Peers: ")[0].strip().rstrip(".")
-    return {"machine": said, "measured": f"All is measured by one run of `script/bench --peers --doc`: {own}.\n",
-            "older": ""}
+    measured = f"All is measured by one run of `script/bench --doc`: {own}."
+    return {"machine": "\n".join(textwrap.fill(part, 120, break_on_hyphens=False) for part in said.splitlines()) + "\n",
+            "measured": textwrap.fill(measured, 120, break_on_hyphens=False) + "\n", "older": ""}
 
 
 def bound_table(directory):
@@ -284,6 +295,25 @@ def bound_table(directory):
             lines = lines.readlines()
         head, rows = "".join(lines[:2]), rows + lines[2:]
     return head + "".join(rows)
+
+
+def condition_table(directory):
+    """Largest errors of each engine's forces, and how many are silent, for each condition number: of all kinds of problems
+    that `force_error_table` has solved."""
+    found, columns = {}, []
+    for engine, name in DENSE_ENGINES.items():
+        rows = contents(directory, f"force_error_{engine}.md").splitlines()[2:]
+        columns += [f"{name}: largest error", "silent"]
+        for row in rows:
+            _, condition, answers, error, *_, silent, _ = (cell.strip() for cell in row.strip("|").split("|"))
+            worst, missed, all_answers = found.setdefault(condition, {}).get(engine, (0.0, 0, 0))
+            found[condition][engine] = (max(worst, float(error)), missed + int(silent), all_answers + int(answers))
+    if not found or any(len(cells) < len(DENSE_ENGINES) for cells in found.values()):
+        return ""
+    return table(["condition", *columns],
+                 [[condition, *(text for worst, silent, answers in cells.values()
+                                for text in (short(worst), f"{silent} of {answers}"))]
+                  for condition, cells in found.items()])
 
 
 def line_ratios(data, n):
@@ -318,8 +348,11 @@ def main():
     area_report.write_growth(os.path.join(directory, "area_growth.csv"), data)
     parts = {"choice": choice_table(data), "orders": order_table(data), "dense": dense_table(data),
              "products": products_table(data), "growth": growth_table(data), "crossings": crossing_list(data),
-             "bound": bound_table(directory), "speed": speed_text(data), **area_report.tables(data),
-             **{name: tidied(contents(directory, f"{program}.md"), ROWS.get(name, ""))
+             "bound": tidied(bound_table(directory)), "conditions": condition_table(directory),
+             "estimates": tidied(contents(directory, "force_error_active_set.md")), "speed": speed_text(data), **area_report.tables(data),
+             **call_tables.tables(contents(directory, "choices.md"), contents(directory, "costs_bodies.md")),
+             **{name: tidied(contents(directory, f"{program}.md"), ROWS.get(name, ""), WORDS.get(name, ()),
+                             LEFT_OUT.get(name, ()))
                 for name, program in PROGRAMS.items()}}
     said = machine_texts(directory)
     with open(os.path.join(directory, "tables.md"), "w") as out:

@@ -25,19 +25,47 @@ class Table:
         return found[0] if found else None
 
 
-def tidied(text, rows=""):
-    """The tables of a program as in the manual: 1.5E-03 as 1.5e-3, .31 as 0.31, and single blanks. `rows`: a pattern
-    with which a line has to begin."""
+def tidied(text, rows="", words=(), columns=()):
+    """The tables of a program as in the manual: 1.5E-03 as 1.5e-3, .31 as 0.31, 1524 us as 1.5 ms, and single blanks.
+
+    `rows`: a pattern with which a line has to begin. `words`: pairs of a pattern and what takes its place. `columns`:
+    heads of those that are left out.
+    """
     lines = [re.sub(r" +", " ", line).strip() for line in text.splitlines()
              if not line.strip() or (line.startswith("|") and re.match(rows, line))]
+    lines = _without(columns, lines)
+    # A table begins after a blank line.
+    for k in range(len(lines) - 2, 0, -1):
+        if lines[k + 1].startswith("| ---") and lines[k - 1]:
+            lines.insert(k, "")
     text = re.sub(r"\b(\d)(\.\d*)?E([+-]\d+)", _plain_power, "\n".join(lines).strip("\n"))
     text = re.sub(r"(?<![\d\w])\.(?=\d)", "0.", text)
+    text = re.sub(r"(?<![\w.^])(\d+(?:\.\d+)?(?:e-?\d+)?) (us|ms|s)\b(?! a )", _plain_time, text)
+    for pattern, word in words:
+        text = re.sub(pattern, word, text)
     return text + "\n" if text else ""
+
+
+def _without(columns, lines):
+    """The lines of tables without the columns of these heads."""
+    kept, result = None, []
+    for line in lines:
+        cells = line.strip("|").split("|")
+        if kept is None:
+            kept = [k for k, cell in enumerate(cells) if cell.strip() not in columns]
+        if not line:
+            kept = None
+        result.append("|" + "|".join(cells[k] for k in kept) + "|" if line else line)
+    return result
+
+
+def _plain_time(found):
+    return seconds(float(found[1])*{"us": 1e-6, "ms": 1e-3, "s": 1.0}[found[2]])
 
 
 def _plain_power(found):
     power = int(found[3])
-    if -1 <= power <= 2:
+    if -2 <= power <= 2:
         return f"{float(found[0]):g}"
     return found[1] + (found[2] or "").rstrip("0").rstrip(".") + f"e{power}"
 
@@ -71,9 +99,9 @@ def memory(value):
     return f"{value / 1e6:.2g} MB" if value < 99.5e6 else f"{value / 1e6:.0f} MB"
 
 
-def table(head, rows):
-    """Markdown, the first column to the left."""
-    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
+def table(head, rows, left=1):
+    """Markdown, the first columns to the left, as many as `left` says."""
+    lines = [head, [*["---"] * left, *["---:"] * (len(head) - left)], *rows]
     return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
 
 

@@ -2,8 +2,8 @@
 # examples, and doc/fortran.md, the Fortran interface from the docstrings. Links lead to installed files, those to files
 # that are not installed become text.
 #
-# cmake -DSOURCE_DIR=.. -DDOCUMENTS=.. -DTO_HEADERS=.. -DHEADERS=fuge.h;.. -P documents.cmake, and by cmake --install.
-# TO_HEADERS: the path to the HEADERS from where README is installed.
+# cmake -DSOURCE_DIR=.. -DDOCUMENTS=.. -DTO_HEADERS=.. -DHEADERS=fuge.h;.. -DCOMPONENTS=core;.. -P documents.cmake, and by
+# cmake --install. TO_HEADERS: the path to the HEADERS from where README is installed. COMPONENTS: those that are.
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/reference.cmake")
 
@@ -16,7 +16,7 @@ function(fuge_installed_target folder target result)
   get_filename_component(name "${path}" NAME)
   if(path STREQUAL "" OR path MATCHES "^[a-z]+:" OR EXISTS "${DOCUMENTS}${full}")
     set(found "${target}")
-  elseif(full STREQUAL "/src/fuge.f90")
+  elseif(full STREQUAL "/src/facade/fuge.f90")
     file(RELATIVE_PATH found "/${folder}" "/doc/fortran.md")
   elseif(full MATCHES "/include/[a-z_]+[.]h$" AND name IN_LIST HEADERS)
     file(RELATIVE_PATH up "/${folder}" "/")
@@ -86,7 +86,7 @@ file(COPY ${pictures} DESTINATION "${DOCUMENTS}/doc")
 file(COPY "${SOURCE_DIR}/LICENSE" "${SOURCE_DIR}/CITATION.cff" DESTINATION "${DOCUMENTS}")
 file(COPY "${SOURCE_DIR}/examples" DESTINATION "${DOCUMENTS}"
   PATTERN CMakeLists.txt EXCLUDE PATTERN "*.cmake" EXCLUDE PATTERN plots EXCLUDE)
-fuge_write_reference("${SOURCE_DIR}" "${DOCUMENTS}/doc/fortran.md")
+fuge_write_reference("${SOURCE_DIR}" "${DOCUMENTS}/doc/fortran.md" ${COMPONENTS})
 file(GLOB pages RELATIVE "${SOURCE_DIR}/doc" "${SOURCE_DIR}/doc/*.md")
 # All are there before the first link is looked up.
 foreach(page IN LISTS pages)

@@ -1,7 +1,8 @@
-# fuge_write_reference(root file): the public Fortran interface as a page, from the docstrings of the source in `root`.
+# fuge_write_reference(root file component ..): the public Fortran interface as a page, from the docstrings of the source
+# in `root`.
 #
-# What fuge.f90 passes on, folder by folder: procedures with their arguments, types with their public components and
-# procedures, constants with their values; then fuge_sparse and fuge_mpi. The form of the sources is that of the house:
+# What the modules fuge_<component> pass on, folder by folder: procedures with their arguments, types with their public
+# components and procedures, constants with their values; then fuge_sparse and fuge_mpi. The form of the sources is that of the house:
 # a docstring is lines `!> ...` right before what it is about.
 
 # CMake takes these characters as its own: others stand for them.
@@ -168,9 +169,13 @@ function(fuge_describe_module path)
 endfunction()
 
 function(fuge_write_reference root file)
-  file(READ "${root}/src/fuge.f90" facade)
-  string(REGEX REPLACE "&[ \t]*\n" " " facade "${facade}")
-  string(REGEX MATCHALL "\n *use [^\n]+" uses "${facade}")
+  set(uses)
+  foreach(component IN LISTS ARGN)
+    file(READ "${root}/src/${component}/fuge_${component}.f90" facade)
+    string(REGEX REPLACE "&[ \t]*\n" " " facade "${facade}")
+    string(REGEX MATCHALL "\n *use [^\n]+" more "${facade}")
+    list(APPEND uses ${more})
+  endforeach()
   file(GLOB_RECURSE modules "${root}/src/*.f90")
   foreach(use IN LISTS uses)
     string(REGEX MATCH "use +([a-z_0-9]+), *only: *(.*)$" use "${use}")
@@ -191,9 +196,9 @@ function(fuge_write_reference root file)
     list(APPEND names_${key} ${names})
   endforeach()
   list(REMOVE_DUPLICATES folders)
-  list(SORT folders)
-  set(page "# Fortran interface\n\nWhat the module `fuge` has, by the folders of the source, from the docstrings there.
-`dp` is `fuge_dp`, and `self` the variable of the type.\n\n")
+  set(page "# Fortran interface\n\nWhat the module `fuge` has, by the folders of the source, from the docstrings there; the
+first part of a folder is its component, whose names the modules `fuge_core`, `fuge_area` and so on have alone. `dp` is
+`fuge_dp`, and `self` the variable of the type.\n\n")
   foreach(folder IN LISTS folders)
     string(MAKE_C_IDENTIFIER "${folder}" key)
     list(JOIN names_${key} ", " names)
@@ -203,15 +208,19 @@ function(fuge_write_reference root file)
     string(MAKE_C_IDENTIFIER "${folder}" key)
     string(APPEND page "\n## ${folder}\n\n${page_${key}}")
   endforeach()
-  string(APPEND page "\n## The module fuge_sparse\n\n")
-  fuge_describe_module("${root}/sparse/fuge_sparse.f90" fuge_sparse_stiffness)
-  string(APPEND page "${described}\n## The module fuge_mpi\n\n")
-  fuge_describe_module("${root}/mpi/fuge_slab_halfspace.f90" fuge_mpi_halfspace_operator)
-  string(APPEND page "${described}")
-  fuge_describe_module("${root}/mpi/fuge_line_halfplane.f90" fuge_mpi_halfplane_operator)
-  string(APPEND page "${described}")
-  fuge_describe_module("${root}/mpi/fuge_slab_files.f90" fuge_mpi_read_rows fuge_mpi_write_rows)
-  fuge_show("${page}${described}" page)
+  if(fe IN_LIST ARGN)
+    fuge_describe_module("${root}/src/sparse/fuge_sparse.f90" fuge_sparse_stiffness)
+    string(APPEND page "\n## The module fuge_sparse\n\n${described}")
+  endif()
+  if(area IN_LIST ARGN)
+    fuge_describe_module("${root}/src/mpi/halfspace/fuge_slab_halfspace.f90" fuge_mpi_halfspace_operator)
+    string(APPEND page "\n## The module fuge_mpi\n\n${described}")
+    fuge_describe_module("${root}/src/mpi/halfplane/fuge_line_halfplane.f90" fuge_mpi_halfplane_operator)
+    string(APPEND page "${described}")
+    fuge_describe_module("${root}/src/mpi/halfspace/fuge_slab_files.f90" fuge_mpi_read_rows fuge_mpi_write_rows)
+    string(APPEND page "${described}")
+  endif()
+  fuge_show("${page}" page)
   string(REGEX REPLACE "\n\n\n+" "\n\n" page "${page}")
   file(WRITE "${file}" "${page}")
 endfunction()

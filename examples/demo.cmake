@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.20)
 
 file(REMOVE_RECURSE "${SCRATCH}")
-foreach(name IN ITEMS script/demo examples/plots/page.awk README.md doc/theory.md)
+foreach(name IN ITEMS script/demo examples/plots/page.awk README.md doc/theory_area.md)
   get_filename_component(folder "${SCRATCH}/${name}" DIRECTORY)
   file(COPY "${ROOT}/${name}" DESTINATION "${folder}")
 endforeach()

@@ -5,6 +5,7 @@
 #define FUGE_AREA_H
 
 #include <stddef.h>
+#include "fuge_core.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,7 +19,12 @@ extern "C" {
  *   e_star            in   as in fuge_halfplane_matrix; force per length^2
  *   element           in   FUGE_CENTRE or FUGE_MEAN: uniform pressure f/(width_x width_y),
  *                          displacement at the centre, or mean over the rectangle
+ *   symmetric_x       in   1: the model is symmetric about x = 0, and only its rectangles with
+ *                          x >= 0 are passed; 0: all of them are
+ *   symmetric_y       in   the same about y = 0
  *   alpha             out  lda x n, lda >= n; displacement per force
+ * In a symmetric model a force is the sum over a rectangle and its mirror images, the load is
+ * the whole load.  A rectangle on the axis has its centre there: it is its own image.
  * Displacements vanish far away, so the approach is absolute.  Relative error of a
  * coefficient: at most 4e-16, for the numbers given; where the rectangles are cells of one
  * grid, up to rounding of x and y, for that grid.  FUGE_CENTRE needs equal rectangles
@@ -27,23 +33,12 @@ extern "C" {
  * FUGE_ERR_NOT_FINITE, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OVERFLOW,
  * FUGE_ERR_MEMORY. */
 int fuge_halfspace_matrix(int n, const double *x, const double *y, const double *width_x,
-                          const double *width_y, double e_star, int element, double *alpha,
-                          int lda, char *message, size_t len);
-
-/* The same for a symmetric model, of which a half or a quarter is passed.
- *   symmetric_x  in  1: symmetric about x = 0, only the rectangles with x >= 0 are passed
- *   symmetric_y  in  1: likewise about y = 0
- * A force is the sum over a rectangle and its mirror images, the load is the whole load.
- * A rectangle on the axis has its centre there: it is its own image. */
-int fuge_halfspace_symmetric_matrix(int n, const double *x, const double *y,
-                                    const double *width_x, const double *width_y,
-                                    double e_star, int element, int symmetric_x,
-                                    int symmetric_y, double *alpha, int lda,
-                                    char *message, size_t len);
+                          const double *width_y, double e_star, int element, int symmetric_x,
+                          int symmetric_y, double *alpha, int lda, char *message, size_t len);
 
 enum {                          /* boundary, beside FUGE_FREE and FUGE_PERIODIC */
-  FUGE_PERIODIC_X = 2,          /* the cells repeat along x, and beyond them along y is free surface */
-  FUGE_PERIODIC_Y = 3           /* the cells repeat along y, and beyond them along x is free surface */
+  FUGE_PERIODIC_X = 2,          /* the cells repeat along x; beyond them along y is free surface */
+  FUGE_PERIODIC_Y = 3           /* the cells repeat along y; beyond them along x is free surface */
 };
 
 /* An elastic half-space of nx x ny equal rectangles side by side, by FFT: products in
@@ -121,72 +116,6 @@ int fuge_ring_displacement(int n, const double *radius, const double *force, dou
 int fuge_hertz_ellipse(double radius_x, double radius_y, double e_star, double load,
                        double *semi_axis_x, double *semi_axis_y, double *approach,
                        double *peak_pressure, char *message, size_t len);
-
-/* ---- surfaces ----------------------------------------------------------- */
-
-enum {                          /* format of a file of heights */
-  FUGE_FILE_ANY = 0,            /* recognised: SDF by its first line, points by three columns */
-  FUGE_FILE_GRID = 1,           /* a line for each row of points, with their heights */
-  FUGE_FILE_POINTS = 2,         /* x, y and height of a point on each line, in any order */
-  FUGE_FILE_SDF = 3             /* ISO 25178-71, text or binary, in metres */
-};
-
-/* Read a surface, heights on a regular grid, positive upwards: the initial gap of a surface
- * below a plane is the greatest height minus the height.
- *   path       in   name of the file
- *   format     in   FUGE_FILE_...
- *   fill       in   0: points that were not measured are refused; 1: they get the mean height of
- *                   their neighbours, from the rim of a hole inwards
- *   capacity   in   length of height
- *   height     out  height of point i + nx*j, of which the first capacity are written; NULL if
- *                   not needed; in the unit of the file
- *   nx, ny     out  numbers of points along x and along y
- *   spacing    out  2, along x and along y; 0 if the file does not say; NULL if not needed
- *   origin     out  2, position of point 0; NULL if not needed
- *   filled     out  number of points that were filled; NULL if not needed
- * The formats are described in doc/files.md.  FUGE_ERR_FILE: the message has the file, the line
- * and the reason.  FUGE_ERR_OPTION, FUGE_ERR_MEMORY. */
-int fuge_read_surface(const char *path, int format, int fill, int capacity, double *height,
-                      int *nx, int *ny, double *spacing, double *origin, int *filled,
-                      char *message, size_t len);
-
-/* Write a surface as a plain grid of 17 digits, which fuge_read_surface reads back to the last
- * bit; spacing (2, NULL or 0: unknown) goes to comments.  An existing file is replaced.
- * FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_WIDTH, FUGE_ERR_FILE. */
-int fuge_write_surface(const char *path, int nx, int ny, const double *spacing, const double *height,
-                       char *message, size_t len);
-
-/* Fill the points of a surface that were not measured, as fuge_read_surface does.
- *   height  in/out  nx*ny, point i + nx*j; each NaN becomes the mean height of its neighbours, from
- *                   the rim of a hole inwards
- *   filled  out     number of points that were filled; NULL if not needed
- * FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE for infinity and if all heights are NaN, FUGE_ERR_OVERFLOW,
- * FUGE_ERR_MEMORY. */
-int fuge_fill_surface(int nx, int ny, double *height, int *filled, char *message, size_t len);
-
-enum { FUGE_LEVEL_PLANE = 2 };  /* form, besides FUGE_LEVEL_MEAN: the least-squares plane */
-
-/* Subtract the mean or the plane from height (nx*ny, point i + nx*j), in place. */
-int fuge_level_surface(int nx, int ny, double *height, int form, char *message, size_t len);
-
-/* Write fields, one value for each cell of a grid, for ParaView: a VTI file, doubles as they are.
- *   spacing  in  2, sizes of a cell; length      origin  in  2, centre of cell 0; NULL: 0, 0
- *   count    in  number of fields
- *   names    in  count; all different            fields  in  count arrays of nx*ny values
- * An existing file is replaced.  FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_NOT_FINITE,
- * FUGE_ERR_OPTION for a name, FUGE_ERR_MEMORY, FUGE_ERR_FILE. */
-int fuge_write_fields(const char *path, int nx, int ny, const double *spacing, const double *origin,
-                      int count, const char *const *names, const double *const *fields,
-                      char *message, size_t len);
-
-/* The same at the centres of the cells and at several depths, such as the stresses of
- * fuge_halfspace_stress_grid: a VTR file.
- *   depth    in  depths, ascending; length       fields  in  count arrays of nx*ny*depths
- *                                                            values, the first depth first
- * ny = 1 for a half-plane.  FUGE_ERR_GRID for depths that do not ascend. */
-int fuge_write_volume(const char *path, int nx, int ny, const double *spacing, const double *origin,
-                      int depths, const double *depth, int count, const char *const *names,
-                      const double *const *fields, char *message, size_t len);
 
 #ifdef __cplusplus
 }

@@ -1,10 +1,11 @@
-/* fuge - what finite element programs need.  SPDX-License-Identifier: BSD-3-Clause
+/* fuge - bodies of finite elements.  SPDX-License-Identifier: BSD-3-Clause
  *
  * Included by fuge.h, whose conventions hold here too. */
 #ifndef FUGE_FE_H
 #define FUGE_FE_H
 
 #include <stddef.h>
+#include "fuge_core.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -101,176 +102,247 @@ int fuge_body_get_modes(const fuge_body *body, double *modes, double *resultant)
 /* Displacements of all degrees of freedom under contact forces (n) and motions (m; NULL if
  * m = 0) of a solution.  FUGE_WARN_RESIDUAL if K u is out of balance by more than 1e-10 of
  * the forces. */
-int fuge_body_recover(const fuge_body *body, const double *force, const double *motion, double *displacement);
+int fuge_body_recover(const fuge_body *body, const double *force, const double *motion,
+                      double *displacement);
 
 /* Message of the last call on body; a getter that succeeds leaves that of the call before.
  * At most len bytes are written, always ended by NUL. */
 int fuge_body_message(const fuge_body *body, char *message, size_t len);
 
-/* ---- matrix files -------------------------------------------------------
+/* ---- pairs of surfaces --------------------------------------------------
  *
- * Matrices, and vectors as matrices of one column, in files of the Matrix Market format:
- * real or integer, array or coordinate, general or symmetric.  FUGE_ERR_FILE: the message
- * has the file, the line and the reason.  Rows and columns count from 0 in the arguments,
- * from 1 in the files and in messages about their contents. */
-
-/* Read a dense matrix.
- *   path           in   name of the file
- *   lda, capacity  in   rows and columns that fit into matrix
- *   matrix         out  element (i,j) at i + j*lda, both triangles of a symmetric matrix;
- *                       may be NULL
- *   rows, columns  out  sizes in the file; only what fits is written to matrix
- * To get the sizes first, pass matrix = NULL and lda = capacity = 0. */
-int fuge_read_matrix(const char *path, int lda, int capacity, double *matrix, int *rows, int *columns,
-                     char *message, size_t len);
-
-/* Read a matrix into compressed columns: column j holds row[p] and value[p] for
- * column[j] <= p < column[j+1], rows ascending; both triangles of a symmetric matrix;
- * repeated entries are added.
- *   column_capacity  in   columns that fit into column, which has one element more
- *   entry_capacity   in   length of row and value
- *   column, row, value      out  each may be NULL
- *   rows, columns, entries  out  sizes of the matrix; only what fits is written */
-int fuge_read_sparse(const char *path, int column_capacity, int entry_capacity, int *column,
-                     int *row, double *value, int *rows, int *columns, int *entries,
-                     char *message, size_t len);
-
-/* Write a dense matrix (lda >= rows) to a file in array format, with 17 digits; an existing
- * file is replaced.  symmetric: 1 for a square matrix of which only the lower triangle is
- * read, else 0.  FUGE_ERR_NOT_FINITE for NaN and infinity; FUGE_ERR_FILE if the disk is
- * full, the file is empty then. */
-int fuge_write_matrix(const char *path, int rows, int columns, const double *matrix, int lda, int symmetric,
-                      char *message, size_t len);
-
-/* The same for compressed columns, in coordinate format; rows in any order. */
-int fuge_write_sparse(const char *path, int rows, int columns, const int *column, const int *row,
-                      const double *value, int symmetric, char *message, size_t len);
-
-/* ---- stiffness files ----------------------------------------------------
+ * From two surfaces whose nodes do not face each other to contact points: their gaps, and
+ * the combinations of degrees of freedom of both bodies that fuge_body_set_contact takes.
+ * Both bodies are in one stiffness matrix.  Sliding is small: the pairs are those of the
+ * positions given.
  *
- * Stiffness matrices from files of finite element programs.  FUGE_ERR_FILE: the message has
- * the file, the line and the reason. */
-
-/* Format of a file: recognised by its content; Matrix Market; CalculiX's job.sti; Abaqus's
- * *MATRIX OUTPUT, FORMAT=MATRIX INPUT or COORDINATE; Nastran's DMIG, and formatted OUTPUT4. */
-enum {
-  FUGE_STIFFNESS_ANY = 0,
-  FUGE_STIFFNESS_MATRIX_MARKET = 1,
-  FUGE_STIFFNESS_CALCULIX = 2,
-  FUGE_STIFFNESS_ABAQUS = 3,
-  FUGE_STIFFNESS_DMIG = 4,
-  FUGE_STIFFNESS_OP4 = 5
-};
-
-/* Read a stiffness matrix into compressed columns, as fuge_body_sparse takes them: both
- * triangles, rows ascending, counted from 0.  Where entries name nodes, rows ascend by nodes
- * and directions.
- *   format           in   FUGE_STIFFNESS_..
- *   names_path       in   file with a line node.direction for each row of a matrix whose
- *                         entries have numbers only; NULL: job.dof for a path job.sti,
- *                         otherwise none
- *   name             in   which matrix of a file of Nastran, such as KAAX; NULL: the only one
- *   row_capacity     in   rows that fit into node, direction and column, which has one
- *                         element more
- *   entry_capacity   in   length of row and value
- *   column, row, value   out  each may be NULL
- *   node, direction  out  node of each row, and its direction, 1 to 3 along x, y, z, 4 to 6
- *                         about them; 0 where no name is known; each may be NULL
- *   rows, entries    out  sizes of the matrix; only what fits is written
- * FUGE_ERR_FILE, FUGE_ERR_OPTION for format, FUGE_ERR_MEMORY. */
-int fuge_read_stiffness(const char *path, int format, const char *names_path, const char *name,
-                        int row_capacity, int entry_capacity, int *column, int *row, double *value,
-                        int *node, int *direction, int *rows, int *entries,
-                        char *message, size_t len);
-
-/* ---- mesh files ---------------------------------------------------------
+ *     fuge_pairs_create -> fuge_pairs_set_contact, fuge_pairs_set_opposite -> fuge_pairs_find
+ *     (again for each further pair of surfaces) -> fuge_pairs_get_...
+ *     -> fuge_body_set_contact(dof, normal), .., fuge_pairs_free
  *
- * Nodes, elements, sets and surfaces from input files of Abaqus and CalculiX: *NODE,
- * *ELEMENT, *NSET (GENERATE, ELSET), *ELSET (GENERATE), *SURFACE (faces S1 to S6, SPOS, SNEG, or
- * nodes, which become a set), *INCLUDE; other keywords are skipped, *TRANSFORM too: the mesh
- * does not depend on it, but the rows of a stiffness matrix may have the turned directions.
- * Nodes and elements have the order of the file; places in it count from 0. */
+ * Pressure = force/area. */
 
-typedef struct fuge_mesh fuge_mesh;
+typedef struct fuge_pairs fuge_pairs;
 
-/* Read a file.  *mesh is set on success only.  FUGE_ERR_FILE: the message has the file, the
- * line and the reason; FUGE_ERR_MEMORY. */
-int fuge_read_mesh(const char *path, fuge_mesh **mesh, char *message, size_t len);
+/* Method: weighted gaps of the dual mortar method; or each node against the face across
+ * from it, which fails the patch test: on meshes that do not match it does not reproduce a
+ * uniform pressure. */
+enum { FUGE_MORTAR = 0, FUGE_NODE_TO_FACE = 1 };
 
-/* Make a mesh of arrays, without sets and surfaces; nodes and elements get the numbers 1, 2 ..
- *   position  dimensions x nodes
- *   element   nodes of each element, from 0, in the order of Abaqus and CalculiX, most x
- *             elements; unused places, at the end, are -1
- *   type      such as "C3D8" or "CPE4", one for each element (types = elements) or one for
- *             all (types = 1)
- * *mesh is set on success only.  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_ELEMENT for an
- * element that has not as many nodes as its type, FUGE_ERR_MEMORY. */
-int fuge_mesh_create(int dimensions, int nodes, const double *position, int most, int elements,
-                     const int *element, int types, const char *const *type, fuge_mesh **mesh,
-                     char *message, size_t len);
+/* Normals: averaged at the nodes of the contact surface; those of the opposite faces;
+ * given at the nodes of the contact surface. */
+enum { FUGE_NORMALS_AVERAGED = 0, FUGE_NORMALS_OPPOSITE = 1, FUGE_NORMALS_GIVEN = 2 };
 
-/* Join `count` meshes, such as those of several bodies, to one, for fuge_write_mesh: nodes
- * and elements of all of them, one mesh after the other, without sets and surfaces.
- * *joined is set on success only.  FUGE_ERR_SIZE, FUGE_ERR_MEMORY. */
-int fuge_mesh_join(int count, const fuge_mesh *const *mesh, fuge_mesh **joined,
-                   char *message, size_t len);
+/* An empty set of pairs.  *pairs is set on success only.  FUGE_ERR_MEMORY. */
+int fuge_pairs_create(fuge_pairs **pairs, char *message, size_t len);
 
-/* Write a mesh and fields at its nodes or elements to a VTK file (.vtu), which ParaView
- * reads; an existing file is replaced.
- *   count       number of fields, 0 or more; then the rest may be NULL
- *   name        of each field, different, 1 to 80 characters
- *   components  of each field: 1, or 2 or 3 of a vector; a third one is added to two
- *   elements    1: field k belongs to the elements, 0: to the nodes; NULL: all to the nodes
- *   field       values of each field, components x nodes or elements, finite
- * FUGE_ERR_SIZE, FUGE_ERR_ELEMENT for a type of elements that is not known,
- * FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION for a name, FUGE_ERR_MEMORY; FUGE_ERR_FILE, if the
- * disk is full the file is empty then. */
-int fuge_write_mesh(const char *path, const fuge_mesh *mesh, int count, const char *const *name,
-                    const int *components, const int *elements, const double *const *field,
-                    char *message, size_t len);
+/* Free and set *pairs to NULL; NULL and *pairs == NULL are fine. */
+void fuge_pairs_free(fuge_pairs **pairs);
 
-/* Free and set *mesh to NULL; NULL and *mesh == NULL are fine. */
-void fuge_mesh_free(fuge_mesh **mesh);
+/* The surface whose nodes become contact points (with linear faces the coarser one, whose
+ * pressures are smooth; with quadratic faces the finer one) and the opposite one, for the next
+ * fuge_pairs_find; both are copied.
+ *   dimensions  2 or 3
+ *   node        positions, dimensions x nodes
+ *   face        numbers of the nodes of each face, most x faces, from 0; unused places, at
+ *               the end, are -1.  Faces have 2 or 3 nodes in the plane, 3, 4, 6 or 8 in
+ *               space: corners first, then the nodes in the middle of the sides, that
+ *               between corners 0 and 1, between 1 and 2, and so on.  In the plane the body
+ *               lies to the left of the way from corner 0 to corner 1; in space the corners
+ *               run counter-clockwise if seen from outside.
+ *   dof         degrees of freedom of the nodes, dimensions x nodes, from 0; -1: does not
+ *               move.  NULL: the surface is rigid.
+ * Two surfaces that both look into their bodies face each other too: positions alone do not
+ * tell.  fuge_bodies knows the bodies, and refuses them.
+ * FUGE_ERR_SIZE, FUGE_ERR_MEMORY; the contents are checked by fuge_pairs_find. */
+int fuge_pairs_set_contact(fuge_pairs *pairs, int dimensions, int nodes, const double *node,
+                           int most, int faces, const int *face, const int *dof);
+int fuge_pairs_set_opposite(fuge_pairs *pairs, int dimensions, int nodes, const double *node,
+                            int most, int faces, const int *face, const int *dof);
 
-/* Numbers of nodes, of elements, and of the nodes of all elements together. */
-int fuge_mesh_get_sizes(const fuge_mesh *mesh, int *nodes, int *elements, int *connections);
+/* How surfaces are understood from the next fuge_pairs_find on.
+ *   crease      angle between the normals of neighbouring faces, in degrees from 0 to 90,
+ *               beyond which a smooth body has an edge there, 25 at first: more than 360 over
+ *               the number of elements round a full circle, less than the angle of any chamfer
+ *   revolution  1: surfaces in the plane are those of bodies of revolution with the radius
+ *               along x, areas are those of rings, and forces those of whole rings; 0, as at
+ *               first
+ * Both are checked by fuge_pairs_find. */
+int fuge_pairs_set_geometry(fuge_pairs *pairs, double crease, int revolution);
 
-/* Number of each node in the file, and its position (3 x nodes).  Either may be NULL. */
-int fuge_mesh_get_nodes(const fuge_mesh *mesh, int *node, double *position);
+/* Find the contact points of both surfaces and add them to those found before.
+ *   normal  for FUGE_NORMALS_GIVEN: outwards from the contact surface at its nodes,
+ *           dimensions x nodes, of any length; else NULL
+ *   reach   how far apart, or one inside the other, opposite points may be, length; not
+ *           above 0: as far as the surfaces extend
+ *   play    between the lower and the upper stop, length: 0 for points that stay in contact
+ *           but slide, INFINITY for one-sided contact
+ *   tied    1: glue the surfaces where they are, along each axis; else 0
+ *   smooth  1, as a rule: normals, gaps and areas of the smooth bodies that the meshes stand
+ *           for, exact on circles, spheres and cylinders; faces that meet at more than 25
+ *           degrees (or what fuge_pairs_set_geometry has set) keep their edge, flat faces stay
+ *           flat.  0: those of the faces as they are, whose chords on a round body are wrong
+ *           by L^2/(8 R)
+ * FUGE_WARN_PAIRS: a node is a contact point of two pairs; where it moves alike in both, it is
+ * listed once, with the area of both.  Errors, nothing is added: FUGE_ERR_SIZE,
+ * FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_DOF, FUGE_ERR_GAP,
+ * FUGE_ERR_OPTION, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY; FUGE_ERR_MESH for a face that is
+ * folded over, has no area or looks the wrong way, for a given normal that does, and for
+ * surfaces that do not face each other. */
+int fuge_pairs_find(fuge_pairs *pairs, int method, int normals, const double *normal, double reach,
+                    double play, int tied, int smooth);
 
-/* Number of each element in the file; element k has the nodes connection[p], places, for
- * first[k] <= p < first[k+1].  Each may be NULL. */
-int fuge_mesh_get_elements(const fuge_mesh *mesh, int *element, int *first, int *connection);
+/* Contact points n, degrees of freedom of each (`width`), and nodes without an opposite.
+ * Each pointer here and below may be NULL. */
+int fuge_pairs_get_sizes(const fuge_pairs *pairs, int *n, int *width, int *unpaired);
 
-/* Type of element k in upper case, such as C3D8; at most 16 characters and NUL.
- * FUGE_ERR_SIZE if there is no such element. */
-int fuge_mesh_get_type(const fuge_mesh *mesh, int k, char *type, size_t type_len);
+/* What fuge_body_set_contact takes: both width x n, dof -1 where unused. */
+int fuge_pairs_get_contact(const fuge_pairs *pairs, int *dof, double *normal);
 
-/* Numbers of sets of nodes, of elements, and of surfaces.  Each may be NULL. */
-int fuge_mesh_get_set_counts(const fuge_mesh *mesh, int *node_sets, int *element_sets, int *surfaces);
+/* Initial gaps, plays (both for fuge_set_gap) and areas, in the plane
+ * lengths, n each. */
+int fuge_pairs_get_gaps(const fuge_pairs *pairs, double *gap, double *gap_upper, double *area);
 
-/* Name of set or surface k in upper case; at most 80 characters and NUL.  FUGE_ERR_SIZE if
- * there is none. */
-int fuge_mesh_get_node_set_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
-int fuge_mesh_get_element_set_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
-int fuge_mesh_get_surface_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
+/* Where the contact points are: the pair and the node of its contact surface, the opposite
+ * face (with FUGE_MORTAR that with the largest share), n each; the place in it,
+ * (dimensions - 1) x n, and the direction of the gap, dimensions x n: the
+ * force on the opposite body is force*direction, where direction is a unit vector, but between
+ * smooth bodies the mean of those of the places that belong to the point.  Pairs, nodes and
+ * faces count from 0. */
+int fuge_pairs_get_points(const fuge_pairs *pairs, int *pair, int *node, int *face, double *place,
+                          double *direction);
 
-/* Places of the members of a set; `name` in upper or lower case.  Only the first `capacity` are
- * written to member, which may be NULL; *count is their number.  FUGE_ERR_OPTION if the
- * mesh has no such set; the message has the names of those it has. */
-int fuge_mesh_get_node_set(const fuge_mesh *mesh, const char *name, int capacity, int *member, int *count,
-                           char *message, size_t len);
-int fuge_mesh_get_element_set(const fuge_mesh *mesh, const char *name, int capacity, int *member, int *count,
-                              char *message, size_t len);
+/* Pair and node of the nodes that have no opposite, and so are no contact points. */
+int fuge_pairs_get_unpaired(const fuge_pairs *pairs, int *pair, int *node);
 
-/* Nodes of the faces of a surface, places, 8 for each face: corners first, then those on the
- * edges, -1 beyond.  Corners of a solid's face follow each other counter-clockwise if it is seen
- * from outside; an edge of an element of a plane goes counter-clockwise round the element.
- * FUGE_ERR_OPTION if the mesh has no such surface, FUGE_ERR_ELEMENT for a type without such a
- * face, FUGE_ERR_MESH for a face that looks into its element, because that is numbered the wrong
- * way round. */
-int fuge_mesh_get_faces(const fuge_mesh *mesh, const char *name, int capacity, int *faces, int *count,
-                        char *message, size_t len);
+/* Message of the last call on pairs that set or found, or of the last error; as
+ * fuge_body_message. */
+int fuge_pairs_message(const fuge_pairs *pairs, char *message, size_t len);
+
+/* ---- elastic bodies -----------------------------------------------------
+ *
+ * From the stiffness matrices and the surfaces of bodies whose meshes need not match to
+ * contact forces, pressures and displacements.
+ *
+ *     fuge_bodies_create -> fuge_bodies_add, for each body -> fuge_bodies_fix, _set_load
+ *     -> for each pair of surfaces: fuge_bodies_set_contact, _set_opposite, _add_pair
+ *     -> fuge_bodies_solve or fuge_bodies_solve_sparse -> fuge_bodies_get_...
+ *     -> fuge_bodies_free
+ *
+ * Bodies, their degrees of freedom, pairs, nodes and faces count from 0, and each body has
+ * its own degrees of freedom.  Bodies may float: rigid motions that the supports leave are
+ * found.  Sliding is small, without friction. */
+
+typedef struct fuge_bodies fuge_bodies;
+
+/* No bodies.  *bodies is set on success only.  FUGE_ERR_MEMORY. */
+int fuge_bodies_create(fuge_bodies **bodies, char *message, size_t len);
+
+/* Free and set *bodies to NULL; NULL and *bodies == NULL are fine. */
+void fuge_bodies_free(fuge_bodies **bodies);
+
+/* Add a body by its stiffness matrix in compressed columns, as fuge_read_stiffness gives
+ * them: column j holds row[p] and value[p] for column[j] <= p < column[j+1], rows in any
+ * order, repeated entries are added; both triangles or one of them.  The arrays are copied;
+ * their contents are checked by fuge_bodies_join and fuge_bodies_solve.
+ *   body  out  number of the body: 0 for the first one, and so on; may be NULL
+ * FUGE_ERR_SIZE, FUGE_ERR_MEMORY. */
+int fuge_bodies_add(fuge_bodies *bodies, int degrees, const int *column, const int *row,
+                    const double *value, int *body);
+
+/* Supports and load of a body, as fuge_body_fix and fuge_body_set_load.  Each call replaces
+ * the one before.  FUGE_ERR_SIZE if there is no such body. */
+int fuge_bodies_fix(fuge_bodies *bodies, int body, int count, const int *dof,
+                    const double *displacement);
+int fuge_bodies_set_load(fuge_bodies *bodies, int body, const double *load);
+
+/* Rigid modes that the supports of a body leave (degrees x m), for all bodies that float or
+ * for none: then they are found. */
+int fuge_bodies_set_rigid_modes(fuge_bodies *bodies, int body, int m, const double *rigid_modes);
+
+/* The surfaces of the next pair, as fuge_pairs_set_contact and fuge_pairs_set_opposite, with
+ * degrees of freedom of the body; both may be of one body.  body = -1, dof = NULL: the
+ * surface is rigid and held in space. */
+int fuge_bodies_set_contact(fuge_bodies *bodies, int body, int dimensions, int nodes,
+                            const double *node, int most, int faces, const int *face,
+                            const int *dof);
+int fuge_bodies_set_opposite(fuge_bodies *bodies, int body, int dimensions, int nodes,
+                             const double *node, int most, int faces, const int *face,
+                             const int *dof);
+
+/* As fuge_pairs_set_geometry, for the pairs that are added from now on. */
+int fuge_bodies_set_geometry(fuge_bodies *bodies, double crease, int revolution);
+
+/* Add a pair of these surfaces; arguments as fuge_pairs_find, which are checked, with the
+ * surfaces, by fuge_bodies_join and fuge_bodies_solve.  FUGE_ERR_CALL_ORDER without both
+ * surfaces, FUGE_ERR_MEMORY. */
+int fuge_bodies_add_pair(fuge_bodies *bodies, int method, int normals, const double *normal,
+                         double reach, double play, int tied, int smooth);
+
+/* Solve; opt may be NULL.  The matrix of all bodies is kept as a band, whose width depends on
+ * the numbering of degrees of freedom; for all but small models use fuge_bodies_solve_sparse,
+ * in the library fuge_sparse, which needs CHOLMOD.  Warnings: those of fuge_solve, else those
+ * of fuge_body_condense and fuge_body_recover, or FUGE_WARN_PAIRS, or FUGE_WARN_NO_CONTACT:
+ * loads and supports open every gap; they pull, or all surfaces look into their bodies.
+ * Errors name the body or the pair, the results of the solve before stay: those of
+ * fuge_pairs_find, fuge_body_condense and fuge_solve; FUGE_ERR_GAP also where supports hold two
+ * surfaces inside each other; FUGE_ERR_MESH also for a surface that looks into its body, which
+ * the matrix knows if `node` has the body's other nodes too, with their dof. */
+int fuge_bodies_solve(fuge_bodies *bodies, const fuge_options *opt);
+int fuge_bodies_solve_sparse(fuge_bodies *bodies, const fuge_options *opt);
+
+/* Contact points n, nodes without an opposite, and bodies.  The getters below give
+ * FUGE_ERR_CALL_ORDER before a solve, and each pointer may be NULL. */
+int fuge_bodies_get_sizes(const fuge_bodies *bodies, int *n, int *unpaired, int *bodies_number);
+
+/* Contact forces, n; negative only at an upper stop and at tied points, where they are the
+ * components along the axes of the force of the contact surface on the opposite one.
+ * Pressures, force over area, and gaps under load. */
+int fuge_bodies_get_forces(const fuge_bodies *bodies, double *force, double *pressure, double *gap);
+
+/* Where the contact points are, as fuge_pairs_get_points; their areas and initial gaps, n. */
+int fuge_bodies_get_points(const fuge_bodies *bodies, int *pair, int *node, int *face,
+                           double *place, double *direction);
+int fuge_bodies_get_areas(const fuge_bodies *bodies, double *area, double *initial_gap);
+
+/* Pair and node of the nodes that have no opposite, and so are no contact points. */
+int fuge_bodies_get_unpaired(const fuge_bodies *bodies, int *pair, int *node);
+
+/* Displacements of all degrees of freedom of one body, length. */
+int fuge_bodies_get_displacement(const fuge_bodies *bodies, int body, double *displacement);
+
+/* Report of the last solve, failed or not. */
+int fuge_bodies_get_info(const fuge_bodies *bodies, fuge_info *info);
+
+/* Message of the last call on bodies that set or solved, or of the last error; as
+ * fuge_body_message. */
+int fuge_bodies_message(const fuge_bodies *bodies, char *message, size_t len);
+
+/* ---- bodies as one ------------------------------------------------------
+ *
+ * For further loads on the same factor, or for points that are excluded: join the bodies,
+ * and go the way of fuge_body yourself: fuge_body_sparse with the matrix of all bodies,
+ * fuge_body_fix and fuge_body_set_load (degree of freedom j of body k is first[k] + j),
+ * fuge_body_find_rigid_modes, fuge_body_set_contact. */
+
+/* Join; FUGE_WARN_PAIRS and errors as fuge_bodies_solve.  The getters below give
+ * FUGE_ERR_CALL_ORDER before it, and after a call that sets or adds something. */
+int fuge_bodies_join(fuge_bodies *bodies);
+
+/* Degrees of freedom and entries of the matrix of all bodies, contact points n and degrees
+ * of freedom of each, `width`. */
+int fuge_bodies_get_joined_sizes(const fuge_bodies *bodies, int *degrees, int *entries, int *n,
+                                 int *width);
+
+/* The upper triangle in compressed columns, as fuge_body_sparse takes it: column has
+ * degrees + 1 elements, row and value have `entries`; first: degrees of freedom before those
+ * of each body, one more than bodies. */
+int fuge_bodies_get_matrix(const fuge_bodies *bodies, int *column, int *row, double *value,
+                           int *first);
+
+/* What fuge_body_set_contact takes, width x n, and initial gaps, plays and areas, n. */
+int fuge_bodies_get_contact(const fuge_bodies *bodies, int *dof, double *normal, double *gap,
+                            double *gap_upper, double *area);
 
 #ifdef __cplusplus
 }

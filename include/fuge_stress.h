@@ -9,7 +9,9 @@
 #define FUGE_STRESS_H
 
 #include <stddef.h>
-#include "fuge_smooth.h"
+#include "fuge_area.h"
+#include "fuge_core.h"
+#include "fuge_punch.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,6 +26,9 @@ extern "C" {
  *                           pressure force/width, FUGE_HAT hats with the peak force/width
  *   force              in   n; per unit depth, compression positive, of any sign: those of
  *                           fuge_get_force.  Cells without force cost nothing
+ *   symmetric          in   1: half of a symmetric model, as in fuge_halfplane_matrix: each force
+ *                           is the sum over a cell and its mirror image, and points may lie on
+ *                           both sides.  0: all cells are passed
  *   points             in   >= 0
  *   px, pz             in   points; along the surface, and >= 0 into the body; length
  *   stress             out  3 for each point: xx, zz, xz of point k at stress + 3*k; force per
@@ -35,15 +40,8 @@ extern "C" {
  * Errors of fuge_halfplane_matrix; FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_GRID for pz < 0,
  * FUGE_ERR_OVERFLOW for a length beyond 1e75 times the narrowest width, FUGE_ERR_MEMORY. */
 int fuge_halfplane_stress(int n, const double *x, const double *width, const double *force,
-                          int element, int points, const double *px, const double *pz,
-                          double *stress, char *message, size_t len);
-
-/* The same for a model symmetric about x = 0, as in fuge_halfplane_symmetric_matrix: only the
- * cells with x >= 0, each force the sum over a cell and its mirror image.  px of either sign. */
-int fuge_halfplane_symmetric_stress(int n, const double *x, const double *width,
-                                    const double *force, int element, int points,
-                                    const double *px, const double *pz, double *stress,
-                                    char *message, size_t len);
+                          int element, int symmetric, int points, const double *px,
+                          const double *pz, double *stress, char *message, size_t len);
 
 /* Displacements in a half-plane under forces on its cells.
  *   young, poisson, plane_state  in   of the body, as in fuge_plane_modulus
@@ -55,14 +53,8 @@ int fuge_halfplane_symmetric_stress(int n, const double *x, const double *width,
  * FUGE_ERR_OPTION for plane_state. */
 int fuge_halfplane_displacement(int n, const double *x, const double *width, const double *force,
                                 int element, double young, double poisson, int plane_state,
-                                int points, const double *px, const double *pz,
+                                int symmetric, int points, const double *px, const double *pz,
                                 double *displacement, char *message, size_t len);
-
-int fuge_halfplane_symmetric_displacement(int n, const double *x, const double *width,
-                                          const double *force, int element, double young,
-                                          double poisson, int plane_state, int points,
-                                          const double *px, const double *pz,
-                                          double *displacement, char *message, size_t len);
 
 /* Stresses and displacements in a half-plane under a smooth punch, in closed form, with the
  * arguments of fuge_halfplane_stress and fuge_halfplane_displacement.
@@ -82,6 +74,9 @@ int fuge_smooth_displacement(const fuge_smooth *contact, double young, double po
  *   width_x, width_y  in   n; widths along x and along y; length
  *   force             in   n; of a rectangle, positive where it presses; those of 0 cost nothing
  *   poisson           in   Poisson's ratio, in (-1, 0.5]
+ *   symmetric_x       in   1: half of a model symmetric about x = 0, as in fuge_halfspace_matrix;
+ *                          points may lie on both sides.  0: all rectangles are passed
+ *   symmetric_y       in   the same about y = 0
  *   points            in   >= 0
  *   px, py, pz        in   points; pz >= 0 is the depth; length
  *   stress            out  6 x points: xx, yy, zz, yz, xz, xy; force per length^2
@@ -95,17 +90,9 @@ int fuge_smooth_displacement(const fuge_smooth *contact, double young, double po
  * FUGE_ERR_MODULUS (poisson), FUGE_ERR_GRID (pz < 0), FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. */
 int fuge_halfspace_stress(int n, const double *x, const double *y, const double *width_x,
                           const double *width_y, const double *force, double poisson,
-                          int points, const double *px, const double *py, const double *pz,
-                          double *stress, char *message, size_t len);
-
-/* The same for a symmetric model, of which a half or a quarter is passed; as in
- * fuge_halfspace_symmetric_matrix.  Points may lie on both sides. */
-int fuge_halfspace_symmetric_stress(int n, const double *x, const double *y,
-                                    const double *width_x, const double *width_y,
-                                    const double *force, double poisson, int symmetric_x,
-                                    int symmetric_y, int points, const double *px,
-                                    const double *py, const double *pz, double *stress,
-                                    char *message, size_t len);
+                          int symmetric_x, int symmetric_y, int points, const double *px,
+                          const double *py, const double *pz, double *stress, char *message,
+                          size_t len);
 
 /* Displacements at points of a half-space under the forces of rectangles.
  *   young, poisson    in   of the body, not of the pair; force per length^2, and none;
@@ -116,17 +103,9 @@ int fuge_halfspace_symmetric_stress(int n, const double *x, const double *y,
  * young/(1 - poisson^2)) times the forces. */
 int fuge_halfspace_displacement(int n, const double *x, const double *y, const double *width_x,
                                 const double *width_y, const double *force, double young,
-                                double poisson, int points, const double *px, const double *py,
-                                const double *pz, double *displacement, char *message,
-                                size_t len);
-
-/* The same for a symmetric model, as fuge_halfspace_symmetric_stress. */
-int fuge_halfspace_symmetric_displacement(int n, const double *x, const double *y,
-                                          const double *width_x, const double *width_y,
-                                          const double *force, double young, double poisson,
-                                          int symmetric_x, int symmetric_y, int points,
-                                          const double *px, const double *py, const double *pz,
-                                          double *displacement, char *message, size_t len);
+                                double poisson, int symmetric_x, int symmetric_y, int points,
+                                const double *px, const double *py, const double *pz,
+                                double *displacement, char *message, size_t len);
 
 /* ---- stresses on grids ---------------------------------------------------
  *
@@ -306,41 +285,32 @@ typedef struct fuge_stress_peak {
   int location;                 /* FUGE_PEAK_... */
   int reserved_int[7];
   double value;                 /* force per length^2; +infinity if singular */
-  double place[3];              /* x, y, z, length; y is 0 in a plane; about an axis: radius, 0, z */
+  double place[3];              /* x, y, z, length; y is 0 in a plane; about an axis it is radius,
+                                   0, z */
   double tensor[6];             /* xx, yy, zz, yz, xz, xy there; about an axis x is the radius */
   double reserved[6];
 } fuge_stress_peak;
 
-/* Under the forces of cells on a half-plane: n .. element as in fuge_halfplane_stress, plane_state
- * and poisson of the body as in fuge_halfplane_tensor.  *peak is untouched if there is an error.
+/* Under the forces of cells on a half-plane: n .. element and symmetric as in
+ * fuge_halfplane_stress, plane_state and poisson of the body as in fuge_halfplane_tensor.  In a
+ * symmetric model the peak is at x >= 0.  *peak is untouched if there is an error.
  * FUGE_ERR_OPTION for plane_state or measure, FUGE_ERR_MODULUS for poisson, otherwise those of
  * fuge_halfplane_stress. */
 int fuge_halfplane_peak(int n, const double *x, const double *width, const double *force,
-                        int element, int plane_state, double poisson, int measure,
+                        int element, int plane_state, double poisson, int symmetric, int measure,
                         fuge_stress_peak *peak, char *message, size_t len);
-
-/* The same for a model symmetric about x = 0; the peak is at x >= 0. */
-int fuge_halfplane_symmetric_peak(int n, const double *x, const double *width,
-                                  const double *force, int element, int plane_state,
-                                  double poisson, int measure, fuge_stress_peak *peak,
-                                  char *message, size_t len);
 
 /* Under a smooth punch, the value to rounding. */
 int fuge_smooth_peak(const fuge_smooth *contact, int plane_state, double poisson, int measure,
                      fuge_stress_peak *peak, char *message, size_t len);
 
 /* Under the forces of rectangles on a half-space, arguments and errors as for
- * fuge_halfspace_stress; FUGE_ERR_OPTION for measure. */
+ * fuge_halfspace_stress; FUGE_ERR_OPTION for measure.  In a symmetric model the peak is at x >= 0,
+ * or y >= 0. */
 int fuge_halfspace_peak(int n, const double *x, const double *y, const double *width_x,
-                        const double *width_y, const double *force, double poisson, int measure,
-                        fuge_stress_peak *peak, char *message, size_t len);
-
-/* The same for a symmetric model, as fuge_halfspace_symmetric_stress; the peak is at x >= 0, or
- * y >= 0. */
-int fuge_halfspace_symmetric_peak(int n, const double *x, const double *y, const double *width_x,
-                                  const double *width_y, const double *force, double poisson,
-                                  int symmetric_x, int symmetric_y, int measure,
-                                  fuge_stress_peak *peak, char *message, size_t len);
+                        const double *width_y, const double *force, double poisson,
+                        int symmetric_x, int symmetric_y, int measure, fuge_stress_peak *peak,
+                        char *message, size_t len);
 
 /* Under the forces of n rings between n + 1 radii, arguments and errors as for fuge_ring_stress;
  * FUGE_ERR_OPTION for measure. */

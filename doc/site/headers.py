@@ -10,6 +10,8 @@ FUNCTION = re.compile(r"^(?!typedef\b)[a-z][\w ]*[ *](fuge_\w+)\(", re.M)
 CALLBACK = re.compile(r"^typedef \w+ \(\*(fuge_\w+)\)\(", re.M)
 TYPE = re.compile(r"^(?:typedef struct fuge_\w+ (fuge_\w+);|\} (fuge_\w+);)", re.M)
 CONSTANT = re.compile(r"^(?:#define|  )\s*(FUGE_\w+)(?= |,|$)|(?<=[{,] )(FUGE_\w+)(?= =)", re.M)
+# A header that another one includes, and what it is for.
+INCLUDE = re.compile(r'^#include "(fuge_\w+\.h)" +/\* (.*?) \*/$', re.M)
 # A row of the list of arguments: their names, in or out, and what they are.
 ROW = re.compile(r"(?P<names>(?:\*?\w+(?:, )?)+?) {2,}(?:(?P<way>in, out|in/out|inout|in|out) {1,})?(?P<text>.*)")
 NEXT_ROW = re.compile(r" {3,}(?=\w+ {1,}(?:in|out) {2})")
@@ -53,7 +55,12 @@ def _opening(text, places, fragments):
     comment = re.sub(r"SPDX-License-Identifier: \S+", "", text[:end])
     comment = re.sub(r"/\* fuge - ([^\n]*)", lambda m: "/* " + m[1].strip().capitalize(), comment)
     body = _held(comment_html(comment, places), fragments)
-    return body + "".join(_item(said, code, places, fragments) for said, code in _items(text[end:]))
+    included = INCLUDE.findall(text)
+    if included:
+        rows = "".join(f"<li>{_linked(name, places)}: {_linked(said, places)}</li>" for name, said in included)
+        body += _held(f"<ul>{rows}</ul>", fragments)
+    rest = INCLUDE.sub("", text[end:])
+    return body + "".join(_item(said, code, places, fragments) for said, code in _items(rest))
 
 
 def _items(text):
@@ -143,7 +150,7 @@ def arguments(rows):
 
 
 def _linked(text, places):
-    """The text with links from the names of C to their places, and capital openings as strong text."""
+    """The text with links from headers and names of C to their places, and capital openings as strong text."""
     text = html.escape(text.rstrip(";"), quote=False)
     text = re.sub(r"^([A-Z][A-Z ]+\.)  ", r"<strong>\1</strong> ", text)
 
@@ -151,4 +158,4 @@ def _linked(text, places):
         name = match[1] or match[0]
         shown = f"<code>{name}</code>"
         return f'<a href="{places[name]}">{shown}</a>' if name in places else shown
-    return re.sub(r"`(\w+)`|\b(?:fuge|FUGE)_\w+", link, text)
+    return re.sub(r"`(\w+)`|\bfuge\w*\.h\b|\b(?:fuge|FUGE)_\w+", link, text)

@@ -29,7 +29,7 @@ def page(readme):
             "For Python `pip install .`; all other ways are in [Installation](doc/install.md).\n\n"
             "## Where to go\n\n"
             "[The manual](doc/index.md) lists all pages. [Overview](README.md) goes on from here: limits, licence, "
-            "how to cite. [Performance](doc/performance.md) says which engine to choose, "
+            "how to cite. [Performance](doc/performance.md) has error and time of each call, "
             "[Theory](doc/theory.md) how they "
             "work, [Conventions](doc/conventions.md) what signs and units mean.\n")
     # What is not here is on the page of README.md.

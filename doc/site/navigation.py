@@ -11,29 +11,31 @@ import re
 from links import targets
 from sources import described, opening_sentence, public_modules, taken_names
 
-# Topics of the Fortran interface: the folders of src/.
+# Topics of the Fortran interface: folders of src/, the most exact name first.
 TOPICS = {
-    "solver": "Solver", "model": "Problem and options", "base": "Status and kinds", "engines": "Load path and history",
-    "halfplane": "Half-plane", "halfspace": "Half-space", "hertz": "Hertz", "smooth_punch": "Smooth punch",
-    "round_punch": "Round punch", "stress": "Stresses", "condensation": "Finite elements", "sparse": "Sparse stiffness",
-    "pairs": "Pairs of surfaces", "bodies": "Several bodies", "fe_files": "Meshes and their files", "io": "Other files",
-    "numerics": "Numerics", "mpi": "Surfaces over MPI",
+    "core/solver": "Solver", "core/model": "Problem and options", "core/base": "Status and kinds",
+    "core/engines": "Load path and history", "core/halfplane": "Half-plane", "core": "Core",
+    "area/hertz": "Hertz", "area": "Half-space", "punch/smooth": "Smooth punch", "punch/round": "Round punch",
+    "stress": "Stresses", "fe/condensation": "Finite elements", "sparse": "Sparse stiffness",
+    "fe/bodies": "Several bodies", "fe": "Pairs of surfaces", "files/meshes": "Meshes and their files",
+    "files/stiffness": "Meshes and their files", "files": "Other files", "mpi": "Surfaces over MPI",
 }
 # The modules that give the names of topics with a library of their own.
 LIBRARIES = {"Sparse stiffness": "fuge_sparse", "Surfaces over MPI": "fuge_mpi"}
+# The section of doc/index.md that is a table of what to call, with links to pages of all groups.
+CHOICES = "What do you have?"
 # Pages whose headings do not say what they are among others.
 TITLES = {"readme": "Overview"}
 
 
 def topic(root, path):
     """The topic of a source: that of its folder."""
-    folder = path.relative_to(root).parts
-    name = folder[1] if folder[0] == "src" else folder[0]
-    return TOPICS.get(name, name.replace("_", " ").capitalize())
+    folder = path.relative_to(root/"src").parent.as_posix()
+    return next(title for name, title in TOPICS.items() if f"{folder}/".startswith(f"{name}/"))
 
 
 def in_order(topics):
-    order = list(TOPICS.values())
+    order = list(dict.fromkeys(TOPICS.values()))
     return sorted(topics, key=lambda name: order.index(name) if name in order else len(order))
 
 
@@ -43,6 +45,8 @@ def tree(site):
     groups, named = [], {"index"}
     for section in re.split(r"^## ", start.read_text(), flags=re.M)[1:]:
         title, _, text = section.partition("\n")
+        if title.strip() == CHOICES:
+            continue
         entries = []
         for target in targets(text):
             name = site.place.get((start.parent/target.split("#")[0]).resolve())

@@ -53,11 +53,12 @@ class Site:
             self.place[path] = path.stem
         for name in ROOT_PAGES:
             self.place[root/name] = name[:-3].lower()
-        self.place[root/"src/fuge.f90"] = "fortran"
+        self.place[root/"src/facade/fuge.f90"] = "fortran"
         self.place[root/PACKAGE] = "python"
         self.c_names = {}
-        for path in sorted([*(root/"include").glob("*.h"), *(root/"mpi/include").glob("*.h")]):
+        for path in sorted([*(root/"include").glob("*.h"), *(root/"src/mpi/include").glob("*.h")]):
             self.place[path] = path.name.replace(".", "_")
+            self.c_names[path.name] = f"{self.place[path]}.html"
             self.c_names.update({name: f"{self.place[path]}.html#{name}"
                                  for name in headers.anchors(path.read_text())})
 
@@ -88,7 +89,7 @@ class Site:
     def put_start(self):
         """The landing page."""
         settings = (self.root/"doc/site/ford.md").read_text()
-        version = re.search(r'FUGE_VERSION "(.*)"', (self.root/"include/fuge.h").read_text()).group(1)
+        version = re.search(r'FUGE_VERSION "(.*)"', (self.root/"include/fuge_core.h").read_text()).group(1)
         settings = settings.replace("project: fuge\n", f"project: fuge\nversion: {version}\n")
         readme = self.root/"README.md"
         body = landing.page(readme.read_text())
@@ -204,7 +205,7 @@ def write_sources(root, work):
 def public_base(root, base, known):
     """The type itself, or the one that it extends, if that has a page and it has none."""
     if base not in known:
-        for path in [*(root/"src").rglob("*.f90"), *(root/"mpi").glob("*.f90")]:
+        for path in (root/"src").rglob("*.f90"):
             match = re.search(rf"^ *type\b.*extends\((\w+)\).*:: *{base}$", path.read_text(), re.M)
             if match:
                 return match.group(1)

@@ -37,12 +37,14 @@ def described(source):
     return found
 
 
-# Modules that pass on the names of others, one for each library but fuge_sparse, which has one module.
-FACADES = ("src/fuge.f90", "mpi/fuge_mpi.f90")
+# Modules that pass on the names of others: of all, of each component, and of the library fuge_mpi. fuge_sparse has one
+# module.
+COMPONENTS = ("core", "area", "punch", "stress", "fe", "files")
+FACADES = ("src/facade/fuge.f90", *(f"src/{name}/fuge_{name}.f90" for name in COMPONENTS), "src/mpi/fuge_mpi.f90")
 
 
 def source_of(root, module):
-    return next(path for folder in ("src", "mpi") for path in (root/folder).rglob(f"{module}.f90"))
+    return next((root/"src").rglob(f"{module}.f90"))
 
 
 def taken_names(root):
@@ -71,7 +73,7 @@ def _defining(root, module, name):
 def public_modules(root, order, taken):
     for module in order:
         yield module, source_of(root, module), taken[module]
-    sparse = root/"sparse/fuge_sparse.f90"
+    sparse = root/"src/sparse/fuge_sparse.f90"
     yield "fuge_sparse", sparse, own_exports(sparse.read_text())
 
 

@@ -1,4 +1,4 @@
-# The figure of doc/theory.md with the level lines of the largest shear stress in a half-plane, z |P'(x + i z)|:
+# The figure of doc/theory_stress.md with the level lines of the largest shear stress in a half-plane, z |P'(x + i z)|:
 #     gnuplot doc/site/stress_fields.gp        in the root of the repository
 load system("dirname '".ARG0."'")."/../../examples/plots/style.gp"
 set terminal svg size 800,600 font "sans-serif,13" enhanced background rgb "white"

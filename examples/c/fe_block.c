@@ -287,7 +287,7 @@ static int halfplane_alpha(int n, const double *x, double *alpha) {
   double *width = fe_reserve((size_t)n, sizeof *width);
   char message[FUGE_MESSAGE_LENGTH + 1] = "";
   for (int k = 0; k < n; k++) width[k] = x[1];
-  int status = fuge_halfplane_symmetric_matrix(n, x, width, e_star(), FUGE_HAT, alpha, n, message, sizeof message);
+  int status = fuge_halfplane_matrix(n, x, width, e_star(), FUGE_HAT, 1, alpha, n, message, sizeof message);
   free(width);
   return explain(status, message);
 }

@@ -46,7 +46,7 @@ int main(void) {
     width[k] = H;
     gap[k] = PROFILE * pow(x[k], 4);
   }
-  int status = fuge_halfplane_symmetric_matrix(N, x, width, E_STAR, FUGE_CENTRE, alpha, N, message, sizeof message);
+  int status = fuge_halfplane_matrix(N, x, width, E_STAR, FUGE_CENTRE, 1, alpha, N, message, sizeof message);
   if (explain(status, message) != FUGE_DONE || solve(alpha, gap, force, &info) != FUGE_DONE) return 1;
 
   /* A force is that of a cell and its mirror image. */

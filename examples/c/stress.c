@@ -39,7 +39,7 @@ static int press(const double *x, const double *width, double e_star, double *fo
   double approach;
 
   for (int k = 0; k < N; k++) gap[k] = x[k] * x[k] / (2.0 * RADIUS);
-  return failed(fuge_halfplane_symmetric_matrix(N, x, width, e_star, FUGE_HAT, alpha, N, message, sizeof message))
+  return failed(fuge_halfplane_matrix(N, x, width, e_star, FUGE_HAT, 1, alpha, N, message, sizeof message))
          || failed(fuge_solve_dense(N, alpha, N, gap, LOAD, force, open, &approach, message, sizeof message));
 }
 
@@ -48,8 +48,7 @@ static int go_down(const double *x, const double *width, const double *force, do
   double px[POINTS] = {0.0}, pz[POINTS], stress[3 * POINTS], tensor[6 * POINTS], mises[POINTS];
 
   for (int k = 0; k < POINTS; k++) pz[k] = 0.4 * a * k;
-  if (failed(fuge_halfplane_symmetric_stress(N, x, width, force, FUGE_HAT, POINTS, px, pz, stress, message,
-                                             sizeof message))
+  if (failed(fuge_halfplane_stress(N, x, width, force, FUGE_HAT, 1, POINTS, px, pz, stress, message, sizeof message))
       || failed(fuge_halfplane_tensor(POINTS, stress, FUGE_PLANE_STRAIN, POISSON, tensor, message, sizeof message))
       || failed(fuge_von_mises(POINTS, tensor, mises, message, sizeof message)))
     return 1;
@@ -75,8 +74,8 @@ int main(void) {
     x[k] = width[k] * (k + 0.5);
   }
   if (press(x, width, e_star, force) || go_down(x, width, force, a, p0)) return 1;
-  if (failed(fuge_halfplane_symmetric_peak(N, x, width, force, FUGE_HAT, FUGE_PLANE_STRAIN, POISSON,
-                                           FUGE_MEASURE_VON_MISES, &peak, message, sizeof message)))
+  if (failed(fuge_halfplane_peak(N, x, width, force, FUGE_HAT, FUGE_PLANE_STRAIN, POISSON, 1, FUGE_MEASURE_VON_MISES,
+                                 &peak, message, sizeof message)))
     return 1;
   printf("largest von Mises stress %7.2f N/mm2, %.6f p0 at z = %.6f a\n", peak.value, peak.value / p0,
          peak.place[2] / a);

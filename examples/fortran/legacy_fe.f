@@ -3,10 +3,10 @@ C     interface, arrays in COMMON, the stiffness matrix in LAPACK's band
 C     storage.
 C
 C     A beam on two supports, length XL, sags under a uniform load onto
-C     three rigid stops at its quarter points, all a distance CLEAR below
-C     it.  Elements with cubic deflection are exact at the nodes, and the
-C     stops are nodes, so that the reactions are known by hand: with the
-C     beam's flexibilities between the stops
+C     three rigid stops at its quarter points, all a distance CLEAR
+C     below it.  Elements with cubic deflection are exact at the nodes,
+C     and the stops are nodes, so that the reactions are known by hand:
+C     with the beam's flexibilities between the stops
 C
 C                  ( 9 11  7)                               (57)
 C         XL**3    (11 16 11),     deflection    P XL**4    (80)
@@ -39,9 +39,9 @@ C     hand.
      $        ' as by hand, worst', 1PE8.1)
       END
 
-C     Stiffness matrix, upper triangle by bands, and loads of a line load
-C     of 1 N/mm.  Node I deflects by U(2*I-1), downwards positive, and
-C     turns by U(2*I).
+C     Stiffness matrix, upper triangle by bands, and loads of a line
+C     load of 1 N/mm.  Node I deflects by U(2*I-1), downwards positive,
+C     and turns by U(2*I).
       SUBROUTINE ASSEMB
       IMPLICIT DOUBLE PRECISION (A-H,O-Z)
       PARAMETER (NE=16, ND=2*(NE+1), KD=3, LDAB=KD+1)
@@ -133,13 +133,13 @@ C     column is the deflection at an eighth of the span, from FUGERB.
       SUBROUTINE TABLE
       IMPLICIT DOUBLE PRECISION (A-H,O-Z)
       PARAMETER (NE=16, ND=2*(NE+1), KD=3, LDAB=KD+1, N=3, NLOADS=6)
-      EXTERNAL FUGEGV, FUGERB
+      EXTERNAL FUGEGX, FUGERB
       COMMON /BEAM/ XL, EI, CLEAR
       COMMON /STIFF/ AB(LDAB,ND), P(ND), UFIX(2), IFIX(2)
       COMMON /STOPS/ DN(N), ALPHA(N,N), B(N), IDOF(N)
       CHARACTER*256 MSG
       DIMENSION GAP(N), F(N), C(N), NSTOP(N), PLAY(N), PK(ND), U(ND)
-      DIMENSION R(1,1), W(1), Q(1), Z(1,1), XLOAD(NLOADS)
+      DIMENSION R(1,1), W(1), Q(1), NHELD(1), Z(1,1), XLOAD(NLOADS)
       DATA XLOAD /0.3D0, 1.D0, 3.D0, 6.D0, 12.D0, 24.D0/
       DATA NSTOP /N*1/
       WRITE (*, 100)
@@ -147,9 +147,9 @@ C     column is the deflection at an eighth of the span, from FUGERB.
         DO 10 I = 1, N
           GAP(I) = CLEAR + XLOAD(K)*B(I)
    10   CONTINUE
-        CALL FUGEGV(N, 0, ALPHA, N, GAP, NSTOP, PLAY, R, 1, W, F, C, Q,
-     $              INFO)
-        IF (INFO .NE. 0) CALL QUIT('FUGEGV', INFO, ' ')
+        CALL FUGEGX(N, 0, ALPHA, N, GAP, NSTOP, PLAY, R, 1, NHELD, W, Q,
+     $              0, 0.D0, 0, F, C, NCON, NITER, RESID, MSG, INFO)
+        IF (INFO .NE. 0) CALL QUIT('FUGEGX', INFO, MSG)
         DO 20 I = 1, ND
           PK(I) = XLOAD(K)*P(I)
    20   CONTINUE

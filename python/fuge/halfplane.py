@@ -111,10 +111,10 @@ def halfplane_matrix(
     centres = _arrays.vector("x", x)
     n = centres.size
     alpha = np.empty((n, n), order="F")
-    name = "fuge_halfplane_symmetric_matrix" if symmetric else "fuge_halfplane_matrix"
     widths = _arrays.spread("width", width, n)
     chosen = _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT)
-    call(name, n, centres, widths, _arrays.number("e_star", e_star), chosen, alpha, n)
+    modulus = _arrays.number("e_star", e_star)
+    call("fuge_halfplane_matrix", n, centres, widths, modulus, chosen, int(bool(symmetric)), alpha, n)
     return alpha
 
 

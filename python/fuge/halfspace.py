@@ -66,12 +66,10 @@ def halfspace_matrix(
         _arrays.spread("width_y", width_y, n),
         _arrays.number("e_star", e_star),
         _arrays.choice("element", element, AREA_ELEMENTS, Status.ERR_ELEMENT),
+        int(bool(symmetric_x)),
+        int(bool(symmetric_y)),
     ]
-    if symmetric_x or symmetric_y:
-        sides = (int(bool(symmetric_x)), int(bool(symmetric_y)))
-        call("fuge_halfspace_symmetric_matrix", *arguments, *sides, alpha, n)
-    else:
-        call("fuge_halfspace_matrix", *arguments, alpha, n)
+    call("fuge_halfspace_matrix", *arguments, alpha, n)
     return alpha
 
 

@@ -108,8 +108,8 @@ def halfplane_stress(
     InputError
         A point is above the surface, or the cells are not those of a matrix.
     """
-    name = "fuge_halfplane_symmetric_stress" if symmetric else "fuge_halfplane_stress"
-    return at_points(name, strips(x, width, force, element), 3, ("px", px), ("pz", pz))
+    arguments = [*strips(x, width, force, element), int(bool(symmetric))]
+    return at_points("fuge_halfplane_stress", arguments, 3, ("px", px), ("pz", pz))
 
 
 def halfplane_displacement(
@@ -141,9 +141,9 @@ def halfplane_displacement(
     ndarray, shape (.., 2)
         Along x and z; length. Along z the datum is that of :func:`halfplane_matrix`.
     """
-    name = "fuge_halfplane_symmetric_displacement" if symmetric else "fuge_halfplane_displacement"
-    arguments = strips(x, width, force, element) + elasticity(young, poisson, plane_state)
-    return at_points(name, arguments, 2, ("px", px), ("pz", pz))
+    body = elasticity(young, poisson, plane_state)
+    arguments = [*strips(x, width, force, element), *body, int(bool(symmetric))]
+    return at_points("fuge_halfplane_displacement", arguments, 2, ("px", px), ("pz", pz))
 
 
 def halfspace_stress(
@@ -182,12 +182,13 @@ def halfspace_stress(
     ndarray, shape (.., 6)
         xx, yy, zz, yz, xz, xy at each point; force per length^2.
     """
-    arguments = [*rectangles(x, y, width_x, width_y, force), _arrays.number("poisson", poisson)]
-    coordinates = (("px", px), ("py", py), ("pz", pz))
-    if symmetric_x or symmetric_y:
-        arguments += [int(bool(symmetric_x)), int(bool(symmetric_y))]
-        return at_points("fuge_halfspace_symmetric_stress", arguments, 6, *coordinates)
-    return at_points("fuge_halfspace_stress", arguments, 6, *coordinates)
+    arguments = [
+        *rectangles(x, y, width_x, width_y, force),
+        _arrays.number("poisson", poisson),
+        int(bool(symmetric_x)),
+        int(bool(symmetric_y)),
+    ]
+    return at_points("fuge_halfspace_stress", arguments, 6, ("px", px), ("py", py), ("pz", pz))
 
 
 def halfspace_displacement(
@@ -223,12 +224,10 @@ def halfspace_displacement(
         *rectangles(x, y, width_x, width_y, force),
         _arrays.number("young", young),
         _arrays.number("poisson", poisson),
+        int(bool(symmetric_x)),
+        int(bool(symmetric_y)),
     ]
-    coordinates = (("px", px), ("py", py), ("pz", pz))
-    if symmetric_x or symmetric_y:
-        arguments += [int(bool(symmetric_x)), int(bool(symmetric_y))]
-        return at_points("fuge_halfspace_symmetric_displacement", arguments, 3, *coordinates)
-    return at_points("fuge_halfspace_displacement", arguments, 3, *coordinates)
+    return at_points("fuge_halfspace_displacement", arguments, 3, ("px", px), ("py", py), ("pz", pz))
 
 
 def ring_stress(

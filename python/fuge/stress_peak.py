@@ -85,8 +85,8 @@ def halfplane_peak(
     measure : {'von_mises', 'tresca'}
     plane_state : {'strain', 'stress'}
     """
-    name = "fuge_halfplane_symmetric_peak" if symmetric else "fuge_halfplane_peak"
-    return find_peak(name, *strips(x, width, force, element), *plane_body(plane_state, poisson), measured(measure))
+    arguments = [*strips(x, width, force, element), *plane_body(plane_state, poisson), int(bool(symmetric))]
+    return find_peak("fuge_halfplane_peak", *arguments, measured(measure))
 
 
 def halfspace_peak(
@@ -103,10 +103,8 @@ def halfspace_peak(
 ) -> StressPeak:
     """Under the forces of rectangles on a half-space, which are those of :func:`halfspace_stress`."""
     arguments = [*rectangles(x, y, width_x, width_y, force), _arrays.number("poisson", poisson)]
-    if symmetric_x or symmetric_y:
-        sides = [int(bool(symmetric_x)), int(bool(symmetric_y))]
-        return find_peak("fuge_halfspace_symmetric_peak", *arguments, *sides, measured(measure))
-    return find_peak("fuge_halfspace_peak", *arguments, measured(measure))
+    sides = [int(bool(symmetric_x)), int(bool(symmetric_y))]
+    return find_peak("fuge_halfspace_peak", *arguments, *sides, measured(measure))
 
 
 def ring_peak(radius: ArrayLike, force: ArrayLike, poisson: float, measure: Measure = "von_mises") -> StressPeak:

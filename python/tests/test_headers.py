@@ -80,7 +80,7 @@ class Headers(unittest.TestCase):
             self.assertEqual(member, constants[member.name])
 
     def test_version_is_that_of_the_headers(self):
-        header = (headers.ROOT / "include" / "fuge.h").read_text(encoding="utf-8")
+        header = (headers.ROOT / "include" / "fuge_core.h").read_text(encoding="utf-8")
         self.assertIn(f'FUGE_VERSION "{fuge.__version__}"', header)
 
 

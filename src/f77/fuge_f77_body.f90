@@ -7,18 +7,16 @@ module fuge_f77_body
   use fuge_f77_problem, only: check_modes
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_number_text, only: index_text, text
+  use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_NO_EQUILIBRIUM
   use fuge_stiffness_band, only: fuge_band_stiffness
-  use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
   implicit none
   private
 
-  public :: check_body_sizes, check_nodes, set_body, condense_dense, condense_band, recover_dense, recover_band, &
-    copy_condensed
+  public :: check_body_sizes, set_body, condense_band, recover_band, copy_condensed
 
   !> Forces whose work in a rigid mode is below this fraction of its terms are in equilibrium.
   real(dp), parameter :: BALANCED = 1.0e-8_dp
@@ -43,29 +41,6 @@ contains
         //' is less than ND = '//text(nd))
     end if
   end subroutine check_body_sizes
-
-  !> Refuse nodes that have no rigid modes, or not in `ldz` rows (FUGE_ERR_SIZE), and positions `x` (ndim, nodes) that
-  !> are not finite (FUGE_ERR_NOT_FINITE).
-  pure subroutine check_nodes(ndim, nodes, x, ldz, info)
-    integer, intent(in) :: ndim, nodes, ldz
-    real(dp), intent(in) :: x(:, :)
-    type(fuge_info), intent(inout) :: info
-    integer :: k
-
-    if (ndim < 2 .or. ndim > 3) then
-      call report(info, FUGE_ERR_SIZE, 'NDIM = '//text(ndim)//': nodes are in the plane, 2, or in space, 3')
-    else if (nodes < 1) then
-      call report(info, FUGE_ERR_SIZE, 'NN = '//text(nodes)//': at least one node is needed')
-    else if (ldz/ndim < nodes) then
-      ! Not ndim*nodes, which might overflow.
-      call report(info, FUGE_ERR_SIZE, 'LDZ = '//text(ldz)//' is less than '//text(ndim)//' for each of ' &
-                  //text(nodes)//' node(s)')
-    end if
-    do k = 1, nodes
-      if (info%failed()) return
-      call check_finite(x(:, k), 'position of node '//index_text(k)//',', info)
-    end do
-  end subroutine check_nodes
 
   !> Set a body: fixed degrees of freedom `fixed` with displacements `displacement`, external load
   !> `load` (nd), rigid modes `rigid_modes` (ldz, m), contact points `dof` and `normal` (nw, n).
@@ -93,19 +68,6 @@ contains
     if (m > 0) body%rigid_modes = rigid_modes(:size(load), :)
   end subroutine set_body
 
-  !> Condense a body with the stiffness matrix `matrix` (lda, nd); the only copy of it is its
-  !> factor. Errors as `set` of `fuge_dense_stiffness` and `fuge_condense`.
-  subroutine condense_dense(matrix, body, condensed, info)
-    real(dp), intent(in), target :: matrix(:, :)
-    type(fuge_body), intent(in) :: body
-    type(fuge_condensed), intent(inout) :: condensed
-    type(fuge_info), intent(out) :: info
-    type(fuge_dense_stiffness) :: stiffness
-
-    call stiffness%set(matrix, info)
-    if (.not. info%failed()) call fuge_condense(stiffness, body, condensed, info)
-  end subroutine condense_dense
-
   !> Condense a body with the triangle `uplo` of its stiffness matrix in LAPACK's band storage, `band` (ldab, nd), with
   !> `kd` diagonals beside the main one. Errors as `set_band` and `fuge_condense`.
   subroutine condense_band(uplo, kd, band, body, condensed, info)
@@ -121,21 +83,8 @@ contains
     if (.not. info%failed()) call fuge_condense(stiffness, body, condensed, info)
   end subroutine condense_band
 
-  !> Displacements `u` (nd) under the contact forces `force` (n) and motions `motion` (m). Errors
-  !> as `set` of `fuge_dense_stiffness` and `recover_displacements`.
-  subroutine recover_dense(matrix, body, force, motion, u, info)
-    real(dp), intent(in), target :: matrix(:, :)
-    type(fuge_body), intent(in) :: body
-    real(dp), intent(in) :: force(:), motion(:)
-    real(dp), intent(inout) :: u(:)
-    type(fuge_info), intent(out) :: info
-    type(fuge_dense_stiffness) :: stiffness
-
-    call stiffness%set(matrix, info)
-    if (.not. info%failed()) call recover_displacements(stiffness, body, force, motion, u, info)
-  end subroutine recover_dense
-
-  !> As `recover_dense`, for a stiffness matrix in band storage as in `condense_band`.
+  !> Displacements `u` (nd) under the contact forces `force` (n) and motions `motion` (m), for a stiffness matrix in
+  !> band storage as in `condense_band`. Errors as `set_band` and `recover_displacements`.
   subroutine recover_band(uplo, kd, band, body, force, motion, u, info)
     character(len=1), intent(in) :: uplo
     integer, intent(in) :: kd

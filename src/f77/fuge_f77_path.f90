@@ -1,16 +1,14 @@
-!> Shared by the external procedures for FORTRAN 77: load paths of matrices that are not copied, and their events in
-!> plain arrays.
+!> For FUGELP: the load path of a matrix that is not copied, and its events in plain arrays.
 module fuge_f77_path
-  use fuge_contact_path, only: fuge_follow_path, fuge_load_path
+  use fuge_contact_path, only: fuge_load_path
   use fuge_kinds, only: dp
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_path_type, only: fuge_path
-  use fuge_problem_type, only: fuge_problem
   use fuge_status, only: fuge_info
   implicit none
   private
 
-  public :: copy_events, follow_load, follow_problem
+  public :: copy_events, follow_load
 
 contains
 
@@ -26,20 +24,6 @@ contains
     call operator%set(alpha, info)
     if (.not. info%failed()) call fuge_load_path(operator, gap, load, path, info)
   end subroutine follow_load
-
-  !> Follow a general problem to the resultants and prescribed motions `finish` (m). `alpha` is (n, n) or (lda, n).
-  !> Errors as `set` of `fuge_dense_operator` and `fuge_follow_path`.
-  subroutine follow_problem(alpha, problem, finish, path, info)
-    real(dp), intent(in), target :: alpha(:, :)
-    type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: finish(:)
-    type(fuge_path), intent(inout) :: path
-    type(fuge_info), intent(out) :: info
-    type(fuge_dense_operator) :: operator
-
-    call operator%set(alpha, info)
-    if (.not. info%failed()) call fuge_follow_path(operator, problem, finish, path, info)
-  end subroutine follow_problem
 
   !> Copy as many entries of a path as the arrays have room for: `motion` and `rate` (m, room), the others (room).
   pure subroutine copy_events(path, parameters, motion, rate, point, state, contacts)

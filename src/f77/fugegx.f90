@@ -1,5 +1,5 @@
-!> FUGEGX: FUGEGV with prescribed motions and options; also returns the residual and the message.
-!> Arguments in doc/legacy.md; `alpha` is not copied.
+!> FUGEGX: general problems with rigid motions, free or prescribed, two stops and excluded points, with options, a
+!> report and the message. Arguments in doc/legacy.md; `alpha` is not copied.
 subroutine fugegx(n, m, alpha, lda, gap, nstop, play, r, ldr, nheld, w, q, method, tol, maxit, &
                   f, c, ncon, niter, resid, msg, info)
   use fuge_f77_problem, only: check_dimensions, check_modes, prescribe_motions, set_general_problem, set_options, &

@@ -1,4 +1,4 @@
-!> FUGEHX: FUGEHP with the message. Arguments in doc/legacy.md.
+!> FUGEHX: the influence matrix of cells on a half-plane. Arguments in doc/legacy.md.
 subroutine fugehx(n, x, width, estar, nelem, nsym, alpha, lda, msg, info)
   use fuge_f77_problem, only: check_dimensions
   use fuge_halfplane_influence, only: fuge_halfplane_matrix

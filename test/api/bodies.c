@@ -1,4 +1,4 @@
-/* Section "two bodies" of fuge.h. */
+/* Section "two bodies" of fuge_core.h. */
 #include "check.h"
 
 static void test_moduli(void) {

@@ -1,4 +1,4 @@
-/* Section "operators" of fuge.h: callback operators. */
+/* Section "operators" of fuge_core.h: callback operators. */
 #include "table1.h"
 
 enum { N = 3 };

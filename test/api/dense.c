@@ -1,4 +1,4 @@
-/* Section "one call" of fuge.h: fuge_solve_dense. */
+/* Section "one call" of fuge_core.h: fuge_solve_dense. */
 #include "table1.h"
 
 enum { MOST = 3 };

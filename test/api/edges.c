@@ -1,4 +1,4 @@
-/* Section "edges of contact" of fuge.h. */
+/* Section "edges of contact" of fuge_core.h. */
 #include "check.h"
 
 enum { N = 64, MOST = 3 };
@@ -14,7 +14,7 @@ static void press(double *x, double *width, double *force) {
     width[k] = H;
     gap[k] = pow(x[k] - 0.013, 2);
   }
-  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, alpha, N, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, 0, alpha, N, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_solve_dense(N, alpha, N, gap, acos(-1.0) / 2.0, force, open, &approach, NULL, 0), FUGE_DONE);
 }
 

@@ -1,4 +1,4 @@
-/* Sections "elastic bodies", "bodies as one" and "meshes with their matrices" of fuge_bodies.h. */
+/* Sections "elastic bodies" and "bodies as one" of fuge_fe.h, "meshes with their matrices" of fuge_files.h. */
 #include "check.h"
 
 /* Two blocks one wide and one high, of unit squares cut into 2 and 3 elements side by side, in plane strain: Young's

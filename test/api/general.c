@@ -1,4 +1,4 @@
-/* Section "status" and "options and report" of fuge.h. */
+/* Section "status" and "options and report" of fuge_core.h. */
 #include <limits.h>
 #include "check.h"
 

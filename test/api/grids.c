@@ -1,5 +1,5 @@
-/* Section "operators" of fuge.h: callback operators of cells of a grid need the products of the built-in operators,
- * whose products they do here by reference_operator.f90. */
+/* Section "operators" of fuge_core.h: callback operators of cells of a grid need the products of the built-in
+ * operators, whose products they do here by reference_operator.f90. */
 #include <limits.h>
 #include "table1.h"
 

@@ -1,4 +1,4 @@
-/* Section "half-plane" of fuge.h. */
+/* Section "half-plane" of fuge_core.h. */
 #include "check.h"
 
 enum { N = 5, LDA = 7 };
@@ -8,9 +8,6 @@ static const double EQUAL[N] = {0.25, 0.25, 0.25, 0.25, 0.25};
 /* Cells of different widths, side by side from x = 0. */
 static const double UNEQUAL_X[N] = {0.125, 0.375, 0.75, 1.5, 2.25};
 static const double UNEQUAL[N] = {0.25, 0.25, 0.5, 1.0, 0.5};
-
-typedef int (*matrix_function)(int, const double *, const double *, double, int, double *, int, char *, size_t);
-static const matrix_function MATRIX[2] = {fuge_halfplane_matrix, fuge_halfplane_symmetric_matrix};
 
 /* Integral and double integral of ln|x|. */
 static double log_integral(double x) { return x == 0.0 ? 0.0 : x * log(fabs(x)) - x; }
@@ -30,7 +27,7 @@ static double mean_of_cell(double d, double h, double datum) {
 
 static void test_coefficients(int element, double (*expected)(double, double, double)) {
   double alpha[N * N];
-  CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, element, alpha, N, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, element, 0, alpha, N, NULL, 0), FUGE_DONE);
   for (int i = 0; i < N; i++)
     for (int k = 0; k < N; k++) {
       CHECK_NEAR(alpha[i + k * N], expected(X[i] - X[k], H, 2.0 * N * H), TOLERANCE);
@@ -42,7 +39,7 @@ static void test_coefficients(int element, double (*expected)(double, double, do
 static void test_one_cell(void) {
   const double x = 7.0, width = 1.0;
   double alpha;
-  CHECK_STATUS(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, &alpha, 1, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, 0, &alpha, 1, NULL, 0), FUGE_DONE);
   CHECK_NEAR(alpha, 2.0 / acos(-1.0) * (1.0 + 2.0 * log(2.0)) / E_STAR, TOLERANCE);
 }
 
@@ -50,14 +47,14 @@ static void test_one_cell(void) {
 static void test_narrow_cell_far_away(void) {
   const double x = 1e9, width = 1e-9;
   double alpha;
-  CHECK_STATUS(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, &alpha, 1, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, 0, &alpha, 1, NULL, 0), FUGE_DONE);
   CHECK_NEAR(alpha, 2.0 / acos(-1.0) * (1.0 + 2.0 * log(2.0)) / E_STAR, TOLERANCE);
 }
 
 static void test_unequal_cells_are_symmetric(void) {
   for (int folded = 0; folded < 2; folded++) {
     double alpha[N * N];
-    CHECK_STATUS(MATRIX[folded](N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, alpha, N, NULL, 0), FUGE_DONE);
+    CHECK_STATUS(fuge_halfplane_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, folded, alpha, N, NULL, 0), FUGE_DONE);
     for (int i = 0; i < N; i++)
       for (int k = 0; k < i; k++) CHECK_NEAR(alpha[i + k * N], alpha[k + i * N], 0.0);
   }
@@ -71,9 +68,8 @@ static void test_folding(void) {
     x[N + k] = UNEQUAL_X[k];
     width[N - 1 - k] = width[N + k] = UNEQUAL[k];
   }
-  CHECK_STATUS(fuge_halfplane_matrix(2 * N, x, width, E_STAR, FUGE_MEAN, whole, 2 * N, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfplane_symmetric_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, folded, N, NULL, 0),
-               FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(2 * N, x, width, E_STAR, FUGE_MEAN, 0, whole, 2 * N, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, 1, folded, N, NULL, 0), FUGE_DONE);
   for (int i = 0; i < N; i++)
     for (int k = 0; k < N; k++) {
       double cell = whole[N + i + (N + k) * 2 * N], image = whole[N + i + (N - 1 - k) * 2 * N];
@@ -85,7 +81,7 @@ static void test_folding(void) {
 static void test_cell_on_axis(void) {
   const double x[2] = {0.0, 0.5}, width[2] = {0.5, 0.5};
   double alpha[4];
-  CHECK_STATUS(fuge_halfplane_symmetric_matrix(2, x, width, E_STAR, FUGE_CENTRE, alpha, 2, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(2, x, width, E_STAR, FUGE_CENTRE, 1, alpha, 2, NULL, 0), FUGE_DONE);
   CHECK_NEAR(alpha[0], at_centre(0.0, 0.5, 3.0), TOLERANCE);
   CHECK_NEAR(alpha[1], at_centre(0.5, 0.5, 3.0), TOLERANCE);
   CHECK_NEAR(alpha[3], 0.5 * (at_centre(0.0, 0.5, 3.0) + at_centre(1.0, 0.5, 3.0)), TOLERANCE);
@@ -96,8 +92,8 @@ static void test_padding(void) {
   for (int folded = 0; folded < 2; folded++) {
     double tight[N * N], wide[LDA * N];
     fill(wide, LDA * N);
-    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_HAT, tight, N, NULL, 0), FUGE_DONE);
-    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_HAT, wide, LDA, NULL, 0), FUGE_DONE);
+    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_HAT, folded, tight, N, NULL, 0), FUGE_DONE);
+    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_HAT, folded, wide, LDA, NULL, 0), FUGE_DONE);
     for (int k = 0; k < N; k++) {
       for (int i = 0; i < N; i++) CHECK_NEAR(wide[i + k * LDA], tight[i + k * N], 0.0);
       CHECK_UNTOUCHED(&wide[N + k * LDA], LDA - N);
@@ -149,8 +145,8 @@ static void check_bad_input(const bad_input *bad, int folded) {
   x[bad->at] = bad->x;
   width[bad->at] = bad->width;
   fill(alpha, N * N);
-  CHECK_STATUS(MATRIX[folded](bad->n, x, width, bad->e_star, bad->element, alpha, bad->n, message, sizeof message),
-               bad->status);
+  CHECK_STATUS(fuge_halfplane_matrix(bad->n, x, width, bad->e_star, bad->element, folded, alpha, bad->n, message,
+                                     sizeof message), bad->status);
   if (bad->status < 0) CHECK_UNTOUCHED(alpha, N * N);
   if (bad->status < 0) CHECK_CONTAINS(message, bad->part);
   else CHECK_STRING(message, "");
@@ -167,9 +163,10 @@ static void test_leading_dimension(void) {
     double alpha[N * N];
     char message[256] = "";
     fill(alpha, N * N);
-    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_MEAN, alpha, N - 1, message, sizeof message), FUGE_ERR_SIZE);
+    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N - 1, message, sizeof message),
+                 FUGE_ERR_SIZE);
     CHECK_CONTAINS(message, "lda = 4");
-    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_MEAN, alpha, -N, NULL, 0), FUGE_ERR_SIZE);
+    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, -N, NULL, 0), FUGE_ERR_SIZE);
     CHECK_UNTOUCHED(alpha, N * N);
   }
 }
@@ -179,12 +176,14 @@ static void test_null_pointers(void) {
     double alpha[N * N];
     char message[256] = "";
     fill(alpha, N * N);
-    CHECK_STATUS(MATRIX[folded](N, NULL, EQUAL, E_STAR, FUGE_MEAN, alpha, N, message, sizeof message),
+    CHECK_STATUS(fuge_halfplane_matrix(N, NULL, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
                  FUGE_ERR_POINTER);
     CHECK_STRING(message, "x is NULL");
-    CHECK_STATUS(MATRIX[folded](N, X, NULL, E_STAR, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_POINTER);
+    CHECK_STATUS(fuge_halfplane_matrix(N, X, NULL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
+                 FUGE_ERR_POINTER);
     CHECK_STRING(message, "width is NULL");
-    CHECK_STATUS(MATRIX[folded](N, X, EQUAL, E_STAR, FUGE_MEAN, NULL, N, message, sizeof message), FUGE_ERR_POINTER);
+    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, NULL, N, message, sizeof message),
+                 FUGE_ERR_POINTER);
     CHECK_STRING(message, "alpha is NULL");
     CHECK_UNTOUCHED(alpha, N * N);
   }
@@ -193,12 +192,12 @@ static void test_null_pointers(void) {
 /* The bytes before and beyond stay as they are. */
 static void test_message_is_cut(void) {
   char store[9] = "########", *buffer = store + 1;
-  CHECK_STATUS(fuge_halfplane_matrix(0, X, EQUAL, E_STAR, FUGE_MEAN, NULL, 0, buffer, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_halfplane_matrix(0, X, EQUAL, E_STAR, FUGE_MEAN, 0, NULL, 0, buffer, 0), FUGE_ERR_SIZE);
   CHECK_STRING(buffer, "#######");
-  CHECK_STATUS(fuge_halfplane_matrix(0, X, EQUAL, E_STAR, FUGE_MEAN, NULL, 0, buffer, 5), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_halfplane_matrix(0, X, EQUAL, E_STAR, FUGE_MEAN, 0, NULL, 0, buffer, 5), FUGE_ERR_SIZE);
   CHECK_STRING(buffer, "n = ");
   CHECK_STRING(buffer + 5, "##");
-  CHECK_STATUS(fuge_halfplane_matrix(0, X, EQUAL, E_STAR, FUGE_MEAN, NULL, 0, buffer, 1), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_halfplane_matrix(0, X, EQUAL, E_STAR, FUGE_MEAN, 0, NULL, 0, buffer, 1), FUGE_ERR_SIZE);
   CHECK_STRING(buffer, "");
   CHECK(store[0] == '#');
 }

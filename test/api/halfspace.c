@@ -11,7 +11,7 @@ static const double QUARTER_X[3] = {0.5, 1.5, 1.0}, QUARTER_Y[3] = {0.25, 0.25, 
 static const double QUARTER_WIDTH_X[3] = {1.0, 1.0, 2.0}, QUARTER_WIDTH_Y[3] = {0.5, 0.5, 1.0};
 
 static int matrix(int n, const double *x, int element, double *alpha, int lda, char *message, size_t len) {
-  return fuge_halfspace_matrix(n, x, Y, ONES, ONES, E_STAR, element, alpha, lda, message, len);
+  return fuge_halfspace_matrix(n, x, Y, ONES, ONES, E_STAR, element, 0, 0, alpha, lda, message, len);
 }
 
 /* The mean of 1/r over a unit square from its centre is 4 ln(1 + sqrt 2); over all pairs of its points
@@ -51,11 +51,11 @@ static void test_folded(void) {
     width_x[k] = QUARTER_WIDTH_X[k % 3];
     width_y[k] = QUARTER_WIDTH_Y[k % 3];
   }
-  CHECK_STATUS(fuge_halfspace_matrix(12, x, y, width_x, width_y, E_STAR, FUGE_MEAN, whole, 12, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfspace_symmetric_matrix(3, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 1, quarter, 3, NULL, 0),
+  CHECK_STATUS(fuge_halfspace_matrix(12, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 0, 0, whole, 12, NULL, 0),
                FUGE_DONE);
-  CHECK_STATUS(fuge_halfspace_symmetric_matrix(6, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 0, half, 6, NULL, 0),
+  CHECK_STATUS(fuge_halfspace_matrix(3, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 1, quarter, 3, NULL, 0),
                FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_matrix(6, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 0, half, 6, NULL, 0), FUGE_DONE);
   for (int j = 0; j < 3; j++)
     for (int i = 0; i < 3; i++) {
       double sum = 0.0;
@@ -79,16 +79,16 @@ static void test_refusals(void) {
   CHECK_STATUS(matrix(N, X, FUGE_HAT, alpha, N, message, sizeof message), FUGE_ERR_ELEMENT);
   CHECK_STATUS(matrix(N, nan, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_NOT_FINITE);
   CHECK_CONTAINS(message, "x(3) = NaN");
-  CHECK_STATUS(fuge_halfspace_matrix(N, X, X, ONES, ONES, E_STAR, FUGE_MEAN, alpha, N, message, sizeof message),
+  CHECK_STATUS(fuge_halfspace_matrix(N, X, X, ONES, ONES, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
                FUGE_ERR_WIDTH);
   CHECK_CONTAINS(message, "rectangles 0 and 2 overlap");
-  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, zero, E_STAR, FUGE_MEAN, alpha, N, message, sizeof message),
+  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, zero, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
                FUGE_ERR_WIDTH);
   CHECK_CONTAINS(message, "width_y(2) = 0.");
-  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, 0.0, FUGE_MEAN, alpha, N, message, sizeof message),
+  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, 0.0, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
                FUGE_ERR_MODULUS);
-  CHECK_STATUS(fuge_halfspace_symmetric_matrix(N, X, Y, ONES, ONES, E_STAR, FUGE_MEAN, 0, 1, alpha, N, message,
-                                               sizeof message), FUGE_ERR_WIDTH);
+  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, E_STAR, FUGE_MEAN, 0, 1, alpha, N, message, sizeof message),
+               FUGE_ERR_WIDTH);
   CHECK_CONTAINS(message, "y(0) = -0.5");
   CHECK_UNTOUCHED(alpha, N * N);
 }
@@ -129,7 +129,8 @@ static void test_grid(int element) {
   CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
   fuge_solver_free(&solver);
   fuge_operator_free(&op);
-  CHECK_STATUS(fuge_halfspace_matrix(CELLS, x, y, width_x, width_y, E_STAR, element, alpha, CELLS, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_matrix(CELLS, x, y, width_x, width_y, E_STAR, element, 0, 0, alpha, CELLS, NULL, 0),
+               FUGE_DONE);
   CHECK_STATUS(fuge_operator_dense(CELLS, alpha, CELLS, &dense, NULL, 0), FUGE_DONE);
   solver = ball_on_grid(dense, gap);
   CHECK_STATUS(fuge_get_force(solver, right), FUGE_DONE);

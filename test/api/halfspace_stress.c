@@ -8,7 +8,7 @@ static const double X[N] = {0.5, -0.5, 0.5, -0.5}, Y[N] = {0.5, 0.5, -0.5, -0.5}
 static const double PX[POINTS] = {0.0, 0.3, -7.0}, PY[POINTS] = {0.0, -0.2, 2.0}, PZ[POINTS] = {0.0, 0.75, 1e-3};
 
 static int stress_of(int n, const double *force, const double *pz, double *stress, char *message, size_t len) {
-  return fuge_halfspace_stress(n, X, Y, ONES, ONES, force, POISSON, POINTS, PX, PY, pz, stress, message, len);
+  return fuge_halfspace_stress(n, X, Y, ONES, ONES, force, POISSON, 0, 0, POINTS, PX, PY, pz, stress, message, len);
 }
 
 /* A square of side 2 under unit pressure: on the surface xx = yy = -(1 + 2 nu)/2, zz = -1, and the centre sinks by
@@ -23,7 +23,7 @@ static void test_centre_of_a_square(void) {
   CHECK_NEAR(stress[1], -0.8, 1e-15);
   CHECK_NEAR(stress[2], -1.0, 1e-15);
   for (int k = 3; k < 6; k++) CHECK_NEAR(stress[k], 0.0, 1e-15);
-  CHECK_STATUS(fuge_halfspace_displacement(N, X, Y, ONES, ONES, ONES, YOUNG, POISSON, POINTS, PX, PY, PZ, moved,
+  CHECK_STATUS(fuge_halfspace_displacement(N, X, Y, ONES, ONES, ONES, YOUNG, POISSON, 0, 0, POINTS, PX, PY, PZ, moved,
                                            message, sizeof message), FUGE_DONE);
   CHECK_NEAR(moved[0], 0.0, 1e-15);
   CHECK_NEAR(moved[1], 0.0, 1e-15);
@@ -36,17 +36,17 @@ static void test_folded(void) {
     half_y[2] = {0.5, -0.5};
   double expected[6 * POINTS], found[6 * POINTS], moved[3 * POINTS], again[3 * POINTS];
   CHECK_STATUS(stress_of(N, whole, PZ, expected, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfspace_symmetric_stress(2, half_x, half_y, ONES, ONES, half, POISSON, 1, 0, POINTS, PX, PY, PZ,
-                                               found, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_stress(2, half_x, half_y, ONES, ONES, half, POISSON, 1, 0, POINTS, PX, PY, PZ, found,
+                                     NULL, 0), FUGE_DONE);
   for (int k = 0; k < 6 * POINTS; k++) CHECK_NEAR(found[k], expected[k], 2e-15);
   CHECK_STATUS(stress_of(N, ONES, PZ, expected, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfspace_symmetric_stress(1, X, Y, ONES, ONES, &quarter, POISSON, 1, 1, POINTS, PX, PY, PZ, found,
-                                               NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_stress(1, X, Y, ONES, ONES, &quarter, POISSON, 1, 1, POINTS, PX, PY, PZ, found, NULL, 0),
+               FUGE_DONE);
   for (int k = 0; k < 6 * POINTS; k++) CHECK_NEAR(found[k], expected[k], 2e-15);
-  CHECK_STATUS(fuge_halfspace_displacement(N, X, Y, ONES, ONES, whole, YOUNG, POISSON, POINTS, PX, PY, PZ, moved, NULL,
-                                           0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfspace_symmetric_displacement(2, half_x, half_y, ONES, ONES, half, YOUNG, POISSON, 1, 0, POINTS,
-                                                     PX, PY, PZ, again, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_displacement(N, X, Y, ONES, ONES, whole, YOUNG, POISSON, 0, 0, POINTS, PX, PY, PZ, moved,
+                                           NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_displacement(2, half_x, half_y, ONES, ONES, half, YOUNG, POISSON, 1, 0, POINTS, PX, PY,
+                                           PZ, again, NULL, 0), FUGE_DONE);
   for (int k = 0; k < 3 * POINTS; k++) CHECK_NEAR(again[k], moved[k], 2e-15);
 }
 
@@ -55,7 +55,8 @@ static void test_nothing(void) {
   const double zero[N] = {0, 0, 0, 0};
   double stress[6 * POINTS];
   fill(stress, 6 * POINTS);
-  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, POISSON, 0, PX, PY, PZ, stress, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, POISSON, 0, 0, 0, PX, PY, PZ, stress, NULL, 0),
+               FUGE_DONE);
   CHECK_UNTOUCHED(stress, 6 * POINTS);
   CHECK_STATUS(stress_of(N, zero, PZ, stress, NULL, 0), FUGE_DONE);
   for (int k = 0; k < 6 * POINTS; k++) CHECK_NEAR(stress[k], 0.0, 0.0);
@@ -77,18 +78,18 @@ static void test_refusals(void) {
   CHECK_CONTAINS(message, "pz(2) = -0.5");
   CHECK_STATUS(stress_of(N, ONES, nan, stress, message, sizeof message), FUGE_ERR_NOT_FINITE);
   CHECK_CONTAINS(message, "pz(1) = NaN");
-  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, flat, ONES, POISSON, POINTS, PX, PY, PZ, stress, message,
+  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, flat, ONES, POISSON, 0, 0, POINTS, PX, PY, PZ, stress, message,
                                      sizeof message), FUGE_ERR_WIDTH);
   CHECK_CONTAINS(message, "width_y(1) = 0.");
-  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, 0.6, POINTS, PX, PY, PZ, stress, message,
-               sizeof message), FUGE_ERR_MODULUS);
-  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, POISSON, -1, PX, PY, PZ, stress, message,
+  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, 0.6, 0, 0, POINTS, PX, PY, PZ, stress, message,
+                                     sizeof message), FUGE_ERR_MODULUS);
+  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, POISSON, 0, 0, -1, PX, PY, PZ, stress, message,
                                      sizeof message), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_halfspace_symmetric_stress(N, X, Y, ONES, ONES, ONES, POISSON, 1, 0, POINTS, PX, PY, PZ, stress,
-                                               message, sizeof message), FUGE_ERR_WIDTH);
+  CHECK_STATUS(fuge_halfspace_stress(N, X, Y, ONES, ONES, ONES, POISSON, 1, 0, POINTS, PX, PY, PZ, stress, message,
+                                     sizeof message), FUGE_ERR_WIDTH);
   CHECK_CONTAINS(message, "x(1) = -0.5");
-  CHECK_STATUS(fuge_halfspace_displacement(N, X, Y, ONES, ONES, ONES, 0.0, POISSON, POINTS, PX, PY, PZ, stress, message,
-                                           sizeof message), FUGE_ERR_MODULUS);
+  CHECK_STATUS(fuge_halfspace_displacement(N, X, Y, ONES, ONES, ONES, 0.0, POISSON, 0, 0, POINTS, PX, PY, PZ, stress,
+                                           message, sizeof message), FUGE_ERR_MODULUS);
   CHECK_UNTOUCHED(stress, 6 * POINTS);
 }
 

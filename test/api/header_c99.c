@@ -1,4 +1,4 @@
-/* fuge.h needs no other header and may be included twice. */
+/* fuge.h needs no other header and may be included twice; CMakeLists.txt adds a file for each header alone. */
 #include "fuge.h"
 #include "fuge.h"
 

@@ -1,4 +1,4 @@
-/* Section "matrix files" of fuge_fe.h. */
+/* Section "matrix files" of fuge_files.h. */
 #if !defined(_WIN32)
 #define _XOPEN_SOURCE 600
 #include <signal.h>

@@ -1,4 +1,4 @@
-/* Section "mesh files" of fuge_fe.h. */
+/* Section "mesh files" of fuge_files.h. */
 #include "check.h"
 
 static const char *const NAME = "api_mesh_files_scratch.inp";

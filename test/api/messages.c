@@ -95,11 +95,11 @@ static int level_unknown(char *message, size_t len) {
 }
 
 static int matrix_width(char *message, size_t len) {
-  return fuge_halfplane_matrix(2, X, NO_WIDTH, 1.0, FUGE_MEAN, reals, 2, message, len);
+  return fuge_halfplane_matrix(2, X, NO_WIDTH, 1.0, FUGE_MEAN, 0, reals, 2, message, len);
 }
 
 static int matrix_unequal(char *message, size_t len) {
-  return fuge_halfplane_symmetric_matrix(2, X, UNEQUAL, 1.0, FUGE_HAT, reals, 2, message, len);
+  return fuge_halfplane_matrix(2, X, UNEQUAL, 1.0, FUGE_HAT, 1, reals, 2, message, len);
 }
 
 static int edges_grid(char *message, size_t len) {
@@ -343,7 +343,7 @@ static void test_success_empties_the_message(void) {
   CHECK_STRING(message, "");
   fuge_body_free(&body);
   strcpy(message, "old");
-  CHECK_STATUS(fuge_halfplane_matrix(2, X, WIDTH, 1.0, FUGE_MEAN, reals, 2, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(2, X, WIDTH, 1.0, FUGE_MEAN, 0, reals, 2, message, sizeof message), FUGE_DONE);
   CHECK_STRING(message, "");
   strcpy(message, "old");
   CHECK_STATUS(fuge_solve_smooth_punch(profile, NULL, -1.0, 1.0, 1.0, 0.1, NULL, &cylinder, message, sizeof message),

@@ -1,4 +1,4 @@
-/* Section "operators" of fuge.h. */
+/* Section "operators" of fuge_core.h. */
 #include <limits.h>
 #include "table1.h"
 
@@ -148,7 +148,7 @@ static void check_free_answer(int element, const double *force, const double *ga
   double x[CELLS], width[CELLS], initial[CELLS], right_force[CELLS], right_gap[CELLS], right_approach;
   make_gap(x, initial);
   for (int k = 0; k < CELLS; k++) width[k] = SPACING;
-  CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, alpha, CELLS, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, 0, alpha, CELLS, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_solve_dense(CELLS, alpha, CELLS, initial, LOAD, right_force, right_gap, &right_approach, NULL, 0),
                FUGE_DONE);
   for (int k = 0; k < CELLS; k++) {
@@ -326,7 +326,7 @@ static void check_halfplane_product(int element) {
     width[k] = SPACING;
     f[k] = sin(1.0 + k) + (k == 3 ? 5.0 : 0.0);
   }
-  CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, alpha, CELLS, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, 0, alpha, CELLS, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_operator_dense(CELLS, alpha, CELLS, &op, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_operator_apply(op, CELLS, f, dense, message, sizeof message), FUGE_DONE);
   CHECK_STRING(message, "");

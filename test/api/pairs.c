@@ -1,4 +1,4 @@
-/* Section "pairs of surfaces" of fuge_pairs.h. */
+/* Section "pairs of surfaces" of fuge_fe.h. */
 #include "check.h"
 
 /* An edge from x = 0 to 1 at y = 0.25, its body above, and two edges below it, at y = 0. */

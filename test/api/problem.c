@@ -1,4 +1,4 @@
-/* Section "problem" of fuge.h: motions, play and exclusions.  Three springs of 0.5 length
+/* Section "problem" of fuge_core.h: motions, play and exclusions.  Three springs of 0.5 length
  * per force, so that all answers are whole or a few halves. */
 #include "table1.h"
 

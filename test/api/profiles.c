@@ -1,4 +1,4 @@
-/* Section "profiles" of fuge.h. */
+/* Section "profiles" of fuge_files.h. */
 #include "check.h"
 
 static const char *const NAME = "api_profiles_scratch.txt";

@@ -1,4 +1,4 @@
-/* Section "solver" of fuge.h: progress and cancelling. */
+/* Section "solver" of fuge_core.h: progress and cancelling. */
 #include "table1.h"
 
 /* A cantilever under a rough surface: the active set needs several sets. */

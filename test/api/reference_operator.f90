@@ -39,7 +39,7 @@ contains
     end if
   end function reference_new
 
-  !> A fuge_apply of fuge.h: the product without the datum.
+  !> A fuge_apply of fuge_core.h: the product without the datum.
   function reference_apply(n, force, displacement, user) bind(c) result(status)
     integer(c_int), intent(in), value :: n
     real(c_double), intent(in) :: force(n)
@@ -54,7 +54,7 @@ contains
     status = int(failure, c_int)
   end function reference_apply
 
-  !> A fuge_apply of fuge.h: the preconditioner.
+  !> A fuge_apply of fuge_core.h: the preconditioner.
   function reference_precondition(n, displacement, force, user) bind(c) result(status)
     integer(c_int), intent(in), value :: n
     real(c_double), intent(in) :: displacement(n)

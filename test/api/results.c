@@ -1,4 +1,4 @@
-/* Section "results" of fuge.h: numbers, report, history, messages. */
+/* Section "results" of fuge_core.h: numbers, report, history, messages. */
 #include <limits.h>
 #include "table1.h"
 

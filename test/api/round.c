@@ -1,4 +1,4 @@
-/* Section "round punches" of fuge_smooth.h. */
+/* Section "round punches" of fuge_punch.h. */
 #include "check.h"
 
 static const double PI = 3.14159265358979324;

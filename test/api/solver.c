@@ -1,4 +1,4 @@
-/* Section "solver" of fuge.h: life cycle, data, call order, failures of a solve. */
+/* Section "solver" of fuge_core.h: life cycle, data, call order, failures of a solve. */
 #include "table1.h"
 
 static void check_solved(fuge_solver *solver) {
@@ -349,7 +349,7 @@ static void test_warm_start(void) {
     width[k] = 0.05;
     gap[k] = x[k] * x[k];
   }
-  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, alpha, N, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, 0, alpha, N, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_operator_dense(N, alpha, N, &op, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_solver_new(op, NULL, &solver, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
@@ -442,7 +442,7 @@ static void test_residual_warning(void) {
     width[k] = 0.1;
     gap[k] = 0.05 * x[k] * x[k];
   }
-  CHECK_STATUS(fuge_halfplane_symmetric_matrix(N, x, width, 1.0, FUGE_CENTRE, alpha, N, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, 1, alpha, N, NULL, 0), FUGE_DONE);
   fuge_default_options(&options);
   options.tolerance = 1e-300;
   fuge_solver *solver = new_solver(alpha, N, &options, &op);

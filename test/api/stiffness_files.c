@@ -1,4 +1,4 @@
-/* Section "stiffness files" of fuge_fe.h. */
+/* Section "stiffness files" of fuge_files.h. */
 #include "check.h"
 
 static const char *const NAME = "api_stiffness_files_scratch.txt";

@@ -24,12 +24,13 @@ static void test_halfplane_points(void) {
     fill(motion, 2 * N * DEPTHS + 1);
     CHECK_STATUS(fuge_halfplane_stress_grid(N, 0.5, FORCE, element, FUGE_FREE, DEPTHS, DEPTH, stress, NULL, 0),
                  FUGE_DONE);
-    CHECK_STATUS(fuge_halfplane_stress(N, x, width, FORCE, element, N * DEPTHS, px, pz, expected, NULL, 0), FUGE_DONE);
+    CHECK_STATUS(fuge_halfplane_stress(N, x, width, FORCE, element, 0, N * DEPTHS, px, pz, expected, NULL, 0),
+                 FUGE_DONE);
     for (int k = 0; k < 3 * N * DEPTHS; k++) CHECK_NEAR(stress[k], expected[k], 1e-13);
     CHECK_STATUS(fuge_halfplane_displacement_grid(N, 0.5, FORCE, element, FUGE_FREE, YOUNG, POISSON, FUGE_PLANE_STRAIN,
                                                   DEPTHS, DEPTH, motion, NULL, 0), FUGE_DONE);
-    CHECK_STATUS(fuge_halfplane_displacement(N, x, width, FORCE, element, YOUNG, POISSON, FUGE_PLANE_STRAIN, N * DEPTHS,
-                                             px, pz, expected_motion, NULL, 0), FUGE_DONE);
+    CHECK_STATUS(fuge_halfplane_displacement(N, x, width, FORCE, element, YOUNG, POISSON, FUGE_PLANE_STRAIN, 0,
+                                             N * DEPTHS, px, pz, expected_motion, NULL, 0), FUGE_DONE);
     for (int k = 0; k < 2 * N * DEPTHS; k++) CHECK_NEAR(motion[k], expected_motion[k], 1e-13);
     CHECK_UNTOUCHED(stress + 3 * N * DEPTHS, 1);
     CHECK_UNTOUCHED(motion + 2 * N * DEPTHS, 1);

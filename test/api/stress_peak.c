@@ -34,8 +34,8 @@ static void test_halfplane(void) {
   fuge_stress_peak peak = untouched();
   char message[256] = "old";
   press(x, width, force);
-  CHECK_STATUS(fuge_halfplane_symmetric_peak(N, x, width, force, FUGE_MEAN, FUGE_PLANE_STRAIN, 0.3, FUGE_MEASURE_TRESCA,
-                                             &peak, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_peak(N, x, width, force, FUGE_MEAN, FUGE_PLANE_STRAIN, 0.3, 1, FUGE_MEASURE_TRESCA, &peak,
+                                   message, sizeof message), FUGE_DONE);
   CHECK_STRING(message, "");
   CHECK_NEAR(peak.value, 0.600566, 1e-3);
   CHECK_NEAR(peak.place[0], 0.0, 1e-6);
@@ -44,8 +44,8 @@ static void test_halfplane(void) {
   CHECK_INT(peak.location, FUGE_PEAK_INSIDE);
   CHECK_NEAR(fabs(peak.tensor[0] - peak.tensor[2]), peak.value, 1e-12);
   /* One half alone: a strip of half of the width. */
-  CHECK_STATUS(fuge_halfplane_peak(N, x, width, force, FUGE_MEAN, FUGE_PLANE_STRAIN, 0.3, FUGE_MEASURE_VON_MISES, &peak,
-                                   NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_peak(N, x, width, force, FUGE_MEAN, FUGE_PLANE_STRAIN, 0.3, 0, FUGE_MEASURE_VON_MISES,
+                                   &peak, NULL, 0), FUGE_DONE);
   CHECK(peak.place[0] > 0.0 && peak.place[0] < 1.0);
 }
 
@@ -54,9 +54,9 @@ static void test_flat(void) {
   double x[N], width[N], force[N], open[N], approach;
   fuge_stress_peak peak = untouched();
   press(x, width, force);
-  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_MEAN, alpha, N, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_MEAN, 0, alpha, N, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_solve_dense(N, alpha, N, gap, 1.0, force, open, &approach, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfplane_peak(N, x, width, force, FUGE_MEAN, FUGE_PLANE_STRAIN, 0.3, FUGE_MEASURE_TRESCA, &peak,
+  CHECK_STATUS(fuge_halfplane_peak(N, x, width, force, FUGE_MEAN, FUGE_PLANE_STRAIN, 0.3, 0, FUGE_MEASURE_TRESCA, &peak,
                                    NULL, 0), FUGE_DONE);
   CHECK_INT(peak.location, FUGE_PEAK_SINGULAR);
   CHECK(isinf(peak.value) && isnan(peak.tensor[5]));
@@ -96,11 +96,11 @@ static void test_square(void) {
   static const double x[4] = {-0.5, 0.5, -0.5, 0.5}, y[4] = {-0.5, -0.5, 0.5, 0.5}, one[4] = {1, 1, 1, 1};
   static const double four = 4.0;
   fuge_stress_peak whole = untouched(), quarter = untouched();
-  CHECK_STATUS(fuge_halfspace_peak(4, x, y, one, one, one, 0.3, FUGE_MEASURE_TRESCA, &whole, NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_peak(4, x, y, one, one, one, 0.3, 0, 0, FUGE_MEASURE_TRESCA, &whole, NULL, 0), FUGE_DONE);
   CHECK_INT(whole.location, FUGE_PEAK_INSIDE);
   CHECK(whole.value > 0.6 && whole.value < 0.8);
-  CHECK_STATUS(fuge_halfspace_symmetric_peak(1, x + 3, y + 3, one, one, &four, 0.3, 1, 1, FUGE_MEASURE_TRESCA, &quarter,
-                                             NULL, 0), FUGE_DONE);
+  CHECK_STATUS(fuge_halfspace_peak(1, x + 3, y + 3, one, one, &four, 0.3, 1, 1, FUGE_MEASURE_TRESCA, &quarter, NULL, 0),
+               FUGE_DONE);
   CHECK_NEAR(quarter.value, whole.value, 1e-10);
   CHECK(quarter.place[0] >= 0.0 && quarter.place[1] >= 0.0);
 }
@@ -124,18 +124,18 @@ static void test_refusals(void) {
   static const double one[2] = {1, 2}, minus[1] = {-1};
   fuge_stress_peak peak = untouched();
   char message[256] = "";
-  CHECK_STATUS(fuge_halfplane_peak(0, one, one, one, FUGE_HAT, FUGE_PLANE_STRAIN, 0.3, 0, &peak, NULL, 0),
+  CHECK_STATUS(fuge_halfplane_peak(0, one, one, one, FUGE_HAT, FUGE_PLANE_STRAIN, 0.3, 0, 0, &peak, NULL, 0),
                FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_halfplane_peak(1, NULL, one, one, FUGE_HAT, FUGE_PLANE_STRAIN, 0.3, 0, &peak, NULL, 0),
+  CHECK_STATUS(fuge_halfplane_peak(1, NULL, one, one, FUGE_HAT, FUGE_PLANE_STRAIN, 0.3, 0, 0, &peak, NULL, 0),
                FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_halfplane_peak(1, one, one, one, FUGE_HAT, FUGE_PLANE_STRAIN, 0.3, 2, &peak, message,
+  CHECK_STATUS(fuge_halfplane_peak(1, one, one, one, FUGE_HAT, FUGE_PLANE_STRAIN, 0.3, 0, 2, &peak, message,
                                    sizeof message), FUGE_ERR_OPTION);
   CHECK_CONTAINS(message, "measure = 2");
-  CHECK_STATUS(fuge_halfplane_peak(1, one, one, one, FUGE_HAT, FUGE_PLANE_STRAIN, 0.3, 0, NULL, message,
+  CHECK_STATUS(fuge_halfplane_peak(1, one, one, one, FUGE_HAT, FUGE_PLANE_STRAIN, 0.3, 0, 0, NULL, message,
                                    sizeof message), FUGE_ERR_POINTER);
   CHECK_CONTAINS(message, "peak is NULL");
-  CHECK_STATUS(fuge_halfspace_peak(1, one, one, minus, one, one, 0.3, 0, &peak, NULL, 0), FUGE_ERR_WIDTH);
-  CHECK_STATUS(fuge_halfspace_peak(1, one, one, one, one, NULL, 0.3, 0, &peak, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_halfspace_peak(1, one, one, minus, one, one, 0.3, 0, 0, 0, &peak, NULL, 0), FUGE_ERR_WIDTH);
+  CHECK_STATUS(fuge_halfspace_peak(1, one, one, one, one, NULL, 0.3, 0, 0, 0, &peak, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_ring_peak(0, one, one, 0.3, 0, &peak, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_ring_peak(1, one, NULL, 0.3, 0, &peak, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_ring_peak(1, one, one, 0.3, 9, &peak, NULL, 0), FUGE_ERR_OPTION);

@@ -1,4 +1,4 @@
-/* Section "surfaces" of fuge_area.h. */
+/* Section "surfaces" of fuge_files.h. */
 #include <stdlib.h>
 #include "check.h"
 

@@ -1,6 +1,6 @@
 # Every name of module fuge has a docstring: cmake -D ROOT=... -P docstrings.cmake
 #
-# Procedures, types and constants that fuge.f90 passes on; public components of the types;
+# Procedures, types and constants that the facades of the components pass on; public components of the types;
 # their procedures at the binding, or where they are written. Also the public types of
 # fuge_sparse. A docstring is a line `!> ...` right before.
 cmake_minimum_required(VERSION 3.20)
@@ -93,7 +93,11 @@ function(check_names path names)
   set(missing "${missing}" PARENT_SCOPE)
 endfunction()
 
-read_lines("${ROOT}/src/fuge.f90" facade)
+set(facade)
+foreach(component IN ITEMS core area punch stress fe files)
+  read_lines("${ROOT}/src/${component}/fuge_${component}.f90" lines)
+  list(APPEND facade ${lines})
+endforeach()
 foreach(line IN LISTS facade)
   if(line MATCHES "^ *use +([a-z_0-9]+), *only: *(.*)$")
     set(module ${CMAKE_MATCH_1})
@@ -103,9 +107,9 @@ foreach(line IN LISTS facade)
   endif()
 endforeach()
 if(count LESS 50)
-  message(FATAL_ERROR "only ${count} names found in src/fuge.f90: is it read rightly?")
+  message(FATAL_ERROR "only ${count} names found in the facades of src/: are they read rightly?")
 endif()
-check_names("sparse/fuge_sparse.f90" "fuge_sparse_stiffness")
+check_names("src/sparse/fuge_sparse.f90" "fuge_sparse_stiffness")
 
 if(missing)
   string(REPLACE ";" "\n  " missing "${missing}")

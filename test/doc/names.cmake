@@ -1,7 +1,7 @@
 # The page on the architecture knows the source: cmake -D ROOT=.. -P names.cmake
 #
 # Each name in backticks of doc/architecture.md is a module, procedure, type or type-bound procedure of src/, and each
-# folder of src/folders.txt has its line in the tree, which has no other.
+# folder of folders.txt in a component has its line in the tree, which has no other.
 cmake_minimum_required(VERSION 3.20)
 
 file(READ "${ROOT}/doc/architecture.md" page)
@@ -29,8 +29,13 @@ foreach(name IN LISTS names)
   endif()
 endforeach()
 
-file(STRINGS "${ROOT}/src/folders.txt" folders REGEX "^[a-z]")
-list(TRANSFORM folders REPLACE " *:.*" "")
+set(folders)
+foreach(component IN ITEMS core area punch stress fe files)
+  file(STRINGS "${ROOT}/src/${component}/folders.txt" rows REGEX "^[a-z]")
+  list(TRANSFORM rows REPLACE " *:.*" "")
+  list(TRANSFORM rows PREPEND "${component}/")
+  list(APPEND folders ${rows})
+endforeach()
 string(REGEX MATCHALL "\n    [a-z_/0-9]+/  " lines "${page}")
 list(TRANSFORM lines STRIP)
 list(TRANSFORM lines REPLACE "/$" "")
@@ -41,7 +46,7 @@ foreach(folder IN LISTS folders)
 endforeach()
 foreach(folder IN LISTS lines)
   if(NOT folder IN_LIST folders)
-    list(APPEND offences "the tree has ${folder}/, which src/folders.txt lacks")
+    list(APPEND offences "the tree has ${folder}/, which folders.txt lacks")
   endif()
 endforeach()
 

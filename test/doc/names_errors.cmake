@@ -17,9 +17,10 @@ macro(plant old new expected)
 endmacro()
 
 plant("`find_violation`" "`find_violations`" "find_violations is not in src/")
-plant("`fuge_equilibrium`" "`fuge_balance`" "fuge_balance is not in src/")
-plant("`coarsen`" "`operator%coarsen`" "operator%coarsen is not a name")
-plant("\n    solver/  " "\n    solvers/  " "the tree lacks solver/ the tree has solvers/, which src/folders.txt lacks")
+plant("`fuge_kkt_factor`" "`fuge_balance`" "fuge_balance is not in src/")
+plant("`certify`" "`solver%certify`" "solver%certify is not a name")
+plant("\n    core/solver/  " "\n    core/solvers/  "
+  "the tree lacks core/solver/ the tree has core/solvers/, which folders.txt lacks")
 file(WRITE "${SCRATCH}/doc/architecture.md" "${page}")
 execute_process(COMMAND "${CMAKE_COMMAND}" -DROOT=${SCRATCH} -P "${CMAKE_CURRENT_LIST_DIR}/names.cmake"
   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -48,7 +48,7 @@ foreach(page IN LISTS pages)
 endforeach()
 
 set(scripts "")
-file(GLOB plots "${ROOT}/examples/plots/*.gp" "${ROOT}/bench/*.gp" "${ROOT}/doc/site/*.gp" "${ROOT}/doc/site/folders.py"
+file(GLOB plots "${ROOT}/examples/plots/*.gp" "${ROOT}/bench/*.gp" "${ROOT}/doc/site/*.gp" "${ROOT}/doc/site/components.py"
   "${ROOT}/CONTRIBUTING.md")
 foreach(plot IN LISTS plots)
   read_text("${plot}" text)

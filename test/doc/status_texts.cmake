@@ -1,8 +1,8 @@
-# The status codes of include/fuge.h, doc/errors.md and the man page have the names, numbers and texts of
+# The status codes of include/fuge_core.h, doc/errors.md and the man page have the names, numbers and texts of
 # fuge_status.f90, which is where fuge_status_text takes them from: cmake -D ROOT=... -P status_texts.cmake
 cmake_minimum_required(VERSION 3.20)
 
-set(source "${ROOT}/src/base/fuge_status.f90")
+set(source "${ROOT}/src/core/base/fuge_status.f90")
 file(STRINGS "${source}" codes REGEX "parameter, public :: FUGE_(DONE|WARN_[A-Z_]+|ERR_[A-Z_]+) = -?[0-9]+$")
 list(TRANSFORM codes REPLACE ".* :: (FUGE_[A-Z_]+) = (-?[0-9]+)" "\\2 \\1")
 file(STRINGS "${source}" texts REGEX "^    '.*'(, &|])$")
@@ -14,7 +14,7 @@ if(count LESS 25 OR NOT count EQUAL text_count)
   message(FATAL_ERROR "${source}: ${count} codes, ${text_count} texts")
 endif()
 
-file(READ "${ROOT}/include/fuge.h" header)
+file(READ "${ROOT}/include/fuge_core.h" header)
 file(READ "${ROOT}/doc/errors.md" table)
 file(READ "${ROOT}/doc/man/fuge.3" page)
 string(REGEX REPLACE "[ \n]+" " " header "${header}")
@@ -48,7 +48,7 @@ foreach(code IN LISTS codes)
   string(REGEX REPLACE "^[^*]*\\* (.*) \\*/$" "\\1" entry "${entry}")
   string(FIND "${entry}: " "${text}: " place)
   if(NOT place EQUAL 0)
-    message(SEND_ERROR "include/fuge.h says of ${name} = ${number} \"${entry}\", not \"${text}\"")
+    message(SEND_ERROR "include/fuge_core.h says of ${name} = ${number} \"${entry}\", not \"${text}\"")
   endif()
 endforeach()
 

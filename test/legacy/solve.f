@@ -1,5 +1,6 @@
-C     The external procedures that solve, and the half-plane, called
-C     without any interface. Answers by hand.
+C     The external procedures that solve for a matrix, and the matrix of
+C     cells on a half-plane, called without any interface. Answers by
+C     hand.
       PROGRAM SOLVE
       CALL PLAIN
       CALL GIVEN
@@ -8,8 +9,6 @@ C     without any interface. Answers by hand.
       CALL EXPERT
       CALL REFUSE
       CALL HPLANE
-      CALL BYFFT
-      CALL AREA
       CALL WORDS
       CALL VERDCT
       END
@@ -53,19 +52,25 @@ C     One point, and no load.
 
 C     The approach given: 0.4 takes the load 2, -1 leaves a gap.
       SUBROUTINE GIVEN
-      DOUBLE PRECISION ALPHA(3,2), GAP(2), F(2), C(2), F0, EPS
+      DOUBLE PRECISION ALPHA(3,2), GAP(2), F(2), C(2), F0, V0, RESID,
+     $                 EPS
       PARAMETER (EPS=1.D-14)
-      INTEGER INFO
+      INTEGER NCON, NITER, INFO
+      CHARACTER*80 MSG
       CALL TWONOD(ALPHA, GAP)
-      CALL FUGEAV(2, ALPHA, 3, GAP, 0.4D0, F, C, F0, INFO)
-      CALL STATUS('FUGEAV', INFO, 0)
-      CALL NUMBER('FUGEAV F0', F0, 2.D0, EPS)
-      CALL NUMBER('FUGEAV F(1)', F(1), 2.D0, EPS)
-      CALL NUMBER('FUGEAV C(2)', C(2), 0.8D0, EPS)
-      CALL FUGEAV(2, ALPHA, 3, GAP, -1.D0, F, C, F0, INFO)
-      CALL STATUS('FUGEAV apart', INFO, 0)
-      CALL NUMBER('FUGEAV F0 apart', F0, 0.D0, 0.D0)
-      CALL NUMBER('FUGEAV C(2) apart', C(2), 2.D0, EPS)
+      V0 = 0.4D0
+      CALL FUGESX(2, ALPHA, 3, GAP, 1, F0, V0, 0, 0.D0, 0, F, C, NCON,
+     $            NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGESX, approach', INFO, 0)
+      CALL NUMBER('FUGESX F0', F0, 2.D0, EPS)
+      CALL NUMBER('FUGESX F(1)', F(1), 2.D0, EPS)
+      CALL NUMBER('FUGESX C(2)', C(2), 0.8D0, EPS)
+      V0 = -1.D0
+      CALL FUGESX(2, ALPHA, 3, GAP, 1, F0, V0, 0, 0.D0, 0, F, C, NCON,
+     $            NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGESX apart', INFO, 0)
+      CALL NUMBER('FUGESX F0 apart', F0, 0.D0, 0.D0)
+      CALL NUMBER('FUGESX C(2) apart', C(2), 2.D0, EPS)
       END
 
 C     Both by FUGESX, with each method; a message that is cut to fit.
@@ -128,39 +133,41 @@ C     A lever on two points at x = 0 and 1, a force of 1 at x = 2: the
 C     first point holds it down with 1 at its upper stop.
       SUBROUTINE LEVER
       DOUBLE PRECISION ALPHA(2,2), GAP(2), PLAY(2), R(3,2), W(2)
-      DOUBLE PRECISION F(2), C(2), Q(2), EPS
+      DOUBLE PRECISION F(2), C(2), Q(2), RESID, EPS
       PARAMETER (EPS=1.D-14)
-      INTEGER NSTOP(2), INFO
+      INTEGER NSTOP(2), NHELD(2), NCON, NITER, INFO
+      CHARACTER*80 MSG
       DATA ALPHA /0.1D0, 0.D0, 0.D0, 0.1D0/
       DATA GAP /0.D0, 0.D0/
       DATA R /1.D0, 1.D0, 7.D0, 0.D0, 1.D0, 7.D0/
       DATA NSTOP /2, 1/
+      DATA NHELD /0, 0/
 C     Not read where there is one stop.
       DATA PLAY /0.5D0, -1.D0/
       DATA W /1.D0, 2.D0/
-      CALL FUGEGV(2, 2, ALPHA, 2, GAP, NSTOP, PLAY, R, 3, W, F, C, Q,
-     $            INFO)
-      CALL STATUS('FUGEGV', INFO, 0)
-      CALL NUMBER('FUGEGV F(1)', F(1), -1.D0, EPS)
-      CALL NUMBER('FUGEGV F(2)', F(2), 2.D0, EPS)
-      CALL NUMBER('FUGEGV C(1)', C(1), 0.5D0, EPS)
-      CALL NUMBER('FUGEGV C(2)', C(2), 0.D0, EPS)
-      CALL NUMBER('FUGEGV Q(1)', Q(1), -0.6D0, EPS)
-      CALL NUMBER('FUGEGV Q(2)', Q(2), 0.8D0, EPS)
+      CALL FUGEGX(2, 2, ALPHA, 2, GAP, NSTOP, PLAY, R, 3, NHELD, W, Q,
+     $            0, 0.D0, 0, F, C, NCON, NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGEGX of a lever', INFO, 0)
+      CALL NUMBER('lever, F(1)', F(1), -1.D0, EPS)
+      CALL NUMBER('lever, F(2)', F(2), 2.D0, EPS)
+      CALL NUMBER('lever, C(1)', C(1), 0.5D0, EPS)
+      CALL NUMBER('lever, C(2)', C(2), 0.D0, EPS)
+      CALL NUMBER('lever, Q(1)', Q(1), -0.6D0, EPS)
+      CALL NUMBER('lever, Q(2)', Q(2), 0.8D0, EPS)
 C     One-sided it tips over.
       NSTOP(1) = 1
       F(1) = 7.D0
-      CALL FUGEGV(2, 2, ALPHA, 2, GAP, NSTOP, PLAY, R, 3, W, F, C, Q,
-     $            INFO)
-      CALL STATUS('FUGEGV tips', INFO, -10)
-      CALL NUMBER('FUGEGV tips, F(1)', F(1), 7.D0, 0.D0)
+      CALL FUGEGX(2, 2, ALPHA, 2, GAP, NSTOP, PLAY, R, 3, NHELD, W, Q,
+     $            0, 0.D0, 0, F, C, NCON, NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGEGX tips', INFO, -10)
+      CALL NUMBER('FUGEGX tips, F(1)', F(1), 7.D0, 0.D0)
 C     Without motions the points push back what is pressed into them.
       GAP(2) = -0.3D0
-      CALL FUGEGV(2, 0, ALPHA, 2, GAP, NSTOP, PLAY, R, 1, W, F, C, Q,
-     $            INFO)
-      CALL STATUS('FUGEGV, M = 0', INFO, 0)
-      CALL NUMBER('FUGEGV, M = 0, F(1)', F(1), 0.D0, 0.D0)
-      CALL NUMBER('FUGEGV, M = 0, F(2)', F(2), 3.D0, 3*EPS)
+      CALL FUGEGX(2, 0, ALPHA, 2, GAP, NSTOP, PLAY, R, 1, NHELD, W, Q,
+     $            0, 0.D0, 0, F, C, NCON, NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGEGX, M = 0', INFO, 0)
+      CALL NUMBER('FUGEGX, M = 0, F(1)', F(1), 0.D0, 0.D0)
+      CALL NUMBER('FUGEGX, M = 0, F(2)', F(2), 3.D0, 3*EPS)
       END
 
 C     The two nodes again, with a tilt held at 0 and with the first
@@ -208,7 +215,7 @@ C     Every refusal leaves the outputs alone. The NaN has all bits set:
 C     no operation makes it, so that none can trap.
       SUBROUTINE REFUSE
       DOUBLE PRECISION ALPHA(3,2), GAP(2), PLAY(2), R(2,2), W(2)
-      DOUBLE PRECISION OUT(6), RESID, BAD, TOL
+      DOUBLE PRECISION OUT(6), RESID, V0, BAD, TOL
       INTEGER NSTOP(2), NHELD(2), NCON, NITER, INFO, K, NBITS(2)
       CHARACTER*80 MSG
       EQUIVALENCE (BAD, NBITS)
@@ -223,6 +230,7 @@ C     no operation makes it, so that none can trap.
       NCON = 7
       NITER = 7
       RESID = 7.D0
+      TOL = 0.D0
       CALL TWONOD(ALPHA, GAP)
       CALL FUGESV(0, ALPHA, 3, GAP, 2.D0, OUT, OUT(3), OUT(5), INFO)
       CALL STATUS('FUGESV, N = 0', INFO, -1)
@@ -236,39 +244,49 @@ C     no operation makes it, so that none can trap.
       CALL STATUS('FUGESV pulls', INFO, -10)
       CALL FUGESV(2, ALPHA, 3, GAP, BAD, OUT, OUT(3), OUT(5), INFO)
       CALL STATUS('FUGESV, F0 NaN', INFO, -3)
-      CALL FUGEAV(0, ALPHA, 3, GAP, 2.D0, OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEAV, N = 0', INFO, -1)
-      CALL FUGEAV(2, ALPHA, 1, GAP, 2.D0, OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEAV, LDA < N', INFO, -1)
-      CALL FUGEAV(2, ALPHA, 3, GAP, BAD, OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEAV, V0 NaN', INFO, -3)
-      CALL FUGEGV(0, 0, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, W,
-     $            OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEGV, N = 0', INFO, -1)
-      CALL FUGEGV(2, -1, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, W,
-     $            OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEGV, M < 0', INFO, -1)
-      CALL FUGEGV(2, 2000000000, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, W,
-     $            OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEGV, M > N', INFO, -21)
-      CALL FUGEGV(2, 2, ALPHA, 3, GAP, NSTOP, PLAY, R, 1, W,
-     $            OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEGV, LDR < N', INFO, -1)
-      CALL FUGEGV(2, 2, ALPHA, 1, GAP, NSTOP, PLAY, R, 2, W,
-     $            OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEGV, LDA < N', INFO, -1)
+      V0 = 2.D0
+      CALL FUGESX(0, ALPHA, 3, GAP, 1, OUT(5), V0, 0, TOL, 0, OUT,
+     $            OUT(3), NCON, NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGESX, N = 0', INFO, -1)
+      CALL FUGESX(2, ALPHA, 1, GAP, 1, OUT(5), V0, 0, TOL, 0, OUT,
+     $            OUT(3), NCON, NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGESX, LDA < N', INFO, -1)
+      CALL FUGESX(2, ALPHA, 3, GAP, 1, OUT(5), BAD, 0, TOL, 0, OUT,
+     $            OUT(3), NCON, NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGESX, V0 NaN', INFO, -3)
+      CALL FUGEGX(0, 0, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, NHELD, W,
+     $            OUT(5), 0, TOL, 0, OUT, OUT(3), NCON, NITER, RESID,
+     $            MSG, INFO)
+      CALL STATUS('FUGEGX, N = 0', INFO, -1)
+      CALL FUGEGX(2, -1, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, NHELD, W,
+     $            OUT(5), 0, TOL, 0, OUT, OUT(3), NCON, NITER, RESID,
+     $            MSG, INFO)
+      CALL STATUS('FUGEGX, M < 0', INFO, -1)
+      CALL FUGEGX(2, 2000000000, ALPHA, 3, GAP, NSTOP, PLAY, R, 2,
+     $            NHELD, W, OUT(5), 0, TOL, 0, OUT, OUT(3), NCON,
+     $            NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGEGX, M > N', INFO, -21)
+      CALL FUGEGX(2, 2, ALPHA, 3, GAP, NSTOP, PLAY, R, 1, NHELD, W,
+     $            OUT(5), 0, TOL, 0, OUT, OUT(3), NCON, NITER, RESID,
+     $            MSG, INFO)
+      CALL STATUS('FUGEGX, LDR < N', INFO, -1)
+      CALL FUGEGX(2, 2, ALPHA, 1, GAP, NSTOP, PLAY, R, 2, NHELD, W,
+     $            OUT(5), 0, TOL, 0, OUT, OUT(3), NCON, NITER, RESID,
+     $            MSG, INFO)
+      CALL STATUS('FUGEGX, LDA < N', INFO, -1)
       W(2) = BAD
-      CALL FUGEGV(2, 2, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, W,
-     $            OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEGV, W NaN', INFO, -3)
+      CALL FUGEGX(2, 2, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, NHELD, W,
+     $            OUT(5), 0, TOL, 0, OUT, OUT(3), NCON, NITER, RESID,
+     $            MSG, INFO)
+      CALL STATUS('FUGEGX, W NaN', INFO, -3)
       W(2) = 1.D0
       NSTOP(2) = 2
       PLAY(2) = -0.5D0
-      CALL FUGEGV(2, 2, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, W,
-     $            OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEGV, PLAY < 0', INFO, -20)
+      CALL FUGEGX(2, 2, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, NHELD, W,
+     $            OUT(5), 0, TOL, 0, OUT, OUT(3), NCON, NITER, RESID,
+     $            MSG, INFO)
+      CALL STATUS('FUGEGX, PLAY < 0', INFO, -20)
       NSTOP(2) = 3
-      TOL = 0.D0
       CALL FUGEGX(2, 2, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, NHELD, W,
      $            OUT(5), 0, TOL, 0, OUT, OUT(3), NCON, NITER, RESID,
      $            MSG, INFO)
@@ -286,8 +304,9 @@ C     no operation makes it, so that none can trap.
       GAP(2) = BAD
       CALL FUGESV(2, ALPHA, 3, GAP, 2.D0, OUT, OUT(3), OUT(5), INFO)
       CALL STATUS('FUGESV, GAP NaN', INFO, -3)
-      CALL FUGEAV(2, ALPHA, 3, GAP, 2.D0, OUT, OUT(3), OUT(5), INFO)
-      CALL STATUS('FUGEAV, GAP NaN', INFO, -3)
+      CALL FUGESX(2, ALPHA, 3, GAP, 1, OUT(5), V0, 0, TOL, 0, OUT,
+     $            OUT(3), NCON, NITER, RESID, MSG, INFO)
+      CALL STATUS('FUGESX, GAP NaN', INFO, -3)
       CALL FUGEGX(2, 2, ALPHA, 3, GAP, NSTOP, PLAY, R, 2, NHELD, W,
      $            OUT(5), 0, TOL, 0, OUT, OUT(3), NCON, NITER, RESID,
      $            MSG, INFO)
@@ -315,132 +334,45 @@ C     1.5 ln(1.5) - 0.5 ln(0.5) - 1.
       DOUBLE PRECISION X(2), WIDTH(2), ALPHA(3,2), FACTOR, EPS
       PARAMETER (EPS=1.D-14)
       INTEGER INFO
+      CHARACTER*256 MSG
       DATA X /-0.5D0, 0.5D0/
       DATA WIDTH /1.D0, 1.D0/
       FACTOR = -2.D0/(4.D0*ATAN(1.D0)*100.D0)
       ALPHA(3,1) = 7.D0
-      CALL FUGEHP(2, X, WIDTH, 100.D0, 0, 0, ALPHA, 3, INFO)
-      CALL STATUS('FUGEHP', INFO, 0)
-      CALL NUMBER('FUGEHP ALPHA(1,1)', ALPHA(1,1),
+      MSG = 'old'
+      CALL FUGEHX(2, X, WIDTH, 100.D0, 0, 0, ALPHA, 3, MSG, INFO)
+      CALL STATUS('FUGEHX', INFO, 0)
+      CALL STATUS('FUGEHX blank MSG', INDEX(MSG, 'old'), 0)
+      CALL NUMBER('FUGEHX ALPHA(1,1)', ALPHA(1,1),
      $            FACTOR*(LOG(0.5D0) - 1.D0 - LOG(4.D0)), EPS)
-      CALL NUMBER('FUGEHP ALPHA(2,1)', ALPHA(2,1),
+      CALL NUMBER('FUGEHX ALPHA(2,1)', ALPHA(2,1),
      $            FACTOR*(1.5D0*LOG(1.5D0) - 0.5D0*LOG(0.5D0) - 1.D0
      $            - LOG(4.D0)), EPS)
-      CALL NUMBER('FUGEHP ALPHA(1,2)', ALPHA(1,2), ALPHA(2,1), 0.D0)
-      CALL NUMBER('FUGEHP padding', ALPHA(3,1), 7.D0, 0.D0)
+      CALL NUMBER('FUGEHX ALPHA(1,2)', ALPHA(1,2), ALPHA(2,1), 0.D0)
+      CALL NUMBER('FUGEHX padding', ALPHA(3,1), 7.D0, 0.D0)
 C     Folded: one cell stands for both.
-      CALL FUGEHP(1, X(2), WIDTH, 100.D0, 0, 1, ALPHA(3,2), 1, INFO)
-      CALL NUMBER('FUGEHP folded', ALPHA(3,2),
+      CALL FUGEHX(1, X(2), WIDTH, 100.D0, 0, 1, ALPHA(3,2), 1, MSG,
+     $            INFO)
+      CALL NUMBER('FUGEHX folded', ALPHA(3,2),
      $            0.5D0*(ALPHA(1,1) + ALPHA(2,1)), EPS)
       ALPHA(1,1) = 7.D0
-      CALL FUGEHP(0, X, WIDTH, 100.D0, 0, 0, ALPHA, 3, INFO)
-      CALL STATUS('FUGEHP, N = 0', INFO, -1)
-      CALL FUGEHP(2, X, WIDTH, 100.D0, 0, 0, ALPHA, 1, INFO)
-      CALL STATUS('FUGEHP, LDA < N', INFO, -1)
-      CALL FUGEHP(2, X, WIDTH, -1.D0, 0, 0, ALPHA, 3, INFO)
-      CALL STATUS('FUGEHP, ESTAR < 0', INFO, -5)
-      CALL FUGEHP(2, X, WIDTH, 100.D0, 3, 0, ALPHA, 3, INFO)
-      CALL STATUS('FUGEHP, NELEM = 3', INFO, -6)
-      CALL FUGEHP(2, X, WIDTH, 100.D0, 0, 1, ALPHA, 3, INFO)
-      CALL STATUS('FUGEHP folded, X < 0', INFO, -4)
-      CALL NUMBER('FUGEHP untouched', ALPHA(1,1), 7.D0, 0.D0)
+      CALL FUGEHX(0, X, WIDTH, 100.D0, 0, 0, ALPHA, 3, MSG, INFO)
+      CALL STATUS('FUGEHX, N = 0', INFO, -1)
+      CALL HASTXT('FUGEHX, N = 0', MSG, 'N = 0')
+      CALL FUGEHX(2, X, WIDTH, 100.D0, 0, 0, ALPHA, 1, MSG, INFO)
+      CALL STATUS('FUGEHX, LDA < N', INFO, -1)
+      CALL HASTXT('FUGEHX, LDA < N', MSG, 'LDA = 1')
+      CALL FUGEHX(2, X, WIDTH, -1.D0, 0, 0, ALPHA, 3, MSG, INFO)
+      CALL STATUS('FUGEHX, ESTAR < 0', INFO, -5)
+      CALL HASTXT('FUGEHX, ESTAR < 0', MSG, 'e_star = -1')
+      CALL FUGEHX(2, X, WIDTH, 100.D0, 3, 0, ALPHA, 3, MSG, INFO)
+      CALL STATUS('FUGEHX, NELEM = 3', INFO, -6)
+      CALL FUGEHX(2, X, WIDTH, 100.D0, 0, 1, ALPHA, 3, MSG, INFO)
+      CALL STATUS('FUGEHX folded, X < 0', INFO, -4)
+      CALL NUMBER('FUGEHX untouched', ALPHA(1,1), 7.D0, 0.D0)
       END
 
-C     Two cells by FFT, on one thread and two, and by their matrix.
-      SUBROUTINE BYFFT
-      DOUBLE PRECISION X(2), WIDTH(2), GAP(2), ALPHA(2,2), F(2), C(2),
-     $                 V0, FM(2), CM(2), VM, EPS
-      PARAMETER (EPS=1.D-12)
-      INTEGER INFO, NTHR
-      DATA X /-0.5D0, 0.5D0/
-      DATA WIDTH /1.D0, 1.D0/
-      DATA GAP /0.D0, 1.D-2/
-      CALL FUGEHP(2, X, WIDTH, 100.D0, 1, 0, ALPHA, 2, INFO)
-      CALL FUGESV(2, ALPHA, 2, GAP, 3.D0, FM, CM, VM, INFO)
-      CALL STATUS('FUGESV of the cells', INFO, 0)
-      DO 10 NTHR = 1, 2
-        CALL FUGEFT(2, 1.D0, 100.D0, 1, 0, NTHR, GAP, 3.D0, F, C, V0,
-     $              INFO)
-        CALL STATUS('FUGEFT', INFO, 0)
-        CALL NUMBER('FUGEFT F(1)', F(1), FM(1), EPS)
-        CALL NUMBER('FUGEFT F(2)', F(2), FM(2), EPS)
-        CALL NUMBER('FUGEFT C(1)', C(1), CM(1), EPS)
-        CALL NUMBER('FUGEFT C(2)', C(2), CM(2), EPS)
-        CALL NUMBER('FUGEFT V0', V0, VM, EPS)
-   10 CONTINUE
-C     Equal forces displace nothing on a periodic surface.
-      CALL FUGEFT(2, 1.D0, 100.D0, 1, 1, 1, WIDTH, 4.D0, F, C, V0, INFO)
-      CALL STATUS('FUGEFT, periodic', INFO, 0)
-      CALL NUMBER('FUGEFT V0, periodic', V0, 1.D0, EPS)
-      F(1) = 7.D0
-      CALL FUGEFT(0, 1.D0, 100.D0, 1, 0, 1, GAP, 3.D0, F, C, V0, INFO)
-      CALL STATUS('FUGEFT, N = 0', INFO, -1)
-      CALL FUGEFT(2, 0.D0, 100.D0, 1, 0, 1, GAP, 3.D0, F, C, V0, INFO)
-      CALL STATUS('FUGEFT, H = 0', INFO, -4)
-      CALL FUGEFT(2, 1.D0, 100.D0, 1, 2, 1, GAP, 3.D0, F, C, V0, INFO)
-      CALL STATUS('FUGEFT, NBOUND = 2', INFO, -14)
-      CALL FUGEFT(2, 1.D0, 100.D0, 1, 0, 0, GAP, 3.D0, F, C, V0, INFO)
-      CALL STATUS('FUGEFT, NTHR = 0', INFO, -14)
-      CALL FUGEFT(2, 1.D0, 100.D0, 1, 0, 1, GAP, -1.D0, F, C, V0, INFO)
-      CALL STATUS('FUGEFT, F0 < 0', INFO, -10)
-      CALL NUMBER('FUGEFT untouched', F(1), 7.D0, 0.D0)
-      END
-
-C     Four unit squares: by products, on one thread and two, and by the
-C     matrix of the squares themselves, their neighbours and opposites.
-      SUBROUTINE AREA
-      DOUBLE PRECISION GAP(2,2), F(2,2), C(2,2), FM(2,2), CM(2,2), V0,
-     $                 VM, ALPHA(4,4), SELF, SIDE, OPPOS, ESTAR, EPS
-      PARAMETER (SELF=3.525494348078172D0, SIDE=1.038049735904756D0,
-     $           OPPOS=0.72469743813433D0, ESTAR=100.D0, EPS=1.D-10)
-      INTEGER INFO, NTHR, I, J
-      DATA GAP /0.D0, 1.D-3, 2.D-3, 1.D0/
-      DO 20 J = 1, 4
-        DO 10 I = 1, 4
-          ALPHA(I,J) = SIDE/(4.D0*ATAN(1.D0)*ESTAR)
-          IF (I .EQ. J) ALPHA(I,J) = SELF/(4.D0*ATAN(1.D0)*ESTAR)
-          IF (I + J .EQ. 5) ALPHA(I,J) = OPPOS/(4.D0*ATAN(1.D0)*ESTAR)
-   10   CONTINUE
-   20 CONTINUE
-      CALL FUGESV(4, ALPHA, 4, GAP, 3.D0, FM, CM, VM, INFO)
-      CALL STATUS('FUGESV of squares', INFO, 0)
-      DO 50 NTHR = 1, 2
-        CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 0, 0, NTHR, GAP, 3.D0,
-     $              F, C, V0, INFO)
-        CALL STATUS('FUGEFA', INFO, 0)
-        CALL NUMBER('FUGEFA V0', V0, VM, EPS)
-        DO 40 J = 1, 2
-          DO 30 I = 1, 2
-            CALL NUMBER('FUGEFA F', F(I,J), FM(I,J), EPS)
-            CALL NUMBER('FUGEFA C', C(I,J), CM(I,J), EPS)
-   30     CONTINUE
-   40   CONTINUE
-   50 CONTINUE
-      F(1,1) = 7.D0
-      CALL FUGEFA(2, 0, 1.D0, 1.D0, ESTAR, 0, 0, 1, GAP, 3.D0, F, C, V0,
-     $            INFO)
-      CALL STATUS('FUGEFA, NY = 0', INFO, -1)
-      CALL FUGEFA(65536, 65536, 1.D0, 1.D0, ESTAR, 0, 0, 1, GAP, 3.D0,
-     $            F, C, V0, INFO)
-      CALL STATUS('FUGEFA, NX*NY too large', INFO, -1)
-      CALL FUGEFA(2, 2, 1.D0, 0.D0, ESTAR, 0, 0, 1, GAP, 3.D0, F, C, V0,
-     $            INFO)
-      CALL STATUS('FUGEFA, HY = 0', INFO, -4)
-      CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 2, 0, 1, GAP, 3.D0, F, C, V0,
-     $            INFO)
-      CALL STATUS('FUGEFA, NELEM = 2', INFO, -6)
-      CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 0, 4, 1, GAP, 3.D0, F, C, V0,
-     $            INFO)
-      CALL STATUS('FUGEFA, NBOUND = 4', INFO, -14)
-      CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 0, 0, 0, GAP, 3.D0, F, C, V0,
-     $            INFO)
-      CALL STATUS('FUGEFA, NTHR = 0', INFO, -14)
-      CALL FUGEFA(2, 2, 1.D0, 1.D0, ESTAR, 0, 0, 1, GAP, -1.D0, F, C,
-     $            V0, INFO)
-      CALL STATUS('FUGEFA, F0 < 0', INFO, -10)
-      CALL NUMBER('FUGEFA untouched', F(1,1), 7.D0, 0.D0)
-      END
-
+C     The meaning of a status.
       SUBROUTINE WORDS
       CHARACTER TEXT*64, SHORT*4
       CALL FUGETX(0, TEXT)

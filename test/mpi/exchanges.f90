@@ -29,7 +29,7 @@ contains
     call random_seed(put=spread(7919, 1, seed_size))
     call line%set(64, 1.0_dp, 1.0_dp, MPI_COMM_WORLD, info)
     call expect(info%status == FUGE_DONE, trim(info%message))
-    rows%ranks = line%ranks()
+    rows%point_space = line%space()
     if (rows%is_alone()) return
     do trial = 1, TRIALS
       call random_number(random)
@@ -49,13 +49,13 @@ contains
 
     rows%cells = [1, n]
     if (allocated(rows%first)) deallocate (rows%first)
-    allocate (rows%first(0:rows%ranks%members()))
+    allocate (rows%first(0:rows%members()))
     rows%first(0) = 1
-    do r = 1, rows%ranks%members()
+    do r = 1, rows%members()
       call random_number(random)
-      rows%first(r) = min(rows%first(r - 1) + int(2.5_dp*n*random/rows%ranks%members()), n + 1)
+      rows%first(r) = min(rows%first(r - 1) + int(2.5_dp*n*random/rows%members()), n + 1)
     end do
-    rows%first(rows%ranks%members()) = n + 1
+    rows%first(rows%members()) = n + 1
   end subroutine share
 
   ! Sets of runs of at most `longest` cells, open or in contact, of which the part `wrong` are wrong at one end.
@@ -90,8 +90,8 @@ contains
       k = k + run
     end do
     segments = count(contact(2:) .and. .not. contact(:n - 1)) + merge(1, 0, contact(1))
-    begin = rows%first(rows%ranks%number())
-    finish = rows%first(rows%ranks%number() + 1) - 1
+    begin = rows%first(rows%number())
+    finish = rows%first(rows%number() + 1) - 1
     call expect(count_segments(rows, contact(begin:finish)) == segments, 'the number of segments')
     expected = contact
     call exchange_extrapolated(tensile, penetrating, measure, expected)
@@ -112,10 +112,10 @@ contains
     real(dp), allocatable :: own(:), own_sums(:), own_means(:)
     integer :: me
 
-    coarse%ranks = rows%ranks
+    coarse%point_space = rows%point_space
     call share(size(sums), coarse)
     call share(n, rows)
-    me = rows%ranks%number()
+    me = rows%number()
     call random_number(weight)
     weight = anint(weight)
     call random_number(values)

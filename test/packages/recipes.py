@@ -19,7 +19,7 @@ def expect(condition, what):
         faults.append(what)
 
 
-header = (sources / "include" / "fuge.h").read_text(encoding="utf-8")
+header = (sources / "include" / "fuge_core.h").read_text(encoding="utf-8")
 version = re.search(r'FUGE_VERSION "([^"]+)"', header).group(1)
 cmake = (sources / "CMakeLists.txt").read_text(encoding="utf-8")
 options = set(re.findall(r"(?:option\(|set\()((?:FUGE|BUILD)_\w+)", cmake))

@@ -4,7 +4,7 @@ cmake_minimum_required(VERSION 3.20)
 # With `text` at the end of `file`, new or not, the script must fail and say `expected`.
 function(expect_offence file text expected)
   file(REMOVE_RECURSE "${SCRATCH}")
-  foreach(folder IN ITEMS src sparse test)
+  foreach(folder IN ITEMS src test)
     file(COPY "${ROOT}/${folder}/" DESTINATION "${SCRATCH}/${folder}")
   endforeach()
   file(APPEND "${SCRATCH}/${file}" "${text}")
@@ -17,15 +17,15 @@ function(expect_offence file text expected)
 endfunction()
 
 set(list test/unit/untested.txt)
-expect_offence(src/model/fuge_planted.f90 "!\n"
-  "src/model/fuge_planted.f90 has no test/unit/model/test_planted.pf and no line in test/unit/untested.txt\n")
+expect_offence(src/core/model/fuge_planted.f90 "!\n"
+  "src/core/model/fuge_planted.f90 has no test/unit/core/model/test_planted.pf and no line in test/unit/untested.txt\n")
 expect_offence(src/f77/planted.f90 "!\n" "src/f77/planted.f90 has no test/unit/f77/test_planted.pf and no line")
-expect_offence(sparse/fuge_planted.f90 "!\n" "sparse/fuge_planted.f90 has no test/unit/sparse/test_planted.pf")
+expect_offence(src/sparse/fuge_planted.f90 "!\n" "src/sparse/fuge_planted.f90 has no test/unit/sparse/test_planted.pf")
 # A test in the wrong folder counts for no module.
-expect_offence(test/unit/io/test_certificate.pf "!\n"
-  "test/unit/io/test_certificate.pf is named for a module that does not exist in its folder\n")
+expect_offence(test/unit/files/text/test_certificate.pf "!\n"
+  "test/unit/files/text/test_certificate.pf is named for a module that does not exist in its folder\n")
 expect_offence(${list} "fuge_certificate: old\n"
-  "untested.txt names fuge_certificate, which has test/unit/model/test_certificate.pf\n")
+  "untested.txt names fuge_certificate, which has test/unit/core/model/test_certificate.pf\n")
 expect_offence(${list} "fuge_planted: gone\n" "untested.txt names fuge_planted, which does not exist\n")
 expect_offence(${list} "fuge_c_dense: again\n" "untested.txt names fuge_c_dense twice\n")
 expect_offence(${list} "fuge_planted:\n" "untested.txt gives no reason for fuge_planted\n")

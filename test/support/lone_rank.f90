@@ -3,7 +3,7 @@ module lone_rank
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
-  use fuge_ranks, only: rank_group, shared_ranks
+  use fuge_point_space, only: rank_group, point_space
   use fuge_status, only: fuge_info, FUGE_DONE
   implicit none
   private
@@ -28,7 +28,7 @@ module lone_rank
     procedure :: points => count_cells
     procedure :: apply => copy_force
     procedure :: grid => own_cells
-    procedure :: ranks => own_group
+    procedure :: space => own_group
     procedure :: join
     procedure :: leave
   end type lone_operator
@@ -47,7 +47,7 @@ module lone_rank
     procedure :: free_rim => surface_rim
     procedure :: coarsen => coarsen_surface
     procedure :: window => surface_window
-    procedure :: ranks => surface_group
+    procedure :: space => surface_group
   end type lone_surface
 
 contains
@@ -113,11 +113,11 @@ contains
     cells = self%cells
   end function own_cells
 
-  function own_group(self) result(ranks)
+  function own_group(self) result(space)
     class(lone_operator), intent(in) :: self
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
-    ranks%group => self%group
+    space%group => self%group
   end function own_group
 
   subroutine join(self)
@@ -223,11 +223,11 @@ contains
     call move_alloc(one_surface, shared)
   end subroutine share
 
-  function surface_group(self) result(ranks)
+  function surface_group(self) result(space)
     class(lone_surface), intent(in) :: self
-    type(shared_ranks) :: ranks
+    type(point_space) :: space
 
-    ranks%group => self%group
+    space%group => self%group
   end function surface_group
 
 end module lone_rank

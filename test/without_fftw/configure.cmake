@@ -25,13 +25,13 @@ if(NOT status EQUAL 0)
   message(FATAL_ERROR "not configured:\n${output}")
 endif()
 execute_process(COMMAND "${CMAKE_CTEST_COMMAND}" --test-dir "${SCRATCH}" -N OUTPUT_VARIABLE list)
-foreach(name IN ITEMS api_grids api_halfspace example_rough example_c_ball legacy_solve
+foreach(name IN ITEMS api_grids api_halfspace example_rough example_c_ball legacy_surfaces
     doc_tutorial_area_2 threads_pthreads mpi_same_answer_1)
   if(list MATCHES ": ${name}\n")
     message(SEND_ERROR "the list has ${name}, which needs FFTW")
   endif()
 endforeach()
-foreach(name IN ITEMS unit_halfplane unit_solver api_halfplane api_smooth example_punch legacy_condense
+foreach(name IN ITEMS unit_core_halfplane unit_core_solver api_halfplane api_smooth example_punch legacy_solve
     doc_tutorial_fortran_1 without_fftw_c without_fftw_fortran)
   if(NOT list MATCHES ": ${name}\n")
     message(SEND_ERROR "the list does not have ${name}, which needs no FFTW")

@@ -46,7 +46,7 @@ static void test_iteration(void) {
   fuge_solver *solver = NULL;
   fuge_options options;
 
-  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_DONE);
+  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_MEAN, 0, alpha, N, message, sizeof message), FUGE_DONE);
   CHECK_STATUS(fuge_solve_dense(N, alpha, N, gap, 1.0, dense, open, &approach, message, sizeof message), FUGE_DONE);
   CHECK_STATUS(fuge_operator_dense(N, alpha, N, &op, message, sizeof message), FUGE_DONE);
   fuge_default_options(&options);

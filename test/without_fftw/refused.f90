@@ -5,13 +5,16 @@ program refused
   implicit none
 
   interface
-    subroutine fugeft(n, h, estar, nelem, nbound, nthr, gap, f0, f, c, v0, info)
+    subroutine fugefx(n, h, estar, nelem, nbound, nthr, gap, nheld, f0, v0, tol, maxit, f, c, ncon, niter, resid, msg, &
+                      info)
       import :: dp
-      integer, intent(in) :: n, nelem, nbound, nthr
-      real(dp), intent(in) :: h, estar, gap(n), f0
-      real(dp), intent(inout) :: f(n), c(n), v0
+      integer, intent(in) :: n, nelem, nbound, nthr, nheld, maxit
+      real(dp), intent(in) :: h, estar, gap(n), tol
+      real(dp), intent(inout) :: f0, v0, f(n), c(n), resid
+      integer, intent(inout) :: ncon, niter
+      character(len=*), intent(inout) :: msg
       integer, intent(out) :: info
-    end subroutine fugeft
+    end subroutine fugefx
   end interface
 
   call check_operators()
@@ -51,16 +54,22 @@ contains
   end subroutine check_stress_grid
 
   subroutine check_legacy()
-    real(dp) :: force(4), gap(4), approach
-    integer :: status
+    real(dp) :: force(4), gap(4), load, approach, residual
+    integer :: contacts, iterations
+    type(fuge_info) :: info
 
     force = 7.0_dp
     gap = 7.0_dp
+    load = 1.0_dp
     approach = 7.0_dp
-    call fugeft(4, 1.0_dp, 1.0_dp, FUGE_MEAN, FUGE_FREE, 1, [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], 1.0_dp, force, gap, &
-                approach, status)
-    if (status /= FUGE_ERR_UNSUPPORTED) error stop 'FUGEFT has another status'
-    if (any(abs([force, gap, approach] - 7.0_dp) > 0.0_dp)) error stop 'FUGEFT has changed its output'
+    residual = 7.0_dp
+    contacts = 7
+    iterations = 7
+    call fugefx(4, 1.0_dp, 1.0_dp, FUGE_MEAN, FUGE_FREE, 1, [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], 0, load, approach, &
+                0.0_dp, 0, force, gap, contacts, iterations, residual, info%message, info%status)
+    call expect_reason(info)
+    if (any(abs([force, gap, approach, residual] - 7.0_dp) > 0.0_dp)) error stop 'FUGEFX has changed its output'
+    if (contacts /= 7 .or. iterations /= 7) error stop 'FUGEFX has changed its counts'
   end subroutine check_legacy
 
   subroutine expect_reason(info)

@@ -33,7 +33,8 @@ contains
   !>
   !> Errors, stress untouched: those of `fuge_halfplane_matrix`; FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE; FUGE_ERR_GRID for
   !> pz < 0; FUGE_ERR_OVERFLOW also for a length beyond 1e75 times the narrowest width. Many points under many cells
-  !> cost O((n + points) log(n)). Source: `fuge_strip_field`, `fuge_hat_field`, `fuge_cell_clusters`.
+  !> cost O((n + points) log(n)). Source: `fuge_strip_field`, `fuge_hat_field`, `fuge_cell_clusters`. The arguments
+  !> are nine, because cells, points and result are plain arrays, as a solver and its caller have them.
   pure subroutine fuge_halfplane_stress(x, width, force, element, px, pz, stress, info, symmetric)
     real(dp), intent(in) :: x(:), width(:), force(:), px(:), pz(:)
     integer, intent(in) :: element
@@ -67,7 +68,8 @@ contains
   !> displacements.
   !>
   !> Errors, displacement untouched: as for `fuge_halfplane_stress` and `fuge_plane_modulus`. Source: A.-A. Flamant,
-  !> 1892; K. L. Johnson, Contact Mechanics, 1985, section 2.2, integrated over the pressure.
+  !> 1892; K. L. Johnson, Contact Mechanics, 1985, section 2.2, integrated over the pressure. The arguments are
+  !> twelve, because the moduli of one body come to those of `fuge_halfplane_stress`.
   pure subroutine fuge_halfplane_displacement(x, width, force, element, young, poisson, plane_state, px, pz, &
                                               displacement, info, symmetric)
     real(dp), intent(in) :: x(:), width(:), force(:), young, poisson, px(:), pz(:)

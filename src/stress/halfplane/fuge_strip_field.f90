@@ -109,7 +109,8 @@ contains
   !> -pi times the stresses under a unit pressure, `wide_xx` and `wide_zz` those of a strip seen under more than pi/4;
   !> `excess` is t - atan(t), or that of 1/t where t > 1.
   !>
-  !> Both pairs are always computed, because a loop with a branch is not vectorised.
+  !> Both pairs are always computed, because a loop with a branch is not vectorised. The arguments are twelve, because
+  !> with plain numbers a loop over points is vectorised.
   pure subroutine strip_terms(left, right, width, z, cross, tangent, excess, xx, zz, xz, wide_xx, wide_zz)
     real(dp), intent(in) :: left, right, width, z, cross, tangent, excess
     real(dp), intent(out) :: xx, zz, xz, wide_xx, wide_zz

@@ -51,7 +51,8 @@ module fuge_area_field
 contains
 
   !> The field under `force` (n) on rectangles at `x`, `y` (n) of the widths `width_x`, `width_y` (n), all of them
-  !> checked; `symmetric` (2): about x = 0, about y = 0. `stat` as in an allocate statement.
+  !> checked; `symmetric` (2): about x = 0, about y = 0. `stat` as in an allocate statement. The arguments are nine,
+  !> because rectangles are plain arrays, as the caller has them.
   pure subroutine new_area_field(x, y, width_x, width_y, force, symmetric, poisson, field, stat)
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), poisson
     logical, intent(in) :: symmetric(2)
@@ -193,7 +194,8 @@ contains
     end if
   end function finished
 
-  !> Sums over point forces, of which `finished` makes the values.
+  !> Sums over point forces, of which `finished` makes the values. The arguments are nine, because sources and points
+  !> are plain arrays.
   pure subroutine add_forces(components, source_x, source_y, force, poisson, x, y, z, sums)
     integer, intent(in) :: components
     real(dp), intent(in), contiguous :: source_x(:), source_y(:), force(:), x(:), y(:), z(:)

@@ -72,7 +72,8 @@ contains
     end do
   end subroutine add_surface_stresses
 
-  !> The same for the first `n` points.
+  !> The same for the first `n` points. The arguments are nine, because the lanes of a vector processor are plain
+  !> arrays.
   pure subroutine add_stress_lanes(source_x, source_y, force, poisson, n, x, y, z, sums)
     real(dp), intent(in), contiguous :: source_x(:), source_y(:), force(:), x(:), y(:), z(:)
     real(dp), intent(in) :: poisson
@@ -143,7 +144,8 @@ contains
     end do
   end subroutine add_force_displacements
 
-  !> The same for the first `n` points.
+  !> The same for the first `n` points. The arguments are nine, because the lanes of a vector processor are plain
+  !> arrays.
   pure subroutine add_displacement_lanes(source_x, source_y, force, poisson, n, x, y, z, sums)
     real(dp), intent(in), contiguous :: source_x(:), source_y(:), force(:), x(:), y(:), z(:)
     real(dp), intent(in) :: poisson

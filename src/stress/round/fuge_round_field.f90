@@ -162,7 +162,7 @@ contains
   end subroutine add_part
 
   !> Add the flat punches from radius `first`, the closest to the point, to radius `last`. `direction` 1 or -1: outwards
-  !> or inwards.
+  !> or inwards. The arguments are nine, because a range of punches and a point are given by their numbers.
   pure subroutine add_punches(rules, transform, first, direction, last, r, z, height, field)
     type(round_rules), intent(in) :: rules
     type(abel_transform), intent(in) :: transform

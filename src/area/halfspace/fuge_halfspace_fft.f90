@@ -1,0 +1,313 @@
+!> The elastic half-space on a uniform grid of rectangles, by FFT: A of `fuge_halfspace_matrix`, or of a periodic
+!> surface, in O(n log n) operations and O(n) memory.
+module fuge_halfspace_fft
+  use fuge_grid_convolution, only: grid_kernel
+  use fuge_grid_plan, only: grid_plan
+  use fuge_grid_operator_type, only: grid_operator
+  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, count_coarser, halfspace_grid, &
+    least_magnitude, periodic
+  use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
+  use fuge_kinds, only: dp
+  use fuge_memory, only: check_memory
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
+    FUGE_ERR_OPTION
+  implicit none
+  private
+
+  !> A coarser grid of fewer cells is multiplied by one thread: starting more would take longer.
+  integer, parameter :: FEWEST_FOR_THREADS = 65536
+
+  !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
+  !> solves, which takes a third of the memory again.
+  !>
+  !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
+  type, extends(grid_operator), public :: fuge_halfspace_operator
+    private
+    !> No cells before `set`.
+    type(halfspace_grid) :: surface
+    !> Subtracted from all coefficients; length per force.
+    real(dp) :: datum_value = 0.0_dp
+    integer :: threads = 1
+    logical :: measured = .false.
+    !> Transforms of rows and columns, of a free surface with some more cells to lengths that are fast.
+    type(grid_plan) :: plan
+    !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
+    !> of a periodic surface.
+    type(grid_kernel) :: influence, inverse
+  contains
+    procedure :: set
+    procedure :: set_threads
+    procedure :: points
+    procedure :: apply
+    procedure :: datum
+    procedure :: magnitude => halfspace_magnitude
+    procedure :: precondition
+    procedure :: grid
+    procedure :: coarsen
+    procedure :: free_rim
+    procedure :: window
+    procedure, private :: copy
+    generic :: assignment(=) => copy
+  end type fuge_halfspace_operator
+
+contains
+
+  !> Set the operator of `nx` x `ny` cells of `spacing_x` x `spacing_y`, side by side: point i + nx*(j - 1) is the
+  !> cell in column i, along x, and row j.
+  !>
+  !> `nx`, `ny` >= 1, any numbers; `spacing_x`, `spacing_y` length; `e_star` force per length squared. `element`
+  !> FUGE_CENTRE or FUGE_MEAN (default). `boundary` FUGE_FREE (default): the matrix of `fuge_halfspace_matrix`;
+  !> FUGE_PERIODIC: the periods are nx*spacing_x and ny*spacing_y, and displacements count from the mean of the
+  !> surface, so that A is singular: equal forces on all cells displace nothing; FUGE_PERIODIC_X, FUGE_PERIODIC_Y: in
+  !> one direction only. Then the mean along that direction is displaced as a half-plane, by a logarithm without a
+  !> datum at infinity: displacements are zero, as those of `fuge_halfplane_operator`, at the distance of twice the
+  !> length of the grid along the free direction, ny*spacing_y for FUGE_PERIODIC_X. `threads` (default 1) share each
+  !> product; `measured` (default .false.) lets FFTW time its algorithms and take the fastest.
+  !> The arguments are ten, because the last four are optional and named by the caller.
+  !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
+  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
+  !> library without FFTW.
+  subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, info, element, boundary, threads, measured)
+    class(fuge_halfspace_operator), intent(inout) :: self
+    integer, intent(in) :: nx, ny
+    real(dp), intent(in) :: spacing_x, spacing_y, e_star
+    type(fuge_info), intent(out) :: info
+    integer, intent(in), optional :: element, boundary, threads
+    logical, intent(in), optional :: measured
+    type(fuge_halfspace_operator) :: new
+
+    new%surface%cells = [nx, ny]
+    new%surface%spacing = [spacing_x, spacing_y]
+    new%surface%e_star = e_star
+    if (present(element)) new%surface%element = element
+    if (present(boundary)) new%surface%boundary = boundary
+    if (present(threads)) new%threads = threads
+    if (present(measured)) new%measured = measured
+    call check_grid(new%surface, info)
+    if (.not. info%failed()) call check_threads(new%threads, info)
+    if (info%failed()) return
+    call complete(new%surface)
+    call prepare(new, info)
+    if (.not. info%failed()) call move_contents(self, new)
+  end subroutine set
+
+  !> Plan and compute what belongs to the cells of `operator`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  subroutine prepare(operator, info)
+    type(fuge_halfspace_operator), intent(inout) :: operator
+    type(fuge_info), intent(inout) :: info
+    integer :: status
+
+    call plan_transforms(operator, info)
+    if (info%failed()) return
+    call compute_spectra(operator%surface, operator%plan, operator%influence, operator%inverse, operator%datum_value, &
+                         status)
+    if (status /= 0) call report_no_memory(operator, info)
+    if (.not. info%failed()) call operator%coarser%create(count_coarser(operator%surface))
+  end subroutine prepare
+
+  !> Let `threads` >= 1 threads share each product from now on. Not during a solve. Errors, which leave the operator
+  !> as it was: FUGE_ERR_CALL_ORDER before `set`, FUGE_ERR_OPTION.
+  subroutine set_threads(self, threads, info)
+    class(fuge_halfspace_operator), intent(inout) :: self
+    integer, intent(in) :: threads
+    type(fuge_info), intent(out) :: info
+
+    if (any(self%surface%cells < 1)) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it before its threads')
+    else
+      call check_threads(threads, info)
+    end if
+    if (info%failed()) return
+    self%threads = threads
+    call self%coarser%create(count_coarser(self%surface))
+  end subroutine set_threads
+
+  pure subroutine check_threads(threads, info)
+    integer, intent(in) :: threads
+    type(fuge_info), intent(inout) :: info
+
+    if (threads < 1) call report(info, FUGE_ERR_OPTION, 'threads = '//text(threads)//': use 1 or more')
+  end subroutine check_threads
+
+  !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  subroutine plan_transforms(operator, info)
+    type(fuge_halfspace_operator), intent(inout) :: operator
+    type(fuge_info), intent(inout) :: info
+    integer :: length(2)
+
+    call circle_of(operator%surface, length, info)
+    if (info%failed()) return
+    call check_memory(bytes_needed(operator%surface, length), 'nx = '//text(operator%surface%cells(1))//', ny = ' &
+                      //text(operator%surface%cells(2))//':', info)
+    if (info%failed()) return
+    call operator%plan%set(operator%surface%cells, length, info, operator%measured)
+    if (info%status == FUGE_ERR_MEMORY) call report_no_memory(operator, info)
+  end subroutine plan_transforms
+
+  subroutine report_no_memory(operator, info)
+    type(fuge_halfspace_operator), intent(in) :: operator
+    type(fuge_info), intent(inout) :: info
+
+    call report(info, FUGE_ERR_MEMORY, 'no memory for nx = '//text(operator%surface%cells(1))//', ny = ' &
+                //text(operator%surface%cells(2))//': use a coarser grid')
+  end subroutine report_no_memory
+
+  !> Move the contents of `new` to `self`.
+  subroutine move_contents(self, new)
+    class(fuge_halfspace_operator), intent(inout) :: self
+    type(fuge_halfspace_operator), intent(inout) :: new
+
+    call copy_numbers(self, new)
+    call self%influence%move_from(new%influence)
+    call self%inverse%move_from(new%inverse)
+    call self%plan%move_from(new%plan)
+    call self%coarser%move_from(new%coarser)
+  end subroutine move_contents
+
+  pure subroutine copy_numbers(self, source)
+    class(fuge_halfspace_operator), intent(inout) :: self
+    class(fuge_halfspace_operator), intent(in) :: source
+
+    self%surface = source%surface
+    self%datum_value = source%datum_value
+    self%threads = source%threads
+    self%measured = source%measured
+  end subroutine copy_numbers
+
+  !> Assignment. If memory for the copy cannot be allocated, the copy is not set.
+  subroutine copy(self, source)
+    class(fuge_halfspace_operator), intent(inout) :: self
+    class(fuge_halfspace_operator), intent(in) :: source
+    integer :: cells(2), stat
+
+    cells = source%surface%cells
+    self%surface%cells = 0
+    ! Arrays of the right size are kept, because the source may be a bitwise copy of self that shares them.
+    call self%influence%copy_from(source%influence, stat)
+    if (stat == 0) call self%inverse%copy_from(source%inverse, stat)
+    call self%plan%copy_from(source%plan)
+    call copy_numbers(self, source)
+    call self%coarser%clear()
+    self%surface%cells = 0
+    if (stat /= 0 .or. self%plan%cells(1) < 1) return
+    self%surface%cells = cells
+    call self%coarser%create(count_coarser(self%surface))
+  end subroutine copy
+
+  !> Number of cells nx*ny; 0 before `set`.
+  pure function points(self) result(n)
+    class(fuge_halfspace_operator), intent(in) :: self
+    integer :: n
+
+    n = product(self%surface%cells)
+  end function points
+
+  !> u = (A - datum) f, with errors of about 1e-16 of its largest value.
+  !>
+  !> `force` (nx*ny), force; `displacement` (nx*ny), length. Safe in several threads at once. `status`: 0,
+  !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE or FUGE_ERR_MEMORY.
+  subroutine apply(self, force, displacement, status)
+    class(fuge_halfspace_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out) :: displacement(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(force), size(displacement), status)
+    if (status /= FUGE_DONE) return
+    call self%influence%convolve(self%plan, size(force), force, displacement, self%threads, status)
+  end subroutine apply
+
+  !> What is subtracted from all coefficients, length per force; 0 unless the surface is periodic in one direction only.
+  function datum(self)
+    class(fuge_halfspace_operator), intent(in) :: self
+    real(dp) :: datum
+
+    datum = self%datum_value
+  end function datum
+
+  !> `magnitude` (nx*ny), length: the largest displacement; on a periodic surface, where equal forces
+  !> displace nothing, at least the terms of their displacement.
+  subroutine halfspace_magnitude(self, force, displacement, magnitude)
+    class(fuge_halfspace_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:), displacement(:)
+    real(dp), intent(out) :: magnitude(:)
+
+    magnitude = max(maxval(abs(displacement)), least_magnitude(self%surface, sum(abs(force))))
+  end subroutine halfspace_magnitude
+
+  !> The inverse on a periodic surface, exact except for the constant. A free surface is taken
+  !> for periodic, which changes little, because the coefficients of the inverse fall off
+  !> with the third power of the distance, and takes a quarter of the time of a product.
+  !>
+  !> `displacement` (nx*ny), length; `force` (nx*ny), force; `status` as for `apply`.
+  subroutine precondition(self, displacement, force, status)
+    class(fuge_halfspace_operator), intent(in) :: self
+    real(dp), intent(in) :: displacement(:)
+    real(dp), intent(out) :: force(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(displacement), size(force), status)
+    if (status /= FUGE_DONE) return
+    call self%inverse%convolve(self%plan, size(force), displacement, force, self%threads, status)
+  end subroutine precondition
+
+  !> [nx, ny].
+  function grid(self) result(cells)
+    class(fuge_halfspace_operator), intent(in) :: self
+    integer :: cells(2)
+
+    cells = self%surface%cells
+  end function grid
+
+  !> Cells 2**levels times as wide in both directions, with the same element and boundary. In a periodic direction the
+  !> period is the same, which may make them a little narrower. A direction of one cell keeps it. Unallocated for fewer
+  !> than 32 wider cells, and without memory.
+  subroutine coarsen(self, levels, coarse)
+    class(fuge_halfspace_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    class(fuge_operator), allocatable, intent(out) :: coarse
+    type(fuge_halfspace_operator), allocatable :: wider
+    type(fuge_info) :: info
+    integer :: stat
+
+    if (levels < 1 .or. levels > count_coarser(self%surface)) return
+    allocate (wider, stat=stat)
+    if (stat /= 0) return
+    call copy_numbers(wider, self)
+    wider%surface = coarsened(self%surface, levels)
+    wider%measured = .false.
+    if (wider%points() < FEWEST_FOR_THREADS) wider%threads = 1
+    call prepare(wider, info)
+    if (.not. info%failed()) call move_alloc(wider, coarse)
+  end subroutine coarsen
+
+  !> True in each direction that is not periodic and has more than one cell.
+  function free_rim(self) result(free)
+    class(fuge_halfspace_operator), intent(in) :: self
+    logical :: free(2)
+
+    free = self%surface%cells > 1 .and. .not. periodic(self%surface)
+  end function free_rim
+
+  !> The window of `fuge_operator`: the same coefficients on fewer cells. A window of a periodic surface knows the
+  !> forces of all periods.
+  subroutine window(self, first, last, part)
+    class(fuge_halfspace_operator), intent(in) :: self
+    integer, intent(in) :: first(2), last(2)
+    class(fuge_operator), allocatable, intent(out) :: part
+    type(fuge_halfspace_operator), allocatable :: smaller
+    type(fuge_info) :: info
+    integer :: stat
+
+    if (any(first < 1) .or. any(last < first) .or. any(last > self%surface%cells)) return
+    allocate (smaller, stat=stat)
+    if (stat /= 0) return
+    call copy_numbers(smaller, self)
+    smaller%surface%cells = last - first + 1
+    call prepare(smaller, info)
+    if (.not. info%failed()) call move_alloc(smaller, part)
+  end subroutine window
+
+end module fuge_halfspace_fft

@@ -1,0 +1,249 @@
+!> C bindings, section "results": what the last solve found.
+!>
+!> A getter that fails leaves its message in the solver; one that succeeds leaves the message of
+!> the solve, which may be a warning.
+module fuge_c_results
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
+  use fuge_c_solver, only: find_solver, report_to_solver
+  use fuge_c_types, only: c_info, solver_handle, to_c, copy_integers, copy_reals, copy_string, require_pointer
+  use fuge_number_text, only: text
+  use fuge_problem_type, only: fuge_solution
+  use fuge_kinds, only: dp
+  use fuge_point_space, only: point_space
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  implicit none
+  private
+
+contains
+
+  function c_get_force(solver, force) bind(c, name='fuge_get_force') result(status)
+    type(c_ptr), intent(in), value :: solver, force
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+
+    status = find_solution(solver, force, 'force', handle)
+    if (status == FUGE_DONE) call copy_reals(handle%solution%force, force)
+  end function c_get_force
+
+  function c_get_gap(solver, gap) bind(c, name='fuge_get_gap') result(status)
+    type(c_ptr), intent(in), value :: solver, gap
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+
+    status = find_solution(solver, gap, 'gap', handle)
+    if (status == FUGE_DONE) call copy_reals(handle%solution%gap, gap)
+  end function c_get_gap
+
+  function c_get_motion(solver, motion) bind(c, name='fuge_get_motion') result(status)
+    type(c_ptr), intent(in), value :: solver, motion
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+
+    status = find_solution(solver, motion, 'motion', handle)
+    if (status == FUGE_DONE) call copy_reals(handle%solution%motion, motion)
+  end function c_get_motion
+
+  !> Resultants of the contact forces found in all motions: equal to the loads up to
+  !> rounding where free, the reaction where prescribed.
+  function c_get_resultant(solver, resultant) bind(c, name='fuge_get_resultant') result(status)
+    type(c_ptr), intent(in), value :: solver, resultant
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(point_space) :: space
+    real(dp), allocatable :: sums(:)
+
+    status = find_solution(solver, resultant, 'resultant', handle)
+    if (status /= FUGE_DONE) return
+    space = handle%operator%operator%space()
+    associate (problem => handle%problem, force => handle%solution%force)
+      if (allocated(problem%modes)) then
+        allocate (sums(size(problem%modes, 2)))
+        sums = matmul(force, problem%modes)
+      else
+        allocate (sums(1))
+        sums = sum(force)
+      end if
+    end associate
+    call space%add(sums)
+    call copy_reals(sums, resultant)
+  end function c_get_resultant
+
+  !> First-order changes of the last solution with the gaps and one load, see `derivative` of `fuge_solver`.
+  function c_get_derivative(solver, gap_change, load_change, force, gap, motion) &
+    bind(c, name='fuge_get_derivative') result(status)
+    type(c_ptr), intent(in), value :: solver, gap_change, force, gap, motion
+    real(c_double), intent(in), value :: load_change
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+
+    status = find_solution(solver, force, 'force', handle)
+    if (status == FUGE_DONE) status = differentiate(handle, gap_change, [load_change], force, gap, motion)
+  end function c_get_derivative
+
+  !> First-order changes of the last solution with the gaps and all loads; either is NULL if none of it changes.
+  function c_get_derivatives(solver, gap_change, load_change, force, gap, motion) &
+    bind(c, name='fuge_get_derivatives') result(status)
+    type(c_ptr), intent(in), value :: solver, gap_change, load_change, force, gap, motion
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(c_double), pointer :: loads(:)
+    integer :: k
+
+    status = find_solution(solver, force, 'force', handle)
+    if (status /= FUGE_DONE) return
+    associate (m => handle%problem%mode_count())
+      if (c_associated(load_change)) then
+        call c_f_pointer(load_change, loads, [m])
+        status = differentiate(handle, gap_change, loads, force, gap, motion)
+      else
+        status = differentiate(handle, gap_change, [(0.0_c_double, k=1, m)], force, gap, motion)
+      end if
+    end associate
+  end function c_get_derivatives
+
+  function differentiate(handle, gap_change, load_change, force, gap, motion) result(status)
+    type(solver_handle), pointer, intent(in) :: handle
+    type(c_ptr), intent(in) :: gap_change, force, gap, motion
+    real(c_double), intent(in) :: load_change(:)
+    integer(c_int) :: status
+    real(c_double), pointer :: values(:)
+    real(c_double), allocatable :: direction(:)
+    type(fuge_solution) :: change
+    type(fuge_info) :: info
+    integer :: stat
+
+    allocate (direction(handle%operator%operator%points()), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the change of the gaps')
+    else
+      direction = 0.0_c_double
+      if (c_associated(gap_change)) then
+        call c_f_pointer(gap_change, values, [size(direction)])
+        direction = values
+      end if
+      call handle%solver%derivative(handle%operator%operator, direction, load_change, change, info)
+    end if
+    ! As of any getter, a success leaves the message as it is.
+    status = FUGE_DONE
+    if (info%failed()) then
+      status = report_to_solver(info, handle)
+      return
+    end if
+    call copy_reals(change%force, force)
+    call copy_reals(change%gap, gap)
+    call copy_reals(change%motion, motion)
+  end function differentiate
+
+  function c_get_info(solver, destination) bind(c, name='fuge_get_info') result(status)
+    type(c_ptr), intent(in), value :: solver, destination
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(c_info), pointer :: info_of_c
+    type(fuge_info) :: info
+
+    call find_solver(solver, handle, info)
+    call require_pointer(destination, 'info', info)
+    if (.not. info%failed()) call require_solve(handle, info)
+    if (info%failed()) then
+      status = report_to_solver(info, handle)
+    else
+      call c_f_pointer(destination, info_of_c)
+      info_of_c = to_c(handle%info)
+      status = FUGE_DONE
+    end if
+  end function c_get_info
+
+  function c_get_history(solver, first, number, basis, z, available) &
+    bind(c, name='fuge_get_history') result(status)
+    type(c_ptr), intent(in), value :: solver, basis, z, available
+    integer(c_int), intent(in), value :: first, number
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call find_solver(solver, handle, info)
+    call require_pointer(available, 'available', info)
+    if (number > 0) call require_pointer(basis, 'basis', info)
+    if (number > 0) call require_pointer(z, 'z', info)
+    if (.not. info%failed()) call require_solve(handle, info)
+    if (.not. info%failed()) call check_steps(handle%solver%history%recorded(), int(first), int(number), info)
+    if (info%failed()) then
+      status = report_to_solver(info, handle)
+    else
+      call copy_integers([handle%solver%history%recorded()], available)
+      if (number > 0) call copy_steps(handle, int(first), int(number), basis, z)
+      status = FUGE_DONE
+    end if
+  end function c_get_history
+
+  !> FUGE_ERR_SIZE unless `recorded` steps include the range.
+  pure subroutine check_steps(recorded, first, number, info)
+    integer, intent(in) :: recorded, first, number
+    type(fuge_info), intent(inout) :: info
+
+    if (first < 0 .or. number < 0 .or. number > recorded - max(0, min(first, recorded))) then
+      call report(info, FUGE_ERR_SIZE, 'first = '//text(first)//' and count = '//text(number)//' reach beyond the ' &
+                  //text(recorded)//' steps kept: ask for their number with count = 0, and keep them with ' &
+                  //'options.keep_history')
+    end if
+  end subroutine check_steps
+
+  !> FUGE_ERR_CALL_ORDER before the first solve.
+  pure subroutine require_solve(handle, info)
+    type(solver_handle), intent(in) :: handle
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. handle%tried) call report(info, FUGE_ERR_CALL_ORDER, 'there has been no solve: call fuge_solve first')
+  end subroutine require_solve
+
+  subroutine copy_steps(handle, first, number, basis, z)
+    type(solver_handle), intent(in) :: handle
+    integer, intent(in) :: first, number
+    type(c_ptr), intent(in) :: basis, z
+    integer(c_int), pointer :: columns(:, :)
+    real(c_double), pointer :: sums(:)
+    integer :: k
+
+    associate (history => handle%solver%history)
+      call c_f_pointer(basis, columns, [size(history%basis(0)), number])
+      call c_f_pointer(z, sums, [number])
+      do k = 1, number
+        columns(:, k) = int(history%basis(first + k - 1), c_int)
+        sums(k) = history%z(first + k - 1)
+      end do
+    end associate
+  end subroutine copy_steps
+
+  function c_solver_message(solver, buffer, length) bind(c, name='fuge_solver_message') result(status)
+    type(c_ptr), intent(in), value :: solver, buffer
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call find_solver(solver, handle, info)
+    call require_pointer(buffer, 'message', info)
+    if (.not. info%failed()) call copy_string(handle%message, buffer, length)
+    status = int(info%status, c_int)
+  end function c_solver_message
+
+  !> The solver with a solution to copy to `destination`. Otherwise its message says why there is none
+  !> (FUGE_ERR_CALL_ORDER, FUGE_ERR_POINTER).
+  function find_solution(solver, destination, name, handle) result(status)
+    type(c_ptr), intent(in) :: solver, destination
+    character(len=*), intent(in) :: name
+    type(solver_handle), pointer, intent(out) :: handle
+    integer(c_int) :: status
+    type(fuge_info) :: info
+
+    call find_solver(solver, handle, info)
+    call require_pointer(destination, name, info)
+    if (.not. info%failed()) then
+      if (.not. handle%solved) call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution of the present problem: ' &
+                                           //'call fuge_solve and look at its status')
+    end if
+    status = FUGE_DONE
+    if (info%failed()) status = report_to_solver(info, handle)
+  end function find_solution
+
+end module fuge_c_results

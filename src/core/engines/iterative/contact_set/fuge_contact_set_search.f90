@@ -1,0 +1,423 @@
+!> Search for the contact set of one grid, using only products with the operator.
+!>
+!> Each iteration solves on the present set by conjugate gradients, just accurately enough to tell
+!> which points are in tension and which penetrate, and exchanges those. Where block exchanges
+!> stop making progress, a primal active-set method exchanges one point at a time: it lowers the
+!> energy in each step and so terminates.
+module fuge_contact_set_search
+  use fuge_blocking_step, only: is_tensile, step_to_blocking
+  use fuge_complete_contact, only: equal_forces_displace_nothing
+  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, is_accurate, make_feasible, rounding_force
+  use fuge_contact_preconditioner, only: contact_preconditioner
+  use fuge_contact_scene, only: contact_scene
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_iteration_progress, only: tell_progress
+  use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor
+  use fuge_number_text, only: index_text, text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: ITERATIONS_PER_ROW
+  use fuge_projected_gradients, only: run_projected_gradients
+  use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
+    penetrated_stop
+  implicit none
+  private
+
+  public :: find_contact_set, states_of
+
+  !> Relative residual required on a coarser grid, which only provides a starting point.
+  real(dp), parameter :: COARSE_TOLERANCE = 1.0e-4_dp
+  !> The search aims below the tolerance by this factor, because the certificate adds the errors
+  !> at two points.
+  real(dp), parameter :: SAFETY = 0.4_dp
+  !> On a coarser grid a set is good enough if at most this fraction of its points is wrong.
+  real(dp), parameter :: WRONG_ON_COARSE = 0.01_dp
+  !> Block exchanges without a new minimum of wrong points before single exchanges begin; edges
+  !> are extrapolated in the first half of them only.
+  integer, parameter :: MAX_STALLS = 10
+  !> Tensions up to so many units in the last place of the largest force are rounding in any case.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
+
+  !> What is required of the search on one grid.
+  type, public :: search_settings
+    !> Relative residual to reach.
+    real(dp) :: tolerance = COARSE_TOLERANCE
+    !> Contact sets allowed, on all grids together.
+    integer :: limit = 0
+    !> Accept the first set with few wrong points, accurate or not: on a coarser grid its forces
+    !> only start the next one.
+    logical :: coarse_grid = .true.
+    !> The iterate has its contact set, feasible forces and their displacements already.
+    logical :: prepared = .false.
+  end type search_settings
+
+contains
+
+  !> Find the contact set of one grid and its forces.
+  !>
+  !> `iterate` in: forces to start from; out: forces, displacements, contact set and motion. Counts contact sets,
+  !> products and preconditionings in `info`. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY,
+  !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_CANCELLED.
+  subroutine find_contact_set(operator, settings, scene, monitor, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    type(contact_preconditioner) :: preconditioner
+    real(dp) :: previous_residual
+    integer :: cells(2), products, wrong, fewest_wrong, stalls_left
+    logical :: to_tolerance, confirmed, fresh, in_row, undetermined
+
+    cells = operator%grid()
+    in_row = all(cells > 0) .and. any(cells == 1)
+    fewest_wrong = huge(fewest_wrong)
+    stalls_left = MAX_STALLS
+    previous_residual = huge(previous_residual)
+    to_tolerance = .false.
+    if (.not. settings%prepared) then
+      call choose_contact(scene, iterate)
+      call make_feasible(operator, scene, iterate, info)
+    end if
+    fresh = .true.
+    do while (.not. info%failed())
+      undetermined = has_undetermined_forces(operator, scene, iterate, info)
+      if (undetermined .and. .not. info%failed()) then
+        call solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
+        if (info%failed()) exit
+        if (scene%rows%everywhere(all(iterate%contact))) exit
+        stalls_left = stalls_left - 1
+        cycle
+      end if
+      if (info%failed()) exit
+      products = info%products
+      call solve_on_contact_set(operator, settings, preconditioner, scene, to_tolerance, monitor, iterate, info)
+      if (info%failed()) exit
+      fresh = fresh .and. info%products == products
+      wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
+      if (settings%coarse_grid) then
+        if (wrong <= WRONG_ON_COARSE*scene%rows%total_count(count(iterate%contact))) exit
+      end if
+      if (wrong == 0) then
+        ! Without a step the displacements are still those of a product with feasible forces.
+        if (iterate%converged .and. fresh) exit
+        if (to_tolerance .or. iterate%converged) then
+          call confirm_contact_set(operator, settings, scene, previous_residual, iterate, confirmed, info)
+          if (info%failed()) exit
+          ! The lengths that decide may have been those of much larger forces at the start.
+          if (confirmed) wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
+          if (confirmed .and. wrong == 0) exit
+        end if
+        to_tolerance = .true.
+        if (wrong == 0) cycle
+      end if
+      to_tolerance = .false.
+      stalls_left = stalls_left - 1
+      if (wrong < fewest_wrong) stalls_left = MAX_STALLS
+      fewest_wrong = min(fewest_wrong, wrong)
+      if (stalls_left < 0) then
+        call exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
+        exit
+      end if
+      call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
+                                 in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
+      if (info%failed()) exit
+      iterate%least_compliance = 0.0_dp
+      ! The residual of another set tells nothing of this one.
+      previous_residual = huge(previous_residual)
+      call make_feasible(operator, scene, iterate, info)
+      fresh = .true.
+    end do
+    info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
+  end subroutine find_contact_set
+
+  !> Is the contact complete and its forces undetermined, because the motion is prescribed and equal
+  !> forces displace nothing? Errors: those of equal_forces_displace_nothing.
+  function has_undetermined_forces(operator, scene, iterate, info) result(undetermined)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    type(fuge_info), intent(inout) :: info
+    logical :: undetermined
+
+    undetermined = .false.
+    if (.not. (iterate%prescribed .and. scene%is_simple())) return
+    if (scene%rows%everywhere(all(iterate%contact))) undetermined = equal_forces_displace_nothing(operator, info)
+  end function has_undetermined_forces
+
+  !> Leave a complete contact whose forces are undetermined: its equations fix the differences of
+  !> the forces only, and no forces close a mean gap that the approach leaves open.
+  !>
+  !> The points whose forces are above the mean stay: those in contact under the least load. If the
+  !> grid is a coarser one whose mean gap is closed, the contact stays complete, under the least load
+  !> that closes it. On the finest grid no forces raise the mean gap (FUGE_ERR_NOT_DEFINITE).
+  subroutine solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_preconditioner), intent(inout) :: preconditioner
+    type(contact_scene), intent(in) :: scene
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: sums(2)
+
+    sums = [sum(scene%gap), sum(abs(scene%gap))]
+    call scene%rows%add(sums)
+    if (.not. settings%coarse_grid .and. sums(1) < -ROUNDINGS*epsilon(1.0_dp)*sums(2)) then
+      call report_unbounded(1, info)
+      return
+    end if
+    iterate%prescribed = .false.
+    call solve_on_contact_set(operator, settings, preconditioner, scene, .false., monitor, iterate, info)
+    iterate%prescribed = .true.
+    if (info%failed()) return
+    if (settings%coarse_grid .and. .not. sums(1) > 0.0_dp) then
+      iterate%force = iterate%force - scene%rows%least(minval(iterate%force))
+    else
+      iterate%force = iterate%force - scene%rows%total(sum(iterate%force))/real(scene%points(), dp)
+      iterate%contact = iterate%force > 0.0_dp
+      call make_feasible(operator, scene, iterate, info)
+    end if
+  end subroutine solve_complete_contact
+
+  !> Solve for the forces of the present contact set, which counts as one iteration: to the
+  !> tolerance if `to_tolerance`, else until the set can be judged.
+  subroutine solve_on_contact_set(operator, settings, preconditioner, scene, to_tolerance, monitor, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_preconditioner), intent(inout) :: preconditioner
+    type(contact_scene), intent(in) :: scene
+    logical, intent(in) :: to_tolerance
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    if (info%iterations >= settings%limit) then
+      call report(info, FUGE_ERR_ITERATION_LIMIT, text(settings%limit)//' contact sets were not enough: raise ' &
+                  //'max_iterations (0 allows '//text(ITERATIONS_PER_ROW)//' for each point)')
+      return
+    end if
+    call preconditioner%set(operator, iterate%contact, .not. iterate%prescribed, maxval(abs(iterate%displacement)), &
+                            info)
+    if (allocated(scene%modes) .and. .not. info%failed()) then
+      call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
+    end if
+    if (info%failed()) return
+    call set_tension_noise(settings, scene, iterate)
+    call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
+                                 iterate, info)
+    if (iterate%unbounded .and. .not. (settings%coarse_grid .or. info%failed())) then
+      call report_unbounded(maxloc(abs(iterate%direction), dim=1), info)
+    end if
+    if (info%failed()) return
+    info%iterations = info%iterations + 1
+    if (.not. settings%coarse_grid) call note_least_compliance(iterate)
+    call tell_progress(scene, iterate, monitor, info)
+  end subroutine solve_on_contact_set
+
+  !> Report that forces without energy, the largest of them at `point`, grow for ever (FUGE_ERR_NOT_DEFINITE).
+  pure subroutine report_unbounded(point, info)
+    integer, intent(in) :: point
+    type(fuge_info), intent(inout) :: info
+
+    call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular, and there is no solution: forces that store ' &
+                //'no energy, the largest at point '//index_text(point)//', cannot move the points to their stops; ' &
+                //'free the rigid motion that can, or change the gaps')
+  end subroutine report_unbounded
+
+  !> Keep the least compliance that conjugate gradients have found on this set.
+  subroutine note_least_compliance(iterate)
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: value
+
+    value = iterate%lanczos%smallest()
+    if (.not. (value > 0.0_dp .and. iterate%amplification > 0.0_dp)) return
+    value = value/iterate%amplification
+    if (iterate%least_compliance > 0.0_dp) value = min(value, iterate%least_compliance)
+    iterate%least_compliance = value
+  end subroutine note_least_compliance
+
+  !> Confirm a contact set without wrong points by a fresh product, because displacements and
+  !> residuals updated by recurrence drift.
+  !>
+  !> `confirmed` if the residual is within the tolerance, or has not halved since the last
+  !> confirmation, `previous_residual`: then only rounding is left, and the certificate decides.
+  subroutine confirm_contact_set(operator, settings, scene, previous_residual, iterate, confirmed, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(inout) :: previous_residual
+    type(contact_iterate), intent(inout) :: iterate
+    logical, intent(out) :: confirmed
+    type(fuge_info), intent(inout) :: info
+
+    confirmed = .false.
+    call make_feasible(operator, scene, iterate, info)
+    if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
+    if (info%failed()) return
+    call set_tension_noise(settings, scene, iterate)
+    confirmed = is_accurate(iterate, SAFETY*settings%tolerance) &
+                .or. .not. iterate%residual_norm < 0.5_dp*previous_residual
+    previous_residual = iterate%residual_norm
+  end subroutine confirm_contact_set
+
+  !> Penetrations below this are rounding.
+  pure function penetration_noise(settings, iterate) result(noise)
+    type(search_settings), intent(in) :: settings
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: noise
+
+    noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding
+  end function penetration_noise
+
+  !> Set the tension that is rounding. Only with several modes, where a point without force may be the one that resists
+  !> a motion.
+  subroutine set_tension_noise(settings, scene, iterate)
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+
+    if (.not. allocated(scene%modes)) return
+    iterate%tension_noise = max(tension_by_rounding(settings, scene, iterate), rounding_force(scene, iterate))
+  end subroutine set_tension_noise
+
+  !> Tensions up to this are rounding. They are taken out in the end, so that they may not displace by more than the
+  !> tolerance allows.
+  function tension_by_rounding(settings, scene, iterate) result(noise)
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: noise
+    real(dp) :: largest
+
+    largest = scene%rows%largest(maxval(abs(iterate%force)))
+    noise = SAFETY**2*settings%tolerance*largest
+    if (noise*iterate%softness > penetration_noise(settings, iterate)) then
+      noise = max(penetration_noise(settings, iterate)/iterate%softness, ROUNDINGS*epsilon(noise)*largest)
+    end if
+  end function tension_by_rounding
+
+  !> Primal active-set method (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974,
+  !> chapter 23), which exchanges one point at a time and lowers the energy.
+  !>
+  !> Step from feasible forces towards the solution of their set until a force would become
+  !> tensile: that point leaves. At the solution the point of deepest penetration joins. Stop when
+  !> no point penetrates, or when the equations of the set can no longer be solved to the
+  !> tolerance: penetrations are then rounding. doc/theory.md shows why it terminates.
+  subroutine exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_preconditioner), intent(inout) :: preconditioner
+    type(contact_scene), intent(in) :: scene
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: feasible(:), noise(:)
+    logical, allocatable :: locked(:), tied(:)
+    integer, allocatable :: state(:)
+    integer :: newest, n, stat
+    logical :: found
+
+    n = size(scene%gap)
+    allocate (feasible(n), noise(n), locked(n), tied(n), state(n), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the active-set method on '//text(n)//' points')
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    found = .false.
+    locked = .false.
+    tied = scene%tied_points()
+    newest = 0
+    call make_feasible(operator, scene, iterate, info)
+    if (allocated(scene%modes) .and. .not. info%failed()) then
+      call step_from_balance(scene, tied, feasible, noise, locked, state, iterate)
+      locked = .false.
+    end if
+    call choose_contact(scene, iterate)
+    if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
+    do while (.not. info%failed())
+      feasible = iterate%force
+      call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)
+      if (info%failed()) exit
+      noise = iterate%tension_noise
+      state = states_of(iterate)
+      if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
+        call step_to_blocking(iterate%force, noise, tied, state, feasible, newest, locked, scene%rows%point_space)
+        iterate%contact = state /= FUGE_OPEN
+        iterate%force = feasible
+      else
+        if (found) call keep_lock(scene, newest, locked)
+        newest = deepest_open_point(scene, iterate, penetration_noise(settings, iterate), locked)
+        found = scene%rows%anywhere(newest > 0)
+        if (.not. (found .and. iterate%converged)) exit
+        call join_contact(scene, newest, iterate)
+        ! What penetrates a contact complete but for one point is rounding.
+        if (has_undetermined_forces(operator, scene, iterate, info)) then
+          if (newest > 0) iterate%contact(newest) = .false.
+          exit
+        end if
+      end if
+      iterate%least_compliance = 0.0_dp
+      if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
+    end do
+    if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
+    if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
+  end subroutine exchange_single_points
+
+  !> Points stay locked only if the point that joined last, which another rank may have, is locked.
+  subroutine keep_lock(scene, newest, locked)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: newest
+    logical, intent(inout) :: locked(:)
+    logical :: keep
+
+    keep = .false.
+    if (newest > 0) keep = locked(newest)
+    keep = scene%rows%anywhere(keep)
+    locked = locked .and. keep
+  end subroutine keep_lock
+
+  !> Point `newest`, if it is not another rank's, joins the contact at the stop that it penetrates.
+  pure subroutine join_contact(scene, newest, iterate)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: newest
+    type(contact_iterate), intent(inout) :: iterate
+
+    if (newest < 1) return
+    iterate%contact(newest) = .true.
+    if (allocated(iterate%at_upper)) iterate%at_upper(newest) = penetrated_stop(scene, 0.0_dp, iterate, newest) < 0
+  end subroutine join_contact
+
+  !> Forces with the resultants but perhaps of the wrong sign become feasible ones: a step towards them from
+  !> scene%balance, until the first force changes its sign. `force`, `noise`, `locked` and `state` (n) are work space.
+  subroutine step_from_balance(scene, tied, force, noise, locked, state, iterate)
+    type(contact_scene), intent(in) :: scene
+    logical, intent(in) :: tied(:)
+    real(dp), intent(out) :: force(:), noise(:)
+    logical, intent(out) :: locked(:)
+    integer, intent(out) :: state(:)
+    type(contact_iterate), intent(inout) :: iterate
+
+    force = scene%balance
+    noise = 0.0_dp
+    locked = .false.
+    state = states_of(iterate)
+    ! Where the balance is at the other stop, or open, it decides.
+    where (abs(force) > 0.0_dp) state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, force > 0.0_dp)
+    if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
+      call step_to_blocking(iterate%force, noise, tied, state, force, 0, locked, scene%rows%point_space)
+      iterate%force = force
+    end if
+  end subroutine step_from_balance
+
+  !> The states of the points, (n).
+  pure function states_of(iterate) result(state)
+    type(contact_iterate), intent(in) :: iterate
+    integer :: state(size(iterate%contact))
+
+    state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
+    if (allocated(iterate%at_upper)) where (iterate%contact .and. iterate%at_upper) state = FUGE_AT_UPPER_STOP
+  end function states_of
+
+end module fuge_contact_set_search

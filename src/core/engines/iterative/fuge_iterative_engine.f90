@@ -1,0 +1,434 @@
+!> The iterative engine: from checked data to a solution, using only products with the operator.
+!>
+!> It solves in two stages: nested iteration over the coarser grids of the operator provides forces
+!> to start from (fuge_nested_grids); the contact set search on the finest grid improves them to
+!> the tolerance (fuge_contact_set_search).
+module fuge_iterative_engine
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_complete_contact, only: equal_forces_displace_nothing
+  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_contact_iterate, only: contact_iterate, deformed_gap, evaluate_iterate, make_feasible, start_iterate
+  use fuge_contact_scene, only: contact_scene
+  use fuge_contact_set_search, only: find_contact_set, search_settings, states_of
+  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_contact_window, only: solve_in_window, survey_level
+  use fuge_engine_messages, only: report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
+  use fuge_general_scene, only: assemble_general, set_general_scene
+  use fuge_iterated_set, only: iterated_set
+  use fuge_iteration_error, only: estimated_force_error, find_rounding
+  use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor
+  use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: fuge_options, iteration_limit
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_point_space, only: point_space
+  use fuge_repeated_points, only: find_repeated_points
+  use fuge_scene_scaling, only: scene_scaling
+  use fuge_set_compliance, only: probe_compliance
+  use fuge_shared_rows, only: rows_of
+  use fuge_shared_transfer, only: prolong_to
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
+    FUGE_WARN_NOT_UNIQUE
+  use fuge_warm_start, only: load_history
+  use fuge_wrong_points, only: choose_contact
+  implicit none
+  private
+
+  public :: is_general, solve_by_iteration
+
+  !> Forces up to this many units in the last place of the largest force are rounding, and so is a mean
+  !> gap up to as many of the largest gap.
+  real(dp), parameter :: ROUNDINGS = 4.0_dp
+
+contains
+
+  !> Does the problem have rigid modes of its own, play or exclusions? Then `solve_by_iteration` needs its canonical
+  !> form.
+  pure function is_general(problem)
+    type(fuge_problem), intent(in) :: problem
+    logical :: is_general
+
+    is_general = allocated(problem%modes) .or. allocated(problem%gap_upper) .or. allocated(problem%excluded)
+  end function is_general
+
+  !> Solve a contact problem by iteration.
+  !>
+  !> `problem` checked; if plain, with a load > 0; `canonical` its canonical form, if it is general.
+  !> `history`: earlier solutions to start from, and this one on success. `last` the set of the last solve with this
+  !> operator, on return that of this one. `solution` may be unallocated; after an error it is
+  !> undefined. Errors:
+  !> FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT,
+  !> FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED. The arguments are nine, because the solver keeps what one solve leaves to
+  !> the next.
+  subroutine solve_by_iteration(operator, problem, canonical, options, monitor, history, last, solution, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(load_history), intent(inout) :: history
+    type(iterated_set), intent(inout) :: last
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(contact_iterate) :: iterate
+    type(contact_scene) :: scene
+    type(scene_scaling) :: scaling
+    type(search_settings) :: coarse_settings, settings
+    real(dp) :: force, length
+    integer :: coarse_products, fine_products
+    type(point_space) :: space
+
+    history%started_warm = .false.
+    space = operator%space()
+    coarse_settings%limit = iteration_limit(options, space%total_count(operator%points()) + 1)
+    settings = coarse_settings
+    settings%tolerance = options%tolerance
+    settings%coarse_grid = .false.
+    call rows_of(operator, 0, scene%rows, info)
+    if (info%failed()) return
+    if (is_general(problem)) then
+      call set_general_scene(problem, canonical, scene, scaling, info)
+    else
+      call set_simple_scene(problem, scene, scaling, info)
+    end if
+    if (info%failed()) return
+    call check_approach(operator, problem, scene, info)
+    if (.not. info%failed()) call try_warm_start(operator, problem, scene, scaling, history, iterate, info)
+    settings%prepared = history%started_warm
+    coarse_products = -info%products
+    if (.not. (info%failed() .or. settings%prepared)) then
+      call start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, info)
+    end if
+    if (info%failed()) return
+    coarse_products = coarse_products + info%products
+    fine_products = -info%products
+    call find_contact_set(operator, settings, scene, monitor, iterate, info)
+    if (.not. info%failed()) call keep_set(iterate, last, info)
+    if (info%failed()) return
+    fine_products = fine_products + info%products
+    if (settings%prepared) then
+      call history%record_warm(iterate%start_error, fine_products)
+    else
+      call history%record_cold(iterate%start_error, options%tolerance, coarse_products, fine_products)
+    end if
+    call assemble(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    if (info%failed()) return
+    call find_rounding(problem, canonical, scene, scaling%load, iterate, solution, length, force)
+    call judge_forces(operator, scene, length, force, monitor, iterate, info)
+    if (info%failed()) return
+    last%least_compliance = iterate%least_compliance
+    last%tolerance = options%tolerance
+    ! The history needs memory of its own.
+    call discard(iterate)
+    call history%store(problem, scene%rows%point_space, solution)
+  end subroutine solve_by_iteration
+
+  !> The solution in the units of the problem. Error: FUGE_ERR_MEMORY.
+  subroutine assemble(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+
+    if (is_general(problem)) then
+      call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    else
+      call assemble_simple(operator, scene, scaling, iterate, solution, info)
+    end if
+  end subroutine assemble
+
+  !> The estimated error of the forces, info%force_error, and a warning where two points are repeated, so that forces
+  !> are not unique. `length` and `force` as from `find_rounding`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED, those of
+  !> the operator.
+  subroutine judge_forces(operator, scene, length, force, monitor, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: length, force
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: pair_compliance
+    logical :: repeated
+
+    call find_compliance(operator, scene, length, monitor, iterate, pair_compliance, repeated, info)
+    if (info%failed()) return
+    if (repeated .and. info%status == FUGE_WARN_NOT_UNIQUE) then
+      call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_AND_UNRESISTED)
+    else if (repeated) then
+      call report(info, FUGE_WARN_NOT_UNIQUE, SINGULAR_ON_CONTACT)
+    end if
+    info%force_error = estimated_force_error(iterate, pair_compliance, length, force)
+  end subroutine judge_forces
+
+  !> The least compliance of the contact set, by which errors of the forces are judged: iterate%least_compliance and
+  !> `pair_compliance` of the operator; and whether two points are `repeated`: then the forces are not unique. `length`
+  !> as from `find_rounding`. Errors: those of the operator, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED.
+  subroutine find_compliance(operator, scene, length, monitor, iterate, pair_compliance, repeated, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: length
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), intent(out) :: pair_compliance
+    logical, intent(out) :: repeated
+    type(fuge_info), intent(inout) :: info
+    logical :: enough, preconditioned
+    integer :: pair(2)
+
+    repeated = .false.
+    if (allocated(scene%modes)) then
+      pair_compliance = operator%least_pair_compliance(iterate%contact, scene%modes)
+    else
+      pair_compliance = operator%least_pair_compliance(iterate%contact, reshape([real(dp) ::], [size(scene%gap), 0]))
+    end if
+    preconditioned = operator%has_preconditioner()
+    ! On a grid the preconditioner is close to an inverse, and what conjugate gradients have found is enough.
+    enough = preconditioned .and. iterate%least_compliance > 0.0_dp
+    if (enough) enough = all(operator%grid() > 0)
+    if (.not. enough) call probe_compliance(operator, scene, length, monitor, iterate, info)
+    if (info%failed()) return
+    repeated = .not. pair_compliance > 0.0_dp
+    if (preconditioned .or. pair_compliance < huge(pair_compliance)) return
+    call find_repeated_points(operator, scene, iterate, pair, info)
+    repeated = pair(1) > 0
+  end subroutine find_compliance
+
+  !> Keep the contact set for derivatives, and what conjugate gradients found on it. A start that needs no step tells
+  !> nothing of the operator: the last solve on the same set does. Error: FUGE_ERR_MEMORY.
+  subroutine keep_set(iterate, last, info)
+    type(contact_iterate), intent(inout) :: iterate
+    type(iterated_set), intent(inout) :: last
+    type(fuge_info), intent(inout) :: info
+    logical :: same
+    integer :: stat
+
+    stat = 0
+    same = .false.
+    if (allocated(last%state)) then
+      if (size(last%state) /= size(iterate%contact)) deallocate (last%state)
+    end if
+    if (.not. allocated(last%state)) then
+      allocate (last%state(size(iterate%contact)), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of ' &
+                                 //text(size(iterate%contact))//' points')
+    else
+      same = all((last%state /= FUGE_OPEN) .eqv. iterate%contact)
+    end if
+    associate (space => iterate%segments%space)
+      call space%agree(info)
+      if (info%failed()) return
+      if (.not. iterate%least_compliance > 0.0_dp) then
+        if (space%everywhere(same)) iterate%least_compliance = last%least_compliance
+      end if
+    end associate
+    last%state = states_of(iterate)
+    last%least_compliance = iterate%least_compliance
+  end subroutine keep_set
+
+  !> Start from earlier solutions if that promises to cost less than coarser grids: history%started_warm, with the
+  !> contact set and the displacements of `iterate`, which otherwise stays as it was. Errors: FUGE_ERR_MEMORY, those of
+  !> the operator.
+  subroutine try_warm_start(operator, problem, scene, scaling, history, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
+    type(load_history), intent(inout) :: history
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: start(:)
+
+    call history%predict(problem, scene%rows%point_space, start)
+    if (.not. allocated(start)) return
+    ! Forces of another order of magnitude are no start, and their squares would overflow.
+    if (2*(exponent(scene%rows%largest(maxval(abs(start)))) - exponent(scaling%load)) > LARGEST_EXPONENT) return
+    start = start/scaling%load
+    call start_iterate(iterate, scene, start, info)
+    if (info%failed()) return
+    call choose_contact(scene, iterate)
+    if (scene%rows%anywhere(any(iterate%contact))) then
+      call make_feasible(operator, scene, iterate, info)
+      if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
+      if (info%failed()) return
+      call history%judge(iterate%start_error)
+    end if
+    if (.not. history%started_warm) call discard(iterate)
+  end subroutine try_warm_start
+
+  !> Free all arrays.
+  subroutine discard(iterate)
+    type(contact_iterate), intent(out) :: iterate
+
+    iterate%converged = .false.
+  end subroutine discard
+
+  !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points; its rows are
+  !> set. Errors: FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  subroutine set_simple_scene(problem, scene, scaling, info)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(inout) :: scene
+    type(scene_scaling), intent(out) :: scaling
+    type(fuge_info), intent(inout) :: info
+
+    scene%prescribed = .not. problem%is_plain()
+    call choose_scaling(problem, scene%rows%point_space, scaling)
+    call check_range(problem, scene%rows%point_space, info)
+    if (.not. info%failed()) call reduce_gap(problem%gap, scaling, scene%gap, info)
+    call scene%rows%agree(info)
+  end subroutine set_simple_scene
+
+  !> Start `iterate` by coarser grids, and where the contact is small by a window of the finest one; where the operator
+  !> has neither, from what start_iterate chooses. Errors: those of nested_iteration.
+  subroutine start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: coarse_settings, settings
+    type(contact_scene), intent(in) :: scene
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    type(shared_work) :: work
+    real(dp), allocatable :: start(:)
+    integer :: level
+    logical :: solved
+
+    solved = .false.
+    level = 0
+    if (scene%is_simple()) level = survey_level(operator)
+    call nested_iteration(operator, coarse_settings, scene, coarsest_level(operator), max(level, 1), monitor, &
+                          start, work, info)
+    if (level > 0 .and. allocated(start) .and. .not. info%failed()) then
+      call solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, &
+                           iterate%least_compliance, info)
+    end if
+    if (.not. (solved .or. info%failed())) then
+      call nested_iteration(operator, coarse_settings, scene, level - 1, 1, monitor, start, work, info)
+      if (allocated(start) .and. .not. info%failed()) call prolong_to(operator, start, info)
+    end if
+    info%products = info%products + ceiling(work%products/real(scene%points(), dp))
+    info%preconditionings = info%preconditionings + ceiling(work%preconditionings/real(scene%points(), dp))
+    if (.not. info%failed()) call start_iterate(iterate, scene, start, info)
+  end subroutine start_on_coarser_grids
+
+  !> What the iteration subtracts from gaps, the prescribed motion or else the least gap, and what
+  !> it divides forces and lengths by: the load, or 1 for a prescribed motion.
+  subroutine choose_scaling(problem, space, scaling)
+    type(fuge_problem), intent(in) :: problem
+    type(point_space), intent(in) :: space
+    type(scene_scaling), intent(out) :: scaling
+
+    if (problem%is_plain()) then
+      scaling%gap_datum = space%least(minval(problem%gap))
+      scaling%load = problem%resultant(1)
+    else
+      scaling%gap_datum = problem%motion(1)
+    end if
+  end subroutine choose_scaling
+
+  !> reduced_gap = (gap - gap_datum)/load, both gaps (n). Error: FUGE_ERR_MEMORY.
+  pure subroutine reduce_gap(gap, scaling, reduced_gap, info)
+    real(dp), intent(in) :: gap(:)
+    type(scene_scaling), intent(in) :: scaling
+    real(dp), allocatable, intent(out) :: reduced_gap(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (reduced_gap(size(gap)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(size(gap))//' points')
+    else
+      reduced_gap = (gap - scaling%gap_datum)/scaling%load
+    end if
+  end subroutine reduce_gap
+
+  !> Forces, gaps and motion in the units of the problem. Error: FUGE_ERR_MEMORY.
+  subroutine assemble_simple(operator, scene, scaling, iterate, solution, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: force(:), gap(:), motion(:)
+    real(dp) :: largest
+    integer :: n, stat
+
+    n = size(scene%gap)
+    allocate (force(n), gap(n), motion(1), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    largest = scene%rows%largest(maxval(iterate%force))
+    where (iterate%force <= ROUNDINGS*epsilon(1.0_dp)*largest) iterate%force = 0.0_dp
+    force = scaling%load*iterate%force
+    gap = scaling%load*max(deformed_gap(scene%gap, iterate%displacement, iterate%motion), 0.0_dp)
+    where (iterate%contact) gap = 0.0_dp
+    motion = scaling%gap_datum
+    if (.not. iterate%prescribed) then
+      motion = (scaling%load*iterate%motion + operator%datum()*scene%rows%total(sum(force))) &
+               + scaling%gap_datum
+    end if
+    call move_alloc(force, solution%force)
+    call move_alloc(gap, solution%gap)
+    call move_alloc(motion, solution%motion)
+  end subroutine assemble_simple
+
+  !> Refuse prescribed motions at which the mean gap is closed, or open by no more than the rounding of the
+  !> gaps, where equal forces displace nothing, as on a periodic surface: no forces resist it, or
+  !> any equal ones do. Errors: FUGE_ERR_NO_EQUILIBRIUM, those of equal_forces_displace_nothing.
+  subroutine check_approach(operator, problem, scene, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(contact_scene), intent(in) :: scene
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: largest, mean
+
+    if (.not. scene%is_simple() .or. .not. scene%prescribed) return
+    ! Without any motion there is none to change.
+    if (problem%mode_count() < 1) return
+    mean = scene%rows%total(sum(scene%gap))/real(scene%points(), dp)
+    largest = scene%rows%largest(max(maxval(abs(scene%gap)), maxval(abs(problem%gap))))
+    if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), &
+                                                      scene%rows%largest(maxval(abs(scene%gap))))
+    if (mean > ROUNDINGS*epsilon(mean)*largest) return
+    if (.not. equal_forces_displace_nothing(operator, info)) return
+    if (info%failed()) return
+    if (allocated(problem%modes)) then
+      call report_closed_gap(-mean, info)
+    else
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
+                  //'hold the approach '//text(problem%motion(1))//', at which the mean gap is closed: prescribe ' &
+                  //'less than '//text(problem%motion(1) + mean)//', or a load')
+    end if
+  end subroutine check_approach
+
+  !> Refuse gaps so large that their squares overflow, after division by the load if there is one.
+  !> Error: FUGE_ERR_OVERFLOW.
+  subroutine check_range(problem, space, info)
+    type(fuge_problem), intent(in) :: problem
+    type(point_space), intent(in) :: space
+    type(fuge_info), intent(inout) :: info
+    integer :: excess
+
+    if (.not. problem%is_plain()) then
+      excess = exponent(space%largest(maxval(abs(problem%gap - problem%motion(1)))))
+    else
+      excess = exponent(space%largest(maxval(problem%gap)) - space%least(minval(problem%gap))) &
+               - exponent(problem%resultant(1))
+    end if
+    if (2*excess <= LARGEST_EXPONENT) return
+    if (problem%is_plain()) then
+      call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess)//' times the load: choose units in which ' &
+                  //'they are nearer to it')
+    else
+      call report(info, FUGE_ERR_OVERFLOW, 'the gaps differ by 2**'//text(excess)//' from the prescribed approach: ' &
+                  //'choose units in which lengths are nearer to 1')
+    end if
+  end subroutine check_range
+
+end module fuge_iterative_engine

@@ -1,0 +1,192 @@
+!> Search directions whose forces store no energy, because the operator is singular.
+!>
+!> Where the forces of a contact set can change along such a direction, the residual cannot: if it works on them,
+!> nothing on this set can stop them. Either some force changes its sign, and its point leaves the set, or none does,
+!> and the contact problem has no solution (Farkas' lemma, for a convex quadratic program).
+module fuge_null_direction
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum
+  use fuge_contact_scene, only: contact_scene
+  use fuge_contact_segments, only: max_abs_over
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  public :: find_softness, largest_energy, leave_null_direction, softness_so_far, stores_no_energy
+
+  !> So many units in the last place of the terms of an energy are none.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
+  !> Forces of a direction below this fraction of its largest one are what it has of others.
+  real(dp), parameter :: NO_FORCE = 1.0e-4_dp
+  !> A step along the direction goes this fraction of the forces beyond the first zero.
+  real(dp), parameter :: BEYOND = 1.0e-3_dp
+
+contains
+
+  !> Note the largest displacement by forces of size 1, iterate%softness; iterate%work is the displacement by the search
+  !> direction. The first direction may be one that displaces nothing: then from the terms of its displacement, which
+  !> the operator of a grid or a matrix knows, and for operators without a grid also from a product with one force and
+  !> from the displacements so far. Errors: FUGE_ERR_MEMORY, those of the operator.
+  subroutine find_softness(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: force
+    real(dp), allocatable :: terms(:), unit(:)
+    integer :: stat
+
+    force = max_abs_over(iterate%segments, iterate%direction)
+    if (.not. force > 0.0_dp) return
+    if (.not. iterate%softness > 0.0_dp) then
+      allocate (terms(size(iterate%work)), unit(size(iterate%work)), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements of ' &
+                                 //text(size(iterate%work))//' points')
+      call scene%rows%agree(info)
+      if (info%failed()) return
+      call operator%magnitude(iterate%direction, iterate%work, terms)
+      iterate%softness = iterate%segments%space%largest(maxval(terms))/force
+      if (.not. all(operator%grid() > 0)) then
+        unit = 0.0_dp
+        unit(iterate%segments%first(1)) = 1.0_dp
+        call compute_displacement(operator, counts_datum(scene, iterate), unit, terms, info)
+        if (.not. info%failed()) iterate%softness = max(iterate%softness, maxval(abs(terms)), &
+                                                        softness_so_far(scene, iterate))
+      end if
+    end if
+    iterate%softness = max(iterate%softness, iterate%segments%space%largest(maxval(abs(iterate%work)))/force)
+  end subroutine find_softness
+
+  !> The largest displacement over the largest force; 0 without forces, or where displacements include rigid ones.
+  function softness_so_far(scene, iterate) result(softness)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: softness
+    real(dp) :: largest(2)
+
+    softness = 0.0_dp
+    if (allocated(scene%modes) .or. .not. allocated(iterate%displacement)) return
+    largest = [maxval(abs(iterate%force)), maxval(abs(iterate%displacement))]
+    call scene%rows%raise(largest)
+    if (largest(1) > 0.0_dp) softness = largest(2)/largest(1)
+  end function softness_so_far
+
+  !> Is the energy `curvature` of the search direction no more than rounding?
+  function stores_no_energy(iterate, curvature) result(none)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: curvature
+    logical :: none
+
+    none = abs(curvature) <= ROUNDINGS*epsilon(curvature)*largest_energy(iterate)
+  end function stores_no_energy
+
+  !> The energy that forces as large as those of the search direction could store, after `find_softness`.
+  function largest_energy(iterate) result(energy)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: energy
+
+    energy = iterate%softness*max_abs_over(iterate%segments, iterate%direction)*total_force(iterate)
+  end function largest_energy
+
+  !> The sum of the magnitudes of the forces of the search direction.
+  function total_force(iterate) result(total)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: total
+    integer :: i
+
+    total = 0.0_dp
+    do i = 1, size(iterate%segments%first)
+      total = total + sum(abs(iterate%direction(iterate%segments%first(i):iterate%segments%last(i))))
+    end do
+    total = iterate%segments%space%total(total)
+  end function total_force
+
+  !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search
+  !> direction; nothing where it is tied.
+  pure function loss_at(scene, iterate, k) result(loss)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    real(dp) :: loss
+
+    loss = 0.0_dp
+    if (.not. iterate%contact(k) .or. scene%is_tied(k)) return
+    loss = sign_at(iterate, k)*iterate%direction(k)
+  end function loss_at
+
+  !> The sign of a force at the stop where point `k` is.
+  pure function sign_at(iterate, k) result(sign_of_force)
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    real(dp) :: sign_of_force
+
+    sign_of_force = 1.0_dp
+    if (.not. allocated(iterate%at_upper)) return
+    if (iterate%at_upper(k)) sign_of_force = -1.0_dp
+  end function sign_at
+
+  !> Go from the forces at the start against the search direction, which stores no energy, until a force has changed its
+  !> sign, unless one has already; iterate%unbounded if none ever does. Not where the direction does no work beyond
+  !> rounding: `energy` is its work for a step of 1, and the mean residual in it is at most `tolerance` times the
+  !> lengths of the scene.
+  subroutine leave_null_direction(scene, tolerance, energy, iterate)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: tolerance, energy
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: force, least, loss, step_length
+    logical :: stays
+    integer :: k
+
+    if (energy <= (tolerance*length_of(scene, iterate) + iterate%rounding)*total_force(iterate)) return
+    iterate%unbounded = .true.
+    stays = .false.
+    ! On the way here they have grown.
+    if (allocated(iterate%start)) iterate%force = iterate%start
+    least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
+    step_length = huge(step_length)
+    do k = 1, size(iterate%contact)
+      loss = loss_at(scene, iterate, k)
+      if (.not. loss > least) cycle
+      iterate%unbounded = .false.
+      force = sign_at(iterate, k)*iterate%force(k)
+      stays = stays .or. force < -iterate%tension_noise
+      step_length = min(step_length, max(force, 0.0_dp)/loss)
+    end do
+    associate (space => scene%rows%point_space)
+      iterate%unbounded = space%everywhere(iterate%unbounded)
+      step_length = space%least(step_length)
+      stays = space%anywhere(stays)
+    end associate
+    if (iterate%unbounded .or. stays) return
+    step_length = step_length + BEYOND*force_scale(scene, iterate)/max_abs_over(iterate%segments, iterate%direction)
+    iterate%force = iterate%force - step_length*iterate%direction
+  end subroutine leave_null_direction
+
+  !> The largest of gaps, plays and displacements by the resultants. Not of the displacements by the forces, which may
+  !> already have grown.
+  function length_of(scene, iterate) result(length)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: length
+
+    length = maxval(abs(scene%gap), mask=iterate%contact)
+    if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=iterate%contact .and. iterate%at_upper))
+    if (allocated(scene%balance)) length = max(length, iterate%softness*maxval(abs(scene%balance)))
+    length = scene%rows%largest(length)
+    ! Under a load the forces do not grow together.
+    if (.not. scene%prescribed) length = max(length, iterate%least_magnitude)
+  end function length_of
+
+  !> The size of the forces, or of those that would close the gaps.
+  function force_scale(scene, iterate) result(force)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: force
+
+    force = scene%rows%largest(maxval(abs(iterate%force)))
+    if (.not. force > 0.0_dp .and. iterate%softness > 0.0_dp) force = length_of(scene, iterate)/iterate%softness
+  end function force_scale
+
+end module fuge_null_direction

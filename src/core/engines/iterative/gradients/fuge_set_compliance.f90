@@ -1,0 +1,224 @@
+!> The least compliance of a contact set: by how little forces without resultants displace it.
+!>
+!> Conjugate gradients see only those forces that the residual asks for. Where alpha is badly conditioned, or the start
+!> was exact, others that hardly displace anything take no part, although they may be wrong by much. Random lengths ask
+!> for all forces. Points that are open by no more than the equations are wrong, or than the gaps and motions are
+!> rounded, may as well be in contact, and count.
+module fuge_set_compliance
+  use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, deformed_gap
+  use fuge_contact_preconditioner, only: contact_preconditioner
+  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_segments, only: center_over, contact_segments, dot_over, max_abs_over, sum_over
+  use fuge_iteration_progress, only: tell_progress
+  use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor
+  use fuge_null_direction, only: find_softness, softness_so_far, stores_no_energy
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_projected_gradients, only: precondition_residual, update_direction
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  public :: probe_compliance
+
+  !> Points touch within this many times the error of the equations.
+  real(dp), parameter :: WITHIN = 4.0_dp
+  !> The smallest value is looked at after the first of these numbers of steps, then each time after the second one.
+  integer, parameter :: FIRST_LOOK = 2, STRIDE = 3
+  integer, parameter :: MOST_STEPS = 60
+  !> The monitor hears of a long search after each of so many steps.
+  integer, parameter :: STEPS_OF_A_REPORT = 10
+  !> It has settled if it is above this fraction of the one before.
+  real(dp), parameter :: SETTLED = 0.7_dp
+
+contains
+
+  !> Lower iterate%least_compliance to what conjugate gradients find for random lengths on the points that touch; to the
+  !> least positive number where the operator is singular there.
+  !>
+  !> `rounding` is the length that rounding leaves open of gaps and motions. A few products, none where the forces
+  !> follow from equilibrium alone, at most MOST_STEPS and one more; `monitor` may cancel. Errors: FUGE_ERR_MEMORY,
+  !> FUGE_ERR_CANCELLED, those of the operator.
+  subroutine probe_compliance(operator, scene, rounding, monitor, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: rounding
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    type(contact_preconditioner) :: preconditioner
+    type(contact_iterate) :: probe
+    real(dp) :: value
+
+    value = -1.0_dp
+    call start_probe(scene, rounding, iterate, probe, info)
+    if (info%failed() .or. follow_from_equilibrium(scene, probe)) return
+    call preconditioner%set(operator, probe%contact, .not. probe%prescribed, maxval(abs(iterate%displacement)), info)
+    if (allocated(scene%modes) .and. .not. info%failed()) then
+      call preconditioner%set_modes(operator, probe%projection, probe%segments, probe%contact, info)
+    end if
+    if (.not. info%failed()) call find_smallest_value(operator, scene, iterate, monitor, preconditioner, probe, value, &
+                                                      info)
+    if (info%failed() .or. value < 0.0_dp) return
+    value = max(value, tiny(value))
+    if (iterate%least_compliance > 0.0_dp) value = min(value, iterate%least_compliance)
+    iterate%least_compliance = value
+  end subroutine probe_compliance
+
+  !> The points that `touch` (n): the contact set, and those whose distance from a stop is within the error of the
+  !> equations and the `rounding` of gaps and motions.
+  subroutine mark_touching(scene, rounding, iterate, touch)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: rounding
+    type(contact_iterate), intent(in) :: iterate
+    logical, intent(out) :: touch(:)
+    real(dp) :: open, gap
+    integer :: k
+
+    touch = iterate%contact
+    open = WITHIN*(max(iterate%residual_norm, iterate%penetration) + iterate%rounding &
+                   + epsilon(open)*max_abs_over(iterate%segments, iterate%work)) + rounding
+    do k = 1, size(touch)
+      if (touch(k) .or. scene%gap(k) >= OUT_OF_REACH) cycle
+      gap = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
+      touch(k) = gap <= open
+      if (allocated(scene%play)) touch(k) = touch(k) .or. gap >= scene%play(k) - open
+    end do
+  end subroutine mark_touching
+
+  !> Are the forces of the set those of equilibrium alone, whatever the operator?
+  pure function follow_from_equilibrium(scene, probe) result(follow)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: probe
+    logical :: follow
+    integer :: resultants
+
+    resultants = merge(0, 1, probe%prescribed)
+    if (allocated(scene%modes)) resultants = probe%projection%rank
+    follow = probe%segments%points <= resultants
+  end function follow_from_equilibrium
+
+  !> Random lengths, probe%residual, on the points that touch, probe%contact, less the rigid motion in them. `rounding`
+  !> as for `probe_compliance`. Error: FUGE_ERR_MEMORY.
+  subroutine start_probe(scene, rounding, iterate, probe, info)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: rounding
+    type(contact_iterate), intent(in) :: iterate
+    type(contact_iterate), intent(inout) :: probe
+    type(fuge_info), intent(inout) :: info
+    integer(int64) :: seed
+    integer :: k, n, stat
+
+    n = size(iterate%contact)
+    allocate (probe%residual(n), probe%direction(n), probe%work(n), probe%contact(n), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to estimate the error of '//text(n)//' forces')
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    probe%prescribed = iterate%prescribed
+    probe%softness = iterate%softness
+    if (.not. probe%softness > 0.0_dp) probe%softness = softness_so_far(scene, iterate)
+    call mark_touching(scene, rounding, iterate, probe%contact)
+    probe%segments%space = scene%rows%point_space
+    call probe%segments%find(probe%contact, info)
+    if (allocated(scene%modes) .and. .not. info%failed()) call probe%projection%set(scene%modes, probe%segments, info)
+    if (info%failed()) return
+    probe%direction = 0.0_dp
+    ! The minimal standard generator (S. K. Park, K. W. Miller, Communications of the ACM 31, 1988).
+    ! Ranks have lengths of their own.
+    seed = 1043618065_int64 + scene%rows%number()
+    do k = 1, n
+      seed = mod(16807_int64*seed, 2147483647_int64)
+      probe%residual(k) = merge(2.0_dp*real(seed, dp)/2147483647.0_dp - 1.0_dp, 0.0_dp, probe%contact(k))
+    end do
+    call remove_rigid_part(scene, probe)
+  end subroutine start_probe
+
+  !> Take the rigid motion out of the lengths of the set.
+  subroutine remove_rigid_part(scene, probe)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: probe
+    real(dp), allocatable :: parts(:)
+    real(dp) :: mean
+
+    if (allocated(scene%modes)) then
+      allocate (parts(size(scene%load)))
+      call probe%projection%components(probe%segments, probe%residual, parts)
+      call probe%projection%subtract_on(probe%segments, parts, probe%residual)
+    else if (.not. probe%prescribed) then
+      mean = sum_over(probe%segments, probe%residual)/real(probe%segments%points, dp)
+      call center_over(probe%segments, mean, probe%residual, probe%residual_norm)
+    end if
+  end subroutine remove_rigid_part
+
+  !> Conjugate gradients from the lengths of `probe` on, until the smallest value of Lanczos has settled: the compliance
+  !> that it stands for, 0 where the operator is singular, negative where no lengths are left. Of a long search
+  !> `monitor` hears as of one more iteration on `iterate`, and may cancel. Errors: those of the
+  !> operator and of its preconditioner, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED.
+  subroutine find_smallest_value(operator, scene, iterate, monitor, preconditioner, probe, value, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_preconditioner), intent(inout) :: preconditioner
+    type(contact_iterate), intent(inout) :: probe
+    real(dp), intent(out) :: value
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: amplification, curvature, energy, first, last, previous
+    integer :: step
+
+    last = huge(last)
+    previous = 1.0_dp
+    value = -1.0_dp
+    do step = 1, MOST_STEPS
+      call precondition_residual(operator, scene, preconditioner, probe, energy, info)
+      if (info%failed()) return
+      if (step == 1) then
+        if (.not. energy > 0.0_dp) return
+        first = energy
+        amplification = max_abs_over(probe%segments, probe%work)/max_abs_over(probe%segments, probe%residual)
+      end if
+      ! Without energy left only rounding would follow.
+      if (.not. energy > epsilon(first)*first) exit
+      call update_direction(probe%segments, energy/previous, probe%work, probe%direction)
+      call compute_displacement(operator, counts_datum(scene, probe), probe%direction, probe%work, info)
+      if (.not. info%failed()) call find_softness(operator, scene, probe, info)
+      value = 0.0_dp
+      if (info%failed()) return
+      curvature = dot_over(probe%segments, probe%direction, probe%work)
+      if (.not. curvature > 0.0_dp) return
+      if (stores_no_energy(probe, curvature)) return
+      call probe%lanczos%add(energy/curvature, energy/previous)
+      previous = energy
+      if (modulo(step, STRIDE) == FIRST_LOOK) then
+        value = probe%lanczos%smallest()
+        if (value > SETTLED*last) exit
+        last = value
+      end if
+      if (modulo(step, STEPS_OF_A_REPORT) == 0) then
+        call tell_progress(scene, iterate, monitor, info)
+        if (info%failed()) return
+      end if
+      call subtract_over(probe%segments, energy/curvature, probe%work, probe%residual)
+      call remove_rigid_part(scene, probe)
+    end do
+    value = probe%lanczos%smallest()/amplification
+  end subroutine find_smallest_value
+
+  !> Subtract `factor` times `change` from `lengths`, both (n), on the set.
+  pure subroutine subtract_over(segments, factor, change, lengths)
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in) :: factor
+    real(dp), intent(in), contiguous :: change(:)
+    real(dp), intent(inout), contiguous :: lengths(:)
+    integer :: i
+
+    do i = 1, size(segments%first)
+      associate (a => segments%first(i), b => segments%last(i))
+        lengths(a:b) = lengths(a:b) - factor*change(a:b)
+      end associate
+    end do
+  end subroutine subtract_over
+
+end module fuge_set_compliance

@@ -1,0 +1,505 @@
+!> Forces on the points of a grid with their contact set, the displacements by them and their errors.
+module fuge_contact_iterate
+  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_segments, only: center_over, contact_segments, max_abs_over, sum_over
+  use fuge_contact_step, only: deepest_penetration
+  use fuge_kinds, only: dp
+  use fuge_lanczos_values, only: lanczos_values
+  use fuge_mode_projection, only: mode_projection
+  use fuge_number_text, only: text
+  use fuge_operator_products, only: multiply
+  use fuge_operator_type, only: fuge_operator
+  use fuge_point_space, only: point_space
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  public :: clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
+    find_penetration, is_accurate, largest_term, make_feasible, project_residual, rounding_force, start_iterate
+
+  !> Units in the last place by which gaps less rigid displacements may be rounded.
+  real(dp), parameter :: ROUNDINGS = 2.0_dp
+  !> Displacements below this fraction of the gaps are rounding.
+  real(dp), parameter :: NO_LENGTH = 1.0e-14_dp
+
+  !> Forces with their contact set and their errors. Under a load, forces and lengths are divided
+  !> by the load; with a prescribed motion they are not scaled.
+  type, public :: contact_iterate
+    !> Forces, (n); their sum is 1 unless the motion is prescribed.
+    real(dp), allocatable :: force(:)
+    !> Displacements by these forces, (n); without the operator's datum unless the motion is
+    !> prescribed, and less the rigid displacement `rigid_motion` where there are modes.
+    real(dp), allocatable :: displacement(:)
+    !> The contact set, (n).
+    logical, allocatable :: contact(:)
+    !> The contact is at the upper stop, (n); allocated where points have one.
+    logical, allocatable :: at_upper(:)
+    !> No translation is free, or it is one of several modes.
+    logical :: prescribed = .false.
+    !> The rigid motion: the mean of gap plus displacement over the contact set; 0 if prescribed.
+    real(dp) :: motion = 0.0_dp
+    !> Motions in the modes of the scene, (m); allocated where it has any.
+    real(dp), allocatable :: rigid_motion(:)
+    !> Largest magnitude of gap plus displacement less motion on the contact set.
+    real(dp) :: residual_norm = huge(1.0_dp)
+    !> With modes: the largest residual norm since the last projection of the residual.
+    real(dp) :: unprojected = 0.0_dp
+    !> Deepest penetration of an open point, 0 if none penetrates.
+    real(dp) :: penetration = 0.0_dp
+    !> Residuals are compared with this length: the least magnitude at a contact point, as in the
+    !> certificate (|gap less rigid motion| plus the magnitude of the displacement).
+    real(dp) :: least_magnitude = 0.0_dp
+    !> Lengths up to this are rounding of the gaps and of rigid displacements, beside which there may be no others; 0
+    !> where there are no modes.
+    real(dp) :: rounding = 0.0_dp
+    !> Tensions up to this are rounding.
+    real(dp) :: tension_noise = 0.0_dp
+    !> The largest displacement by forces of size 1, as far as it has been asked for; 0 before; length per force.
+    real(dp) :: softness = 0.0_dp
+    !> Do forces of the set that store no energy grow for ever, so that there is no solution?
+    logical :: unbounded = .false.
+    !> The greater of residual norm and penetration over the least magnitude, for the forces to start from; negative
+    !> before that is known.
+    real(dp) :: start_error = -1.0_dp
+    !> Did run_projected_gradients reduce the residual to its tolerance?
+    logical :: converged = .false.
+    !> The least compliance of this contact set that conjugate gradients have found, length per force: the smallest
+    !> value of `lanczos` over `amplification`; 0 before any step.
+    real(dp) :: least_compliance = 0.0_dp
+    !> The largest preconditioned residual over the largest residual, of one that is nearly small enough; force per
+    !> length; 0 before any step.
+    real(dp) :: amplification = 0.0_dp
+    !> The coefficients of the conjugate gradients of the last call that made steps.
+    type(lanczos_values) :: lanczos = lanczos_values()
+    !> The rigid motions on the contact set.
+    type(mode_projection) :: projection = mode_projection()
+    !> The segments of the contact set.
+    type(contact_segments) :: segments = contact_segments()
+    !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
+    !> the contact set.
+    real(dp), allocatable :: residual(:), direction(:)
+    !> Forces at the start of the last run of conjugate gradients, (n); allocated where they may grow without bound.
+    real(dp), allocatable :: start(:)
+    !> In turn the preconditioned residual and the displacement by `direction`, (n).
+    real(dp), allocatable :: work(:)
+  end type contact_iterate
+
+contains
+
+  !> Allocate all arrays for the points of a scene and set the forces to start from: `start` (n), scaled as in
+  !> contact_iterate, if there are any; else equal forces, or none if the motion is prescribed, or the least forces
+  !> that have the resultants. Errors: FUGE_ERR_MEMORY.
+  subroutine start_iterate(iterate, scene, start, info)
+    type(contact_iterate), intent(inout) :: iterate
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in), optional :: start(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: n, stat
+
+    n = size(scene%gap)
+    allocate (iterate%force(n), iterate%displacement(n), iterate%contact(n), iterate%residual(n), &
+              iterate%direction(n), iterate%work(n), stat=stat)
+    if (stat == 0 .and. allocated(scene%play)) allocate (iterate%at_upper(n), stat=stat)
+    if (stat == 0 .and. scene%prescribed) allocate (iterate%start(n), stat=stat)
+    if (stat == 0 .and. allocated(scene%modes)) allocate (iterate%rigid_motion(size(scene%load)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    iterate%segments%space = scene%rows%point_space
+    iterate%prescribed = scene%prescribed
+    if (present(start)) then
+      iterate%force = start
+    else if (allocated(scene%modes)) then
+      call find_least_forces(scene, iterate, info)
+    else if (scene%prescribed) then
+      iterate%force = 0.0_dp
+    else
+      iterate%force = 1.0_dp/real(scene%points(), dp)
+    end if
+  end subroutine start_iterate
+
+  !> The least forces at the points that take part, of either sign, that have the resultants.
+  subroutine find_least_forces(scene, iterate, info)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    logical :: possible
+
+    iterate%contact = .true.
+    if (allocated(scene%excluded)) iterate%contact = .not. scene%excluded
+    iterate%force = 0.0_dp
+    call iterate%segments%find(iterate%contact, info)
+    if (.not. info%failed()) call iterate%projection%set(scene%modes, iterate%segments, info)
+    if (.not. info%failed()) call iterate%projection%correct_resultants(scene%modes, scene%load, iterate%segments, &
+                                                                        iterate%force, possible)
+  end subroutine find_least_forces
+
+  !> Make the forces feasible: zero off the contact set, of the right sign, and with the resultants. Recompute their
+  !> displacements.
+  !>
+  !> With modes, forces of the wrong sign may come back with the resultants; where the set cannot carry these at all,
+  !> the points of scene%balance join it. Errors: those of the operator, FUGE_ERR_MEMORY.
+  subroutine make_feasible(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: largest(2)
+
+    call clip_forces(scene, iterate)
+    if (allocated(scene%modes)) then
+      iterate%rigid_motion = 0.0_dp
+      call restore_resultants(scene, iterate, info)
+    else if (.not. iterate%prescribed) then
+      call restore_load(iterate)
+    end if
+    if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
+                                                       iterate%displacement, info)
+    ! Forces to start from may be the rounding of those under another load.
+    if (scene%is_unloaded() .and. .not. info%failed()) then
+      largest = [maxval(abs(iterate%force)), maxval(abs(iterate%displacement))]
+      call scene%rows%raise(largest)
+      if (largest(1) > 0.0_dp) iterate%softness = max(iterate%softness, largest(2)/largest(1))
+    end if
+  end subroutine make_feasible
+
+  !> No forces off the contact set, nor of the wrong sign on it.
+  pure subroutine clip_forces(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    integer :: k
+
+    if (.not. allocated(scene%play)) then
+      where (iterate%contact)
+        iterate%force = max(iterate%force, 0.0_dp)
+      else where
+        iterate%force = 0.0_dp
+      end where
+      return
+    end if
+    do k = 1, size(iterate%force)
+      if (.not. iterate%contact(k)) then
+        iterate%force(k) = 0.0_dp
+      else if (scene%is_tied(k)) then
+        cycle
+      else if (iterate%at_upper(k)) then
+        iterate%force(k) = min(iterate%force(k), 0.0_dp)
+      else
+        iterate%force(k) = max(iterate%force(k), 0.0_dp)
+      end if
+    end do
+  end subroutine clip_forces
+
+  !> Forces of sum 1; equal ones where there are none.
+  subroutine restore_load(iterate)
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: total
+
+    total = iterate%segments%space%total(sum(iterate%force))
+    if (total > 0.0_dp) then
+      iterate%force = iterate%force/total
+    else
+      total = real(iterate%segments%space%total_count(count(iterate%contact)), dp)
+      where (iterate%contact) iterate%force = 1.0_dp/total
+    end if
+  end subroutine restore_load
+
+  !> Forces with the resultants of the scene, on the set, or on the set and the points of scene%balance.
+  subroutine restore_resultants(scene, iterate, info)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    logical :: possible
+    integer :: trial
+
+    do trial = 1, 2
+      call iterate%segments%find(iterate%contact, info)
+      if (.not. info%failed()) call iterate%projection%set(scene%modes, iterate%segments, info)
+      if (info%failed()) return
+      call iterate%projection%correct_resultants(scene%modes, scene%load, iterate%segments, iterate%force, possible)
+      if (possible .or. trial > 1) return
+      where (.not. iterate%contact) iterate%force = scene%balance
+      if (allocated(iterate%at_upper)) then
+        where (.not. iterate%contact) iterate%at_upper = scene%balance < 0.0_dp
+      end if
+      iterate%contact = iterate%contact .or. abs(scene%balance) > 0.0_dp
+    end do
+  end subroutine restore_resultants
+
+  !> Evaluate motion, residual, penetration and least magnitude from the forces, displacements and
+  !> contact set of `iterate`, after `make_feasible`. Error: FUGE_ERR_MEMORY.
+  subroutine evaluate_iterate(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    call iterate%segments%find(iterate%contact, info)
+    if (info%failed()) return
+    call set_residual(scene, iterate)
+    iterate%motion = 0.0_dp
+    ! The projection of large numbers is rounded: the second one removes what is left.
+    call project_residual(scene, iterate)
+    call project_residual(scene, iterate)
+    iterate%penetration = find_penetration(scene, iterate)
+    call find_least_magnitude(operator, scene, iterate, info)
+    if (info%failed()) return
+    if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
+  end subroutine evaluate_iterate
+
+  !> The greater of residual norm and penetration over the least magnitude; huge where that is zero.
+  pure function relative_error(iterate) result(error)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: error
+
+    error = max(iterate%residual_norm, iterate%penetration)
+    if (error > 0.0_dp) then
+      if (iterate%least_magnitude > 0.0_dp .and. error < iterate%least_magnitude*sqrt(huge(error))) then
+        error = error/iterate%least_magnitude
+      else
+        error = huge(error)
+      end if
+    end if
+  end function relative_error
+
+  !> Gap plus displacement less the stop, before rigid motions are subtracted.
+  pure subroutine set_residual(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    integer :: i, last
+
+    last = 0
+    do i = 1, size(iterate%segments%first)
+      iterate%residual(last + 1:iterate%segments%first(i) - 1) = 0.0_dp
+      last = iterate%segments%last(i)
+      associate (a => iterate%segments%first(i))
+        iterate%residual(a:last) = scene%gap(a:last) + iterate%displacement(a:last)
+      end associate
+    end do
+    iterate%residual(last + 1:) = 0.0_dp
+    if (.not. allocated(scene%play)) return
+    where (iterate%contact .and. iterate%at_upper) iterate%residual = iterate%residual - scene%play
+  end subroutine set_residual
+
+  !> Move the rigid part of the residual into the motion, unless that is prescribed: left in the
+  !> residual, its rounding error would grow and swamp the rest.
+  subroutine project_residual(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), allocatable :: parts(:)
+    real(dp) :: mean
+
+    if (allocated(scene%modes)) then
+      allocate (parts(size(scene%load)))
+      call iterate%projection%components(iterate%segments, iterate%residual, parts)
+      call iterate%projection%subtract_on(iterate%segments, parts, iterate%residual)
+      call iterate%projection%subtract(parts, iterate%displacement)
+      iterate%rigid_motion = iterate%rigid_motion + iterate%projection%motion(parts)
+      iterate%residual_norm = max_abs_over(iterate%segments, iterate%residual)
+      iterate%unprojected = iterate%residual_norm
+      return
+    end if
+    mean = 0.0_dp
+    if (.not. iterate%prescribed) mean = sum_over(iterate%segments, iterate%residual)/real(iterate%segments%points, dp)
+    call center_over(iterate%segments, mean, iterate%residual, iterate%residual_norm)
+    iterate%motion = iterate%motion + mean
+  end subroutine project_residual
+
+  !> The deepest penetration of an open point, through either stop; 0 if none penetrates.
+  function find_penetration(scene, iterate) result(depth)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: depth
+    integer :: k
+
+    depth = deepest_penetration(iterate%segments, scene%gap, iterate%motion, iterate%displacement)
+    if (.not. allocated(scene%play)) return
+    do k = 1, size(scene%gap)
+      if (iterate%contact(k) .or. scene%play(k) >= huge(depth) .or. scene%gap(k) >= OUT_OF_REACH) cycle
+      depth = max(depth, deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion) - scene%play(k))
+    end do
+    depth = scene%rows%largest(depth)
+  end function find_penetration
+
+  !> The least magnitude as the certificate forms it, over the contact points: the size of the gap less the rigid
+  !> displacement plus the magnitude of the elastic one. Without contact 0, because nothing is rounded. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine find_least_magnitude(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: elastic(:)
+    real(dp) :: offset
+
+    if (iterate%prescribed .or. allocated(scene%modes)) call new_lengths(scene, elastic, info)
+    if (info%failed()) return
+    offset = 0.0_dp
+    ! As in the certificate, without the displacement by the datum, which cancels against the motion.
+    if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%total(sum(iterate%force))
+    if (allocated(scene%modes)) then
+      iterate%rounding = ROUNDINGS*epsilon(offset)*largest_term(scene, iterate)
+      call add_magnitudes(operator, scene, offset, iterate, elastic, info)
+      if (info%failed()) return
+      iterate%least_magnitude = least_over(iterate%segments, iterate%work)
+    else if (iterate%prescribed) then
+      elastic = iterate%displacement - offset
+      call operator%magnitude(iterate%force, elastic, iterate%work)
+      iterate%least_magnitude = least_sum(iterate%segments, offset, scene%gap, iterate%work)
+    else
+      call operator%magnitude(iterate%force, iterate%displacement, iterate%work)
+      iterate%least_magnitude = least_sum(iterate%segments, -iterate%motion, scene%gap, iterate%work)
+    end if
+  end subroutine find_least_magnitude
+
+  !> Room for a length at each point, (n). Error: FUGE_ERR_MEMORY.
+  subroutine new_lengths(scene, lengths, info)
+    type(contact_scene), intent(in) :: scene
+    real(dp), allocatable, intent(out) :: lengths(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (lengths(size(scene%gap)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(scene%gap)) &
+                               //' points')
+    call scene%rows%agree(info)
+  end subroutine new_lengths
+
+  !> The magnitudes of scenes with modes, in iterate%work (n). On return `elastic` (n) has the displacement without its
+  !> rigid part. Error: FUGE_ERR_MEMORY.
+  subroutine add_magnitudes(operator, scene, offset, iterate, elastic, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: offset
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), intent(out) :: elastic(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: rigid(:)
+    integer :: j
+
+    call new_lengths(scene, rigid, info)
+    if (info%failed()) return
+    rigid = 0.0_dp
+    do j = 1, size(iterate%rigid_motion)
+      rigid = rigid + iterate%rigid_motion(j)*scene%modes(:, j)
+    end do
+    elastic = (iterate%displacement + rigid) - offset
+    call operator%magnitude(iterate%force, elastic, iterate%work)
+    iterate%work = abs((scene%gap - rigid) + offset) + iterate%work
+  end subroutine add_magnitudes
+
+  !> The largest sum of the terms of a gap and a rigid displacement on the contact set.
+  function largest_term(scene, iterate) result(largest)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: largest, rigid
+    integer :: i, k
+
+    largest = 0.0_dp
+    rigid = abs(iterate%motion)
+    do i = 1, size(iterate%segments%first)
+      do k = iterate%segments%first(i), iterate%segments%last(i)
+        if (allocated(scene%modes)) rigid = sum(abs(scene%modes(k, :)*iterate%rigid_motion))
+        largest = max(largest, abs(scene%gap(k)) + rigid)
+      end do
+    end do
+    largest = scene%rows%largest(largest)
+  end function largest_term
+
+  !> Is the residual within `tolerance`, relative to the least magnitude, or rounding?
+  pure function is_accurate(iterate, tolerance)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: tolerance
+    logical :: is_accurate
+
+    is_accurate = iterate%residual_norm <= tolerance*iterate%least_magnitude + iterate%rounding
+  end function is_accurate
+
+  !> The least of |gap + offset| + magnitude over the segments, 0 if there are none; `gap`, `magnitude` (n).
+  function least_sum(segments, offset, gap, magnitude) result(least)
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in) :: offset
+    real(dp), intent(in), contiguous :: gap(:), magnitude(:)
+    real(dp) :: least
+    integer :: i, k
+
+    least = merge(huge(least), 0.0_dp, segments%points > 0)
+    do i = 1, size(segments%first)
+      do k = segments%first(i), segments%last(i)
+        least = min(least, abs(gap(k) + offset) + magnitude(k))
+      end do
+    end do
+    least = segments%space%least(least)
+  end function least_sum
+
+  !> The least of `values` (n) over the segments, 0 if there are none.
+  function least_over(segments, values) result(least)
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in), contiguous :: values(:)
+    real(dp) :: least
+    integer :: i
+
+    least = merge(huge(least), 0.0_dp, segments%points > 0)
+    do i = 1, size(segments%first)
+      least = min(least, minval(values(segments%first(i):segments%last(i))))
+    end do
+    least = segments%space%least(least)
+  end function least_over
+
+  !> Forces up to this one are rounding. Without a load there is none to compare them with: then those count that
+  !> displace nothing beside the gaps.
+  function rounding_force(scene, iterate) result(rounding)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: rounding
+    real(dp) :: length
+
+    rounding = 0.0_dp
+    if (.not. scene%is_unloaded()) return
+    rounding = tiny(rounding)
+    length = maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH)
+    if (allocated(scene%play)) length = max(length, maxval(scene%play, mask=scene%play < huge(length) &
+                                                           .and. scene%gap < OUT_OF_REACH))
+    length = scene%rows%largest(length)
+    if (.not. length > 0.0_dp) then
+      ! Nothing asks for forces.
+      rounding = huge(rounding)
+    else if (iterate%softness > 0.0_dp) then
+      rounding = max(rounding, NO_LENGTH*(length/iterate%softness))
+    end if
+  end function rounding_force
+
+  !> Do displacements include those by the operator's datum? Only where no free motion absorbs them.
+  pure function counts_datum(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    logical :: counts_datum
+
+    counts_datum = iterate%prescribed .and. .not. scene%absorbs_datum
+  end function counts_datum
+
+  !> Displacements by `force`, both (n), and by the operator's datum if `with_datum`. Errors: those of the operator.
+  subroutine compute_displacement(operator, with_datum, force, displacement, info)
+    class(fuge_operator), intent(in) :: operator
+    logical, intent(in) :: with_datum
+    real(dp), intent(in), contiguous :: force(:)
+    real(dp), intent(inout), contiguous :: displacement(:)
+    type(fuge_info), intent(inout) :: info
+    type(point_space) :: space
+
+    call multiply(operator, force, displacement, info)
+    if (.not. with_datum .or. info%failed()) return
+    space = operator%space()
+    displacement = displacement + operator%datum()*space%total(sum(force))
+  end subroutine compute_displacement
+
+  !> Gap of a point in the deformed state; negative where the point penetrates. Scaled as in
+  !> contact_iterate.
+  elemental function deformed_gap(reduced_gap, displacement, motion) result(gap)
+    real(dp), intent(in) :: reduced_gap, displacement, motion
+    real(dp) :: gap
+
+    gap = (reduced_gap - motion) + displacement
+  end function deformed_gap
+
+end module fuge_contact_iterate

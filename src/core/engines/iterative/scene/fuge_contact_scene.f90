@@ -1,0 +1,253 @@
+!> The contact problem of one grid as the iteration solves it, and the same problem on a coarser grid.
+!>
+!> Most problems have one translation, free or prescribed, and one-sided contact everywhere: what else a scene has is
+!> allocated only where it has it.
+module fuge_contact_scene
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_shared_equilibrium, only: find_shared_equilibrium
+  use fuge_shared_rows, only: shared_rows
+  use fuge_shared_transfer, only: restrict_rows
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  public :: coarser_scene
+
+  !> c = gap + A f - modes q, modes^T f = load, between the stops 0 <= c <= play. Gaps, plays and forces are divided by
+  !> a load. Points that are excluded have the gap OUT_OF_REACH.
+  type, public :: contact_scene
+    !> Initial gaps less their datum or the displacements by prescribed motions, (n).
+    real(dp), allocatable :: gap(:)
+    !> No translation with the resultant 1 is free.
+    logical :: prescribed = .false.
+    !> Play, (n), huge where one-sided; not allocated: one-sided everywhere.
+    real(dp), allocatable :: play(:)
+    !> Points that take no part in the contact, (n); not allocated: none.
+    logical, allocatable :: excluded(:)
+    !> Free rigid modes (n, m) and their resultants (m), with `prescribed`; not allocated: none.
+    real(dp), allocatable :: modes(:, :), load(:)
+    !> Forces at few points that are in equilibrium with `load`, (n).
+    real(dp), allocatable :: balance(:)
+    !> The modes contain a translation, which absorbs the operator's datum.
+    logical :: absorbs_datum = .false.
+    !> Which rows of the grid each rank has, where several share the points.
+    type(shared_rows) :: rows = shared_rows()
+  contains
+    procedure :: points
+    procedure :: is_simple
+    procedure :: is_unloaded
+    procedure :: is_tied
+    procedure :: tied_points
+  end type contact_scene
+
+  !> No displacement closes this gap.
+  real(dp), parameter, public :: OUT_OF_REACH = 0.01_dp*huge(1.0_dp)
+  !> A mode whose means over the cells are below this fraction of it varies within cells only: what is left of it may be
+  !> rounding, which would count as a mode like any other.
+  real(dp), parameter :: LEFT_OF_MODE = 0.1_dp
+
+contains
+
+  !> Number of points, of all ranks.
+  pure function points(self) result(n)
+    class(contact_scene), intent(in) :: self
+    integer :: n
+
+    n = self%rows%points(size(self%gap))
+  end function points
+
+  !> One translation, free or prescribed, and one-sided contact at all points?
+  pure function is_simple(self)
+    class(contact_scene), intent(in) :: self
+    logical :: is_simple
+
+    is_simple = .not. (allocated(self%modes) .or. allocated(self%play) .or. allocated(self%excluded))
+  end function is_simple
+
+  !> Are there modes, and no resultants in them? Then forces only balance each other.
+  pure function is_unloaded(self)
+    class(contact_scene), intent(in) :: self
+    logical :: is_unloaded
+
+    is_unloaded = allocated(self%modes)
+    if (is_unloaded) is_unloaded = .not. any(abs(self%load) > 0.0_dp)
+  end function is_unloaded
+
+  !> Does the gap of point `k` stay zero, whatever its force?
+  pure function is_tied(self, k)
+    class(contact_scene), intent(in) :: self
+    integer, intent(in) :: k
+    logical :: is_tied
+
+    is_tied = .false.
+    if (.not. allocated(self%play)) return
+    is_tied = self%play(k) <= 0.0_dp
+    if (allocated(self%excluded)) is_tied = is_tied .and. .not. self%excluded(k)
+  end function is_tied
+
+  !> Points that are tied, (n).
+  pure function tied_points(self) result(tied)
+    class(contact_scene), intent(in) :: self
+    logical :: tied(size(self%gap))
+    integer :: k
+
+    do k = 1, size(tied)
+      tied(k) = self%is_tied(k)
+    end do
+  end function tied_points
+
+  !> The scene on the grid whose cells are 2**level times as wide as those of `finest`, with means over the points of
+  !> a cell that take part. `possible` is false if no forces there carry the resultants. `rows`: those of the coarse
+  !> grid, where ranks share them. Error: FUGE_ERR_MEMORY.
+  subroutine coarser_scene(scene, finest, level, coarse, possible, info, rows)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: finest(2), level
+    type(contact_scene), intent(out) :: coarse
+    logical, intent(out) :: possible
+    type(fuge_info), intent(inout) :: info
+    type(shared_rows), intent(in), optional :: rows
+    real(dp), allocatable :: share(:)
+
+    possible = .true.
+    coarse%prescribed = scene%prescribed
+    coarse%absorbs_datum = scene%absorbs_datum
+    if (present(rows)) coarse%rows = rows
+    if (scene%is_simple()) then
+      call restrict_rows(scene%rows, coarse%rows, finest, level, scene%gap, coarse%gap, info)
+      return
+    end if
+    call restrict_share(scene, coarse%rows, finest, level, share, info)
+    if (.not. info%failed()) call restrict_part(scene, coarse%rows, scene%gap, finest, level, share, coarse%gap, info)
+    if (.not. info%failed()) call restrict_play(scene, finest, level, share, coarse, info)
+    if (.not. info%failed()) call restrict_modes(scene, finest, level, share, coarse, info)
+    if (info%failed()) return
+    if (allocated(scene%excluded)) then
+      coarse%excluded = .not. share > 0.0_dp
+      where (coarse%excluded) coarse%gap = OUT_OF_REACH
+    end if
+    if (allocated(coarse%modes)) call find_balance(coarse, possible, info)
+  end subroutine coarser_scene
+
+  !> `share`: the fraction of the points of each coarse cell that take part.
+  subroutine restrict_share(scene, rows, finest, level, share, info)
+    type(contact_scene), intent(in) :: scene
+    type(shared_rows), intent(in) :: rows
+    integer, intent(in) :: finest(2), level
+    real(dp), allocatable, intent(out) :: share(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: taking_part(:)
+    integer :: stat
+
+    allocate (taking_part(size(scene%gap)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(scene%gap))//' cells')
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    taking_part = 1.0_dp
+    if (allocated(scene%excluded)) taking_part = merge(0.0_dp, 1.0_dp, scene%excluded)
+    call restrict_rows(scene%rows, rows, finest, level, taking_part, share, info)
+  end subroutine restrict_share
+
+  !> `coarse`: the means of `values` (n) over the points that take part, 0 in cells without any. Error: FUGE_ERR_MEMORY.
+  subroutine restrict_part(scene, rows, values, finest, level, share, coarse, info)
+    type(contact_scene), intent(in) :: scene
+    type(shared_rows), intent(in) :: rows
+    real(dp), intent(in), contiguous :: values(:)
+    integer, intent(in) :: finest(2), level
+    real(dp), intent(in) :: share(:)
+    real(dp), allocatable, intent(out) :: coarse(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: taking_part(:)
+    integer :: stat
+
+    if (allocated(scene%excluded)) then
+      allocate (taking_part(size(values)), stat=stat)
+      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(values))//' cells')
+      call scene%rows%agree(info)
+      if (stat /= 0 .or. info%failed()) return
+      taking_part = merge(0.0_dp, values, scene%excluded)
+      call restrict_rows(scene%rows, rows, finest, level, taking_part, coarse, info)
+      if (.not. info%failed()) where (share > 0.0_dp) coarse = coarse/share
+    else
+      call restrict_rows(scene%rows, rows, finest, level, values, coarse, info)
+    end if
+  end subroutine restrict_part
+
+  !> The mean play where all points of a cell have an upper stop, else huge. Error: FUGE_ERR_MEMORY.
+  subroutine restrict_play(scene, finest, level, share, coarse, info)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: finest(2), level
+    real(dp), intent(in) :: share(:)
+    type(contact_scene), intent(inout) :: coarse
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: endless(:), play(:)
+    integer :: stat
+
+    if (.not. allocated(scene%play)) return
+    allocate (play(size(scene%play)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the play of '//text(size(scene%play))//' cells')
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    play = merge(1.0_dp, 0.0_dp, scene%play >= huge(1.0_dp))
+    call restrict_part(scene, coarse%rows, play, finest, level, share, endless, info)
+    if (info%failed()) return
+    play = merge(0.0_dp, scene%play, scene%play >= huge(1.0_dp))
+    call restrict_part(scene, coarse%rows, play, finest, level, share, coarse%play, info)
+    if (.not. info%failed()) where (endless > 0.0_dp) coarse%play = huge(1.0_dp)
+  end subroutine restrict_play
+
+  !> The mean displacement of each cell by a motion, none where the motion is one within cells, and the same resultants.
+  subroutine restrict_modes(scene, finest, level, share, coarse, info)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: finest(2), level
+    real(dp), intent(in) :: share(:)
+    type(contact_scene), intent(inout) :: coarse
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: mode(:)
+    real(dp) :: sizes(2)
+    integer :: j, stat
+
+    if (.not. allocated(scene%modes)) return
+    allocate (coarse%modes(size(share), size(scene%load)), coarse%load(size(scene%load)), coarse%balance(size(share)), &
+              stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(size(share))//' cells')
+    end if
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    coarse%load = scene%load
+    do j = 1, size(scene%load)
+      call restrict_part(scene, coarse%rows, scene%modes(:, j), finest, level, share, mode, info)
+      if (info%failed()) return
+      sizes = [maxval(abs(scene%modes(:, j))), maxval(abs(mode))]
+      call scene%rows%raise(sizes)
+      coarse%modes(:, j) = merge(mode, 0.0_dp, sizes(2) > LEFT_OF_MODE*sizes(1))
+    end do
+  end subroutine restrict_modes
+
+  !> Forces in equilibrium with the resultants; `possible` if there are any. Error: FUGE_ERR_MEMORY.
+  subroutine find_balance(scene, possible, info)
+    type(contact_scene), intent(inout) :: scene
+    logical, intent(out) :: possible
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: remainder(size(scene%load))
+    logical, allocatable :: pushes(:), pulls(:)
+    integer :: stat
+
+    possible = .false.
+    allocate (pushes(size(scene%gap)), pulls(size(scene%gap)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium on '//text(size(scene%gap))//' cells')
+    end if
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    pushes = .true.
+    if (allocated(scene%excluded)) pushes = .not. scene%excluded
+    pulls = .false.
+    if (allocated(scene%play)) pulls = pushes .and. scene%play < huge(1.0_dp)
+    call find_shared_equilibrium(scene%rows%point_space, scene%modes, scene%load, pushes, pulls, scene%balance, &
+                                 remainder, epsilon(remainder)*spread(maxval(abs(scene%load)), 1, size(remainder)))
+    possible = .not. any(abs(remainder) > 0.0_dp)
+  end subroutine find_balance
+
+end module fuge_contact_scene

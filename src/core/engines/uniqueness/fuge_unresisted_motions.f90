@@ -1,0 +1,192 @@
+!> Rigid motions that the contact does not resist: they are not unique, though the forces are.
+module fuge_unresisted_motions
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_contact_solution, only: contact_solution
+  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: index_text, text
+  use fuge_pivoted_qr, only: orthogonal_complement
+  use fuge_point_space, only: point_space
+  use fuge_shared_columns, only: gather_spanning_rows
+  use fuge_shared_equilibrium, only: find_shared_equilibrium
+  use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM
+  implicit none
+  private
+
+  public :: find_unresisted_motion, find_unresisted_basis, is_resisted, mark_loaded, refuse_unresisted, &
+    report_unresisted_motion, without_unresisted
+
+  !> Rows of the modes that differ by less than this fraction count as one.
+  real(dp), parameter :: DEPENDENT = 1.0e-12_dp
+  !> A force below this fraction of the loads that it may carry is rounding.
+  real(dp), parameter :: NO_FORCE = 1.0e-14_dp
+  !> A resultant in an unresisted motion below this fraction of its terms is none.
+  real(dp), parameter :: NO_LOAD = 1.0e-10_dp
+
+contains
+
+  !> A motion (m) of the bodies that changes no force of the solution, or zero if there is none: the
+  !> motion of the solution is unique then. Error: FUGE_ERR_MEMORY.
+  subroutine find_unresisted_motion(canonical, solution, motion, info)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_solution), intent(in) :: solution
+    real(dp), intent(out) :: motion(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: basis(:, :), work(:)
+    logical, allocatable, dimension(:) :: loaded, resists_closing, resists_opening
+    integer :: j, n, stat
+
+    motion = 0.0_dp
+    n = size(solution%state)
+    allocate (work(n), loaded(n), resists_closing(n), resists_opening(n), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+    call canonical%space%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    call mark_loaded(canonical, solution, work, loaded)
+    call find_unresisted_basis(canonical%modes, loaded, basis, canonical%space)
+    associate (state => solution%state, gap => solution%gap)
+      ! A point that touches without force resists in one sense only.
+      resists_closing = loaded .or. ((state > FUGE_OPEN .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
+      resists_opening = loaded .or. ((state < FUGE_OPEN .or. gap >= canonical%upper) .and. .not. canonical%excluded)
+    end associate
+    do j = 1, size(basis, 2)
+      call find_shared_equilibrium(canonical%space, canonical%modes, basis(:, j), resists_closing, resists_opening, &
+                                   work, motion, epsilon(motion)*spread(maxval(abs(basis(:, j))), 1, size(motion)))
+      if (any(abs(motion) > 0.0_dp)) return
+      call find_shared_equilibrium(canonical%space, canonical%modes, -basis(:, j), resists_closing, resists_opening, &
+                                   work, motion, epsilon(motion)*spread(maxval(abs(basis(:, j))), 1, size(motion)))
+      if (any(abs(motion) > 0.0_dp)) return
+    end do
+  end subroutine find_unresisted_motion
+
+  !> Warn of a motion that the contact does not resist, by the mode that dominates it. An earlier warning in `info` is
+  !> that of forces that are not unique. Error: FUGE_ERR_MEMORY.
+  subroutine report_unresisted_motion(canonical, solution, info)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_solution), intent(in) :: solution
+    type(fuge_info), intent(inout) :: info
+    character(len=:), allocatable :: forces
+    real(dp) :: motion(size(canonical%load))
+
+    if (size(motion) < 1) return
+    forces = 'the forces are unique'
+    if (info%status == FUGE_WARN_NOT_UNIQUE) forces = 'nor are the forces unique, because alpha is singular there'
+    call find_unresisted_motion(canonical, solution, motion, info)
+    if (info%failed() .or. .not. any(abs(motion) > 0.0_dp)) return
+    call report(info, FUGE_WARN_NOT_UNIQUE, 'the contact does not resist motion ' &
+                //index_text(canonical%dominant_mode(motion)) &
+                //': its value, and the gaps that it moves, are one of many possible; '//forces)
+  end subroutine report_unresisted_motion
+
+  !> Points that are tied, or that carry more force than rounding makes, are `loaded` (n); `scale` (n) is work space.
+  subroutine mark_loaded(canonical, solution, scale, loaded)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_solution), intent(in) :: solution
+    real(dp), intent(out) :: scale(:)
+    logical, intent(out) :: loaded(:)
+    integer :: j
+
+    scale = 0.0_dp
+    do j = 1, size(canonical%load)
+      scale = max(scale, abs(canonical%modes(:, j)*canonical%load(j)))
+    end do
+    ! Without a load of its own a body may be squeezed between stops; the loads may also nearly cancel at a point.
+    if (canonical%has_bodies()) then
+      scale = max(scale, canonical%force_scale(solution%force))
+    else
+      scale = max(scale, canonical%space%largest(maxval(abs(solution%force))))
+    end if
+    loaded = solution%state /= FUGE_OPEN .and. (abs(solution%force) > NO_FORCE*scale &
+                                                .or. .not. canonical%upper > 0.0_dp)
+  end subroutine mark_loaded
+
+  !> An orthonormal basis of the motions q with R q = 0 at the points marked in `resists` (n).
+  !>
+  !> `modes` R (n, m) with columns of about the same size; `basis` (m, number of such motions). Where ranks, `sharing`,
+  !> share the points, the arguments are those of this rank, and all ranks call it.
+  subroutine find_unresisted_basis(modes, resists, basis, sharing)
+    real(dp), intent(in) :: modes(:, :)
+    logical, intent(in) :: resists(:)
+    real(dp), allocatable, intent(out) :: basis(:, :)
+    type(point_space), intent(in), optional :: sharing
+    type(point_space) :: space
+    real(dp), allocatable :: rows(:, :), spanning(:, :)
+    integer :: m, status
+
+    if (present(sharing)) space = sharing
+    m = size(modes, 2)
+    allocate (rows(m, count(resists)), spanning(m, m*space%members()), stat=status)
+    if (space%everywhere(status == 0)) then
+      call pack_rows(modes, resists, rows)
+      if (space%is_alone()) then
+        call orthogonal_complement(rows, DEPENDENT, basis, status)
+        return
+      end if
+      call gather_spanning_rows(space, rows, spanning, status)
+      if (status == 0) then
+        call orthogonal_complement(spanning, DEPENDENT, basis, status)
+        return
+      end if
+    end if
+    ! Without memory no motion counts as unresisted.
+    allocate (basis(m, 0))
+  end subroutine find_unresisted_basis
+
+  !> The rows of the `modes` (n, m) at the points `marked` (n), as the columns of `rows`.
+  pure subroutine pack_rows(modes, marked, rows)
+    real(dp), intent(in) :: modes(:, :)
+    logical, intent(in) :: marked(:)
+    real(dp), intent(out) :: rows(:, :)
+    integer :: column, k
+
+    column = 0
+    do k = 1, size(marked)
+      if (.not. marked(k)) cycle
+      column = column + 1
+      rows(:, column) = modes(k, :)
+    end do
+  end subroutine pack_rows
+
+  !> The motion (m) less its part in the `basis` of the unresisted ones.
+  pure function without_unresisted(motion, basis) result(rest)
+    real(dp), intent(in) :: motion(:), basis(:, :)
+    real(dp) :: rest(size(motion))
+    integer :: j
+
+    rest = motion
+    do j = 1, size(basis, 2)
+      rest = rest - dot_product(basis(:, j), motion)*basis(:, j)
+    end do
+  end function without_unresisted
+
+  !> Refuse changes `load` (m) of the resultants in a motion of the `basis` of the unresisted ones
+  !> (FUGE_ERR_NO_EQUILIBRIUM).
+  pure subroutine refuse_unresisted(load, basis, info)
+    real(dp), intent(in) :: load(:), basis(:, :)
+    type(fuge_info), intent(inout) :: info
+
+    if (is_resisted(load, basis)) return
+    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the contact does not resist the motions that these resultants act ' &
+                //'in: they would turn the body over, whatever the size of the change')
+  end subroutine refuse_unresisted
+
+  !> Do the resultants `load` (m) act in none of the unresisted motions, of which `basis` is an orthonormal basis?
+  !>
+  !> Each motion is judged by its own terms, because another body may carry far larger resultants, whose rounding does
+  !> not count.
+  pure function is_resisted(load, basis) result(resisted)
+    real(dp), intent(in) :: load(:), basis(:, :)
+    logical :: resisted
+    real(dp) :: rounding
+    integer :: j
+
+    resisted = .true.
+    if (size(basis, 2) < 1) return
+    rounding = 64.0_dp*epsilon(rounding)*maxval(abs(load))
+    do j = 1, size(basis, 2)
+      resisted = resisted .and. abs(dot_product(basis(:, j), load)) <= max(rounding, &
+                                                                           NO_LOAD*sum(abs(basis(:, j)*load)))
+    end do
+  end function is_resisted
+
+end module fuge_unresisted_motions

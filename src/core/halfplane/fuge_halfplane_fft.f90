@@ -1,0 +1,242 @@
+!> The elastic half-plane on a uniform grid, by FFT: A of `fuge_halfplane_matrix`, or of a
+!> periodic surface, in O(n log n) operations and O(n) memory.
+!>
+!> Force k acts on cell k of width h = `spacing`; only differences of positions matter. A
+!> depends on h only through the datum of the logarithm, which scales with h: the
+!> coefficients are pure numbers over e_star.
+module fuge_halfplane_fft
+  use fuge_convolution, only: convolution_kernel
+  use fuge_fft, only: fft_plan
+  use fuge_grid_operator_type, only: grid_operator
+  use fuge_halfplane_line, only: check_line, circle_of, coarsened, count_coarser, halfplane_line, least_magnitude, &
+    FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfplane_spectra, only: compute_line_spectra
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
+  implicit none
+  private
+
+  public :: FUGE_FREE, FUGE_PERIODIC
+
+  !> A coarser grid of fewer cells is transformed by one thread: starting more would take longer.
+  integer, parameter :: FEWEST_FOR_THREADS = 32768
+
+  !> Equal cells side by side on a half-plane: call `set`, then solve. It keeps the coarser grids of its
+  !> solves, which takes as much memory again.
+  !>
+  !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
+  type, extends(grid_operator), public :: fuge_halfplane_operator
+    private
+    !> No cells before `set`.
+    type(halfplane_line) :: line
+    !> Subtracted from all coefficients; length per force.
+    real(dp) :: datum_value = 0.0_dp
+    !> Transforms of the cells, of a free surface with some more to a length that is fast.
+    type(fft_plan) :: plan
+    !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
+    !> of a periodic surface.
+    type(convolution_kernel) :: influence, inverse
+  contains
+    procedure :: set
+    procedure :: set_threads
+    procedure :: points
+    procedure :: apply
+    procedure :: datum
+    procedure :: magnitude => halfplane_magnitude
+    procedure :: precondition
+    procedure :: grid
+    procedure :: coarsen
+    procedure, private :: copy
+    generic :: assignment(=) => copy
+  end type fuge_halfplane_operator
+
+contains
+
+  !> Set the operator of `n` cells of width `spacing`, side by side.
+  !>
+  !> `n` >= 1; `spacing` length; `e_star` = E/(1 - nu^2) in plane strain, force per
+  !> length squared. `element` FUGE_CENTRE, FUGE_MEAN (default) or FUGE_HAT; the last
+  !> two are the same on a uniform grid. `boundary` FUGE_FREE (default): the matrix of
+  !> `fuge_halfplane_matrix`; FUGE_PERIODIC: the period is n*spacing, and displacements
+  !> count from the mean of the surface, so that A is singular: equal forces on all
+  !> cells displace nothing. `threads` (default 1) is the number for each transform;
+  !> `measured` (default .false.) lets FFTW time its algorithms and take the fastest. The
+  !> arguments are nine, because the last four are optional and named by the caller.
+  !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
+  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
+  !> library without FFTW.
+  subroutine set(self, n, spacing, e_star, info, element, boundary, threads, measured)
+    class(fuge_halfplane_operator), intent(inout) :: self
+    integer, intent(in) :: n
+    real(dp), intent(in) :: spacing, e_star
+    type(fuge_info), intent(out) :: info
+    integer, intent(in), optional :: element, boundary, threads
+    logical, intent(in), optional :: measured
+    type(fuge_halfplane_operator) :: new
+
+    new%line%cells = n
+    new%line%spacing = spacing
+    new%line%e_star = e_star
+    if (present(element)) new%line%element = element
+    if (present(boundary)) new%line%boundary = boundary
+    call check_line(new%line, info)
+    if (.not. info%failed()) call plan_transforms(new, info, threads, measured)
+    if (.not. info%failed()) call compute_line_spectra(new%line, new%plan, new%influence, new%inverse, &
+                                                       new%datum_value, info)
+    if (.not. info%failed()) call new%coarser%create(count_coarser(n))
+    if (.not. info%failed()) call move_contents(self, new)
+  end subroutine set
+
+  !> Let `threads` >= 1 threads share each transform from now on; the products change by rounding only. Not
+  !> during a solve. Errors, which leave the operator as it was: FUGE_ERR_CALL_ORDER before `set`,
+  !> FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
+  subroutine set_threads(self, threads, info)
+    class(fuge_halfplane_operator), intent(inout) :: self
+    integer, intent(in) :: threads
+    type(fuge_info), intent(out) :: info
+
+    if (self%line%cells < 1) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it before its threads')
+      return
+    end if
+    call self%plan%set(self%plan%length, info, threads, self%plan%measured)
+    if (info%failed()) return
+    call self%coarser%create(count_coarser(self%line%cells))
+  end subroutine set_threads
+
+  !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  subroutine plan_transforms(operator, info, threads, measured)
+    type(fuge_halfplane_operator), intent(inout) :: operator
+    type(fuge_info), intent(inout) :: info
+    integer, intent(in), optional :: threads
+    logical, intent(in), optional :: measured
+    integer :: length
+
+    call circle_of(operator%line, length, info)
+    if (info%failed()) return
+    call operator%plan%set(length, info, threads, measured)
+    if (info%status == FUGE_ERR_MEMORY) call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%line%cells)//': ' &
+                                                    //composed_message(info))
+  end subroutine plan_transforms
+
+  !> Move the contents of `new` to `self`.
+  subroutine move_contents(self, new)
+    class(fuge_halfplane_operator), intent(inout) :: self
+    type(fuge_halfplane_operator), intent(inout) :: new
+
+    self%line = new%line
+    self%datum_value = new%datum_value
+    call self%influence%move_from(new%influence)
+    call self%inverse%move_from(new%inverse)
+    call self%plan%move_from(new%plan)
+    call self%coarser%move_from(new%coarser)
+  end subroutine move_contents
+
+  !> Assignment. If memory for the copy cannot be allocated, the copy is not set.
+  subroutine copy(self, source)
+    class(fuge_halfplane_operator), intent(inout) :: self
+    class(fuge_halfplane_operator), intent(in) :: source
+    integer :: cells, stat
+
+    cells = source%line%cells
+    self%line%cells = 0
+    ! Arrays of the right size are kept, because the source may be a bitwise copy of self that shares them.
+    call self%influence%copy_from(source%influence, stat)
+    if (stat == 0) call self%inverse%copy_from(source%inverse, stat)
+    self%plan = source%plan
+    self%line = source%line
+    self%datum_value = source%datum_value
+    call self%coarser%clear()
+    self%line%cells = 0
+    if (stat /= 0 .or. self%plan%length < 1) return
+    self%line%cells = cells
+    call self%coarser%create(count_coarser(cells))
+  end subroutine copy
+
+  !> Number of cells n; 0 before `set`.
+  pure function points(self) result(n)
+    class(fuge_halfplane_operator), intent(in) :: self
+    integer :: n
+
+    n = self%line%cells
+  end function points
+
+  !> u = (A - datum) f, with errors of about 1e-16 of its largest value.
+  !>
+  !> `force` (n), force; `displacement` (n), length. Safe in several threads at once. `status`: 0,
+  !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE or FUGE_ERR_MEMORY.
+  subroutine apply(self, force, displacement, status)
+    class(fuge_halfplane_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out) :: displacement(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(force), size(displacement), status)
+    if (status == FUGE_DONE) call self%influence%convolve(self%plan, force, displacement, status)
+  end subroutine apply
+
+  !> What is subtracted from all coefficients, length per force; 0 for a periodic surface.
+  function datum(self)
+    class(fuge_halfplane_operator), intent(in) :: self
+    real(dp) :: datum
+
+    datum = self%datum_value
+  end function datum
+
+  !> `magnitude` (n), length: the largest displacement; on a periodic surface, where equal forces
+  !> displace nothing, at least the terms of their displacement.
+  subroutine halfplane_magnitude(self, force, displacement, magnitude)
+    class(fuge_halfplane_operator), intent(in) :: self
+    real(dp), intent(in) :: force(:), displacement(:)
+    real(dp), intent(out) :: magnitude(:)
+
+    magnitude = max(maxval(abs(displacement)), least_magnitude(self%line, sum(abs(force))))
+  end subroutine halfplane_magnitude
+
+  !> The inverse on a periodic surface, exact except for the constant. A free surface is taken
+  !> for periodic, which changes little, because the coefficients of the inverse fall off
+  !> with the square of the distance, and takes half the time of a product.
+  !>
+  !> `displacement` (n), length; `force` (n), force; `status` as for `apply`.
+  subroutine precondition(self, displacement, force, status)
+    class(fuge_halfplane_operator), intent(in) :: self
+    real(dp), intent(in) :: displacement(:)
+    real(dp), intent(out) :: force(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(displacement), size(force), status)
+    if (status == FUGE_DONE) call self%inverse%convolve(self%plan, displacement, force, status)
+  end subroutine precondition
+
+  !> [n, 1] after `set`: the cells are side by side in the order of their numbers.
+  function grid(self) result(cells)
+    class(fuge_halfplane_operator), intent(in) :: self
+    integer :: cells(2)
+
+    cells = [self%line%cells, min(self%line%cells, 1)]
+  end function grid
+
+  !> Wider cells, with the same element and boundary, and on a periodic surface the same period,
+  !> which may make them a little narrower than 2**levels cells. Unallocated for fewer than
+  !> 32 wider cells, and without memory.
+  subroutine coarsen(self, levels, coarse)
+    class(fuge_halfplane_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    class(fuge_operator), allocatable, intent(out) :: coarse
+    type(fuge_halfplane_operator), allocatable :: wider
+    type(fuge_info) :: info
+    type(halfplane_line) :: line
+    integer :: stat, threads
+
+    line = coarsened(self%line, levels)
+    if (line%cells < 1) return
+    allocate (wider, stat=stat)
+    if (stat /= 0) return
+    threads = merge(self%plan%threads, 1, line%cells >= FEWEST_FOR_THREADS)
+    call wider%set(line%cells, line%spacing, line%e_star, info, line%element, line%boundary, threads)
+    if (.not. info%failed()) call move_alloc(wider, coarse)
+  end subroutine coarsen
+
+end module fuge_halfplane_fft

@@ -1,0 +1,477 @@
+!> The independent certificate: how far a solution is from the conditions of the contact problem.
+!>
+!> It shares no code with any engine but the call of the operator, and sees only the caller's data.
+module fuge_certificate
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_data_scales, only: data_length, is_loaded, is_prescribed, largest_of_bodies
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_operator_products, only: multiply_with_magnitude
+  use fuge_operator_type, only: fuge_operator
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_point_space, only: point_space
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  implicit none
+  private
+
+  public :: fuge_residual, find_violation
+
+  !> A resultant may differ by the rounding of the largest force: so many units in its last place.
+  real(dp), parameter :: ROUNDINGS = 16.0_dp
+  !> Forces below this part of the largest one of their body are judged beside that one where no load acts.
+  real(dp), parameter :: BESIDE = 1.0e-2_dp
+  !> Forces dwarf the data if the terms of their displacements exceed the lengths of the data by one over this factor.
+  real(dp), parameter :: DWARFED = 1.0e-6_dp
+  !> Violations of the gap equation above this may be those of rounding alone.
+  real(dp), parameter :: LEAST_SUSPECT = 1.0e-10_dp
+  !> A magnitude below this fraction of the displacement by the largest forces is no scale.
+  real(dp), parameter :: NO_SCALE = 256.0_dp*epsilon(1.0_dp)
+  !> Lengths left open count as resolved up to this fraction of the data.
+  real(dp), parameter :: RESOLVED = 1.0e-3_dp
+
+  !> Violations, each relative to the data; no unit. Huge until they are known.
+  type, public :: fuge_violation
+    !> Gap equation (9): c - (gap + A f - R q).
+    real(dp) :: gap_equation = huge(1.0_dp)
+    !> Signs, equation (10): negative forces, negative gaps, gaps beyond the upper stop.
+    real(dp) :: sign = huge(1.0_dp)
+    !> Complementary slackness, equation (10): the smaller one of a force and the distance from
+    !> its stop.
+    real(dp) :: complementarity = huge(1.0_dp)
+    !> Equilibrium, equation (11): R^T f - w; prescribed motions that q does not have.
+    real(dp) :: equilibrium = huge(1.0_dp)
+    !> Forces that dwarf the data: lengths that they leave open, or that are their rounding, relative to gaps, plays and
+    !> the displacement by the load. 0 where that is no more than a thousandth.
+    real(dp) :: unresolved = huge(1.0_dp)
+  contains
+    procedure :: worst
+  end type fuge_violation
+
+contains
+
+  !> The largest of the violations: the residual of a solve; no unit.
+  pure function worst(self)
+    class(fuge_violation), intent(in) :: self
+    real(dp) :: worst
+
+    associate (parts => [self%gap_equation, self%sign, self%complementarity, self%equilibrium, self%unresolved])
+      worst = maxval(parts)
+      ! maxval may ignore a NaN, which must not pass for small.
+      if (.not. all(parts <= huge(worst))) worst = huge(worst)
+    end associate
+  end function worst
+
+  !> How far a solution violates equations (9), (10) and (11).
+  !>
+  !> `operator` with n points; `problem` and `solution` in the same units; out: `violation`, huge
+  !> where a force is not finite. One product A f, and another one where lengths may be rounding.
+  !>
+  !> With d the datum of the operator, lengths at point k are compared with the magnitude
+  !> |gap_k - (R q)_k + d sum f| + sum_j |A_kj - d| |f_j|: the depth to which the point is pressed,
+  !> or its rigid gap, and the terms of its displacement. The magnitude depends neither on the
+  !> datum of the gaps or of A nor on other points. For one translation, the error of equation (9)
+  !> at the contact point of the least magnitude shows how exact v_0 is, and is compared with v_0
+  !> and its terms; elsewhere the error less that one is compared with the magnitude. For several
+  !> modes the whole error is. The rounding of the caller's own numbers, and that of R q, is not
+  !> counted. Forces are compared with the largest force of their body. Because the magnitudes grow with the forces,
+  !> `unresolved` compares the same errors with the data alone.
+  !>
+  !> Errors: FUGE_ERR_SIZE if an array is missing or of the wrong length; FUGE_ERR_MEMORY; those of
+  !> the product, FUGE_ERR_CALLBACK also for one that is not finite.
+  subroutine fuge_residual(operator, problem, solution, violation, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(fuge_violation), intent(out) :: violation
+    type(fuge_info), intent(out) :: info
+
+    call find_violation(operator, problem, solution, violation, info)
+  end subroutine fuge_residual
+
+  !> As `fuge_residual`, within a solve: `info` goes on counting products, and its status and
+  !> message change on an error only. Errors of the gaps up to `enough` stay as they are, although a further product
+  !> might show that some of them is rounding.
+  subroutine find_violation(operator, problem, solution, violation, info, enough)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(fuge_violation), intent(out) :: violation
+    type(fuge_info), intent(inout) :: info
+    real(dp), intent(in), optional :: enough
+    real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:), elastic(:)
+    real(dp) :: suspect
+    logical, allocatable :: included(:)
+    type(point_space) :: space
+    integer :: n, stat
+
+    suspect = LEAST_SUSPECT
+    if (present(enough)) suspect = max(suspect, enough)
+
+    space = operator%space()
+    if (.not. space%everywhere(sizes_agree(operator, problem, solution))) then
+      call report(info, FUGE_ERR_SIZE, 'certificate: an array is missing or not as long as the operator has points')
+      return
+    end if
+    ! Violations stay huge: a product with NaN would show nothing.
+    if (.not. space%everywhere(all(ieee_is_finite(solution%force)))) return
+    n = operator%points()
+    allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), elastic(n), included(n), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
+    call space%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    call multiply_with_magnitude(operator, solution%force, error, elastic, info)
+    if (info%failed()) return
+
+    included = .true.
+    if (allocated(problem%excluded)) included = .not. problem%excluded
+    call find_rigid_displacement(problem, solution, operator%datum(), space, rigid_displacement, rigid_magnitude)
+    error = (problem%gap - rigid_displacement) + error - solution%gap
+    magnitude = abs(problem%gap - rigid_displacement) + elastic
+    if (allocated(problem%modes)) then
+      ! Motions are solved for together: each one that moves a point is rounded like the largest magnitude of its body.
+      rigid_magnitude = rigid_magnitude + max(count(abs(problem%modes) > 0.0_dp, 2), 1) &
+                        *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included), &
+                                           space)
+    end if
+    violation%equilibrium = equilibrium_violation(problem, solution, space)
+    violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space)
+    call contact_violations(problem, solution, magnitude, included, space, violation)
+    violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
+                                           .not. allocated(problem%modes), space)
+    if (.not. violation%gap_equation > suspect) return
+    call take_out_rounding(operator, problem, solution%force, elastic, included, magnitude, rigid_magnitude, error, &
+                           info)
+    if (info%failed()) return
+    violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
+                                           .not. allocated(problem%modes), space)
+  end subroutine find_violation
+
+  !> Where all forces that displace a point are zero but for rounding, so is its magnitude, with which nothing can be
+  !> compared. There the error becomes smaller by the rounding of forces as large as the largest one of the body (M.
+  !> Arioli, J. W. Demmel, I. S. Duff, SIAM Journal on Matrix Analysis and Applications 10, 1989), and everywhere by that
+  !> of the motions, which follow from all displacements of the body.
+  !>
+  !> `elastic` (n) are the terms of A f. One more product. The arguments are more than eight because each length has
+  !> terms of its own. Errors: those of the product, FUGE_ERR_MEMORY.
+  subroutine take_out_rounding(operator, problem, force, elastic, included, magnitude, rigid_magnitude, error, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:), elastic(:), magnitude(:), rigid_magnitude(:)
+    logical, intent(in) :: included(:)
+    real(dp), intent(inout) :: error(:)
+    type(fuge_info), intent(inout) :: info
+    type(point_space) :: space
+    real(dp), allocatable, dimension(:) :: largest, of_bodies, rounding, terms
+    integer :: stat
+
+    space = operator%space()
+    allocate (largest(size(force)), of_bodies(size(force)), rounding(size(force)), terms(size(force)), stat=stat)
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the certificate of '//text(size(force))//' points')
+    call space%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    largest = space%largest(maxval(abs(force)))
+    if (allocated(problem%modes)) largest = largest_of_bodies(problem%modes, abs(force), space)
+    where (.not. included) largest = 0.0_dp
+    call multiply_with_magnitude(operator, largest, of_bodies, terms, info)
+    if (info%failed()) return
+    where (.not. included .or. magnitude > NO_SCALE*terms) terms = 0.0_dp
+    rounding = NO_SCALE*terms
+    ! Where no force displaces a point, its rigid gap may be the rounding of the gap and the motions.
+    where (elastic <= 0.0_dp .and. magnitude <= NO_SCALE*(abs(problem%gap) + rigid_magnitude))
+      rounding = NO_SCALE*(abs(problem%gap) + rigid_magnitude)
+    end where
+    terms = merge(terms + elastic, 0.0_dp, included)
+    largest = space%largest(maxval(terms + rigid_magnitude, mask=included))
+    if (allocated(problem%modes)) then
+      of_bodies = largest_of_bodies(problem%modes, terms, space)
+      ! A body that no force displaces has no lengths of its own.
+      where (of_bodies > 0.0_dp) largest = of_bodies
+    end if
+    rounding = rounding + 2.0_dp*epsilon(error)*largest
+    where (abs(error) <= rounding)
+      error = 0.0_dp
+    else where
+      error = error - sign(rounding, error)
+    end where
+  end subroutine take_out_rounding
+
+  !> R q less the displacement by the `datum`, (n), and the magnitude of its terms.
+  subroutine find_rigid_displacement(problem, solution, datum, space, rigid_displacement, rigid_magnitude)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: datum
+    type(point_space), intent(in) :: space
+    real(dp), intent(out) :: rigid_displacement(:), rigid_magnitude(:)
+    real(dp) :: shift
+    integer :: j
+
+    shift = datum*space%total(sum(solution%force))
+    ! Forces of both signs may cancel in the sum, but not their rounding.
+    rigid_magnitude = abs(datum)*space%total(sum(abs(solution%force)))
+    if (allocated(problem%modes)) then
+      rigid_displacement = -shift
+      do j = 1, size(solution%motion)
+        rigid_displacement = rigid_displacement + problem%modes(:, j)*solution%motion(j)
+        rigid_magnitude = rigid_magnitude + abs(problem%modes(:, j)*solution%motion(j))
+      end do
+    else
+      rigid_displacement = solution%motion(1) - shift
+      rigid_magnitude = rigid_magnitude + abs(solution%motion(1))
+    end if
+  end subroutine find_rigid_displacement
+
+  !> The error of equation (9); for one translation, the error that all points share (that of v_0)
+  !> and the rest are judged separately.
+  function gap_violation(error, magnitude, force, gap, rigid_magnitude, included, translation, space) result(violation)
+    real(dp), intent(in) :: error(:), magnitude(:), force(:), gap(:), rigid_magnitude(:)
+    logical, intent(in) :: included(:), translation
+    type(point_space), intent(in) :: space
+    real(dp) :: violation
+    real(dp) :: at_reference(4), key, largest, shared, rounding, excess
+    integer :: k, reference
+
+    violation = 0.0_dp
+    if (.not. space%anywhere(any(included))) return
+    largest = space%largest(maxval(abs(force)))
+    if (largest > 0.0_dp) then
+      ! A force of rounding size is no contact.
+      reference = minloc(magnitude, dim=1, mask=included .and. abs(force) > sqrt(epsilon(shared))*largest)
+    else
+      reference = minloc(gap, dim=1, mask=included)
+    end if
+    key = huge(key)
+    at_reference = 0.0_dp
+    if (reference > 0) then
+      key = merge(magnitude(reference), gap(reference), largest > 0.0_dp)
+      at_reference = [error(reference), magnitude(reference), gap(reference), rigid_magnitude(reference)]
+    end if
+    call space%take_from_least(key, at_reference)
+    shared = 0.0_dp
+    if (translation) shared = at_reference(1)
+    do k = 1, size(error)
+      ! max may ignore a NaN, which must not pass for small.
+      if (.not. abs(error(k)) <= huge(violation)) violation = huge(violation)
+      ! Half a unit in the last place each, of the gaps and of the motions, and as much for their sum.
+      rounding = abs(gap(k)) + abs(at_reference(3)) + rigid_magnitude(k)
+      excess = max(abs(error(k) - shared) - 2.0_dp*epsilon(shared)*rounding, 0.0_dp)
+      violation = max(violation, relative(excess, magnitude(k) + at_reference(2)))
+    end do
+    violation = space%largest(violation)
+    if (translation) violation = max(violation, &
+      relative(abs(shared), max(at_reference(4), abs(at_reference(3)), at_reference(2))))
+  end function gap_violation
+
+  !> Signs and complementarity, equation (10) at both stops.
+  subroutine contact_violations(problem, solution, magnitude, included, space, violation)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: magnitude(:)
+    logical, intent(in) :: included(:)
+    type(point_space), intent(in) :: space
+    type(fuge_violation), intent(inout) :: violation
+    real(dp), allocatable :: body_forces(:)
+    logical, allocatable :: loaded(:)
+    real(dp) :: largest, body_force, rounding, upper, stop_distance, parts(2)
+    integer :: k
+
+    violation%sign = 0.0_dp
+    violation%complementarity = 0.0_dp
+    largest = space%largest(maxval(abs(solution%force)))
+    upper = huge(upper)
+    body_force = largest
+    ! Not by assignment, for which gfortran compares bounds that are not there yet.
+    if (allocated(problem%modes)) then
+      allocate (body_forces, source=largest_of_bodies(problem%modes, abs(solution%force), space))
+      allocate (loaded, source=is_loaded(problem))
+    end if
+    do k = 1, size(magnitude)
+      if (allocated(body_forces)) body_force = body_forces(k)
+      if (.not. body_force > 0.0_dp) body_force = largest
+      ! Beside the largest force, smaller ones of other bodies may be rounding, but for those that carry a load.
+      rounding = merge(ROUNDINGS*epsilon(rounding)*largest, 0.0_dp, body_force < largest)
+      if (allocated(loaded)) rounding = merge(0.0_dp, rounding, loaded(k))
+      associate (f => solution%force(k), c => solution%gap(k))
+        if (.not. included(k)) then
+          violation%sign = max(violation%sign, relative(abs(f), largest))
+          cycle
+        end if
+        if (allocated(problem%gap_upper)) upper = min(problem%gap_upper(k), huge(upper))
+        violation%sign = max(violation%sign, relative(-c, magnitude(k)))
+        if (upper < huge(upper)) then
+          violation%sign = max(violation%sign, relative(c - upper, magnitude(k)))
+        else
+          violation%sign = max(violation%sign, relative(max(-f - rounding, 0.0_dp), body_force))
+        end if
+        stop_distance = c
+        if (f < 0.0_dp .and. upper < huge(upper)) stop_distance = c - upper
+        violation%complementarity = max(violation%complementarity, &
+                                        min(relative(max(abs(f) - rounding, 0.0_dp), body_force), &
+                                            relative(abs(stop_distance), magnitude(k))))
+      end associate
+    end do
+    parts = [violation%sign, violation%complementarity]
+    call space%raise(parts)
+    violation%sign = parts(1)
+    violation%complementarity = parts(2)
+  end subroutine contact_violations
+
+  !> Equation (11) in the free modes; in the others q must be as prescribed. A resultant of zero may consist of rounding
+  !> alone: of the forces of its body, or of all forces if no load acts on the body.
+  function equilibrium_violation(problem, solution, space) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(point_space), intent(in) :: space
+    real(dp) :: violation
+    real(dp) :: sums(2)
+    integer :: j
+
+    violation = 0.0_dp
+    do j = 1, problem%mode_count()
+      if (is_prescribed(problem, j)) violation = max(violation, &
+        relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
+    end do
+    if (allocated(problem%modes)) then
+      violation = max(violation, imbalance_in_modes(problem, solution%force, space))
+    else if (.not. is_prescribed(problem, 1)) then
+      sums = [sum(solution%force), sum(abs(solution%force))]
+      call space%add(sums)
+      violation = max(violation, relative(abs(sums(1) - problem%resultant(1)), &
+                                          max(sums(2), abs(problem%resultant(1)))))
+    end if
+  end function equilibrium_violation
+
+  !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
+  !> at least to a part of the largest force of the body, since along an axis without a load forces at tied points may be
+  !> the rounding of those along the other axes.
+  function imbalance_in_modes(problem, force, space) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:)
+    type(point_space), intent(in) :: space
+    real(dp) :: violation
+    real(dp) :: body_forces(size(force)), own, largest, imbalance, sums(2), extremes(4)
+    logical :: loaded(size(force))
+    integer :: j
+
+    violation = 0.0_dp
+    body_forces = largest_of_bodies(problem%modes, abs(force), space)
+    loaded = is_loaded(problem)
+    do j = 1, size(problem%modes, 2)
+      if (is_prescribed(problem, j)) cycle
+      associate (mode => problem%modes(:, j), resultant => problem%resultant(j))
+        extremes = [maxval(body_forces, mask=abs(mode) > 0.0_dp), maxval(abs(force)), maxval(abs(mode)), &
+                    merge(1.0_dp, 0.0_dp, any(loaded .and. abs(mode) > 0.0_dp))]
+        call space%raise(extremes)
+        sums = [sum(mode*force), sum(abs(mode*force))]
+        call space%add(sums)
+        own = extremes(1)
+        largest = extremes(2)
+        if (extremes(4) > 0.0_dp) largest = own
+        largest = ROUNDINGS*epsilon(largest)*extremes(3)*largest
+        imbalance = max(abs(sums(1) - resultant) - largest, 0.0_dp)
+        if (abs(resultant) > 0.0_dp) own = 0.0_dp
+        violation = max(violation, relative(imbalance, max(sums(2), abs(resultant), BESIDE*extremes(3)*own)))
+      end associate
+    end do
+  end function imbalance_in_modes
+
+  !> The lengths that forces leave open where they dwarf the data, as a fraction of the lengths in the data; 0 up to
+  !> RESOLVED. Each point counts with its share of the forces, as in the work that they do: the terms of displacements
+  !> may be as large at a soft point beside a stiff one, but not where the forces are.
+  !>
+  !> `error` (n) of equation (9), `elastic` (n) the terms of A f, `rigid_magnitude` (n) those of the motions.
+  function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: error(:), elastic(:), rigid_magnitude(:)
+    logical, intent(in) :: included(:)
+    type(point_space), intent(in) :: space
+    real(dp) :: violation
+    real(dp) :: open(size(error)), share(size(error)), largest, length
+    integer :: k
+
+    violation = 0.0_dp
+    ! Forces that push with one load between them do not dwarf it.
+    if (problem%is_plain()) return
+    share = merge(abs(solution%force), 0.0_dp, included)
+    largest = space%largest(maxval(share))
+    if (.not. largest > 0.0_dp) return
+    share = share/largest
+    share = share/space%total(sum(share))
+    length = data_length(problem, solution%force, elastic, included, space)
+    if (DWARFED*space%total(sum(share*elastic)) <= length) return
+    ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
+    open = max(abs(error) - 2.0_dp*epsilon(open)*(abs(problem%gap) + rigid_magnitude), epsilon(open)*elastic)
+    do k = 1, size(open)
+      open(k) = max(open(k), stop_distance_at(problem, solution, k))
+    end do
+    violation = relative(space%total(sum(share*open)), length)
+    if (violation <= RESOLVED) violation = 0.0_dp
+  end function unresolved_lengths
+
+  !> How far a point with a force is from the stop that the force belongs to.
+  pure function stop_distance_at(problem, solution, k) result(distance)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    integer, intent(in) :: k
+    real(dp) :: distance
+
+    distance = abs(solution%gap(k))
+    if (.not. allocated(problem%gap_upper)) return
+    if (solution%force(k) < 0.0_dp) distance = abs(solution%gap(k) - min(problem%gap_upper(k), huge(distance)))
+  end function stop_distance_at
+
+  !> Is every array allocated, and as long as the operator has points? Where ranks share the points, one may have none.
+  function sizes_agree(operator, problem, solution)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    logical :: sizes_agree
+    type(point_space) :: space
+    integer :: m
+
+    m = problem%mode_count()
+    space = operator%space()
+    sizes_agree = (operator%points() > 0 .or. .not. space%is_alone()) .and. size_of(problem%gap) == operator%points() &
+      .and. size_of(solution%force) == operator%points() &
+      .and. size_of(solution%gap) == operator%points() .and. size_of(solution%motion) == m
+    if (allocated(problem%modes)) sizes_agree = sizes_agree .and. size(problem%modes, 1) == operator%points()
+    if (allocated(problem%gap_upper)) sizes_agree = sizes_agree .and. size(problem%gap_upper) == operator%points()
+    if (allocated(problem%excluded)) sizes_agree = sizes_agree .and. size(problem%excluded) == operator%points()
+    if (allocated(problem%prescribed)) then
+      sizes_agree = sizes_agree .and. size(problem%prescribed) == m .and. size_of(problem%motion) == m
+      if (.not. all(problem%prescribed)) sizes_agree = sizes_agree .and. size_of(problem%resultant) == m
+    else if (m > 0) then
+      sizes_agree = sizes_agree .and. size_of(problem%resultant) == m
+    end if
+  end function sizes_agree
+
+  !> Number of values; -1 if not allocated.
+  pure function size_of(values) result(n)
+    real(dp), intent(in), allocatable :: values(:)
+    integer :: n
+
+    n = -1
+    if (allocated(values)) n = size(values)
+  end function size_of
+
+  !> value/measure; a value of zero is no violation, even with a measure of zero.
+  elemental function relative(value, measure)
+    real(dp), intent(in) :: value, measure
+    real(dp) :: relative
+
+    if (.not. abs(value) <= huge(value)) then
+      ! NaN or infinite: return a number, because maxval may ignore a NaN.
+      relative = huge(value)
+    else if (abs(value) <= 0.0_dp) then
+      relative = 0.0_dp
+    else if (measure >= 1.0_dp) then
+      relative = value/measure
+    else if (abs(value) < measure*huge(value)) then
+      relative = value/measure
+    else
+      ! The quotient would overflow, or the measure is NaN.
+      relative = sign(huge(value), value)
+    end if
+  end function relative
+
+end module fuge_certificate

@@ -1,0 +1,92 @@
+!> What operators on equal cells have in common, whoever shares the cells: checks, and coarser grids that are kept.
+module fuge_grid_operator_type
+  use fuge_grid_store, only: grid_store
+  use fuge_locks, only: lock, unlock, LOCK_GRIDS
+  use fuge_operator_type, only: fuge_operator
+  use fuge_point_space, only: point_space
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
+  implicit none
+  private
+
+  !> Equal cells of a surface, all of them here or shared by ranks; `grid` is zero before they are set.
+  type, abstract, extends(fuge_operator), public :: grid_operator
+    !> The coarser grids of its solves.
+    type(grid_store) :: coarser
+  contains
+    procedure(share_products), deferred :: set_threads
+    procedure :: has_preconditioner
+    procedure :: check_sizes
+    procedure :: kept_coarser
+  end type grid_operator
+
+  abstract interface
+    !> Let `threads` >= 1 threads share each product from now on. Errors: FUGE_ERR_CALL_ORDER before the cells are set,
+    !> FUGE_ERR_OPTION, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
+    subroutine share_products(self, threads, info)
+      import :: grid_operator, fuge_info
+      class(grid_operator), intent(inout) :: self
+      integer, intent(in) :: threads
+      type(fuge_info), intent(out) :: info
+    end subroutine share_products
+  end interface
+
+contains
+
+  !> True after `set`.
+  function has_preconditioner(self) result(preconditioned)
+    class(grid_operator), intent(in) :: self
+    logical :: preconditioned
+
+    preconditioned = all(self%grid() > 0)
+  end function has_preconditioner
+
+  !> Has each rank two arrays of the right sizes, `first` and `second`? `status`, the same on all: 0,
+  !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE.
+  subroutine check_sizes(self, first, second, status)
+    class(grid_operator), intent(in) :: self
+    integer, intent(in) :: first, second
+    integer, intent(out) :: status
+    type(point_space) :: space
+
+    status = FUGE_ERR_CALL_ORDER
+    if (any(self%grid() < 1)) return
+    space = self%space()
+    status = merge(FUGE_DONE, FUGE_ERR_SIZE, space%everywhere(first == self%points() .and. second == self%points()))
+  end subroutine check_sizes
+
+  !> As `coarsen`, but the wider cells are kept with those of the finest grid, for the next solve and for
+  !> solves in other threads.
+  subroutine kept_coarser(self, levels, coarse)
+    class(grid_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    class(fuge_operator), pointer, intent(out) :: coarse
+    type(point_space) :: space
+    integer :: k
+
+    nullify (coarse)
+    space = self%space()
+    k = self%coarser%place(levels)
+    if (.not. space%everywhere(k > 0)) return
+    ! Ranks wait for each other: a thread that held the lock meanwhile might keep another one from being waited for.
+    if (space%is_alone()) call lock(LOCK_GRIDS)
+    if (.not. allocated(self%coarser%grid(k)%operator)) call keep_coarser(self, levels, k)
+    if (allocated(self%coarser%grid(k)%operator)) coarse => self%coarser%grid(k)%operator
+    if (space%is_alone()) call unlock(LOCK_GRIDS)
+  end subroutine kept_coarser
+
+  !> Make element k of the kept grids, unless it has too few cells or memory is short.
+  subroutine keep_coarser(self, levels, k)
+    class(grid_operator), intent(in) :: self
+    integer, intent(in) :: levels, k
+    class(fuge_operator), allocatable :: wider
+
+    call self%coarsen(levels, wider)
+    if (.not. allocated(wider)) return
+    call move_alloc(wider, self%coarser%grid(k)%operator)
+    select type (kept => self%coarser%grid(k)%operator)
+    class is (grid_operator)
+      call kept%coarser%refer_to(self%coarser, k)
+    end select
+  end subroutine keep_coarser
+
+end module fuge_grid_operator_type

@@ -1,0 +1,54 @@
+!> The last word on every solution: the report from the certificate.
+module fuge_certified_solution
+  use fuge_certificate, only: find_violation, fuge_violation
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_point_space, only: point_space
+  use fuge_rim_contact, only: remark_contact_at_rim
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED
+  implicit none
+  private
+
+  public :: certify
+
+  !> Above this estimate of the relative error of the forces, a solution comes with a warning.
+  real(dp), parameter :: MOST_FORCE_ERROR = 1.0e-3_dp
+
+contains
+
+  !> Fill the report from the certificate. A residual above the tolerance is a warning, as are forces that may be far
+  !> off by the estimate that the engine has left in info%force_error; contact at the rim of a grid is only a message.
+  subroutine certify(operator, problem, solution, tolerance, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: tolerance
+    type(fuge_info), intent(inout) :: info
+    type(fuge_violation) :: violation
+    type(point_space) :: space
+
+    call find_violation(operator, problem, solution, violation, info, enough=tolerance)
+    if (info%failed()) return
+    space = operator%space()
+    info%contacts = space%total_count(count(abs(solution%force) > 0.0_dp))
+    info%residual = violation%worst()
+    if (violation%unresolved > tolerance) then
+      call report(info, FUGE_WARN_RESIDUAL, 'the forces reach ' &
+                  //text(space%largest(maxval(abs(solution%force))))//' and dwarf the ' &
+                  //'data: lengths are off by '//text(violation%unresolved)//' of the gaps; look for missing ' &
+                  //'rigid motions, or for gaps that no forces can close or open')
+    else if (info%residual > tolerance) then
+      call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the tolerance ' &
+                  //text(tolerance)//': the operator may be too badly conditioned for double precision')
+    else if (info%status == FUGE_DONE .and. info%force_error > MOST_FORCE_ERROR) then
+      call report(info, FUGE_WARN_ILL_CONDITIONED, 'the forces may be wrong by '//text(info%force_error)//' of the ' &
+                  //'largest one although the equations hold to '//text(info%residual)//': merge points that nearly ' &
+                  //'coincide, count tilts from a nearer point, or lower the tolerance of an iteration')
+    else if (info%status == FUGE_DONE) then
+      call remark_contact_at_rim(operator, solution%force, info)
+    end if
+  end subroutine certify
+
+end module fuge_certified_solution

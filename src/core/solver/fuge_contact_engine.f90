@@ -1,0 +1,91 @@
+!> What the solver asks of an engine: one solve after the other, each from what is left of the last one, and derivatives
+!> of the last solution.
+module fuge_contact_engine
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_history_type, only: fuge_history
+  use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor
+  use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_status, only: fuge_info
+  implicit none
+  private
+
+  type, abstract, public :: contact_engine
+    !> The last problem, where the engine needs its canonical form.
+    type(canonical_problem) :: canonical
+    !> What the engine keeps belongs to a solution that was accepted.
+    logical :: has_solution = .false.
+  contains
+    procedure(solve_problem), deferred :: solve
+    procedure(judge_level), deferred :: judge
+    procedure(is_doubtful), deferred :: was_misled
+    procedure(forget), deferred :: distrust_start
+    procedure(forget), deferred :: forget_start
+    procedure(forget), deferred :: forget_solution
+    procedure(count_of_last), deferred :: last_points
+    procedure(count_of_last), deferred :: last_modes
+    procedure(differentiate), deferred :: derivative
+  end type contact_engine
+
+  abstract interface
+    !> Solve `problem`, checked, which has a load if it is plain, and estimate the error of the forces,
+    !> info%force_error. `history` is filled if the options ask for it. After an error `solution` is undefined.
+    subroutine solve_problem(self, operator, problem, options, monitor, history, solution, info)
+      import :: contact_engine, fuge_operator, fuge_problem, fuge_options, fuge_monitor, fuge_history, fuge_solution, &
+        fuge_info
+      class(contact_engine), intent(inout) :: self
+      class(fuge_operator), intent(in) :: operator
+      type(fuge_problem), intent(in) :: problem
+      type(fuge_options), intent(in) :: options
+      class(fuge_monitor), intent(inout) :: monitor
+      type(fuge_history), intent(inout) :: history
+      type(fuge_solution), intent(inout) :: solution
+      type(fuge_info), intent(inout) :: info
+    end subroutine solve_problem
+
+    !> Refuse the solution just found if the rounding of the data may hide the level of its forces.
+    subroutine judge_level(self, operator, problem, tolerance, info)
+      import :: contact_engine, dp, fuge_operator, fuge_problem, fuge_info
+      class(contact_engine), intent(in) :: self
+      class(fuge_operator), intent(in) :: operator
+      type(fuge_problem), intent(in) :: problem
+      real(dp), intent(in) :: tolerance
+      type(fuge_info), intent(inout) :: info
+    end subroutine judge_level
+
+    !> Has what was kept of an earlier solve perhaps misled this one, which ended with `status`?
+    pure function is_doubtful(self, status)
+      import :: contact_engine
+      class(contact_engine), intent(in) :: self
+      integer, intent(in) :: status
+      logical :: is_doubtful
+    end function is_doubtful
+
+    !> `distrust_start`: what is kept has misled a solve. `forget_start`: the next solve starts from scratch.
+    !> `forget_solution`: it was not accepted, so derivatives must not use it.
+    subroutine forget(self)
+      import :: contact_engine
+      class(contact_engine), intent(inout) :: self
+    end subroutine forget
+
+    !> Points of this rank, or motions, of the last solution.
+    pure function count_of_last(self) result(number)
+      import :: contact_engine
+      class(contact_engine), intent(in) :: self
+      integer :: number
+    end function count_of_last
+
+    !> The derivative of the last solution: see `fuge_solver`. `gap_change` and `load_change` are of the right sizes.
+    subroutine differentiate(self, operator, gap_change, load_change, change, info)
+      import :: contact_engine, dp, fuge_operator, fuge_solution, fuge_info
+      class(contact_engine), intent(in) :: self
+      class(fuge_operator), intent(in) :: operator
+      real(dp), intent(in) :: gap_change(:), load_change(:)
+      type(fuge_solution), intent(inout) :: change
+      type(fuge_info), intent(inout) :: info
+    end subroutine differentiate
+  end interface
+
+end module fuge_contact_engine

@@ -1,0 +1,237 @@
+!> The engines that need the coefficients of a matrix, the active set and the tableau, from the last contact set on.
+module fuge_dense_engine
+  use fuge_active_set_engine, only: solve_by_active_set
+  use fuge_canonical_problem, only: canonical_problem, make_canonical
+  use fuge_contact_engine, only: contact_engine
+  use fuge_contact_solution, only: allocate_solution, contact_solution
+  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_force_error, only: estimate_force_error
+  use fuge_force_level, only: judge_force_level
+  use fuge_history_type, only: fuge_history
+  use fuge_kinds, only: dp
+  use fuge_kkt_factor, only: kkt_factor
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_monitor_type, only: fuge_monitor
+  use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU
+  use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
+  use fuge_sensitivity, only: find_derivative
+  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_CALL_ORDER, &
+    FUGE_ERR_CANCELLED, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED
+  use fuge_tableau_engine, only: solve_by_tableau
+  use fuge_working_set, only: working_set
+  implicit none
+  private
+
+  type, extends(contact_engine), public :: dense_engine
+    private
+    !> States of the last solve, where the next one starts.
+    integer, allocatable :: state(:)
+    !> Their factor outlives a solve: the next one starts from it if the matrix is the same.
+    type(kkt_factor) :: factor
+    !> The last solve started from a factor that it found.
+    logical :: found_factor = .false.
+    !> Arrays for the next solve, so that small problems do not spend their time on allocations.
+    type(fuge_solution) :: spare
+    type(working_set) :: set
+  contains
+    procedure :: solve
+    procedure :: judge
+    procedure :: was_misled
+    procedure :: distrust_start
+    procedure :: forget_start
+    procedure :: forget_solution
+    procedure :: last_points
+    procedure :: last_modes
+    procedure :: derivative
+    procedure :: take_arrays
+  end type dense_engine
+
+contains
+
+  !> As for `contact_engine`. FUGE_ERR_UNSUPPORTED for an operator without coefficients.
+  subroutine solve(self, operator, problem, options, monitor, history, solution, info)
+    class(dense_engine), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_history), intent(inout) :: history
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+
+    self%found_factor = .false.
+    select type (operator)
+    class is (fuge_dense_operator)
+      call solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
+    class default
+      call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a dense operator: use ' &
+                  //'FUGE_ITERATIVE for other operators')
+    end select
+  end subroutine solve
+
+  subroutine solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
+    class(dense_engine), intent(inout) :: self
+    class(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_history), intent(inout) :: history
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(contact_solution) :: found
+    logical :: is_set
+
+    call self%canonical%set_again(problem, is_set)
+    if (.not. is_set) call make_canonical(problem, self%canonical, info)
+    if (info%failed()) return
+    call allocate_solution(problem%points(), size(self%canonical%load), found, info, self%spare)
+    if (info%failed()) return
+    call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known(), operator%stamp())
+    self%found_factor = self%factor%belongs_to(self%canonical)
+    if (.not. self%found_factor) self%factor = kkt_factor()
+    if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
+      self%factor = kkt_factor()
+      self%found_factor = .false.
+      call solve_by_tableau(self%canonical, options, monitor, history, self%factor, found, info)
+    else
+      call run_active_set(self, options, monitor, found, info)
+    end if
+    ! The matrix is the caller's and may be gone before the next call.
+    self%canonical%alpha => null()
+    if (info%failed()) return
+    if (self%canonical%plain) then
+      call move_alloc(found%motion, solution%motion)
+    else
+      call find_given_motions(self%canonical, operator%alpha, problem, found, solution, info)
+      if (info%failed()) return
+    end if
+    call estimate_force_error(self%canonical, operator%alpha, self%factor, problem, solution%motion, found, &
+                              info%force_error)
+    call move_alloc(found%force, solution%force)
+    call move_alloc(found%gap, solution%gap)
+    call move_alloc(found%state, self%state)
+    self%has_solution = .true.
+  end subroutine solve_with_matrix
+
+  !> The motions in the given modes, and the gaps of excluded points.
+  subroutine find_given_motions(canonical, alpha, problem, found, solution, info)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(contact_solution), intent(inout) :: found
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (solution%motion(problem%mode_count()), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
+      return
+    end if
+    call canonical%to_given_modes(problem%prescribed_motion(), found%motion, solution%motion)
+    call canonical%set_excluded_gaps(alpha, problem%gap, found%force, solution%motion, found%gap)
+  end subroutine find_given_motions
+
+  !> The active set from the last contact set; from scratch if there is none, or if that start fails.
+  subroutine run_active_set(self, options, monitor, solution, info)
+    class(dense_engine), intent(inout) :: self
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    logical :: warm
+
+    warm = .false.
+    if (allocated(self%state)) warm = size(self%state) == size(solution%state)
+    if (warm) solution%state = self%state
+    call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info, self%set)
+    if (warm .and. info%failed() .and. info%status /= FUGE_ERR_CANCELLED) then
+      info = fuge_info()
+      self%factor = kkt_factor()
+      self%found_factor = .false.
+      solution%state = FUGE_OPEN
+      call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info, self%set)
+    end if
+  end subroutine run_active_set
+
+  !> As for `contact_engine`.
+  subroutine judge(self, operator, problem, tolerance, info)
+    class(dense_engine), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: tolerance
+    type(fuge_info), intent(inout) :: info
+
+    call judge_force_level(operator, self%canonical, problem%gap, self%state, tolerance, info)
+  end subroutine judge
+
+  !> The matrix may have changed since it was factored, although the operator was not set again.
+  pure function was_misled(self, status)
+    class(dense_engine), intent(in) :: self
+    integer, intent(in) :: status
+    logical :: was_misled
+
+    was_misled = self%found_factor .and. any(status == [FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED])
+  end function was_misled
+
+  !> The contact set stays a good start.
+  subroutine distrust_start(self)
+    class(dense_engine), intent(inout) :: self
+
+    self%factor = kkt_factor()
+  end subroutine distrust_start
+
+  subroutine forget_start(self)
+    class(dense_engine), intent(inout) :: self
+
+    if (allocated(self%state)) deallocate (self%state)
+  end subroutine forget_start
+
+  subroutine forget_solution(self)
+    class(dense_engine), intent(inout) :: self
+
+    self%factor = kkt_factor()
+    self%has_solution = .false.
+  end subroutine forget_solution
+
+  pure function last_points(self) result(number)
+    class(dense_engine), intent(in) :: self
+    integer :: number
+
+    number = 0
+    if (allocated(self%state)) number = size(self%state)
+  end function last_points
+
+  pure function last_modes(self) result(number)
+    class(dense_engine), intent(in) :: self
+    integer :: number
+
+    number = self%canonical%mode_count()
+  end function last_modes
+
+  !> By triangular solves with the last factor. Errors: those of `find_derivative`.
+  subroutine derivative(self, operator, gap_change, load_change, change, info)
+    class(dense_engine), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(inout) :: info
+
+    select type (operator)
+    class is (fuge_dense_operator)
+      call find_derivative(self%canonical, operator, self%factor, self%state, gap_change, load_change, change, info)
+    class default
+      call report(info, FUGE_ERR_CALL_ORDER, 'the last solve was with a matrix, not with this operator')
+    end select
+  end subroutine derivative
+
+  !> Keep the arrays of a `solution` that the caller has had for the next solve.
+  subroutine take_arrays(self, solution)
+    class(dense_engine), intent(inout) :: self
+    type(fuge_solution), intent(inout) :: solution
+
+    call move_solution(solution, self%spare)
+  end subroutine take_arrays
+
+end module fuge_dense_engine

@@ -1,0 +1,142 @@
+!> Derivatives of a solution with respect to gaps, loads and prescribed motions.
+module fuge_sensitivity
+  use fuge_canonical_problem, only: canonical_problem
+  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_displacements, only: add_elastic_displacement, rigid_displacement
+  use fuge_kinds, only: dp
+  use fuge_kkt_factor, only: kkt_factor
+  use fuge_kkt_solution, only: solve_set
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_number_text, only: text
+  use fuge_problem_type, only: fuge_solution
+  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
+  use fuge_unresisted_motions, only: find_unresisted_basis, refuse_unresisted, without_unresisted
+  implicit none
+  private
+
+  public :: find_derivative
+
+  !> Changes of the gaps that differ from a rigid motion by this fraction of their terms are one.
+  real(dp), parameter :: RIGID_TOLERANCE = 1.0e-13_dp
+  !> Gaps that stay open on the contact, relative to their terms: more of it is no rounding, but a factor of another
+  !> matrix.
+  real(dp), parameter :: CLOSED_TOLERANCE = 1.0e-8_dp
+  !> Units in the last place by which a large datum may round.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
+
+contains
+
+  !> Changes of forces, gaps and motions at a fixed contact set, by solves with its factor.
+  !>
+  !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of
+  !> the resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. Errors,
+  !> `change` untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a mode that the changes load,
+  !> FUGE_ERR_CALL_ORDER if the factor does not belong to the matrix, which has changed in place, FUGE_ERR_MEMORY.
+  subroutine find_derivative(canonical, operator, factor, state, gap_change, load_change, change, info)
+    type(canonical_problem), intent(in) :: canonical
+    class(fuge_dense_operator), intent(in) :: operator
+    type(kkt_factor), intent(in) :: factor
+    integer, intent(in) :: state(:)
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: force(:), gap(:), motion(:), reduced_gap(:), load(:), unresisted(:, :)
+    real(dp) :: datum, free_motion(size(canonical%load))
+    integer :: stat
+
+    allocate (force(size(state)), gap(size(state)), motion(size(load_change)), stat=stat)
+    if (stat /= 0) then
+      call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(size(state))//' points')
+      return
+    end if
+    datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
+    call canonical%transform_change(gap_change, load_change, reduced_gap, load)
+    call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
+    call refuse_unresisted(load, unresisted, info)
+    if (info%failed()) return
+    call solve_refined(canonical, operator%alpha, datum, factor, state /= FUGE_OPEN, reduced_gap, load, force, &
+                       free_motion)
+    free_motion = without_unresisted(free_motion, unresisted)
+    if (is_rigid(canonical%modes, reduced_gap, load, free_motion, state /= FUGE_OPEN)) force = 0.0_dp
+    gap = reduced_gap - rigid_displacement(canonical%modes, free_motion)
+    call add_elastic_displacement(operator%alpha, datum, state /= FUGE_OPEN, force, gap)
+    ! A regularised factor leaves gaps open where the changes do not fit to a singular alpha.
+    if (.not. (factor%regularisation > 0.0_dp &
+               .or. is_closed(canonical%modes, operator%alpha, [datum, factor%datum], state /= FUGE_OPEN, &
+                              reduced_gap, force, free_motion, gap))) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the factor of the last solve does not fit alpha: set a new operator ' &
+                  //'after a change of alpha, and solve again; or alpha is too badly conditioned')
+      return
+    end if
+    where (state /= FUGE_OPEN) gap = 0.0_dp
+    if (canonical%has_translation) free_motion(1) = free_motion(1) + datum*load(1)
+    call canonical%to_given_modes(load_change, free_motion, motion)
+    call canonical%set_excluded_gaps(operator%alpha, gap_change, force, motion, gap)
+    call move_alloc(force, change%force)
+    call move_alloc(gap, change%gap)
+    call move_alloc(motion, change%motion)
+  end subroutine find_derivative
+
+  !> Forces (n) and free motions (m) of the set in `contact` (n), whose factor has lost digits where alpha is badly
+  !> conditioned or there are several modes: corrected once by the residuals. The arguments are nine, because the
+  !> datum is taken out of alpha for the residuals.
+  subroutine solve_refined(canonical, alpha, datum, factor, contact, reduced_gap, load, force, motion)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, reduced_gap(:), load(:)
+    type(kkt_factor), intent(in) :: factor
+    logical, intent(in) :: contact(:)
+    real(dp), intent(out) :: force(:), motion(:)
+    real(dp) :: residual(size(force)), correction(size(force)), missing(size(motion)), shift(size(motion))
+
+    call solve_set(factor, datum, reduced_gap, load, force, motion)
+    residual = reduced_gap - rigid_displacement(canonical%modes, motion)
+    call add_elastic_displacement(alpha, datum, contact, force, residual)
+    missing = load - matmul(force, canonical%modes)
+    call solve_set(factor, datum, residual, missing, correction, shift)
+    force = force + correction
+    motion = motion + shift
+  end subroutine solve_refined
+
+  !> Are the changes of the `gap` (n) on the contact zero, but for rounding? `datums`: that of the operator, taken out
+  !> here, and that of the factor, whose rounding is not seen in the terms.
+  pure function is_closed(modes, alpha, datums, contact, reduced_gap, force, motion, gap) result(closed)
+    real(dp), intent(in) :: modes(:, :), alpha(:, :), datums(2), reduced_gap(:), force(:), motion(:), gap(:)
+    logical, intent(in) :: contact(:)
+    logical :: closed
+    real(dp) :: open, rounding, terms
+    integer :: j, k
+
+    open = 0.0_dp
+    terms = 0.0_dp
+    rounding = 0.0_dp
+    do k = 1, size(contact)
+      if (.not. contact(k)) cycle
+      open = max(open, abs(gap(k)))
+      rounding = rounding + ROUNDINGS*epsilon(rounding)*(abs(alpha(k, k)) + sum(abs(datums)))*abs(force(k))
+      terms = max(terms, abs(reduced_gap(k)), abs((alpha(k, k) - datums(1))*force(k)))
+      do j = 1, size(motion)
+        terms = max(terms, abs(modes(k, j)*motion(j)))
+      end do
+    end do
+    closed = .not. open > CLOSED_TOLERANCE*terms + rounding
+  end function is_closed
+
+  !> Is a change of the gaps without one of the load the rigid displacement R q at all points in contact, but for
+  !> rounding? Forces then stay as they are, and those computed are rounding.
+  pure function is_rigid(modes, gap_change, load_change, motion, contact) result(rigid)
+    real(dp), intent(in) :: modes(:, :), gap_change(:), load_change(:), motion(:)
+    logical, intent(in) :: contact(:)
+    logical :: rigid
+    integer :: k
+
+    rigid = .not. any(abs(load_change) > 0.0_dp)
+    do k = 1, size(contact)
+      if (.not. rigid) return
+      if (.not. contact(k)) cycle
+      rigid = abs(gap_change(k) - dot_product(modes(k, :), motion)) &
+              <= RIGID_TOLERANCE*(abs(gap_change(k)) + sum(abs(modes(k, :)*motion)))
+    end do
+  end function is_rigid
+
+end module fuge_sensitivity

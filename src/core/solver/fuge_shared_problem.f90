@@ -1,0 +1,70 @@
+!> What the ranks that share the points of a problem have to agree on: all have the same loads, motions and options.
+!>
+!> Ranks that solve different problems would wait for each other without end.
+module fuge_shared_problem
+  use fuge_data_scales, only: is_prescribed
+  use fuge_kinds, only: dp
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem
+  use fuge_point_space, only: point_space
+  use fuge_status, only: fuge_info, report, FUGE_ERR_OPTION
+  implicit none
+  private
+
+  public :: check_shared_problem, differ
+
+contains
+
+  !> Refuse loads, motions, kinds of problems and options that differ between the ranks that share the points
+  !> (FUGE_ERR_OPTION).
+  subroutine check_shared_problem(problem, options, space, info)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    type(point_space), intent(in) :: space
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: kind_of(6)
+
+    kind_of = real([problem%mode_count(), merge(1, 0, allocated(problem%modes)), &
+                    merge(1, 0, allocated(problem%gap_upper)), merge(1, 0, allocated(problem%excluded)), &
+                    merge(1, 0, allocated(problem%prescribed)), merge(1, 0, problem%is_plain())], dp)
+    if (differ(kind_of, space)) then
+      call report(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded or prescribed are not allocated alike on all ' &
+                  //'ranks: allocate them on all or on none, also where a rank has no points')
+    else if (differ(controls(problem), space)) then
+      call report(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs between the ranks')
+    else if (differ([real([options%method, options%max_iterations, merge(1, 0, options%keep_history)], dp), &
+                     options%tolerance], space)) then
+      call report(info, FUGE_ERR_OPTION, 'method, max_iterations, keep_history or tolerance of the options differs ' &
+                  //'between the ranks')
+    end if
+  end subroutine check_shared_problem
+
+  !> Do the `values`, as many on each, differ between the ranks?
+  function differ(values, space)
+    real(dp), intent(in) :: values(:)
+    type(point_space), intent(in) :: space
+    logical :: differ
+    real(dp) :: extremes(2*size(values))
+
+    extremes = [values, -values]
+    call space%raise(extremes)
+    differ = any(abs(extremes(:size(values)) + extremes(size(values) + 1:)) > 0.0_dp)
+  end function differ
+
+  !> Of each mode 1 and the motion where that is prescribed, else 0 and the resultant, (2 m).
+  pure function controls(problem)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: controls(2*problem%mode_count())
+    integer :: j
+
+    controls = 0.0_dp
+    do j = 1, problem%mode_count()
+      if (is_prescribed(problem, j)) then
+        controls(2*j - 1:2*j) = [1.0_dp, problem%motion(j)]
+      else
+        controls(2*j) = problem%resultant(j)
+      end if
+    end do
+  end function controls
+
+end module fuge_shared_problem

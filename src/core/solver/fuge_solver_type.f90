@@ -1,0 +1,279 @@
+!> From a problem to a certified solution: checks, choice of engine, certificate, derivatives.
+module fuge_solver_type
+  use fuge_certified_solution, only: certify
+  use fuge_contact_engine, only: contact_engine
+  use fuge_dense_engine, only: dense_engine
+  use fuge_force_level, only: explain_by_force_level
+  use fuge_history_type, only: fuge_history
+  use fuge_input_checks, only: check_finite
+  use fuge_iterative_engine, only: is_general
+  use fuge_kinds, only: dp
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_monitor_type, only: fuge_monitor, monitor_relay
+  use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_ITERATIVE
+  use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, move_solution, set_problem
+  use fuge_product_engine, only: product_engine
+  use fuge_point_space, only: point_space
+  use fuge_shared_problem, only: check_shared_problem, differ
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_OPTION
+  use fuge_unloaded_contact, only: is_unloaded, solve_without_load
+  implicit none
+  private
+
+  public :: fuge_solve_dense
+
+  !> Solves contact problems one after the other, each from the contact set of the last one. One solver for each
+  !> thread.
+  type, public :: fuge_solver
+    !> Basis and z of each pivot of the last tableau solve, if it was asked for.
+    type(fuge_history) :: history
+    type(dense_engine), private :: by_matrix
+    type(product_engine), private :: by_products
+    !> The last solve was by the iteration.
+    logical, private :: solved_by_products = .false.
+    !> The report of the last solution, for its derivatives.
+    type(fuge_info), private :: last_report
+  contains
+    procedure :: solve
+    procedure :: reset
+    !> For a change of one load, or of each.
+    generic :: derivative => derivative_by_load, derivative_by_loads
+    procedure, private :: derivative_by_load
+    procedure, private :: derivative_by_loads
+  end type fuge_solver
+
+contains
+
+  !> Solve the contact problem (paper, equations 9 to 11) and certify the solution.
+  !>
+  !> `operator` displacements per force, `problem` gaps and load, `options` as in `fuge_options` (defaults when
+  !> absent). `monitor` hears of each iteration and may cancel; without a load there are none. On return info%status
+  !> is FUGE_DONE, with a message only if the contact reaches the rim of a free grid, or the first of these warnings
+  !> that is true: FUGE_WARN_RESIDUAL with the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on
+  !> the points that touch, with or without force (the forces are then one of many possible), or the contact does not
+  !> resist a mode (its motion is then one of many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error,
+  !> the estimated error of the forces, is above 1e-3. Or it is an error that leaves `solution` untouched:
+  !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,
+  !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
+  !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.
+  subroutine solve(self, operator, problem, solution, info, options, monitor)
+    class(fuge_solver), intent(inout), target :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(out) :: info
+    type(fuge_options), intent(in), optional :: options
+    class(fuge_monitor), intent(inout), optional, target :: monitor
+    type(fuge_options) :: chosen
+    type(fuge_solution) :: candidate
+    type(monitor_relay) :: relay
+    type(point_space) :: space
+    class(contact_engine), pointer :: engine
+
+    if (present(options)) chosen = options
+    if (present(monitor)) relay%listener => monitor
+    self%history = fuge_history()
+    self%by_matrix%has_solution = .false.
+    self%by_products%has_solution = .false.
+    self%last_report = fuge_info()
+    space = operator%space()
+    call check_options(chosen, info)
+    call space%agree(info)
+    if (info%failed()) return
+    if (space%total_count(operator%points()) < 1) then
+      call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before the solve')
+      return
+    end if
+    call check_problem(problem, operator%points(), info)
+    call space%agree(info)
+    if (.not. (space%is_alone() .or. info%failed())) call check_shared_problem(problem, chosen, space, info)
+    if (info%failed()) return
+
+    if (is_unloaded(problem)) then
+      call solve_without_load(problem, space, candidate, info)
+      if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
+    else
+      engine => chosen_engine(self, operator, chosen)
+      call solve_and_certify(engine, operator, problem, chosen, relay, self%history, candidate, info)
+      if (engine%was_misled(info%status)) then
+        call engine%distrust_start()
+        candidate = fuge_solution()
+        info = fuge_info()
+        call solve_and_certify(engine, operator, problem, chosen, relay, self%history, candidate, info)
+      end if
+      if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
+                                                         //text(relay%reported)//' by the progress monitor')
+    end if
+    if (info%failed()) then
+      call self%by_matrix%forget_solution()
+      call self%by_products%forget_solution()
+    else
+      self%last_report = info
+      if (.not. self%solved_by_products) call self%by_matrix%take_arrays(solution)
+      call move_solution(candidate, solution)
+    end if
+  end subroutine solve
+
+  !> FUGE_AUTO is the active set for a matrix, or the tableau if the history is asked for, which it alone keeps; for any
+  !> other operator the iteration.
+  function chosen_engine(self, operator, options) result(engine)
+    class(fuge_solver), intent(inout), target :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_options), intent(in) :: options
+    class(contact_engine), pointer :: engine
+
+    self%solved_by_products = options%method == FUGE_ITERATIVE
+    select type (operator)
+    class is (fuge_dense_operator)
+      continue
+    class default
+      if (options%method == FUGE_AUTO) self%solved_by_products = .true.
+    end select
+    engine => self%by_matrix
+    if (self%solved_by_products) engine => self%by_products
+  end function chosen_engine
+
+  !> One solve by the `engine`, and its certificate.
+  subroutine solve_and_certify(engine, operator, problem, options, monitor, history, solution, info)
+    class(contact_engine), intent(inout) :: engine
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_history), intent(inout) :: history
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+
+    call engine%solve(operator, problem, options, monitor, history, solution, info)
+    if (.not. info%failed()) then
+      call engine%judge(operator, problem, options%tolerance, info)
+      if (info%failed()) call engine%forget_start()
+    else if (is_general(problem)) then
+      call explain_by_force_level(operator, engine%canonical, problem%gap, options%tolerance, info)
+    end if
+    if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
+  end subroutine solve_and_certify
+
+  !> Forget the last contact set and the history: the next solve starts from scratch. After a change of the operator
+  !> that may be faster; the solution is the same.
+  subroutine reset(self)
+    class(fuge_solver), intent(inout) :: self
+
+    self%history = fuge_history()
+    self%last_report = fuge_info()
+    call self%by_matrix%forget_solution()
+    call self%by_products%forget_solution()
+    call self%by_matrix%forget_start()
+    call self%by_products%forget_start()
+  end subroutine reset
+
+  !> How the last solution changes with gaps and load, to first order, and exactly as long as the contact set stays:
+  !> df, dc and dq, by triangular solves with the last factor; after the iteration by products on the contact set, to
+  !> the tolerance of the solve.
+  !>
+  !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force; `change` the changes in the
+  !> order of `fuge_solution`. The contact stiffness dF_0/dv_0 is 1/change%motion(1) for gap_change 0 and load_change
+  !> 1; column k of the sensitivity to the gaps is the change for a unit gap_change at k. A point that just touches
+  !> without force stays in the state in which the solve left it. `info` is that of the solve, whose warnings hold for
+  !> the derivative too, with the products of the derivative added; an error replaces status and message only.
+  !> Errors, `change` untouched: FUGE_ERR_CALL_ORDER without a solution with a load, FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_UNSUPPORTED, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_MEMORY; by products also
+  !> FUGE_ERR_ITERATION_LIMIT where the operator is too badly conditioned, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_CALLBACK.
+  subroutine derivative_by_load(self, operator, gap_change, load_change, change, info)
+    class(fuge_solver), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(out) :: info
+
+    call derivative_by_loads(self, operator, gap_change, [load_change], change, info)
+  end subroutine derivative_by_load
+
+  !> As `derivative_by_load`, for changes of all resultants, `load_change` (m); where a motion is prescribed, of the
+  !> motion.
+  subroutine derivative_by_loads(self, operator, gap_change, load_change, change, info)
+    class(fuge_solver), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(out) :: info
+    type(point_space) :: space
+
+    info = self%last_report
+    space = operator%space()
+    if (self%solved_by_products) then
+      call check_changes(self%by_products, space, operator%points(), gap_change, load_change, info)
+    else
+      call check_changes(self%by_matrix, space, operator%points(), gap_change, load_change, info)
+    end if
+    call space%agree(info)
+    if (info%failed()) return
+    if (differ(load_change, space)) then
+      call report(info, FUGE_ERR_OPTION, 'load_change differs between the ranks')
+      return
+    end if
+    if (self%solved_by_products) then
+      call self%by_products%derivative(operator, gap_change, load_change, change, info)
+    else
+      call self%by_matrix%derivative(operator, gap_change, load_change, change, info)
+    end if
+  end subroutine derivative_by_loads
+
+  !> Refuse changes that fit no solution of n points.
+  subroutine check_changes(engine, space, n, gap_change, load_change, info)
+    class(contact_engine), intent(in) :: engine
+    type(point_space), intent(in) :: space
+    integer, intent(in) :: n
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: all_points, points
+
+    points = engine%last_points()
+    all_points = space%total_count(points)
+    if (.not. engine%has_solution .or. all_points < 1) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
+    else if (size(gap_change) /= n .or. points /= n) then
+      call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
+                  //text(n)//' points and the last solution '//text(points))
+    else if (size(load_change) /= engine%last_modes()) then
+      call report(info, FUGE_ERR_SIZE, 'load_change has '//text(size(load_change))//' value(s), the last problem ' &
+                  //text(engine%last_modes())//' motion(s)')
+    else
+      call check_finite(gap_change, 'gap_change', info)
+      if (.not. info%failed()) call check_finite(load_change, 'load_change', info)
+    end if
+  end subroutine check_changes
+
+  !> One call for a dense matrix and one load.
+  !>
+  !> `alpha` (n, n) length per force, `gap` (n) length, `load` force; out: `force` (n), `gap_out` (n) and `approach`,
+  !> untouched on an error. Status and errors as for `solve` and for `set` of `fuge_dense_operator`.
+  subroutine fuge_solve_dense(alpha, gap, load, force, gap_out, approach, info)
+    real(dp), intent(in), target :: alpha(:, :)
+    real(dp), intent(in) :: gap(:), load
+    real(dp), intent(inout) :: force(:), gap_out(:), approach
+    type(fuge_info), intent(out) :: info
+    type(fuge_dense_operator) :: operator
+    type(fuge_problem) :: problem
+    type(fuge_solution) :: solution
+    type(fuge_solver) :: solver
+
+    call operator%set(alpha, info)
+    if (info%failed()) return
+    if (size(force) /= operator%points() .or. size(gap_out) /= operator%points()) then
+      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' and gap_out '//text(size(gap_out)) &
+                  //' value(s): both need '//text(operator%points()))
+      return
+    end if
+    call set_problem(gap, load, problem, info)
+    if (info%failed()) return
+    call solver%solve(operator, problem, solution, info)
+    if (info%failed()) return
+    force = solution%force
+    gap_out = solution%gap
+    approach = solution%motion(1)
+  end subroutine fuge_solve_dense
+
+end module fuge_solver_type

@@ -1,0 +1,139 @@
+!> C bindings of the component for MPI; fuge_mpi_comm.c passes communicators on.
+module fuge_c_mpi
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_ptr, c_size_t
+  use fuge_c_operator, only: new_operator
+  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, operator_handle, report_to_c, require_path, &
+    require_pointer
+  use fuge_kinds, only: dp
+  use fuge_line_halfplane, only: fuge_mpi_halfplane_operator
+  use fuge_operator_type, only: fuge_operator
+  use fuge_shared_operator, only: shared_operator
+  use fuge_slab_files, only: fuge_mpi_read_rows, fuge_mpi_write_rows
+  use fuge_slab_halfspace, only: fuge_mpi_halfspace_operator
+  use fuge_status, only: fuge_info, report, FUGE_ERR_UNSUPPORTED
+  use mpi_f08, only: MPI_Comm
+  implicit none
+  private
+
+contains
+
+  !> As fuge_operator_halfspace_mpi, with the handle that Fortran has of the communicator. The arguments are eleven,
+  !> as in the header: the grid, the communicator, the operator, the message.
+  function c_operator_halfspace_mpi(nx, ny, spacing_x, spacing_y, e_star, element, boundary, comm, destination, &
+                                    message, length) bind(c, name='fuge_operator_halfspace_comm') result(status)
+    integer(c_int), intent(in), value :: nx, ny, element, boundary, comm
+    real(c_double), intent(in), value :: spacing_x, spacing_y, e_star
+    type(c_ptr), intent(in), value :: destination, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mpi_halfspace_operator), allocatable :: surface
+    class(fuge_operator), allocatable :: operator
+    type(MPI_Comm) :: communicator
+    type(fuge_info) :: info
+
+    allocate (surface)
+    communicator%MPI_VAL = comm
+    call require_pointer(destination, 'op', info)
+    if (.not. info%failed()) call surface%set(int(nx), int(ny), spacing_x, spacing_y, e_star, communicator, info, &
+                                              int(element), int(boundary))
+    call move_alloc(surface, operator)
+    if (.not. info%failed()) call new_operator(operator, destination, info)
+    status = report_to_c(info, message, length)
+  end function c_operator_halfspace_mpi
+
+  !> As fuge_operator_halfplane_mpi, with the handle that Fortran has of the communicator. The arguments are nine, as
+  !> in the header: the cells, the communicator, the operator, the message.
+  function c_operator_halfplane_mpi(n, spacing, e_star, element, boundary, comm, destination, message, length) &
+    bind(c, name='fuge_operator_halfplane_comm') result(status)
+    integer(c_int), intent(in), value :: n, element, boundary, comm
+    real(c_double), intent(in), value :: spacing, e_star
+    type(c_ptr), intent(in), value :: destination, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_mpi_halfplane_operator), allocatable :: line
+    class(fuge_operator), allocatable :: operator
+    type(MPI_Comm) :: communicator
+    type(fuge_info) :: info
+
+    allocate (line)
+    communicator%MPI_VAL = comm
+    call require_pointer(destination, 'op', info)
+    if (.not. info%failed()) call line%set(int(n), spacing, e_star, communicator, info, int(element), int(boundary))
+    call move_alloc(line, operator)
+    if (.not. info%failed()) call new_operator(operator, destination, info)
+    status = report_to_c(info, message, length)
+  end function c_operator_halfplane_mpi
+
+  function c_operator_rows(operator, first, rows, message, length) bind(c, name='fuge_operator_rows') result(status)
+    type(c_ptr), intent(in), value :: operator, first, rows, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    class(shared_operator), pointer :: surface
+    type(fuge_info) :: info
+    integer :: range(2)
+
+    call find_surface(operator, surface, info)
+    call require_pointer(first, 'first', info)
+    call require_pointer(rows, 'rows', info)
+    if (.not. info%failed()) then
+      range = surface%own_rows()
+      call copy_integers([range(1) - 1], first)
+      call copy_integers([range(2) - range(1) + 1], rows)
+    end if
+    status = report_to_c(info, message, length)
+  end function c_operator_rows
+
+  function c_read_rows(path, operator, values, message, length) bind(c, name='fuge_mpi_read_rows') result(status)
+    type(c_ptr), intent(in), value :: path, operator, values, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    class(shared_operator), pointer :: surface
+    real(dp), allocatable :: rows(:)
+    type(fuge_info) :: info
+
+    call find_surface(operator, surface, info)
+    call require_path(path, info)
+    call require_pointer(values, 'values', info)
+    if (.not. info%failed()) call fuge_mpi_read_rows(from_c_string(path), surface, rows, info)
+    if (.not. info%failed()) call copy_reals(rows, values)
+    status = report_to_c(info, message, length)
+  end function c_read_rows
+
+  function c_write_rows(path, operator, values, message, length) bind(c, name='fuge_mpi_write_rows') result(status)
+    type(c_ptr), intent(in), value :: path, operator, values, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    class(shared_operator), pointer :: surface
+    real(c_double), pointer, contiguous :: rows(:)
+    type(fuge_info) :: info
+
+    call find_surface(operator, surface, info)
+    call require_path(path, info)
+    call require_pointer(values, 'values', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(values, rows, [surface%points()])
+      call fuge_mpi_write_rows(from_c_string(path), surface, rows, info)
+    end if
+    status = report_to_c(info, message, length)
+  end function c_write_rows
+
+  !> The surface behind a handle; FUGE_ERR_POINTER, FUGE_ERR_UNSUPPORTED for another operator.
+  subroutine find_surface(operator, surface, info)
+    type(c_ptr), intent(in) :: operator
+    class(shared_operator), pointer, intent(out) :: surface
+    type(fuge_info), intent(inout) :: info
+    type(operator_handle), pointer :: handle
+
+    nullify (surface)
+    call require_pointer(operator, 'op', info)
+    if (info%failed()) return
+    call c_f_pointer(operator, handle)
+    select type (found => handle%operator)
+    class is (shared_operator)
+      surface => found
+    class default
+      call report(info, FUGE_ERR_UNSUPPORTED, 'only an operator of fuge_mpi.h has rows of a rank')
+    end select
+  end subroutine find_surface
+
+end module fuge_c_mpi

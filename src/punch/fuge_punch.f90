@@ -1,0 +1,12 @@
+!> The public interface of the component punch: smooth and round punches without a grid.
+module fuge_punch
+  use fuge_power_profile_type, only: fuge_power_profile
+  use fuge_round_contact_type, only: fuge_round_contact
+  use fuge_round_punch, only: fuge_solve_round_punch
+  use fuge_smooth_contact_type, only: fuge_smooth_contact
+  use fuge_smooth_profile_type, only: fuge_smooth_profile, fuge_polynomial_profile, fuge_sampled_profile
+  use fuge_smooth_punch, only: fuge_solve_smooth_punch
+  implicit none
+  public
+
+end module fuge_punch
