@@ -187,8 +187,8 @@ contains
     if (grid%boundary /= FUGE_FREE) magnitude = MEAN_TERM*total/(grid%e_star*term_length(grid))
   end function least_magnitude
 
-  !> `length`: the cells of the circles that transforms of rows and columns have; where they are not cyclic twice as many
-  !> hold the products. Error: FUGE_ERR_MEMORY if they are too many.
+  !> `length`: the cells of the circles that transforms of rows and columns have; where they are not cyclic twice as
+  !> many hold the products. Error: FUGE_ERR_MEMORY if they are too many.
   pure subroutine circle_of(grid, length, info)
     type(halfspace_grid), intent(in) :: grid
     integer, intent(out) :: length(2)

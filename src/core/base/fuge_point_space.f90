@@ -1,4 +1,5 @@
-!> All points of a problem, wherever they are: sums and maxima of values on them, and what is true anywhere or everywhere.
+!> All points of a problem, wherever they are: sums and maxima of values on them, and what is true anywhere or
+!> everywhere.
 !>
 !> Processes may share the points. Each of them, a rank, holds some and runs the same solve as the others. Whatever
 !> decides how the solve goes on is the same on all of them, because it comes from here. Alone, as without a group, a

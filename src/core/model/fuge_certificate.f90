@@ -148,8 +148,8 @@ contains
 
   !> Where all forces that displace a point are zero but for rounding, so is its magnitude, with which nothing can be
   !> compared. There the error becomes smaller by the rounding of forces as large as the largest one of the body (M.
-  !> Arioli, J. W. Demmel, I. S. Duff, SIAM Journal on Matrix Analysis and Applications 10, 1989), and everywhere by that
-  !> of the motions, which follow from all displacements of the body.
+  !> Arioli, J. W. Demmel, I. S. Duff, SIAM Journal on Matrix Analysis and Applications 10, 1989), and everywhere by
+  !> that of the motions, which follow from all displacements of the body.
   !>
   !> `elastic` (n) are the terms of A f. One more product. The arguments are more than eight because each length has
   !> terms of its own. Errors: those of the product, FUGE_ERR_MEMORY.
@@ -341,8 +341,8 @@ contains
   end function equilibrium_violation
 
   !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
-  !> at least to a part of the largest force of the body, since along an axis without a load forces at tied points may be
-  !> the rounding of those along the other axes.
+  !> at least to a part of the largest force of the body, since along an axis without a load forces at tied points may
+  !> be the rounding of those along the other axes.
   function imbalance_in_modes(problem, force, space) result(violation)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:)
@@ -386,7 +386,7 @@ contains
     logical, intent(in) :: included(:)
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: open(size(error)), share(size(error)), largest, length
+    real(dp) :: excess(size(error)), share(size(error)), largest, length
     integer :: k
 
     violation = 0.0_dp
@@ -400,11 +400,11 @@ contains
     length = data_length(problem, solution%force, elastic, included, space)
     if (DWARFED*space%total(sum(share*elastic)) <= length) return
     ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
-    open = max(abs(error) - 2.0_dp*epsilon(open)*(abs(problem%gap) + rigid_magnitude), epsilon(open)*elastic)
-    do k = 1, size(open)
-      open(k) = max(open(k), stop_distance_at(problem, solution, k))
+    excess = max(abs(error) - 2.0_dp*epsilon(excess)*(abs(problem%gap) + rigid_magnitude), epsilon(excess)*elastic)
+    do k = 1, size(excess)
+      excess(k) = max(excess(k), stop_distance_at(problem, solution, k))
     end do
-    violation = relative(space%total(sum(share*open)), length)
+    violation = relative(space%total(sum(share*excess)), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
 

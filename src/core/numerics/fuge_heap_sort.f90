@@ -1,4 +1,5 @@
-!> Heapsort (J. W. J. Williams, Algorithm 232, Communications of the ACM 7, 1964): O(n log n) in place, whatever the order.
+!> Heapsort (J. W. J. Williams, Algorithm 232, Communications of the ACM 7, 1964): O(n log n) in place, whatever the
+!> order.
 module fuge_heap_sort
   use fuge_kinds, only: dp
   implicit none

@@ -202,10 +202,10 @@ contains
     integer, intent(out) :: node
     type(face_nodes) :: face
     real(dp) :: distance, extent, middle(3), normal(3), x(3)
-    integer :: common, count, last, p
+    integer :: shared, count, last, p
 
     node = 0
-    common = 0
+    shared = 0
     count = face_size(surface, f)
     call mark_common(surface, f, coupled, mark, last)
     if (last == 0) return
@@ -217,7 +217,7 @@ contains
       associate (other => coupled%neighbour(p))
         if (mark(other) < MOST_MARKS*f + count) cycle
         if (any(surface%face(:count, f) == coupled%node(other))) cycle
-        common = common + 1
+        shared = shared + 1
         distance = 0.0_dp
         if (coupled%node(other) > 0) then
           x = 0.0_dp
@@ -231,8 +231,8 @@ contains
         node = coupled%node(other)
       end associate
     end do
-    if (common > MOST_NODES*size(surface%dof, 1) .or. &
-        common == size(coupled%node) - count*size(surface%dof, 1)) node = 0
+    if (shared > MOST_NODES*size(surface%dof, 1) .or. &
+        shared == size(coupled%node) - count*size(surface%dof, 1)) node = 0
   end subroutine find_outside
 
   !> Mark the degrees of freedom that are coupled with all nodes of a face. `last`: a degree of freedom of its last

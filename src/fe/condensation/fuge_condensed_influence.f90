@@ -151,8 +151,8 @@ contains
     integer :: i, j, k, n
 
     n = size(body%dof, 2)
-    allocate (x(size(last), n), points(n), first(n), begin(n), begun(0:size(last) + 1), row(0:maxval([last, body%dof])), &
-              stat=stat)
+    allocate (x(size(last), n), points(n), first(n), begin(n), begun(0:size(last) + 1), &
+              row(0:maxval([last, body%dof])), stat=stat)
     if (stat /= 0) return
     row = 0
     ! Pins may be among the last degrees of freedom.

@@ -59,7 +59,8 @@ contains
 
     call check_pair(contact, opposite, options, pairs, info)
     if (info%failed()) return
-    ! Two or three numbers. Assigned to an array that is not allocated, gfortran compares its bounds before they are set.
+    ! Two or three numbers. Assigned to an array that is not allocated, gfortran compares its bounds before they are
+    ! set.
     allocate (way(size(contact%node, 1)))
     way(:) = way_to_origin(contact, opposite)
     if (options%revolution) way(1) = 0.0_dp

@@ -17,10 +17,10 @@ contains
 
   !> Fill the points of a surface that were not measured, as `fuge_read_surface` fills those of a file.
   !>
-  !> `height` (nx, ny), any numbers >= 1, is changed in place: each NaN becomes the mean height of its neighbours along x
-  !> and along y, from the rim of a hole inwards. `filled` is their number.
-  !> Errors, `height` unchanged and `filled` 0: FUGE_ERR_SIZE without points; FUGE_ERR_NOT_FINITE for infinity, and if all
-  !> heights are NaN; FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  !> `height` (nx, ny), any numbers >= 1, is changed in place: each NaN becomes the mean height of its neighbours along
+  !> x and along y, from the rim of a hole inwards. `filled` is their number. Errors, `height` unchanged and `filled` 0:
+  !> FUGE_ERR_SIZE without points; FUGE_ERR_NOT_FINITE for infinity, and if all heights are NaN; FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_MEMORY.
   pure subroutine fuge_fill_surface(height, info, filled)
     real(dp), intent(inout) :: height(:, :)
     type(fuge_info), intent(out) :: info

@@ -1,7 +1,8 @@
 !> Round punches on an elastic half-space, accurate to rounding with a few coefficients.
 !>
 !> The axisymmetric twin of `fuge_smooth_punch`: the contact is a disc whose radius is the only unknown, and pressure,
-!> approach and load follow from Abel's transform of the profile in closed form. See doc/theory_punch.md, "Round punches".
+!> approach and load follow from Abel's transform of the profile in closed form. See
+!> doc/theory_punch.md, "Round punches".
 module fuge_round_punch
   use fuge_constants, only: LARGEST_EXPONENT_OF_2
   use fuge_elastic_moduli, only: check_e_star

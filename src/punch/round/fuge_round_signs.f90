@@ -198,7 +198,7 @@ contains
     value = contact%pressure(clipped*contact%radius)/contact%e_star
     where (clipped < 1.0_dp)
       value = value/sqrt((1.0_dp - clipped)*(1.0_dp + clipped))
-    elsewhere
+    else where
       value = transform%rim_slope()/acos(-1.0_dp)
     end where
     value = value*acos(-1.0_dp)/(2.0_dp*transform%thrust())

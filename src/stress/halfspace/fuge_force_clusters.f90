@@ -224,20 +224,20 @@ contains
 
   !> The classes, along x and y, of the coarsest grid that stands for cluster `k` at all points between `low` (3) and
   !> `high` (3), in z, too; one is 0 if they are too near for all.
-  pure function cluster_classes(clusters, k, low, high) result(class)
+  pure function cluster_classes(clusters, k, low, high) result(size_class)
     type(force_clusters), intent(in) :: clusters
     integer, intent(in) :: k
     real(dp), intent(in) :: low(3), high(3)
-    integer :: class(2)
+    integer :: size_class(2)
     real(dp) :: middle(2), beside(2)
 
-    class = 0
+    size_class = 0
     if (clusters%levels < 1) return
     associate (centre => clusters%box(:2, k), half => clusters%box(3:, k))
       middle = max(low(:2) - centre, centre - high(:2), 0.0_dp)
       beside = max(middle - half, 0.0_dp)
-      class(1) = side_class(middle(1)**2 + beside(2)**2 + low(3)**2, half(1))
-      class(2) = side_class(middle(2)**2 + beside(1)**2 + low(3)**2, half(2))
+      size_class(1) = side_class(middle(1)**2 + beside(2)**2 + low(3)**2, half(1))
+      size_class(2) = side_class(middle(2)**2 + beside(1)**2 + low(3)**2, half(2))
     end associate
   end function cluster_classes
 

@@ -1,8 +1,8 @@
 !> Levels of cells for the preconditioner of a contact set of many segments.
 !>
-!> Each level has cells sixteen times as wide as those of the level before: the preconditioner of each level handles what
-!> varies within groups of sixteen of its cells, and the next level handles the group means. doc/theory.md shows that the
-!> sum over the levels is symmetric and positive definite.
+!> Each level has cells sixteen times as wide as those of the level before: the preconditioner of each level handles
+!> what varies within groups of sixteen of its cells, and the next level handles the group means. doc/theory.md shows
+!> that the sum over the levels is symmetric and positive definite.
 module fuge_preconditioner_levels
   use fuge_kinds, only: dp
   use fuge_level_groups, only: add_to_groups, compute_group_means, subtract_from_groups, sum_over_groups, GROUP
