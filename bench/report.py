@@ -349,7 +349,8 @@ def main():
     parts = {"choice": choice_table(data), "orders": order_table(data), "dense": dense_table(data),
              "products": products_table(data), "growth": growth_table(data), "crossings": crossing_list(data),
              "bound": tidied(bound_table(directory)), "conditions": condition_table(directory),
-             "estimates": tidied(contents(directory, "force_error_active_set.md")), "speed": speed_text(data), **area_report.tables(data),
+             "estimates": tidied(contents(directory, "force_error_active_set.md")),
+             "speed": speed_text(data), **area_report.tables(data),
              **call_tables.tables(contents(directory, "choices.md"), contents(directory, "costs_bodies.md")),
              **{name: tidied(contents(directory, f"{program}.md"), ROWS.get(name, ""), WORDS.get(name, ()),
                              LEFT_OUT.get(name, ()))

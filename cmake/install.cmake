@@ -47,6 +47,7 @@ function(fuge_install_library target package)
   install(EXPORT ${targets_file} NAMESPACE fuge:: DESTINATION "${package_dir}" ${for_developers})
 
   set(pc_name ${package})
+  list(JOIN fuge_components " " pc_components)
   set(pc_description "${arg_DESCRIPTION}")
   list(JOIN arg_REQUIRES " " pc_requires)
   get_target_property(output_name ${target} OUTPUT_NAME)

@@ -3,8 +3,8 @@
 #
 #   fuge_is_left_out(result text ..)          is what has these texts in its source left out?
 #   fuge_files_are_left_out(result file ..)   the same for files
-#   fuge_component_of_files(result file ..)   the component that they belong to: the last one, in the order of
-#                                             components.txt, of those whose modules, procedures or functions they use
+#   fuge_components_of_files(result file ..)  the components beside core whose modules, procedures or functions they
+#                                             use, in the order of components.txt; core if there are none
 
 # Operators by FFT, stresses on grids, transforms.
 set(fuge_of_fftw
@@ -15,7 +15,7 @@ list(JOIN fuge_of_fftw "|" fuge_of_fftw)
 # fuge_owner_<name>, in small letters: the component that has the module, that exports the Fortran name, or whose header
 # declares the C function.
 foreach(component IN LISTS fuge_all_components)
-  file(GLOB_RECURSE names "${PROJECT_SOURCE_DIR}/src/${component}/*.f90")
+  file(GLOB_RECURSE names CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${component}/*.f90")
   list(TRANSFORM names REPLACE "^.*/|[.]f90$" "")
   file(READ "${PROJECT_SOURCE_DIR}/src/${component}/fuge_${component}.f90" text)
   string(TOLOWER "${text}" text)
@@ -57,16 +57,19 @@ function(fuge_read_files result)
   set(${result} "${texts}" PARENT_SCOPE)
 endfunction()
 
-function(fuge_component_of_files result)
+function(fuge_components_of_files result)
   fuge_read_files(texts ${ARGN})
   fuge_components_of_text(used "${texts}")
-  set(last core)
+  set(found)
   foreach(component IN LISTS fuge_all_components)
-    if(component IN_LIST used)
-      set(last "${component}")
+    if(component IN_LIST used AND NOT component STREQUAL "core")
+      list(APPEND found "${component}")
     endif()
   endforeach()
-  set(${result} "${last}" PARENT_SCOPE)
+  if(NOT found)
+    set(found core)
+  endif()
+  set(${result} "${found}" PARENT_SCOPE)
 endfunction()
 
 function(fuge_is_left_out result)

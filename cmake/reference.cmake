@@ -122,6 +122,8 @@ function(fuge_describe_procedure name said)
 endfunction()
 
 function(fuge_describe_type name)
+  # The types between are internal.
+  string(REGEX REPLACE "extends[(](grid|shared)_operator[)]" "extends(fuge_operator)" head_${name} "${head_${name}}")
   set(text "```fortran\n${head_${name}}\n```\n\n${doc_${name}}\n")
   if(parts_${name})
     string(APPEND text "${parts_${name}}\n")

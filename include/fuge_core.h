@@ -308,7 +308,7 @@ int fuge_operator_set_coarser(fuge_operator *op, const fuge_operator *coarse,
  * closer the bodies, the fewer products; it pays as long as the force of one cell displaces it
  * less than about four times as far as on auxiliary.  auxiliary is not copied: free it after
  * the solves with op.  FUGE_ERR_SIZE for other cells, FUGE_ERR_UNSUPPORTED for another
- * operator. */
+ * operator, one of fuge_mpi.h too. */
 int fuge_operator_set_auxiliary(fuge_operator *op, const fuge_operator *auxiliary,
                                 char *message, size_t len);
 
@@ -348,7 +348,7 @@ int fuge_operator_halfplane(int n, double spacing, double e_star, int element, i
 /* Let threads >= 1 threads share each transform of a half-plane operator, or each product of
  * one of fuge_operator_halfspace, which has one when it is created.  Worth while from about
  * 10^5 cells on; not during a solve.  Results change by rounding only.  FUGE_ERR_OPTION,
- * FUGE_ERR_UNSUPPORTED for another operator, FUGE_ERR_MEMORY. */
+ * FUGE_ERR_UNSUPPORTED for another operator, one of fuge_mpi.h too, FUGE_ERR_MEMORY. */
 int fuge_operator_set_threads(fuge_operator *op, int threads, char *message, size_t len);
 
 /* The product u = A f of any operator, without a contact problem: the displacements by given

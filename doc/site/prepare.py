@@ -203,12 +203,12 @@ def write_sources(root, work):
 
 
 def public_base(root, base, known):
-    """The type itself, or the one that it extends, if that has a page and it has none."""
+    """The type itself, or the next one of those that it extends which has a page."""
     if base not in known:
         for path in (root/"src").rglob("*.f90"):
             match = re.search(rf"^ *type\b.*extends\((\w+)\).*:: *{base}$", path.read_text(), re.M)
             if match:
-                return match.group(1)
+                return public_base(root, match.group(1), known)
     return base
 
 

@@ -29,7 +29,7 @@ contains
     call random_seed(put=spread(7919, 1, seed_size))
     call line%set(64, 1.0_dp, 1.0_dp, MPI_COMM_WORLD, info)
     call expect(info%status == FUGE_DONE, trim(info%message))
-    rows%point_space = line%space()
+    rows%point_space = line%ranks()
     if (rows%is_alone()) return
     do trial = 1, TRIALS
       call random_number(random)

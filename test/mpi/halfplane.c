@@ -15,6 +15,33 @@ static void expect(int true, const char *what, const char *message) {
   printf("rank %d, not as expected: %s: %s\n", rank, what, message);
 }
 
+/* Products of the cells of a rank are those of one process; an error on one rank is one on all of them. */
+static void expect_products(const fuge_operator *op, int first, int rows) {
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
+  double *force = malloc(sizeof *force * N), *whole = malloc(sizeof *whole * N), *own = malloc(sizeof *own * N);
+  double difference = 0, largest = 0;
+  fuge_operator *alone = NULL;
+  int i, status;
+  for (i = 0; i < N; i++) force[i] = 1 + i % 7;
+  status = fuge_operator_halfplane(N, 1.0 / N, 1.0, FUGE_MEAN, FUGE_FREE, &alone, message, sizeof message);
+  if (status == FUGE_DONE) status = fuge_operator_apply(alone, N, force, whole, message, sizeof message);
+  expect(status == FUGE_DONE, "a product of one process", message);
+  status = fuge_operator_apply(op, rows, force + (rows > 0 ? first : 0), own, message, sizeof message);
+  expect(status == FUGE_DONE, "a product", message);
+  for (i = 0; i < rows; i++) {
+    largest = fmax(largest, fabs(whole[first + i]));
+    difference = fmax(difference, fabs(own[i] - whole[first + i]));
+  }
+  expect(difference <= 1e-11 * largest, "displacements of a product", "");
+  if (rank == 0) force[first] = NAN;
+  status = fuge_operator_apply(op, rows, force + (rows > 0 ? first : 0), own, message, sizeof message);
+  expect(status == FUGE_ERR_NOT_FINITE, "a force that is not finite, on rank 0", message);
+  fuge_operator_free(&alone);
+  free(force);
+  free(whole);
+  free(own);
+}
+
 int main(int argc, char **argv) {
   char message[FUGE_MESSAGE_LENGTH + 1] = "", header[129] = "";
   const char *path = "line_gaps.npy";
@@ -55,6 +82,10 @@ int main(int argc, char **argv) {
   }
   status = fuge_mpi_read_rows(path, op, read, message, sizeof message);
   expect(status == FUGE_DONE && memcmp(read, gap, sizeof *gap * (size_t)rows) == 0, "read", message);
+
+  expect_products(op, first, rows);
+  status = fuge_operator_set_threads(op, 2, message, sizeof message);
+  expect(status == FUGE_ERR_UNSUPPORTED, "threads", message);
 
   status = fuge_solver_new(op, NULL, &solver, message, sizeof message);
   if (status == FUGE_DONE) status = fuge_set_gap(solver, read, NULL);

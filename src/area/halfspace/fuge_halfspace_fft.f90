@@ -104,7 +104,7 @@ contains
     call compute_spectra(operator%surface, operator%plan, operator%influence, operator%inverse, operator%datum_value, &
                          status)
     if (status /= 0) call report_no_memory(operator, info)
-    if (.not. info%failed()) call operator%coarser%create(count_coarser(operator%surface))
+    if (.not. info%failed()) call operator%make_room(count_coarser(operator%surface))
   end subroutine prepare
 
   !> Let `threads` >= 1 threads share each product from now on. Not during a solve. Errors, which leave the operator
@@ -121,7 +121,7 @@ contains
     end if
     if (info%failed()) return
     self%threads = threads
-    call self%coarser%create(count_coarser(self%surface))
+    call self%make_room(count_coarser(self%surface))
   end subroutine set_threads
 
   pure subroutine check_threads(threads, info)
@@ -163,7 +163,7 @@ contains
     call self%influence%move_from(new%influence)
     call self%inverse%move_from(new%inverse)
     call self%plan%move_from(new%plan)
-    call self%coarser%move_from(new%coarser)
+    call self%take_coarser(new)
   end subroutine move_contents
 
   pure subroutine copy_numbers(self, source)
@@ -189,11 +189,11 @@ contains
     if (stat == 0) call self%inverse%copy_from(source%inverse, stat)
     call self%plan%copy_from(source%plan)
     call copy_numbers(self, source)
-    call self%coarser%clear()
+    call self%drop_coarser()
     self%surface%cells = 0
     if (stat /= 0 .or. self%plan%cells(1) < 1) return
     self%surface%cells = cells
-    call self%coarser%create(count_coarser(self%surface))
+    call self%make_room(count_coarser(self%surface))
   end subroutine copy
 
   !> Number of cells nx*ny; 0 before `set`.

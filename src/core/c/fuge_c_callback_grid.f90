@@ -9,7 +9,6 @@ module fuge_c_callback_grid
   use fuge_grid_operator_type, only: grid_operator
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, &
     FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
   implicit none
@@ -126,15 +125,13 @@ contains
     type(callback_operator), intent(in) :: callback
     type(operator_handle), intent(in) :: handle
     type(fuge_info), intent(inout) :: info
-    type(point_space) :: space
     integer :: cells(2)
     logical :: known
 
     cells = handle%operator%grid()
-    space = handle%operator%space()
     select type (auxiliary => handle%operator)
     class is (grid_operator)
-      known = space%is_alone()
+      known = .not. auxiliary%is_shared()
     class default
       known = .false.
     end select

@@ -11,6 +11,7 @@ module fuge_c_operator
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, report, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, &
     FUGE_ERR_UNSUPPORTED
   implicit none
@@ -92,6 +93,7 @@ contains
     type(operator_handle), pointer :: handle
     real(c_double), pointer :: forces(:), displacements(:)
     real(c_double), allocatable :: product(:)
+    type(point_space) :: space
     type(fuge_info) :: info
 
     nullify (handle)
@@ -104,6 +106,10 @@ contains
     call find_array(n, force, 'f', forces, info)
     call find_array(n, displacement, 'u', displacements, info)
     if (.not. info%failed()) call check_forces(forces, info)
+    if (associated(handle)) then
+      space = handle%operator%ranks()
+      call space%agree(info)
+    end if
     if (.not. info%failed()) call find_product(handle%operator, forces, product, info)
     if (.not. info%failed()) displacements = product
     status = report_to_c(info, message, length)
@@ -115,33 +121,36 @@ contains
     type(fuge_info), intent(inout) :: info
 
     call check_finite(force, 'f', info)
-    if (info%failed()) return
+    if (info%failed() .or. size(force) < 1) return
     if (exponent(maxval(abs(force))) > LARGEST_EXPONENT) &
       call report(info, FUGE_ERR_OVERFLOW, 'f has a force of '//text(maxval(abs(force))) &
                   //': choose a larger unit of force')
   end subroutine check_forces
 
-  !> u = A f with the datum, in an array of its own, because the caller's stays as it is after an error.
+  !> u = A f with the datum, in an array of its own, because the caller's stays as it is after an error. Ranks that share
+  !> the points end with the same status.
   subroutine find_product(operator, force, displacement, info)
     class(fuge_operator), intent(in) :: operator
     real(c_double), intent(in) :: force(:)
     real(c_double), allocatable, intent(out) :: displacement(:)
     type(fuge_info), intent(inout) :: info
+    type(point_space) :: space
     integer :: stat
 
+    space = operator%ranks()
     allocate (displacement(size(force)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(force))//' displacements')
-      return
-    end if
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(force))//' displacements')
+    call space%agree(info)
+    if (info%failed()) return
     call multiply(operator, force, displacement, info)
     ! No function of the caller is to blame for a product of the library: it is out of range, which is judged below.
     if (info%status == FUGE_ERR_CALLBACK .and. is_of_library(operator)) info = fuge_info()
     if (info%failed()) return
-    displacement = displacement + operator%datum()*sum(force)
+    displacement = displacement + operator%datum()*space%total(sum(force))
     if (.not. is_finite_everywhere(displacement)) &
       call report(info, FUGE_ERR_OVERFLOW, 'the displacements are too large: choose units in which forces and ' &
                   //'compliances are nearer to 1')
+    call space%agree(info)
   end subroutine find_product
 
   !> Does the library itself form the products of the operator?

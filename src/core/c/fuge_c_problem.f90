@@ -208,7 +208,7 @@ contains
     type(point_space) :: space
 
     n = points_of(handle)
-    space = handle%operator%operator%space()
+    space = handle%operator%operator%ranks()
     if (.not. space%is_alone()) n = product(handle%operator%operator%grid())
   end function points_of_all_ranks
 

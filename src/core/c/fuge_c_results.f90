@@ -54,7 +54,7 @@ contains
 
     status = find_solution(solver, resultant, 'resultant', handle)
     if (status /= FUGE_DONE) return
-    space = handle%operator%operator%space()
+    space = handle%operator%operator%ranks()
     associate (problem => handle%problem, force => handle%solution%force)
       if (allocated(problem%modes)) then
         allocate (sums(size(problem%modes, 2)))

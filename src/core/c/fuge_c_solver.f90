@@ -87,7 +87,7 @@ contains
     call find_solver(solver, handle, info)
     if (associated(handle)) then
       if (.not. info%failed()) call require_problem(handle, 'fuge_solve', info)
-      space = handle%operator%operator%space()
+      space = handle%operator%operator%ranks()
       call space%agree(info)
     end if
     if (.not. info%failed()) then

@@ -85,7 +85,7 @@ contains
     if (.not. info%failed()) call plan_transforms(new, info, threads, measured)
     if (.not. info%failed()) call compute_line_spectra(new%line, new%plan, new%influence, new%inverse, &
                                                        new%datum_value, info)
-    if (.not. info%failed()) call new%coarser%create(count_coarser(n))
+    if (.not. info%failed()) call new%make_room(count_coarser(n))
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
 
@@ -103,7 +103,7 @@ contains
     end if
     call self%plan%set(self%plan%length, info, threads, self%plan%measured)
     if (info%failed()) return
-    call self%coarser%create(count_coarser(self%line%cells))
+    call self%make_room(count_coarser(self%line%cells))
   end subroutine set_threads
 
   !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
@@ -131,7 +131,7 @@ contains
     call self%influence%move_from(new%influence)
     call self%inverse%move_from(new%inverse)
     call self%plan%move_from(new%plan)
-    call self%coarser%move_from(new%coarser)
+    call self%take_coarser(new)
   end subroutine move_contents
 
   !> Assignment. If memory for the copy cannot be allocated, the copy is not set.
@@ -148,11 +148,11 @@ contains
     self%plan = source%plan
     self%line = source%line
     self%datum_value = source%datum_value
-    call self%coarser%clear()
+    call self%drop_coarser()
     self%line%cells = 0
     if (stat /= 0 .or. self%plan%length < 1) return
     self%line%cells = cells
-    call self%coarser%create(count_coarser(cells))
+    call self%make_room(count_coarser(cells))
   end subroutine copy
 
   !> Number of cells n; 0 before `set`.

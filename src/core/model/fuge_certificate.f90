@@ -107,7 +107,7 @@ contains
     suspect = LEAST_SUSPECT
     if (present(enough)) suspect = max(suspect, enough)
 
-    space = operator%space()
+    space = operator%ranks()
     if (.not. space%everywhere(sizes_agree(operator, problem, solution))) then
       call report(info, FUGE_ERR_SIZE, 'certificate: an array is missing or not as long as the operator has points')
       return
@@ -164,7 +164,7 @@ contains
     real(dp), allocatable, dimension(:) :: largest, of_bodies, rounding, terms
     integer :: stat
 
-    space = operator%space()
+    space = operator%ranks()
     allocate (largest(size(force)), of_bodies(size(force)), rounding(size(force)), terms(size(force)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the certificate of '//text(size(force))//' points')
     call space%agree(info)
@@ -430,7 +430,7 @@ contains
     integer :: m
 
     m = problem%mode_count()
-    space = operator%space()
+    space = operator%ranks()
     sizes_agree = (operator%points() > 0 .or. .not. space%is_alone()) .and. size_of(problem%gap) == operator%points() &
       .and. size_of(solution%force) == operator%points() &
       .and. size_of(solution%gap) == operator%points() .and. size_of(solution%motion) == m

@@ -11,9 +11,13 @@ module fuge_grid_operator_type
   !> Equal cells of a surface, all of them here or shared by ranks; `grid` is zero before they are set.
   type, abstract, extends(fuge_operator), public :: grid_operator
     !> The coarser grids of its solves.
-    type(grid_store) :: coarser
+    type(grid_store), private :: coarser
   contains
     procedure(share_products), deferred :: set_threads
+    procedure :: make_room
+    procedure :: take_coarser
+    procedure :: drop_coarser
+    procedure :: is_shared
     procedure :: has_preconditioner
     procedure :: check_sizes
     procedure :: kept_coarser
@@ -31,6 +35,35 @@ module fuge_grid_operator_type
   end interface
 
 contains
+
+  !> Room for `count` coarser grids; what was kept is dropped.
+  subroutine make_room(self, count)
+    class(grid_operator), intent(inout) :: self
+    integer, intent(in) :: count
+
+    call self%coarser%create(count)
+  end subroutine make_room
+
+  !> Take the coarser grids of `source`, which has none afterwards.
+  subroutine take_coarser(self, source)
+    class(grid_operator), intent(inout) :: self, source
+
+    call self%coarser%move_from(source%coarser)
+  end subroutine take_coarser
+
+  subroutine drop_coarser(self)
+    class(grid_operator), intent(inout) :: self
+
+    call self%coarser%clear()
+  end subroutine drop_coarser
+
+  !> Is it one whose cells ranks share? False by default.
+  pure function is_shared(self)
+    class(grid_operator), intent(in) :: self
+    logical :: is_shared
+
+    is_shared = self%points() < 0
+  end function is_shared
 
   !> True after `set`.
   function has_preconditioner(self) result(preconditioned)
@@ -50,7 +83,7 @@ contains
 
     status = FUGE_ERR_CALL_ORDER
     if (any(self%grid() < 1)) return
-    space = self%space()
+    space = self%ranks()
     status = merge(FUGE_DONE, FUGE_ERR_SIZE, space%everywhere(first == self%points() .and. second == self%points()))
   end subroutine check_sizes
 
@@ -64,7 +97,7 @@ contains
     integer :: k
 
     nullify (coarse)
-    space = self%space()
+    space = self%ranks()
     k = self%coarser%place(levels)
     if (.not. space%everywhere(k > 0)) return
     ! Ranks wait for each other: a thread that held the lock meanwhile might keep another one from being waited for.

@@ -31,7 +31,7 @@ contains
 
     call operator%apply(force, displacement, status)
     call judge_product(force, displacement, status, info)
-    space = operator%space()
+    space = operator%ranks()
     call space%agree(info)
   end subroutine multiply
 
@@ -46,7 +46,7 @@ contains
 
     call operator%apply_with_magnitude(force, displacement, magnitude, status)
     call judge_product(force, displacement, status, info)
-    space = operator%space()
+    space = operator%ranks()
     call space%agree(info)
   end subroutine multiply_with_magnitude
 
@@ -85,7 +85,7 @@ contains
       call report_not_finite(displacement, 'displacement', force, 'force', 'preconditioner', info%preconditionings, &
                              info)
     end if
-    space = operator%space()
+    space = operator%ranks()
     call space%agree(info)
   end subroutine precondition
 

@@ -41,7 +41,7 @@ module fuge_operator_type
     !> The same body, but forces and displacements of a part of its cells only.
     procedure :: window => no_window
     !> The processes that share the points.
-    procedure :: space => no_other_ranks
+    procedure :: ranks => no_other_ranks
     !> Which rows of the grid each of them has.
     procedure :: first_rows => all_rows_here
   end type fuge_operator

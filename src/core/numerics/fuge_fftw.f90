@@ -1,6 +1,7 @@
 !> FFTW's procedures for double precision, as `fuge_fft` calls them, but for those of `fuge_fftw_planner`.
 !>
-!> without_fftw/ has another module of this name, which takes its place where the library is built without FFTW.
+!> src/variants/without_fftw/ has another module of this name, which takes its place where the library is built without
+!> FFTW.
 module fuge_fftw
   use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_size_t
   implicit none

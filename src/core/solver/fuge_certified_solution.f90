@@ -31,7 +31,7 @@ contains
 
     call find_violation(operator, problem, solution, violation, info, enough=tolerance)
     if (info%failed()) return
-    space = operator%space()
+    space = operator%ranks()
     info%contacts = space%total_count(count(abs(solution%force) > 0.0_dp))
     info%residual = violation%worst()
     if (violation%unresolved > tolerance) then

@@ -60,7 +60,7 @@ contains
     end if
     self%is_general = is_general(problem)
     self%is_prescribed = .not. (self%is_general .or. problem%is_plain())
-    if (self%is_general) call make_canonical(problem, self%canonical, info, operator%space())
+    if (self%is_general) call make_canonical(problem, self%canonical, info, operator%ranks())
     if (info%failed()) return
     call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, info)
     ! Do not retry a solve that the operator or the monitor has ended.
@@ -143,12 +143,12 @@ contains
       return
     end if
     call set_problem(0.0_dp*gap_change, 1.0_dp, problem, info)
-    space = operator%space()
+    space = operator%ranks()
     call space%agree(info)
     if (info%failed()) return
     problem%prescribed = [self%is_prescribed]
     problem%motion = [0.0_dp]
-    call make_canonical(problem, canonical, info, operator%space())
+    call make_canonical(problem, canonical, info, operator%ranks())
     if (.not. info%failed()) call find_derivative_by_products(operator, canonical, self%last%state, &
                                                               self%last%tolerance, gap_change, load_change, change, &
                                                               info)

@@ -24,7 +24,7 @@ contains
 
     cells = operator%grid()
     if (.not. any(operator%free_rim())) return
-    space = operator%space()
+    space = operator%ranks()
     call operator%first_rows(0, rows)
     if (space%anywhere(.not. allocated(rows))) return
     associate (me => space%number() + lbound(rows, 1))

@@ -78,7 +78,7 @@ contains
     self%by_matrix%has_solution = .false.
     self%by_products%has_solution = .false.
     self%last_report = fuge_info()
-    space = operator%space()
+    space = operator%ranks()
     call check_options(chosen, info)
     call space%agree(info)
     if (info%failed()) return
@@ -202,7 +202,7 @@ contains
     type(point_space) :: space
 
     info = self%last_report
-    space = operator%space()
+    space = operator%ranks()
     if (self%solved_by_products) then
       call check_changes(self%by_products, space, operator%points(), gap_change, load_change, info)
     else

@@ -144,7 +144,7 @@ contains
     datum = merge(operator%datum_value, 0.0_dp, me == 0)
     call operator%group%add(datum)
     operator%datum_value = datum(1)
-    call operator%coarser%create(count_coarser(operator%line%cells))
+    call operator%make_room(count_coarser(operator%line%cells))
   end subroutine prepare
 
   !> What one of several ranks needs. Errors, on all ranks that have cells: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
@@ -187,7 +187,7 @@ contains
     self%part = new%part
     self%shared => new%shared
     self%whole => new%whole
-    call self%coarser%move_from(new%coarser)
+    call self%take_coarser(new)
     self%owner = c_loc(self%measured)
     new%owner = c_null_ptr
     call new%free()
@@ -197,7 +197,7 @@ contains
   subroutine free(self)
     class(fuge_mpi_halfplane_operator), intent(inout), target :: self
 
-    call self%coarser%clear()
+    call self%drop_coarser()
     if (owns(self%owner, c_loc(self%measured))) then
       if (associated(self%shared)) then
         call self%shared%transform%free()
@@ -283,7 +283,7 @@ contains
     real(dp), intent(out) :: magnitude(:)
     type(point_space) :: space
 
-    space = self%space()
+    space = self%ranks()
     magnitude = max(space%largest(maxval(abs(displacement))), &
                     least_magnitude(self%line, space%total(sum(abs(force)))))
   end subroutine line_magnitude

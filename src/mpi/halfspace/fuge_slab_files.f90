@@ -48,7 +48,7 @@ contains
 
     call require_grid(operator, info)
     if (info%failed()) return
-    space = operator%space()
+    space = operator%ranks()
     allocate (rows(operator%points()), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(operator%points())//' values')
     call space%agree(info)
@@ -85,7 +85,7 @@ contains
 
     call require_grid(operator, info)
     if (info%failed()) return
-    space = operator%space()
+    space = operator%ranks()
     if (size(values) /= operator%points()) call report(info, FUGE_ERR_SIZE, text(size(values))//' value(s): the rows ' &
                                                        //'of this rank have '//text(operator%points()))
     call space%agree(info)
@@ -207,7 +207,7 @@ contains
     type(point_space) :: space
     integer :: error
 
-    space = operator%space()
+    space = operator%ranks()
     begin = 0
     if (space%number() == 0) then
       bytes = ' '

@@ -106,7 +106,7 @@ contains
       if (stat == 0) deallocate (operator%parts)
       call report(info, FUGE_ERR_MEMORY, 'no memory for an operator')
     end if
-    if (.not. info%failed()) call operator%coarser%create(count_coarser(operator%surface))
+    if (.not. info%failed()) call operator%make_room(count_coarser(operator%surface))
   end subroutine prepare
 
   !> Move the contents of `new` to `self`.
@@ -119,7 +119,7 @@ contains
     self%measured = new%measured
     call self%take_group(new)
     self%parts => new%parts
-    call self%coarser%move_from(new%coarser)
+    call self%take_coarser(new)
     self%owner = c_loc(self%measured)
     new%owner = c_null_ptr
     nullify (new%parts)
@@ -130,7 +130,7 @@ contains
   subroutine free(self)
     class(fuge_mpi_halfspace_operator), intent(inout), target :: self
 
-    call self%coarser%clear()
+    call self%drop_coarser()
     if (owns(self%owner, c_loc(self%measured))) then
       call self%parts%free()
       deallocate (self%parts)
@@ -204,7 +204,7 @@ contains
     real(dp), intent(out) :: magnitude(:)
     type(point_space) :: space
 
-    space = self%space()
+    space = self%ranks()
     magnitude = max(space%largest(maxval(abs(displacement))), &
                     least_magnitude(self%surface, space%total(sum(abs(force)))))
   end subroutine slab_magnitude

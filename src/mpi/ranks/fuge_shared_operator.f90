@@ -8,7 +8,8 @@ module fuge_shared_operator
   use fuge_number_text, only: text
   use fuge_point_space, only: point_space
   use fuge_shared_problem, only: differ
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
+    FUGE_ERR_UNSUPPORTED
   use mpi_f08, only: MPI_Comm
   implicit none
   private
@@ -27,7 +28,8 @@ module fuge_shared_operator
     procedure(find_rows), deferred :: own_rows
     procedure :: set_threads
     procedure :: comm
-    procedure :: space
+    procedure :: ranks
+    procedure :: is_shared
     procedure :: apply_with_magnitude
     procedure :: join
     procedure :: take_group
@@ -114,20 +116,24 @@ contains
 
     call self%group%agree(info)
     if (info%failed()) return
-    if (differ(numbers, self%space())) then
+    if (differ(numbers, self%ranks())) then
       call report(info, FUGE_ERR_OPTION, 'the grid differs between the ranks: pass the same '//which &
                   //' and options on all of them')
     end if
   end subroutine check_same
 
-  !> FUGE_ERR_UNSUPPORTED: ranks share the products.
+  !> FUGE_ERR_UNSUPPORTED: ranks share the products. FUGE_ERR_CALL_ORDER before `set`.
   subroutine set_threads(self, threads, info)
     class(shared_operator), intent(inout) :: self
     integer, intent(in) :: threads
     type(fuge_info), intent(out) :: info
 
-    call report(info, FUGE_ERR_UNSUPPORTED, 'threads = '//text(threads)//' for '//text(self%points()) &
-                //' points of a rank: the products of this operator are shared by ranks, each of them one thread')
+    if (self%is_shared()) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'threads = '//text(threads)//': ranks share the products of this ' &
+                  //'operator, and each of them has one thread')
+    else
+      call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it before its threads')
+    end if
   end subroutine set_threads
 
   !> The communicator of the operator, a duplicate of that of `set`; only after `set`.
@@ -139,13 +145,21 @@ contains
   end function comm
 
   !> The ranks of the communicator; where it has one, that is alone.
-  function space(self)
+  function ranks(self) result(space)
     class(shared_operator), intent(in) :: self
     type(point_space) :: space
 
     if (.not. associated(self%group)) return
     if (self%group%members() > 1) space%group => self%group
-  end function space
+  end function ranks
+
+  !> True after `set`, also where the communicator has one rank.
+  pure function is_shared(self)
+    class(shared_operator), intent(in) :: self
+    logical :: is_shared
+
+    is_shared = associated(self%group)
+  end function is_shared
 
   !> Did an allocation succeed on all ranks?
   function agreed(self, stat)
@@ -154,7 +168,7 @@ contains
     logical :: agreed
     type(point_space) :: space
 
-    space = self%space()
+    space = self%ranks()
     agreed = space%everywhere(stat == 0)
   end function agreed
 
@@ -167,7 +181,7 @@ contains
     type(point_space) :: space
 
     magnitude = 0.0_dp
-    space = self%space()
+    space = self%ranks()
     call self%apply(force, displacement, status)
     if (.not. space%everywhere(status == FUGE_DONE)) return
     if (space%everywhere(is_finite_everywhere(displacement))) call self%magnitude(force, displacement, magnitude)

@@ -81,7 +81,7 @@ contains
     type(point_space) :: space
 
     history%started_warm = .false.
-    space = operator%space()
+    space = operator%ranks()
     coarse_settings%limit = iteration_limit(options, space%total_count(operator%points()) + 1)
     settings = coarse_settings
     settings%tolerance = options%tolerance

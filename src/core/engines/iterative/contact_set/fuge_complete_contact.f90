@@ -38,7 +38,7 @@ contains
     n = operator%points()
     allocate (force(n), displacement(n), magnitude(n), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to displace '//text(n)//' points by equal forces')
-    space = operator%space()
+    space = operator%ranks()
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     points = space%total_count(n)

@@ -83,7 +83,7 @@ contains
     type(contact_segments) :: segments
     type(point_space) :: space
 
-    space = operator%space()
+    space = operator%ranks()
     if (.not. operator%has_preconditioner()) then
       ! Only avoids overflow: conjugate gradients do not depend on a factor. The first one is kept, so that what they
       ! find on one set can be compared with another.
@@ -304,7 +304,7 @@ contains
     if (.not. allocated(self%contact)) allocate (self%contact(n), self%uniform(n), stat=stat)
     if (stat == 0) self%contact = contact
     self%depth = 1
-    space = operator%space()
+    space = operator%ranks()
     if (space%everywhere(stat == 0)) call find_levels(self, operator, contact, stat, info)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
     call space%agree(info)
@@ -328,7 +328,7 @@ contains
     if (info%failed()) return
     if (count_segments(rows, contact) < MANY_SEGMENTS) return
     n = size(contact)
-    space = operator%space()
+    space = operator%ranks()
     if (.not. allocated(self%levels)) then
       allocate (self%levels(MAX_LEVELS), self%forces(MAX_LEVELS), stat=stat)
       if (stat == 0) allocate (self%levels(1)%weight(n), self%levels(1)%residual(n), stat=stat)
@@ -356,7 +356,7 @@ contains
     allocate (unit(size(contact)), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(size(contact)) &
                                //' points')
-    space = operator%space()
+    space = operator%ranks()
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     unit = merge(1.0_dp, 0.0_dp, contact)

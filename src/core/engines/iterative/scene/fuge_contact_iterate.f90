@@ -489,7 +489,7 @@ contains
 
     call multiply(operator, force, displacement, info)
     if (.not. with_datum .or. info%failed()) return
-    space = operator%space()
+    space = operator%ranks()
     displacement = displacement + operator%datum()*space%total(sum(force))
   end subroutine compute_displacement
 

@@ -32,7 +32,7 @@ contains
     type(shared_rows), intent(out) :: rows
     type(fuge_info), intent(inout) :: info
 
-    rows%point_space = operator%space()
+    rows%point_space = operator%ranks()
     if (rows%is_alone()) return
     rows%cells = (operator%grid() - 1)/2**levels + 1
     call operator%first_rows(levels, rows%first)
