@@ -28,7 +28,7 @@ module lone_rank
     procedure :: points => count_cells
     procedure :: apply => copy_force
     procedure :: grid => own_cells
-    procedure :: space => own_group
+    procedure :: ranks => own_group
     procedure :: join
     procedure :: leave
   end type lone_operator
@@ -47,7 +47,7 @@ module lone_rank
     procedure :: free_rim => surface_rim
     procedure :: coarsen => coarsen_surface
     procedure :: window => surface_window
-    procedure :: space => surface_group
+    procedure :: ranks => surface_group
   end type lone_surface
 
 contains
