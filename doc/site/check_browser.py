@@ -26,7 +26,7 @@ QUERIES = (("fuge_solve_smooth_punch", "", 1, "fuge_solve_smooth_punch"), ("fuge
            ("certificate", "", 3, "theory.html#the-certificate"), ("find_package", "", 5, "install"),
            ("FUGE_ERR_NO_EQUILIBRIUM", "", 3, "module/fuge_status"), ("mortar", "", 3, "tutorial_two_meshes"),
            ("SOLVER", "", 5, "python"), ("how to tilt", "", 3, "#a-punch-that-tilts"),
-           ("tilting", "", 5, "#a-punch-that-tilts"), ("pressure", "", 1, "page/"), ("hertz", "", 1, "page/tutorial"),
+           ("tilting", "", 5, "#a-punch-that-tilts"), ("pressure", "", 1, "page/"), ("hertz", "", 3, "page/tutorial"),
            ("hertz", "Python", 1, "python.html#hertz_ellipse"), ("stresses", "", 1, "tutorial_stress"))
 # What no word begins with, though words have it in them.
 INSIDE = "ertz"
