@@ -30,7 +30,7 @@ HOLDS = {
 }
 SIX = {"core", "area", "punch", "stress", "fe", "files"}
 
-BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 72, 36, 14, 8, 8
+BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 80, 36, 14, 8, 8
 # For a page of 800 pixels: longer lines than LINE_LENGTH letters are broken.
 NAME_SIZE, TEXT_SIZE, LINE_HEIGHT, LINE_LENGTH = 14.5, 13.5, 17, 18
 STARTS = 20
@@ -135,18 +135,18 @@ def total_cost(layers, below):
 
 
 def text_width(text, size):
-    return 0.55*size*len(text)
+    return 0.58*size*len(text)
 
 
 def box_lines(component):
     """Lines of name and contents of a component."""
-    return component, textwrap.wrap(HOLDS.get(component, ""), LINE_LENGTH)
+    return component, textwrap.wrap(HOLDS.get(component, ""), LINE_LENGTH, break_on_hyphens=False)
 
 
 def box_width(component):
     name, contents = box_lines(component)
     # Bold letters are wider.
-    return 12 + max(1.2*text_width(name, NAME_SIZE), *(text_width(line, TEXT_SIZE) for line in [*contents, ""]))
+    return 20 + max(1.2*text_width(name, NAME_SIZE), *(text_width(line, TEXT_SIZE) for line in [*contents, ""]))
 
 
 def node_width(node):
