@@ -59,7 +59,7 @@ contains
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
   !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.
   subroutine solve(self, operator, problem, solution, info, options, monitor)
-    class(fuge_solver), intent(inout), target :: self
+    class(fuge_solver), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(inout) :: solution
@@ -70,7 +70,6 @@ contains
     type(fuge_solution) :: candidate
     type(monitor_relay) :: relay
     type(point_space) :: space
-    class(contact_engine), pointer :: engine
 
     if (present(options)) chosen = options
     if (present(monitor)) relay%listener => monitor
@@ -95,13 +94,11 @@ contains
       call solve_without_load(problem, space, candidate, info)
       if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
     else
-      engine => chosen_engine(self, operator, chosen)
-      call solve_and_certify(engine, operator, problem, chosen, relay, self%history, candidate, info)
-      if (engine%was_misled(info%status)) then
-        call engine%distrust_start()
-        candidate = fuge_solution()
-        info = fuge_info()
-        call solve_and_certify(engine, operator, problem, chosen, relay, self%history, candidate, info)
+      self%solved_by_products = takes_products(operator, chosen)
+      if (self%solved_by_products) then
+        call solve_again_if_misled(self%by_products, operator, problem, chosen, relay, self%history, candidate, info)
+      else
+        call solve_again_if_misled(self%by_matrix, operator, problem, chosen, relay, self%history, candidate, info)
       end if
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
                                                          //text(relay%reported)//' by the progress monitor')
@@ -116,24 +113,40 @@ contains
     end if
   end subroutine solve
 
-  !> FUGE_AUTO is the active set for a matrix, or the tableau if the history is asked for, which it alone keeps; for any
-  !> other operator the iteration.
-  function chosen_engine(self, operator, options) result(engine)
-    class(fuge_solver), intent(inout), target :: self
+  !> Which engine? FUGE_AUTO is the active set for a matrix, or the tableau if the history is asked for, which it alone
+  !> keeps; for any other operator the iteration, which takes products.
+  pure function takes_products(operator, options)
     class(fuge_operator), intent(in) :: operator
     type(fuge_options), intent(in) :: options
-    class(contact_engine), pointer :: engine
+    logical :: takes_products
 
-    self%solved_by_products = options%method == FUGE_ITERATIVE
+    takes_products = options%method == FUGE_ITERATIVE
     select type (operator)
     class is (fuge_dense_operator)
       continue
     class default
-      if (options%method == FUGE_AUTO) self%solved_by_products = .true.
+      if (options%method == FUGE_AUTO) takes_products = .true.
     end select
-    engine => self%by_matrix
-    if (self%solved_by_products) engine => self%by_products
-  end function chosen_engine
+  end function takes_products
+
+  !> Solve, and once more if what the engine has kept of an earlier solve has misled it.
+  subroutine solve_again_if_misled(engine, operator, problem, options, monitor, history, solution, info)
+    class(contact_engine), intent(inout) :: engine
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_history), intent(inout) :: history
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+
+    call solve_and_certify(engine, operator, problem, options, monitor, history, solution, info)
+    if (.not. engine%was_misled(info%status)) return
+    call engine%distrust_start()
+    solution = fuge_solution()
+    info = fuge_info()
+    call solve_and_certify(engine, operator, problem, options, monitor, history, solution, info)
+  end subroutine solve_again_if_misled
 
   !> One solve by the `engine`, and its certificate.
   subroutine solve_and_certify(engine, operator, problem, options, monitor, history, solution, info)
