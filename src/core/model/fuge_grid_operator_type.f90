@@ -107,7 +107,8 @@ contains
     if (space%is_alone()) call unlock(LOCK_GRIDS)
   end subroutine kept_coarser
 
-  !> Make element k of the kept grids, unless it has too few cells or memory is short.
+  !> Make element k of the kept grids, unless it has too few cells or memory is short. An operator of another kind, from a
+  !> `coarsen` of the caller's own, is not kept: it may change from solve to solve.
   subroutine keep_coarser(self, levels, k)
     class(grid_operator), intent(in) :: self
     integer, intent(in) :: levels, k
@@ -115,11 +116,13 @@ contains
 
     call self%coarsen(levels, wider)
     if (.not. allocated(wider)) return
-    call move_alloc(wider, self%coarser%grid(k)%operator)
-    select type (kept => self%coarser%grid(k)%operator)
+    select type (wider)
     class is (grid_operator)
-      call kept%coarser%refer_to(self%coarser, k)
+      call wider%coarser%refer_to(self%coarser, k)
+    class default
+      return
     end select
+    call move_alloc(wider, self%coarser%grid(k)%operator)
   end subroutine keep_coarser
 
 end module fuge_grid_operator_type

@@ -212,27 +212,34 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(out) :: info
-    type(point_space) :: space
 
     info = self%last_report
-    space = operator%ranks()
     if (self%solved_by_products) then
-      call check_changes(self%by_products, space, operator%points(), gap_change, load_change, info)
+      call differentiate(self%by_products, operator, gap_change, load_change, change, info)
     else
-      call check_changes(self%by_matrix, space, operator%points(), gap_change, load_change, info)
+      call differentiate(self%by_matrix, operator, gap_change, load_change, change, info)
     end if
+  end subroutine derivative_by_loads
+
+  !> The derivative of the last solution of `engine`, for changes that fit it.
+  subroutine differentiate(engine, operator, gap_change, load_change, change, info)
+    class(contact_engine), intent(in) :: engine
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(inout) :: info
+    type(point_space) :: space
+
+    space = operator%ranks()
+    call check_changes(engine, space, operator%points(), gap_change, load_change, info)
     call space%agree(info)
     if (info%failed()) return
     if (differ(load_change, space)) then
       call report(info, FUGE_ERR_OPTION, 'load_change differs between the ranks')
       return
     end if
-    if (self%solved_by_products) then
-      call self%by_products%derivative(operator, gap_change, load_change, change, info)
-    else
-      call self%by_matrix%derivative(operator, gap_change, load_change, change, info)
-    end if
-  end subroutine derivative_by_loads
+    call engine%derivative(operator, gap_change, load_change, change, info)
+  end subroutine differentiate
 
   !> Refuse changes that fit no solution of n points.
   subroutine check_changes(engine, space, n, gap_change, load_change, info)
