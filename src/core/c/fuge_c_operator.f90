@@ -127,8 +127,8 @@ contains
                   //': choose a larger unit of force')
   end subroutine check_forces
 
-  !> u = A f with the datum, in an array of its own, because the caller's stays as it is after an error. Ranks that share
-  !> the points end with the same status.
+  !> u = A f with the datum, in an array of its own, because the caller's stays as it is after an error. Ranks that
+  !> share the points end with the same status.
   subroutine find_product(operator, force, displacement, info)
     class(fuge_operator), intent(in) :: operator
     real(c_double), intent(in) :: force(:)

@@ -107,8 +107,8 @@ contains
     if (space%is_alone()) call unlock(LOCK_GRIDS)
   end subroutine kept_coarser
 
-  !> Make element k of the kept grids, unless it has too few cells or memory is short. An operator of another kind, from a
-  !> `coarsen` of the caller's own, is not kept: it may change from solve to solve.
+  !> Make element k of the kept grids, unless it has too few cells or memory is short. An operator of another kind,
+  !> from a `coarsen` of the caller's own, is not kept: it may change from solve to solve.
   subroutine keep_coarser(self, levels, k)
     class(grid_operator), intent(in) :: self
     integer, intent(in) :: levels, k

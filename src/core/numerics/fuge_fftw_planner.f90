@@ -1,7 +1,7 @@
 !> FFTW's procedures for a planner that several threads share, and for other threads than FFTW's own.
 !>
-!> MKL has FFTW's interface without them. Where they are missing another module of this name, in src/variants/without_fftw/, takes
-!> the place of this one.
+!> MKL has FFTW's interface without them. Where they are missing another module of this name, in
+!> src/variants/without_fftw/, takes the place of this one.
 module fuge_fftw_planner
   use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_ptr
   implicit none
