@@ -13,7 +13,7 @@ module fuge_halfspace_influence
   use fuge_rectangle_checks, only: check_area_element, check_area_modulus, check_rectangles
   use fuge_rectangle_influence, only: mixed_coefficients, new_rectangle_kernel, pair_coefficients, rectangle_kernel, &
     set_widths, HALFSPACE_FACTOR, PAIRS
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -77,7 +77,7 @@ contains
       call fill_from_grid(cells, e_star, alpha, done)
       if (.not. done) call fill_from_pairs(cells, e_star, alpha, stat)
     end if
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rectangles: n = '//text(size(x)))
+    call require_memory(stat, 'the rectangles: n =', size(x), '', info)
   end subroutine fuge_halfspace_matrix
 
   !> Cells of one grid have few different coefficients: fill the matrix from a table of them. `done` is false, and

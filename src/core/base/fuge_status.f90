@@ -16,7 +16,7 @@ module fuge_status
   implicit none
   private
 
-  public :: composed_message, fuge_status_text, message_counting_from, report
+  public :: composed_message, fuge_status_text, message_counting_from, report, require_memory
 
   !> Done, the residual is at most the tolerance.
   integer, parameter, public :: FUGE_DONE = 0
@@ -147,6 +147,12 @@ module fuge_status
     procedure :: failed
   end type fuge_info
 
+  !> Report FUGE_ERR_MEMORY unless `stat` of an allocation is 0.
+  interface require_memory
+    module procedure require_memory_for
+    module procedure require_memory_for_count
+  end interface require_memory
+
 contains
 
   !> Is it an error? Outputs were then left untouched.
@@ -167,6 +173,25 @@ contains
     info%composed = message
     info%message = message_counting_from(1, info)
   end subroutine report
+
+  !> `what` completes the message 'no memory for ..'.
+  pure subroutine require_memory_for(stat, what, info)
+    integer, intent(in) :: stat
+    character(len=*), intent(in) :: what
+    type(fuge_info), intent(inout) :: info
+
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//what)
+  end subroutine require_memory_for
+
+  !> The same for a count of things: 'no memory for the gaps of 12 points' has what = 'the gaps of', unit = 'points'.
+  !> The text is composed only where it is needed.
+  pure subroutine require_memory_for_count(stat, what, count, unit, info)
+    integer, intent(in) :: stat, count
+    character(len=*), intent(in) :: what, unit
+    type(fuge_info), intent(inout) :: info
+
+    if (stat /= 0) call require_memory_for(stat, trim(what//' '//text(count))//' '//unit, info)
+  end subroutine require_memory_for_count
 
   !> The message with its indices marked, to be part of another one that `report` is given.
   pure function composed_message(info) result(message)

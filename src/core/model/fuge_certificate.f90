@@ -10,7 +10,7 @@ module fuge_certificate
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -166,7 +166,7 @@ contains
 
     space = operator%ranks()
     allocate (largest(size(force)), of_bodies(size(force)), rounding(size(force)), terms(size(force)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the certificate of '//text(size(force))//' points')
+    call require_memory(stat, 'the certificate of', size(force), 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     largest = space%largest(maxval(abs(force)))

@@ -16,8 +16,8 @@ module fuge_dense_engine
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
-  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_CALL_ORDER, &
-    FUGE_ERR_CANCELLED, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
+    FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
   use fuge_tableau_engine, only: solve_by_tableau
   use fuge_working_set, only: working_set
   implicit none
@@ -125,10 +125,8 @@ contains
     integer :: stat
 
     allocate (solution%motion(problem%mode_count()), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
-      return
-    end if
+    call require_memory(stat, 'the motions', info)
+    if (stat /= 0) return
     call canonical%to_given_modes(problem%prescribed_motion(), found%motion, solution%motion)
     call canonical%set_excluded_gaps(alpha, problem%gap, found%force, solution%motion, found%gap)
   end subroutine find_given_motions

@@ -7,9 +7,8 @@ module fuge_sensitivity
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: solve_set
   use fuge_matrix_operator, only: fuge_dense_operator
-  use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER
   use fuge_unresisted_motions, only: find_unresisted_basis, refuse_unresisted, without_unresisted
   implicit none
   private
@@ -45,10 +44,8 @@ contains
     integer :: stat
 
     allocate (force(size(state)), gap(size(state)), motion(size(load_change)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(size(state))//' points')
-      return
-    end if
+    call require_memory(stat, 'the derivatives of', size(state), 'points', info)
+    if (stat /= 0) return
     datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
     call canonical%transform_change(gap_change, load_change, reduced_gap, load)
     call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)

@@ -7,10 +7,9 @@
 !> that its maxima are not at its kinks.
 module fuge_peak_climb
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_starts, only: peak_start
   use fuge_peak_values, only: evaluate_measure
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   implicit none
   private
@@ -64,10 +63,8 @@ contains
 
     flatness = 1.0_dp
     allocate (climbers(size(starts)), active(size(starts)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(starts))//' starts of the search')
-      return
-    end if
+    call require_memory(stat, '', size(starts), 'starts of the search', info)
+    if (stat /= 0) return
     do k = 1, size(starts)
       climbers(k) = climber_from(starts(k))
     end do
@@ -112,10 +109,8 @@ contains
 
     total = points*size(active)
     allocate (place(3, total), value(total), normal(total), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(total)//' places of the search')
-      return
-    end if
+    call require_memory(stat, '', total, 'places of the search', info)
+    if (stat /= 0) return
     do k = 1, size(active)
       first = (k - 1)*points
       associate (one => climbers(active(k)))

@@ -11,7 +11,7 @@ module fuge_peak_starts
   use fuge_number_text, only: text
   use fuge_peak_values, only: evaluate_measure
   use fuge_pressed_cells, only: pressed_cells
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY
   use fuge_stress_field, only: stress_field
   use fuge_surface_scan, only: scan_surface, surface_place
   implicit none
@@ -88,10 +88,8 @@ contains
 
     number = size(cells%pressure)
     allocate (list(LONG_LIST), parts(number), halves(number), order(number), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the search below '//text(number)//' cells')
-      return
-    end if
+    call require_memory(stat, 'the search below', number, 'cells', info)
+    if (stat /= 0) return
     order = [(k, k=1, number)]
     parts(1)%first = 1
     parts(1)%last = number
@@ -142,10 +140,8 @@ contains
     hidden_share = UNSEEN_SHARE*max(1.0_dp, cells%surface_factor)
     if (minval(cells%pressure) < 0.0_dp .and. maxval(cells%pressure) > 0.0_dp) hidden_share = 2.0_dp*hidden_share
     allocate (surveys(size(parts)), tried(CANDIDATES, size(parts)), normal(CANDIDATES, size(parts)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(parts))//' parts of the search')
-      return
-    end if
+    call require_memory(stat, '', size(parts), 'parts of the search', info)
+    if (stat /= 0) return
     do p = 1, size(parts)
       surveys(p) = survey_of(cells, order(parts(p)%first:parts(p)%last))
       tried(:, p) = candidates_of(cells, surveys(p), parts(p)%tried)
@@ -214,10 +210,8 @@ contains
     normal = 0.0_dp
     total = count(tried%length > 0.0_dp)
     allocate (place(3, total), value(total), zz(total), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(total)//' places of the search')
-      return
-    end if
+    call require_memory(stat, '', total, 'places of the search', info)
+    if (stat /= 0) return
     total = 0
     do p = 1, size(tried, 2)
       do c = 1, CANDIDATES

@@ -6,9 +6,8 @@
 module fuge_pressure_rims
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_pressed_cells, only: pressed_cells
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -54,10 +53,8 @@ contains
     if (info%failed()) return
     ! A run of cells side by side has two rims at most.
     allocate (order(size(cells%pressure)), rims(2*size(cells%pressure)/SHORTEST_RUN), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the order of '//text(size(cells%pressure))//' cells')
-      return
-    end if
+    call require_memory(stat, 'the order of', size(cells%pressure), 'cells', info)
+    if (stat /= 0) return
     order = [(k, k=1, size(order))]
     strength = 0.0_dp
     do along = 1, cells%axes

@@ -7,10 +7,9 @@
 module fuge_surface_scan
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_values, only: evaluate_measure
   use fuge_pressed_cells, only: pressed_cells
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   implicit none
   private
@@ -48,10 +47,8 @@ contains
 
     number = size(cells%pressure)
     allocate (order(number), places(NEIGHBOURS*PORTION), found(merge(number, 1, cells%continuous) + 1), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for places at the surface of '//text(number)//' cells')
-      return
-    end if
+    call require_memory(stat, 'places at the surface of', number, 'cells', info)
+    if (stat /= 0) return
     order = [(k, k=1, number)]
     call heap_sort(cells%centre(1, :), order)
     do first = 1, size(order), PORTION
@@ -196,10 +193,8 @@ contains
 
     if (info%failed()) return
     allocate (place(3, size(places)), value(size(places)), normal(size(places)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for stresses at '//text(size(places))//' places of the surface')
-      return
-    end if
+    call require_memory(stat, 'stresses at', size(places), 'places of the surface', info)
+    if (stat /= 0) return
     do k = 1, size(places)
       place(:, k) = places(k)%place
     end do

@@ -10,8 +10,7 @@ module fuge_cell_clusters
   use fuge_constants, only: PI
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -62,10 +61,8 @@ contains
     end do
     allocate (self%first(most), self%last(most), self%child(most), self%middle(most), self%half_length(most), &
               self%force(ORDER, most), self%moment(0:ORDER - 1, most), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for clusters of '//text(size(centre))//' cells')
-      return
-    end if
+    call require_memory(stat, 'clusters of', size(centre), 'cells', info)
+    if (stat /= 0) return
     call set_nodes(self%node, self%polynomial)
     self%number = 1
     self%first(1) = 1

@@ -6,13 +6,12 @@ module fuge_halfplane_peak_search
   use fuge_halfplane_interior, only: fuge_halfplane_stress
   use fuge_kinds, only: dp
   use fuge_loaded_cells, only: loaded_cells
-  use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
   use fuge_pressed_cells, only: allocate_cells, is_own_image, pressed_cells
   use fuge_pressure_rims, only: find_singular_rim
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_interior, only: fuge_smooth_stress
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   use fuge_stress_measures, only: check_plane, fuge_halfplane_tensor
   use fuge_stress_peak_type, only: check_measure, fuge_stress_peak
@@ -219,10 +218,8 @@ contains
 
     if (info%failed()) return
     allocate (component(3, size(place, 2)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for stresses at '//text(size(place, 2))//' points')
-      return
-    end if
+    call require_memory(stat, 'stresses at', size(place, 2), 'points', info)
+    if (stat /= 0) return
     call self%components(place(1, :), place(3, :), component, info)
     if (.not. info%failed()) call fuge_halfplane_tensor(component, self%plane_state, self%poisson, stress, info)
   end subroutine tensors_in_plane

@@ -10,7 +10,7 @@ module fuge_loaded_cells
   use fuge_heap_sort, only: heap_sort, reorder
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
   use fuge_strip_field, only: add_strip_displacements, add_strips
   implicit none
   private
@@ -56,10 +56,8 @@ contains
 
     number = count(abs(force) > 0.0_dp)
     allocate (self%centre(number), self%width(number), self%pressure(number), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(number)//' cells with a force')
-      return
-    end if
+    call require_memory(stat, '', number, 'cells with a force', info)
+    if (stat /= 0) return
     if (number == 0) return
     self%power = -exponent(minval(width, abs(force) > 0.0_dp))
     self%hats = element == FUGE_HAT

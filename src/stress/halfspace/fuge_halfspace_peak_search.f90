@@ -4,11 +4,10 @@ module fuge_halfspace_peak_search
   use fuge_elastic_moduli, only: check_poisson
   use fuge_halfspace_interior, only: check_loaded_rectangles
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
   use fuge_pressed_cells, only: allocate_cells, is_own_image, pressed_cells
   use fuge_pressure_rims, only: find_singular_rim
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   use fuge_stress_peak_type, only: check_measure, fuge_stress_peak
   implicit none
@@ -92,10 +91,8 @@ contains
 
     allocate (field, stat=stat)
     if (stat == 0) call new_area_field(x, y, width_x, width_y, force, cells%symmetric, poisson, field%area, stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the field of '//text(size(x))//' rectangles')
-      return
-    end if
+    call require_memory(stat, 'the field of', size(x), 'rectangles', info)
+    if (stat /= 0) return
     call find_peak(field, cells, measure, peak, info)
   end subroutine search
 
@@ -203,7 +200,7 @@ contains
     stress = 0.0_dp
     if (info%failed()) return
     call add_area_field(self%area, place(1, :), place(2, :), place(3, :), stress, stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for stresses at '//text(size(place, 2))//' points')
+    call require_memory(stat, 'stresses at', size(place, 2), 'points', info)
   end subroutine stresses
 
 end module fuge_halfspace_peak_search

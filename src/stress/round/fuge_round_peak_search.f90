@@ -4,14 +4,13 @@ module fuge_round_peak_search
   use fuge_constants, only: PI
   use fuge_elastic_moduli, only: check_poisson
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
   use fuge_pressed_cells, only: allocate_cells, pressed_cells
   use fuge_pressure_rims, only: find_singular_rim
   use fuge_ring_interior, only: fuge_ring_stress
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_interior, only: fuge_round_stress
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   use fuge_stress_measures, only: fuge_round_tensor
   use fuge_stress_peak_type, only: check_measure, fuge_stress_peak
@@ -95,10 +94,8 @@ contains
       return
     end if
     allocate (field%radius(size(radius)), field%force(size(force)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(force))//' rings')
-      return
-    end if
+    call require_memory(stat, '', size(force), 'rings', info)
+    if (stat /= 0) return
     field%radius = radius
     field%force = force
     field%poisson = poisson
@@ -223,10 +220,8 @@ contains
 
     if (info%failed()) return
     allocate (component(4, size(place, 2)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for stresses at '//text(size(place, 2))//' points')
-      return
-    end if
+    call require_memory(stat, 'stresses at', size(place, 2), 'points', info)
+    if (stat /= 0) return
     call self%components(abs(place(1, :)), place(3, :), component, info)
     if (.not. info%failed()) call fuge_round_tensor(component, stress, info)
   end subroutine tensors_about_axis

@@ -14,7 +14,7 @@ module fuge_canonical_problem
   use fuge_problem_type, only: fuge_problem
   use fuge_point_space, only: point_space
   use fuge_shared_equilibrium, only: find_shared_equilibrium, move_to_edge
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, &
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_UNSUPPORTED
   implicit none
   private
@@ -148,7 +148,7 @@ contains
     allocate (canonical%prescribed(m), canonical%excluded_points(excluded), canonical%excluded_rows(excluded, m), &
               stat=stat)
     if (stat == 0 .and. allocated(problem%prescribed)) allocate (canonical%prescribed_modes(n, m), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+    call require_memory(stat, 'the motions of', n, 'points', info)
     call canonical%space%agree(info)
   end subroutine allocate_rows
 
@@ -196,7 +196,7 @@ contains
     integer :: j, stat
 
     allocate (columns(size(modes, 1), size(canonical%free)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(size(modes, 1))//' points')
+    call require_memory(stat, 'the modes of', size(modes, 1), 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     do j = 1, size(canonical%free)

@@ -3,9 +3,8 @@
 module fuge_shared_equilibrium
   use fuge_equilibrium, only: find_equilibrium, find_newest, is_in_equilibrium, is_negligible, proves_no_equilibrium
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -161,7 +160,7 @@ contains
     associate (n => size(force))
       allocate (nearest(n), weighted(n, size(noise)), pushes(n), pulls(n), stat=stat)
     end associate
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the load of '//text(size(force))//' points')
+    call require_memory(stat, 'the load of', size(force), 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     ! Loads with little rounding are met best.

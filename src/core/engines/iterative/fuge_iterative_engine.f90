@@ -29,8 +29,8 @@ module fuge_iterative_engine
   use fuge_set_compliance, only: probe_compliance
   use fuge_shared_rows, only: rows_of
   use fuge_shared_transfer, only: prolong_to
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
-    FUGE_WARN_NOT_UNIQUE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, &
+    FUGE_ERR_OVERFLOW, FUGE_WARN_NOT_UNIQUE
   use fuge_warm_start, only: load_history
   use fuge_wrong_points, only: choose_contact
   implicit none
@@ -215,8 +215,7 @@ contains
     end if
     if (.not. allocated(last%state)) then
       allocate (last%state(size(iterate%contact)), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of ' &
-                                 //text(size(iterate%contact))//' points')
+      call require_memory(stat, 'the contact set of', size(iterate%contact), 'points', info)
     else
       same = all((last%state /= FUGE_OPEN) .eqv. iterate%contact)
     end if
@@ -360,7 +359,7 @@ contains
 
     n = size(scene%gap)
     allocate (force(n), gap(n), motion(1), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
+    call require_memory(stat, 'the forces and gaps of', n, 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     largest = scene%rows%largest(maxval(iterate%force))

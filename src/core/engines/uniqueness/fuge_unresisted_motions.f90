@@ -4,12 +4,12 @@ module fuge_unresisted_motions
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_number_text, only: index_text, text
+  use fuge_number_text, only: index_text
   use fuge_pivoted_qr, only: orthogonal_complement
   use fuge_point_space, only: point_space
   use fuge_shared_columns, only: gather_spanning_rows
   use fuge_shared_equilibrium, only: find_shared_equilibrium
-  use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
 
@@ -39,7 +39,7 @@ contains
     motion = 0.0_dp
     n = size(solution%state)
     allocate (work(n), loaded(n), resists_closing(n), resists_opening(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+    call require_memory(stat, 'the motions of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call mark_loaded(canonical, solution, work, loaded)

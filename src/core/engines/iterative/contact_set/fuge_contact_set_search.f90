@@ -18,7 +18,7 @@ module fuge_contact_set_search
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_projected_gradients, only: run_projected_gradients
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE
   use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
     penetrated_stop
   implicit none
@@ -322,7 +322,7 @@ contains
 
     n = size(scene%gap)
     allocate (feasible(n), noise(n), locked(n), tied(n), state(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the active-set method on '//text(n)//' points')
+    call require_memory(stat, 'the active-set method on', n, 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     found = .false.

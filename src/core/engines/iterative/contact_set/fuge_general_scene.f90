@@ -15,7 +15,7 @@ module fuge_general_scene
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_scene_scaling, only: scene_scaling
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OVERFLOW
   use fuge_unresisted_motions, only: report_unresisted_motion
   implicit none
   private
@@ -84,7 +84,7 @@ contains
     if (stat == 0 .and. scene%prescribed .and. m > 0) then
       allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
     end if
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps and modes of '//text(n)//' points')
+    call require_memory(stat, 'the gaps and modes of', n, 'points', info)
     call canonical%space%agree(info)
   end subroutine allocate_scene
 
@@ -150,7 +150,7 @@ contains
     call allocate_solution(size(scene%gap), size(canonical%load), found, info)
     if (.not. info%failed()) then
       allocate (motion(problem%mode_count()), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
+      call require_memory(stat, 'the motions', info)
     end if
     call canonical%space%agree(info)
     if (info%failed()) return
@@ -195,7 +195,7 @@ contains
     call clear_rounding(scene, state, iterate, pulls)
     if (.not. (pulls .and. allocated(scene%modes))) return
     allocate (dropped, source=iterate%force, stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces of '//text(size(state))//' points')
+    call require_memory(stat, 'the forces of', size(state), 'points', info)
     segments%space = scene%rows%point_space
     call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
@@ -268,7 +268,7 @@ contains
     integer :: stat
 
     allocate (scaled(size(displacement)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of the excluded points')
+    call require_memory(stat, 'the gaps of the excluded points', info)
     call canonical%space%agree(info)
     if (info%failed()) return
     shift = 0.0_dp

@@ -8,9 +8,8 @@ module fuge_null_direction
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: max_abs_over
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -42,8 +41,7 @@ contains
     if (.not. force > 0.0_dp) return
     if (.not. iterate%softness > 0.0_dp) then
       allocate (terms(size(iterate%work)), unit(size(iterate%work)), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements of ' &
-                                 //text(size(iterate%work))//' points')
+      call require_memory(stat, 'the displacements of', size(iterate%work), 'points', info)
       call scene%rows%agree(info)
       if (info%failed()) return
       call operator%magnitude(iterate%direction, iterate%work, terms)

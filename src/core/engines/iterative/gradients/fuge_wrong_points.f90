@@ -4,10 +4,9 @@ module fuge_wrong_points
   use fuge_contact_iterate, only: contact_iterate, deformed_gap
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_set_exchange, only: exchange
   use fuge_shared_exchange, only: exchange_in_line
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -126,8 +125,7 @@ contains
     ! Allocated here only: during the products the operator may need the memory.
     allocate (tensile(size(scene%gap)), penetrating(size(scene%gap)), stat=stat)
     if (stat == 0 .and. extrapolate) allocate (measure(size(scene%gap)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(scene%gap)) &
-                               //' points')
+    call require_memory(stat, 'the contact set of', size(scene%gap), 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     if (allocated(scene%play)) then

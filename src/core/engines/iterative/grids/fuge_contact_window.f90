@@ -12,12 +12,11 @@ module fuge_contact_window
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
   use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_shared_transfer, only: prolong_to
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -270,7 +269,7 @@ contains
     n = self%extent()
     range = self%rows_here(fine)
     allocate (cut(n(1)*max(range(2) - range(1) + 1, 0)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a window of '//text(product(n))//' points')
+    call require_memory(stat, 'a window of', product(n), 'points', info)
     call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call self%copy_rows(range, first_row(fine), whole, cut)
@@ -297,8 +296,7 @@ contains
     own = [1, self%cells(2)]
     if (.not. fine%is_alone()) own = fine%own()
     allocate (whole(self%cells(1)*(own(2) - own(1) + 1)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the starting forces on ' &
-                               //text(self%cells(1)*(own(2) - own(1) + 1))//' points')
+    call require_memory(stat, 'the starting forces on', self%cells(1)*(own(2) - own(1) + 1), 'points', info)
     call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     n = self%extent()

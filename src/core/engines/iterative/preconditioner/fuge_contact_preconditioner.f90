@@ -19,7 +19,7 @@ module fuge_contact_preconditioner
   use fuge_rigid_images, only: rigid_images
   use fuge_shared_exchange, only: count_segments
   use fuge_shared_rows, only: rows_of, shared_rows
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
 
@@ -306,7 +306,7 @@ contains
     self%depth = 1
     space = operator%ranks()
     if (space%everywhere(stat == 0)) call find_levels(self, operator, contact, stat, info)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
+    call require_memory(stat, 'the preconditioner of', n, 'points', info)
     call space%agree(info)
     if (self%depth > 1 .and. .not. info%failed()) call count_contacts(self%levels(:self%depth), contact, info)
   end subroutine prepare_levels
@@ -354,8 +354,7 @@ contains
     integer :: stat
 
     allocate (unit(size(contact)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(size(contact)) &
-                               //' points')
+    call require_memory(stat, 'the preconditioner of', size(contact), 'points', info)
     space = operator%ranks()
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return

@@ -6,11 +6,10 @@ module fuge_contact_iterate
   use fuge_kinds, only: dp
   use fuge_lanczos_values, only: lanczos_values
   use fuge_mode_projection, only: mode_projection
-  use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -102,7 +101,7 @@ contains
     if (stat == 0 .and. allocated(scene%play)) allocate (iterate%at_upper(n), stat=stat)
     if (stat == 0 .and. scene%prescribed) allocate (iterate%start(n), stat=stat)
     if (stat == 0 .and. allocated(scene%modes)) allocate (iterate%rigid_motion(size(scene%load)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
+    call require_memory(stat, 'the work space of', n, 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     iterate%segments%space = scene%rows%point_space
@@ -360,8 +359,7 @@ contains
     integer :: stat
 
     allocate (lengths(size(scene%gap)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(scene%gap)) &
-                               //' points')
+    call require_memory(stat, 'the rigid motions of', size(scene%gap), 'points', info)
     call scene%rows%agree(info)
   end subroutine new_lengths
 

@@ -8,7 +8,7 @@ module fuge_contact_scene
   use fuge_shared_equilibrium, only: find_shared_equilibrium
   use fuge_shared_rows, only: shared_rows
   use fuge_shared_transfer, only: restrict_rows
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -140,7 +140,7 @@ contains
     integer :: stat
 
     allocate (taking_part(size(scene%gap)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(scene%gap))//' cells')
+    call require_memory(stat, '', size(scene%gap), 'cells', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     taking_part = 1.0_dp
@@ -162,7 +162,7 @@ contains
 
     if (allocated(scene%excluded)) then
       allocate (taking_part(size(values)), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(values))//' cells')
+      call require_memory(stat, '', size(values), 'cells', info)
       call scene%rows%agree(info)
       if (stat /= 0 .or. info%failed()) return
       taking_part = merge(0.0_dp, values, scene%excluded)
@@ -185,7 +185,7 @@ contains
 
     if (.not. allocated(scene%play)) return
     allocate (play(size(scene%play)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the play of '//text(size(scene%play))//' cells')
+    call require_memory(stat, 'the play of', size(scene%play), 'cells', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     play = merge(1.0_dp, 0.0_dp, scene%play >= huge(1.0_dp))

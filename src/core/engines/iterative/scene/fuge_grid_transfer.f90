@@ -7,7 +7,7 @@
 module fuge_grid_transfer
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -42,10 +42,8 @@ contains
       return
     end if
     allocate (wide(cells(1)*coarse(2)), fine(product(cells)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the starting forces on '//text(product(cells))//' points')
-      return
-    end if
+    call require_memory(stat, 'the starting forces on', product(cells), 'points', info)
+    if (stat /= 0) return
     call interpolate_rows(coarse(1), cells(1), coarse(2), force, wide)
     call interpolate_columns(cells(1), coarse(2), cells(2), 1, coarse(2), [1, cells(2)], wide, fine)
     if (all(cells > 1)) call open_cells(coarse(1), cells(1), 1, coarse(2), [1, cells(2)], force, fine)

@@ -1,10 +1,9 @@
 !> The exchange of points of a line of cells that ranks may share: fuge_set_exchange looks beyond the cells of a rank.
 module fuge_shared_exchange
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_set_exchange, only: exchange_extrapolated
   use fuge_shared_rows, only: shared_rows
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -56,8 +55,7 @@ contains
     integer :: last(0:size(first) - 1), k, r, reach, stat
 
     allocate (values(2*size(contact)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(contact)) &
-                               //' points')
+    call require_memory(stat, 'the contact set of', size(contact), 'points', info)
     call rows%agree(info)
     first = 0
     if (stat /= 0 .or. info%failed()) return
@@ -92,10 +90,8 @@ contains
 
     n = size(part)/2
     allocate (tensile(n), penetrating(n), all_contact(n), measure(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(n)//' points')
-      return
-    end if
+    call require_memory(stat, 'the contact set of', n, 'points', info)
+    if (stat /= 0) return
     do k = 1, size(measure)
       associate (state => part(2*k - 1))
         tensile(k) = abs(state - TENSILE_STATE) <= 0.0_dp
