@@ -76,13 +76,16 @@ module fuge_status
   integer, parameter, public :: FUGE_ERR_DOF = -22
   !> A face of a mesh is folded over, has no area or looks the wrong way, or surfaces do not face each other.
   integer, parameter, public :: FUGE_ERR_MESH = -23
+  !> A compliance, a limit of a force or a stiffness is negative.
+  integer, parameter, public :: FUGE_ERR_LAW = -24
 
   !> The range of the codes.
-  integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_MESH
+  integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_LAW
   integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_NO_CONTACT
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
+    'a compliance, a limit of a force or a stiffness is negative', &
     'faces have no area, look the wrong way or not at each other', &
     'a degree of freedom is out of range or named twice', &
     'rigid modes depend on each other, or one moves no point', &
@@ -141,6 +144,8 @@ module fuge_status
     !> no digit is known, as where the forces are not unique. No unit; 0 without forces, and from calls that do not
     !> solve a contact problem.
     real(dp) :: force_error = 0.0_dp
+    !> Elastic energy of the solution (paper, equation 8): half the sum of f (A + D) f and q S q; force times length.
+    real(dp) :: energy = 0.0_dp
     !> The message with its indices marked; only `report` sets it, together with `message`.
     character(len=COMPOSED_LENGTH), private :: composed = ''
   contains

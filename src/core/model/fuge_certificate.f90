@@ -9,7 +9,9 @@ module fuge_certificate
   use fuge_operator_products, only: multiply_with_magnitude
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_point_law, only: point_law
   use fuge_point_space, only: point_space
+  use fuge_relative_size, only: relative
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
@@ -33,12 +35,12 @@ module fuge_certificate
   type, public :: fuge_violation
     !> Gap equation (9): c - (gap + A f - R q).
     real(dp) :: gap_equation = huge(1.0_dp)
-    !> Signs, equation (10): negative forces, negative gaps, gaps beyond the upper stop.
+    !> Signs, equation (10): negative forces, negative gaps, gaps beyond the upper stop; forces beyond their limits.
     real(dp) :: sign = huge(1.0_dp)
     !> Complementary slackness, equation (10): the smaller one of a force and the distance from
-    !> its stop.
+    !> its stop. Where forces have limits, the distance from the law of the point.
     real(dp) :: complementarity = huge(1.0_dp)
-    !> Equilibrium, equation (11): R^T f - w; prescribed motions that q does not have.
+    !> Equilibrium, equation (11): R^T f - w + S q; prescribed motions that q does not have.
     real(dp) :: equilibrium = huge(1.0_dp)
     !> Forces that dwarf the data: lengths that they leave open, or that are their rounding, relative to gaps, plays and
     !> the displacement by the load. 0 where that is no more than a thousandth.
@@ -74,7 +76,8 @@ contains
   !> and its terms; elsewhere the error less that one is compared with the magnitude. For several
   !> modes the whole error is. The rounding of the caller's own numbers, and that of R q, is not
   !> counted. Forces are compared with the largest force of their body. Because the magnitudes grow with the forces,
-  !> `unresolved` compares the same errors with the data alone.
+  !> `unresolved` compares the same errors with the data alone. A + D takes the place of A where there are compliances.
+  !> info%energy is the elastic energy of the forces.
   !>
   !> Errors: FUGE_ERR_SIZE if an array is missing or of the wrong length; FUGE_ERR_MEMORY; those of
   !> the product, FUGE_ERR_CALLBACK also for one that is not finite.
@@ -119,8 +122,9 @@ contains
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    call multiply_with_magnitude(operator, solution%force, error, elastic, info)
+    call displace(operator, problem, solution%force, error, elastic, info)
     if (info%failed()) return
+    info%energy = elastic_energy(problem, solution, error, operator%datum(), space)
 
     included = .true.
     if (allocated(problem%excluded)) included = .not. problem%excluded
@@ -145,6 +149,35 @@ contains
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
                                            .not. allocated(problem%modes), space)
   end subroutine find_violation
+
+  !> (A + D) f of the `force` (n), less the datum of the operator, and the `terms` of it. Errors: those of the product.
+  subroutine displace(operator, problem, force, displacement, terms, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(out) :: displacement(:), terms(:)
+    type(fuge_info), intent(inout) :: info
+
+    call multiply_with_magnitude(operator, force, displacement, terms, info)
+    if (info%failed() .or. .not. allocated(problem%compliance)) return
+    displacement = displacement + problem%compliance*force
+    terms = terms + problem%compliance*abs(force)
+  end subroutine displace
+
+  !> Half the work of the forces on the `displacement` (n) by them, which lacks the `datum`, and of the springs on the
+  !> motions.
+  function elastic_energy(problem, solution, displacement, datum, space) result(energy)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: displacement(:), datum
+    type(point_space), intent(in) :: space
+    real(dp) :: energy
+    real(dp) :: sums(2)
+
+    sums = [sum(solution%force*displacement), sum(solution%force)]
+    call space%add(sums)
+    energy = 0.5_dp*(sums(1) + datum*sums(2)**2 + sum(problem%spring_loads(solution%motion)*solution%motion))
+  end function elastic_energy
 
   !> Where all forces that displace a point are zero but for rounding, so is its magnitude, with which nothing can be
   !> compared. There the error becomes smaller by the rounding of forces as large as the largest one of the body (M.
@@ -172,7 +205,7 @@ contains
     largest = space%largest(maxval(abs(force)))
     if (allocated(problem%modes)) largest = largest_of_bodies(problem%modes, abs(force), space)
     where (.not. included) largest = 0.0_dp
-    call multiply_with_magnitude(operator, largest, of_bodies, terms, info)
+    call displace(operator, problem, largest, of_bodies, terms, info)
     if (info%failed()) return
     where (.not. included .or. magnitude > NO_SCALE*terms) terms = 0.0_dp
     rounding = NO_SCALE*terms
@@ -295,6 +328,10 @@ contains
           violation%sign = max(violation%sign, relative(abs(f), largest))
           cycle
         end if
+        if (problem%has_limits()) then
+          call judge_law(problem%law(k), f, c, body_force, magnitude(k), rounding, violation)
+          cycle
+        end if
         if (allocated(problem%gap_upper)) upper = min(problem%gap_upper(k), huge(upper))
         violation%sign = max(violation%sign, relative(-c, magnitude(k)))
         if (upper < huge(upper)) then
@@ -315,6 +352,19 @@ contains
     violation%complementarity = parts(2)
   end subroutine contact_violations
 
+  !> How far a point with limits of its forces is from its law. `force_scale`, `length_scale` and `noise` as in
+  !> `point_law`.
+  pure subroutine judge_law(law, force, gap, force_scale, length_scale, noise, violation)
+    type(point_law), intent(in) :: law
+    real(dp), intent(in) :: force, gap, force_scale, length_scale, noise
+    type(fuge_violation), intent(inout) :: violation
+
+    violation%sign = max(violation%sign, relative(max(force - law%most_force() - noise, &
+                                                      law%least_force() - force - noise, 0.0_dp), force_scale))
+    violation%complementarity = max(violation%complementarity, &
+                                    law%distance(force, gap, force_scale, length_scale, noise))
+  end subroutine judge_law
+
   !> Equation (11) in the free modes; in the others q must be as prescribed. A resultant of zero may consist of rounding
   !> alone: of the forces of its body, or of all forces if no load acts on the body.
   function equilibrium_violation(problem, solution, space) result(violation)
@@ -322,30 +372,31 @@ contains
     type(fuge_solution), intent(in) :: solution
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: sums(2)
+    real(dp) :: sums(2), spring(size(solution%motion))
     integer :: j
 
     violation = 0.0_dp
+    spring = problem%spring_loads(solution%motion)
     do j = 1, problem%mode_count()
       if (is_prescribed(problem, j)) violation = max(violation, &
         relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
     end do
     if (allocated(problem%modes)) then
-      violation = max(violation, imbalance_in_modes(problem, solution%force, space))
+      violation = max(violation, imbalance_in_modes(problem, solution%force, spring, space))
     else if (.not. is_prescribed(problem, 1)) then
       sums = [sum(solution%force), sum(abs(solution%force))]
       call space%add(sums)
-      violation = max(violation, relative(abs(sums(1) - problem%resultant(1)), &
-                                          max(sums(2), abs(problem%resultant(1)))))
+      violation = max(violation, relative(abs((sums(1) - problem%resultant(1)) + spring(1)), &
+                                          max(sums(2), abs(problem%resultant(1)), abs(spring(1)))))
     end if
   end function equilibrium_violation
 
   !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
   !> at least to a part of the largest force of the body, since along an axis without a load forces at tied points may
-  !> be the rounding of those along the other axes.
-  function imbalance_in_modes(problem, force, space) result(violation)
+  !> be the rounding of those along the other axes. The springs on the motions carry `spring` (m).
+  function imbalance_in_modes(problem, force, spring, space) result(violation)
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: force(:)
+    real(dp), intent(in) :: force(:), spring(:)
     type(point_space), intent(in) :: space
     real(dp) :: violation
     real(dp) :: body_forces(size(force)), own, largest, imbalance, sums(2), extremes(4)
@@ -367,9 +418,10 @@ contains
         largest = extremes(2)
         if (extremes(4) > 0.0_dp) largest = own
         largest = ROUNDINGS*epsilon(largest)*extremes(3)*largest
-        imbalance = max(abs(sums(1) - resultant) - largest, 0.0_dp)
+        imbalance = max(abs((sums(1) - resultant) + spring(j)) - largest, 0.0_dp)
         if (abs(resultant) > 0.0_dp) own = 0.0_dp
-        violation = max(violation, relative(imbalance, max(sums(2), abs(resultant), BESIDE*extremes(3)*own)))
+        violation = max(violation, relative(imbalance, max(sums(2), abs(resultant), abs(spring(j)), &
+                                                           BESIDE*extremes(3)*own)))
       end associate
     end do
   end function imbalance_in_modes
@@ -387,6 +439,7 @@ contains
     type(point_space), intent(in) :: space
     real(dp) :: violation
     real(dp) :: excess(size(error)), share(size(error)), largest, length
+    type(point_law) :: law
     integer :: k
 
     violation = 0.0_dp
@@ -402,23 +455,12 @@ contains
     ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
     excess = max(abs(error) - 2.0_dp*epsilon(excess)*(abs(problem%gap) + rigid_magnitude), epsilon(excess)*elastic)
     do k = 1, size(excess)
-      excess(k) = max(excess(k), stop_distance_at(problem, solution, k))
+      law = problem%law(k)
+      excess(k) = max(excess(k), law%stop_distance(solution%force(k), solution%gap(k)))
     end do
     violation = relative(space%total(sum(share*excess)), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
-
-  !> How far a point with a force is from the stop that the force belongs to.
-  pure function stop_distance_at(problem, solution, k) result(distance)
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(in) :: solution
-    integer, intent(in) :: k
-    real(dp) :: distance
-
-    distance = abs(solution%gap(k))
-    if (.not. allocated(problem%gap_upper)) return
-    if (solution%force(k) < 0.0_dp) distance = abs(solution%gap(k) - min(problem%gap_upper(k), huge(distance)))
-  end function stop_distance_at
 
   !> Is every array allocated, and as long as the operator has points? Where ranks share the points, one may have none.
   function sizes_agree(operator, problem, solution)
@@ -437,6 +479,10 @@ contains
     if (allocated(problem%modes)) sizes_agree = sizes_agree .and. size(problem%modes, 1) == operator%points()
     if (allocated(problem%gap_upper)) sizes_agree = sizes_agree .and. size(problem%gap_upper) == operator%points()
     if (allocated(problem%excluded)) sizes_agree = sizes_agree .and. size(problem%excluded) == operator%points()
+    if (allocated(problem%compliance)) sizes_agree = sizes_agree .and. size(problem%compliance) == operator%points()
+    if (allocated(problem%limit)) sizes_agree = sizes_agree .and. size(problem%limit) == operator%points()
+    if (allocated(problem%limit_upper)) sizes_agree = sizes_agree .and. size(problem%limit_upper) == operator%points()
+    if (allocated(problem%motion_stiffness)) sizes_agree = sizes_agree .and. size(problem%motion_stiffness) == m
     if (allocated(problem%prescribed)) then
       sizes_agree = sizes_agree .and. size(problem%prescribed) == m .and. size_of(problem%motion) == m
       if (.not. all(problem%prescribed)) sizes_agree = sizes_agree .and. size_of(problem%resultant) == m
@@ -453,25 +499,5 @@ contains
     n = -1
     if (allocated(values)) n = size(values)
   end function size_of
-
-  !> value/measure; a value of zero is no violation, even with a measure of zero.
-  elemental function relative(value, measure)
-    real(dp), intent(in) :: value, measure
-    real(dp) :: relative
-
-    if (.not. abs(value) <= huge(value)) then
-      ! NaN or infinite: return a number, because maxval may ignore a NaN.
-      relative = huge(value)
-    else if (abs(value) <= 0.0_dp) then
-      relative = 0.0_dp
-    else if (measure >= 1.0_dp) then
-      relative = value/measure
-    else if (abs(value) < measure*huge(value)) then
-      relative = value/measure
-    else
-      ! The quotient would overflow, or the measure is NaN.
-      relative = sign(huge(value), value)
-    end if
-  end function relative
 
 end module fuge_certificate

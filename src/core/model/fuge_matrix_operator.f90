@@ -30,6 +30,7 @@ module fuge_matrix_operator
     integer(c_long_long), private :: stamp_value = 0
   contains
     procedure :: set
+    procedure :: set_surveyed
     procedure :: points
     procedure :: apply
     procedure :: datum
@@ -77,6 +78,18 @@ contains
     self%survey = survey
     self%stamp_value = new_stamp()
   end subroutine set
+
+  !> Point to a square matrix of which all is known: its survey, and a stamp that no other matrix has.
+  subroutine set_surveyed(self, alpha, survey, stamp)
+    class(fuge_dense_operator), intent(inout) :: self
+    real(dp), intent(in), target, contiguous :: alpha(:, :)
+    type(matrix_survey), intent(in) :: survey
+    integer(c_long_long), intent(in) :: stamp
+
+    call c_f_pointer(c_loc(alpha(1, 1)), self%alpha, shape(alpha))
+    self%survey = survey
+    self%stamp_value = stamp
+  end subroutine set_surveyed
 
   !> What the survey of the matrix found.
   pure function what_is_known(self) result(survey)

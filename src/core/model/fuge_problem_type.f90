@@ -4,6 +4,9 @@
 !>     one-sided:  c >= 0, f >= 0, f c = 0
 !>     with play d:  0 <= c <= d;  f >= 0 where c = 0, f <= 0 where c = d, f = 0 between
 !>
+!> With compliances, limits of the forces and springs on the motions, (A + D) f and w - S q take the places of A f and
+!> w; `fuge_point_law` has the law of a point then.
+!>
 !> These are Signorini's conditions: a linear complementarity problem, and for a symmetric
 !> positive definite A the KKT conditions of a convex quadratic program, whose multipliers are
 !> the gaps and the motions. In the paper's equations 9 to 11 R is the column of ones, q the
@@ -14,7 +17,9 @@ module fuge_problem_type
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
+  use fuge_law_checks, only: check_limits, check_stiffnesses
   use fuge_number_text, only: index_text, text
+  use fuge_point_law, only: point_law
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP
   implicit none
@@ -44,8 +49,24 @@ module fuge_problem_type
     logical, allocatable :: prescribed(:)
     !> Prescribed motions q, (m), length for a translation; read where prescribed.
     real(dp), allocatable :: motion(:)
+    !> Compliance of a spring between the bodies at each point (a gasket, a bed, a member), (n), length per force, >= 0:
+    !> D = diag(compliance). Not allocated: none.
+    real(dp), allocatable :: compliance(:)
+    !> Limit of the force at the lower stop, (n), force, >= 0: hardness times area, the yield force of a support, the
+    !> force at which a clamp slips. Infinity: none; 0: the point does not push. Not allocated: none.
+    real(dp), allocatable :: limit(:)
+    !> Limit of the size of the force at the upper stop, (n), force, >= 0; for a tied point, of a pulling force.
+    real(dp), allocatable :: limit_upper(:)
+    !> Stiffness of a spring on each motion, (m), >= 0, resultant per unit of the motion: S = diag(motion_stiffness).
+    !> Not read where prescribed. Not allocated: none.
+    real(dp), allocatable :: motion_stiffness(:)
   contains
     procedure :: points
+    procedure :: has_limits
+    procedure :: has_springs
+    procedure :: has_law
+    procedure :: law
+    procedure :: spring_loads
     procedure :: mode_count
     procedure :: is_plain
     procedure :: prescribed_motion
@@ -87,9 +108,59 @@ contains
     class(fuge_problem), intent(in) :: self
     logical :: plain
 
-    plain = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded))
+    plain = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded) &
+                   .or. self%has_limits() .or. self%has_springs())
     if (plain .and. allocated(self%prescribed)) plain = .not. any(self%prescribed)
   end function is_plain
+
+  !> Do forces have limits?
+  pure function has_limits(self)
+    class(fuge_problem), intent(in) :: self
+    logical :: has_limits
+
+    has_limits = allocated(self%limit) .or. allocated(self%limit_upper)
+  end function has_limits
+
+  !> Are there compliances at points, or springs on motions?
+  pure function has_springs(self)
+    class(fuge_problem), intent(in) :: self
+    logical :: has_springs
+
+    has_springs = allocated(self%compliance) .or. allocated(self%motion_stiffness)
+  end function has_springs
+
+  !> Is there more than hard contact: compliances, limits of forces, springs on motions?
+  pure function has_law(self)
+    class(fuge_problem), intent(in) :: self
+    logical :: has_law
+
+    has_law = self%has_limits() .or. self%has_springs()
+  end function has_law
+
+  !> The law of point `k`, huge where infinite. An excluded point has no force.
+  pure function law(self, k)
+    class(fuge_problem), intent(in) :: self
+    integer, intent(in) :: k
+    type(point_law) :: law
+
+    if (allocated(self%gap_upper)) law%play = min(self%gap_upper(k), huge(law%play))
+    if (allocated(self%limit)) law%limit = min(self%limit(k), huge(law%limit))
+    if (allocated(self%limit_upper)) law%limit_upper = min(self%limit_upper(k), huge(law%limit_upper))
+    if (.not. allocated(self%excluded)) return
+    if (self%excluded(k)) law = point_law(limit=0.0_dp, limit_upper=0.0_dp)
+  end function law
+
+  !> What the springs on the motions `motion` (m) take of the resultants, S q, (m); zero where prescribed.
+  pure function spring_loads(self, motion) result(loads)
+    class(fuge_problem), intent(in) :: self
+    real(dp), intent(in) :: motion(:)
+    real(dp) :: loads(size(motion))
+
+    loads = 0.0_dp
+    if (.not. allocated(self%motion_stiffness)) return
+    loads = self%motion_stiffness*motion
+    if (allocated(self%prescribed)) where (self%prescribed) loads = 0.0_dp
+  end function spring_loads
 
   !> The prescribed motions, zero where free, (m).
   pure function prescribed_motion(self) result(values)
@@ -119,7 +190,8 @@ contains
   !> Refuse data that no engine can use, for an operator of `n` points: wrong sizes
   !> (FUGE_ERR_SIZE), NaN or infinity (FUGE_ERR_NOT_FINITE), numbers near overflow
   !> (FUGE_ERR_OVERFLOW), a negative play (FUGE_ERR_GAP), a negative load of a plain problem
-  !> (FUGE_ERR_NO_EQUILIBRIUM) or one below the smallest normal number (FUGE_ERR_OVERFLOW).
+  !> (FUGE_ERR_NO_EQUILIBRIUM) or one below the smallest normal number (FUGE_ERR_OVERFLOW), a negative compliance, limit
+  !> or stiffness (FUGE_ERR_LAW).
   pure subroutine check_problem(problem, n, info)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
@@ -128,7 +200,12 @@ contains
     call check_length(problem%gap, n, 'gap', info)
     if (.not. info%failed()) call check_values(problem%gap, 'gap', info)
     if (.not. info%failed()) call check_stops(problem, n, info)
+    if (.not. info%failed()) call check_stiffnesses(problem%compliance, n, 'compliance', info)
+    if (.not. info%failed()) call check_limits(problem%limit, n, 'limit', info)
+    if (.not. info%failed()) call check_limits(problem%limit_upper, n, 'limit_upper', info)
     if (.not. info%failed()) call check_modes(problem, n, info)
+    if (.not. info%failed()) call check_stiffnesses(problem%motion_stiffness, problem%mode_count(), &
+                                                    'motion_stiffness', info)
   end subroutine check_problem
 
   !> Check play and exclusions.

@@ -16,6 +16,7 @@ module fuge_dense_engine
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
+  use fuge_spring_matrix, only: extend_problem, spring_count, spring_matrix, strip_solution
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
   use fuge_tableau_engine, only: solve_by_tableau
@@ -34,6 +35,11 @@ module fuge_dense_engine
     !> Arrays for the next solve, so that small problems do not spend their time on allocations.
     type(fuge_solution) :: spare
     type(working_set) :: set
+    !> The matrix of the last problem with springs, the number of motions on springs, and whether the last
+    !> problem had any springs.
+    type(spring_matrix), allocatable :: springs
+    integer :: spring_points = 0
+    logical :: with_springs = .false.
   contains
     procedure :: solve
     procedure :: judge
@@ -63,12 +69,47 @@ contains
     self%found_factor = .false.
     select type (operator)
     class is (fuge_dense_operator)
-      call solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
+      self%spring_points = 0
+      self%with_springs = problem%has_springs()
+      if (problem%has_springs()) then
+        call solve_with_springs(self, operator, problem, options, monitor, history, solution, info)
+      else
+        call solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
+      end if
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a dense operator: use ' &
                   //'FUGE_ITERATIVE for other operators')
     end select
   end subroutine solve
+
+  !> With springs, as parts of the matrix.
+  subroutine solve_with_springs(self, operator, problem, options, monitor, history, solution, info)
+    class(dense_engine), intent(inout) :: self
+    class(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_history), intent(inout) :: history
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    ! Taken out of the engine, which changes while the operator points to it.
+    type(spring_matrix), allocatable, target :: springs
+    type(fuge_dense_operator) :: with_springs
+    type(fuge_problem) :: extended
+
+    call move_alloc(self%springs, springs)
+    if (.not. allocated(springs)) allocate (springs)
+    call springs%set(operator, problem, info)
+    if (.not. info%failed()) call extend_problem(problem, extended, info)
+    if (.not. info%failed()) then
+      call springs%as_operator(with_springs)
+      call solve_with_matrix(self, with_springs, extended, options, monitor, history, solution, info)
+    end if
+    call move_alloc(springs, self%springs)
+    if (info%failed()) return
+    self%spring_points = spring_count(problem)
+    call strip_solution(problem%points(), solution)
+  end subroutine solve_with_springs
 
   subroutine solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
     class(dense_engine), intent(inout) :: self
@@ -161,7 +202,7 @@ contains
     real(dp), intent(in) :: tolerance
     type(fuge_info), intent(inout) :: info
 
-    call judge_force_level(operator, self%canonical, problem%gap, self%state, tolerance, info)
+    if (.not. problem%has_law()) call judge_force_level(operator, self%canonical, problem%gap, self%state, tolerance, info)
   end subroutine judge
 
   !> The matrix may have changed since it was factored, although the operator was not set again.
@@ -198,7 +239,7 @@ contains
     integer :: number
 
     number = 0
-    if (allocated(self%state)) number = size(self%state)
+    if (allocated(self%state)) number = size(self%state) - self%spring_points
   end function last_points
 
   pure function last_modes(self) result(number)
@@ -218,11 +259,30 @@ contains
 
     select type (operator)
     class is (fuge_dense_operator)
-      call find_derivative(self%canonical, operator, self%factor, self%state, gap_change, load_change, change, info)
+      if (self%with_springs) then
+        call derivative_with_springs(self, self%springs, gap_change, load_change, change, info)
+      else
+        call find_derivative(self%canonical, operator, self%factor, self%state, gap_change, load_change, change, info)
+      end if
     class default
       call report(info, FUGE_ERR_CALL_ORDER, 'the last solve was with a matrix, not with this operator')
     end select
   end subroutine derivative
+
+  !> The derivative of a problem with springs.
+  subroutine derivative_with_springs(self, springs, gap_change, load_change, change, info)
+    class(dense_engine), intent(in) :: self
+    type(spring_matrix), intent(in), target :: springs
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(inout) :: info
+    type(fuge_dense_operator) :: with_springs
+
+    call springs%as_operator(with_springs)
+    call find_derivative(self%canonical, with_springs, self%factor, self%state, &
+                         [gap_change, spread(0.0_dp, 1, self%spring_points)], load_change, change, info)
+    if (.not. info%failed()) call strip_solution(size(gap_change), change)
+  end subroutine derivative_with_springs
 
   !> Keep the arrays of a `solution` that the caller has had for the next solve.
   subroutine take_arrays(self, solution)

@@ -58,6 +58,11 @@ contains
                   //'leave keep_history out')
       return
     end if
+    if (problem%has_law()) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration knows no compliance, limits or springs on motions: use a ' &
+                  //'dense operator and FUGE_ACTIVE_SET')
+      return
+    end if
     self%is_general = is_general(problem)
     self%is_prescribed = .not. (self%is_general .or. problem%is_plain())
     if (self%is_general) call make_canonical(problem, self%canonical, info, operator%ranks())

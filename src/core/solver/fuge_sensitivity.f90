@@ -1,7 +1,7 @@
 !> Derivatives of a solution with respect to gaps, loads and prescribed motions.
 module fuge_sensitivity
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_contact_states, only: is_at_stop, FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
   use fuge_displacements, only: add_elastic_displacement, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -48,24 +48,24 @@ contains
     if (stat /= 0) return
     datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
     call canonical%transform_change(gap_change, load_change, reduced_gap, load)
-    call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
+    call find_unresisted_basis(canonical%modes, is_at_stop(state), unresisted)
     call refuse_unresisted(load, unresisted, info)
     if (info%failed()) return
-    call solve_refined(canonical, operator%alpha, datum, factor, state /= FUGE_OPEN, reduced_gap, load, force, &
+    call solve_refined(canonical, operator%alpha, datum, factor, is_at_stop(state), reduced_gap, load, force, &
                        free_motion)
     free_motion = without_unresisted(free_motion, unresisted)
-    if (is_rigid(canonical%modes, reduced_gap, load, free_motion, state /= FUGE_OPEN)) force = 0.0_dp
+    if (is_rigid(canonical%modes, reduced_gap, load, free_motion, is_at_stop(state))) force = 0.0_dp
     gap = reduced_gap - rigid_displacement(canonical%modes, free_motion)
-    call add_elastic_displacement(operator%alpha, datum, state /= FUGE_OPEN, force, gap)
+    call add_elastic_displacement(operator%alpha, datum, is_at_stop(state), force, gap)
     ! A regularised factor leaves gaps open where the changes do not fit to a singular alpha.
     if (.not. (factor%regularisation > 0.0_dp &
-               .or. is_closed(canonical%modes, operator%alpha, [datum, factor%datum], state /= FUGE_OPEN, &
+               .or. is_closed(canonical%modes, operator%alpha, [datum, factor%datum], is_at_stop(state), &
                               reduced_gap, force, free_motion, gap))) then
       call report(info, FUGE_ERR_CALL_ORDER, 'the factor of the last solve does not fit alpha: set a new operator ' &
                   //'after a change of alpha, and solve again; or alpha is too badly conditioned')
       return
     end if
-    where (state /= FUGE_OPEN) gap = 0.0_dp
+    where (is_at_stop(state)) gap = 0.0_dp
     if (canonical%has_translation) free_motion(1) = free_motion(1) + datum*load(1)
     call canonical%to_given_modes(load_change, free_motion, motion)
     call canonical%set_excluded_gaps(operator%alpha, gap_change, force, motion, gap)

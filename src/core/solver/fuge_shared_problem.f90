@@ -22,16 +22,18 @@ contains
     type(fuge_options), intent(in) :: options
     type(point_space), intent(in) :: space
     type(fuge_info), intent(inout) :: info
-    real(dp) :: kind_of(6)
+    real(dp) :: kind_of(10)
 
     kind_of = real([problem%mode_count(), merge(1, 0, allocated(problem%modes)), &
                     merge(1, 0, allocated(problem%gap_upper)), merge(1, 0, allocated(problem%excluded)), &
-                    merge(1, 0, allocated(problem%prescribed)), merge(1, 0, problem%is_plain())], dp)
+                    merge(1, 0, allocated(problem%prescribed)), merge(1, 0, problem%is_plain()), &
+                    merge(1, 0, allocated(problem%compliance)), merge(1, 0, allocated(problem%limit)), &
+                    merge(1, 0, allocated(problem%limit_upper)), merge(1, 0, allocated(problem%motion_stiffness))], dp)
     if (differ(kind_of, space)) then
-      call report(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded or prescribed are not allocated alike on all ' &
-                  //'ranks: allocate them on all or on none, also where a rank has no points')
+      call report(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded, prescribed or the laws of points are not ' &
+                  //'allocated alike on all ranks: allocate them on all or on none, also where a rank has no points')
     else if (differ(controls(problem), space)) then
-      call report(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs between the ranks')
+      call report(info, FUGE_ERR_OPTION, 'a load, a prescribed motion or the stiffness of one differs between the ranks')
     else if (differ([real([options%method, options%max_iterations, merge(1, 0, options%keep_history)], dp), &
                      options%tolerance], space)) then
       call report(info, FUGE_ERR_OPTION, 'method, max_iterations, keep_history or tolerance of the options differs ' &
@@ -51,19 +53,21 @@ contains
     differ = any(abs(extremes(:size(values)) + extremes(size(values) + 1:)) > 0.0_dp)
   end function differ
 
-  !> Of each mode 1 and the motion where that is prescribed, else 0 and the resultant, (2 m).
+  !> Of each mode 1 and the motion where that is prescribed, else 0 and the resultant, and the stiffness of its spring,
+  !> (3 m).
   pure function controls(problem)
     type(fuge_problem), intent(in) :: problem
-    real(dp) :: controls(2*problem%mode_count())
+    real(dp) :: controls(3*problem%mode_count())
     integer :: j
 
     controls = 0.0_dp
     do j = 1, problem%mode_count()
       if (is_prescribed(problem, j)) then
-        controls(2*j - 1:2*j) = [1.0_dp, problem%motion(j)]
+        controls(3*j - 2:3*j - 1) = [1.0_dp, problem%motion(j)]
       else
-        controls(2*j) = problem%resultant(j)
+        controls(3*j - 1) = problem%resultant(j)
       end if
+      if (allocated(problem%motion_stiffness)) controls(3*j) = problem%motion_stiffness(j)
     end do
   end function controls
 

@@ -163,7 +163,7 @@ contains
     if (.not. info%failed()) then
       call engine%judge(operator, problem, options%tolerance, info)
       if (info%failed()) call engine%forget_start()
-    else if (is_general(problem)) then
+    else if (is_general(problem) .and. .not. problem%has_law()) then
       call explain_by_force_level(operator, engine%canonical, problem%gap, options%tolerance, info)
     end if
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)

@@ -5,7 +5,7 @@ module fuge_active_set_engine
   use fuge_block_pivoting, only: run_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_engine_messages, only: explain_status, report_closed_gap, SINGULAR_ON_CONTACT, SINGULAR_WHERE_TOUCHING
   use fuge_initial_set, only: guess_initial_set
   use fuge_kinds, only: dp
@@ -53,6 +53,7 @@ contains
     ! A guess from another problem may name stops and points that this one does not have.
     where (canonical%excluded) solution%state = FUGE_OPEN
     where (canonical%upper >= huge(1.0_dp)) solution%state = max(solution%state, FUGE_OPEN)
+    if (.not. canonical%has_limits()) solution%state = min(max(solution%state, FUGE_AT_UPPER_STOP), FUGE_AT_LOWER_STOP)
     if (all(solution%state == FUGE_OPEN)) call make_guess(canonical, solution%state, info%products)
     call solve_from_set(canonical, iteration_limit(options, size(solution%state) + 1), monitor, factor, solution, &
                         sets, info, kept)

@@ -10,6 +10,7 @@ module fuge_block_pivoting
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: translation_at_shallowest
+  use fuge_limited_active_set, only: exchange_limited, keep_beyond_stops, keep_in_range, run_limited_active_set
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_primal_active_set, only: joined_stop, run_primal_active_set, NOISE
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
@@ -108,14 +109,18 @@ contains
           if (maxval(set%violation) > LASTING*progress%violation_left) exit
           progress%violation_left = maxval(set%violation)
         end if
-        call count_progress(set%violation > SIGN_TOLERANCE, solution%state == FUGE_OPEN, progress)
+        call count_progress(set%violation > SIGN_TOLERANCE, .not. set%contact, progress)
       end if
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
         return
       end if
       if (progress%stalls_left < 0) then
-        call run_primal_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
+        if (canonical%has_limits()) then
+          call run_limited_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
+        else
+          call run_primal_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
+        end if
         if (status /= FUGE_DONE) return
       else
         call exchange_violating(canonical, set, solution)
@@ -191,6 +196,10 @@ contains
     type(working_set), intent(in) :: set
     type(contact_solution), intent(inout) :: solution
 
+    if (canonical%has_limits()) then
+      call exchange_limited(canonical, set%violation > SIGN_TOLERANCE, solution)
+      return
+    end if
     where (set%violation > SIGN_TOLERANCE)
       solution%state = merge(joined_stop(solution%gap, canonical%upper), FUGE_OPEN, solution%state == FUGE_OPEN)
     end where
@@ -207,13 +216,17 @@ contains
     given = solution%force
     if (factor%regularisation > 0.0_dp) then
       call set%refine(canonical, factor, 0.0_dp, solution)
-      call solve_without_idle(canonical, set, solution)
+      if (.not. canonical%has_limits()) call solve_without_idle(canonical, set, solution)
     end if
     call set%estimate_error(canonical, factor, solution)
     solution%violation = maxval(set%violation)
     associate (upper => canonical%upper, state => solution%state, force => solution%force, motion => solution%motion)
-      where (upper > 0.0_dp) force = real(state, dp)*max(state*force, 0.0_dp)
-      where (abs(force) <= set%zero_force) force = 0.0_dp
+      if (canonical%has_limits()) then
+        call keep_in_range(canonical, state, force)
+      else
+        where (upper > 0.0_dp) force = real(state, dp)*max(state*force, 0.0_dp)
+      end if
+      where (abs(force) <= set%zero_force .and. abs(state) < 2) force = 0.0_dp
       if (canonical%plain) then
         motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, set%contact, force, &
                                               motion(1))
@@ -223,7 +236,11 @@ contains
       if (set%has_no_length(canonical)) motion = 0.0_dp
       if (any(abs(force - given) > 0.0_dp)) call set%measure(canonical, .false., solution)
       call set%find_gaps(canonical, solution)
-      where (state == FUGE_OPEN .and. .not. canonical%excluded) solution%gap = min(max(solution%gap, 0.0_dp), upper)
+      if (canonical%has_limits()) then
+        call keep_beyond_stops(canonical, solution)
+      else
+        where (state == FUGE_OPEN .and. .not. canonical%excluded) solution%gap = min(max(solution%gap, 0.0_dp), upper)
+      end if
       if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + canonical%datum*canonical%load(1)
     end associate
   end subroutine remove_rounding

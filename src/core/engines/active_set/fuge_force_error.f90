@@ -8,7 +8,7 @@
 module fuge_force_error
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
-  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_contact_states, only: is_at_stop
   use fuge_displacements, only: add_elastic_displacement, displacement_terms, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -95,7 +95,7 @@ contains
     call canonical%transform_change(known + as_rounding(RANDOM_SIGNS*length), as_rounding(RANDOM_SIGNS*load), &
                                     gap_change, load_change)
     length = length + abs(known)
-    if (count(solution%state /= FUGE_OPEN) > MANY_POINTS) then
+    if (count(is_at_stop(solution%state)) > MANY_POINTS) then
       error = bound_by_refinement(canonical, problem, motion, solution, maxval(length), load_change)
       if (error <= SMALL*maxval(abs(solution%force))) return
     end if
@@ -129,7 +129,7 @@ contains
         depth = depth - motion(j)
       end if
     end do
-    deepest = maxval(abs(depth), mask=solution%state /= FUGE_OPEN)
+    deepest = maxval(abs(depth), mask=is_at_stop(solution%state))
     if (.not. deepest > 0.0_dp) return
     roundings = length/deepest
     do j = 1, size(load_change)
@@ -162,15 +162,15 @@ contains
     if (present(length)) most = most + maxval(length)
     points = 0
     do k = 1, size(solution%state)
-      if (solution%state(k) /= FUGE_OPEN .or. canonical%excluded(k)) cycle
-      slack = min(solution%gap(k), canonical%upper(k) - solution%gap(k))
+      if (is_at_stop(solution%state(k)) .or. canonical%excluded(k)) cycle
+      slack = canonical%slack(k, solution%state(k), solution%gap(k))
       if (slack > most) cycle
-      open = relative*displacement_terms(alpha, canonical%datum, solution%state /= FUGE_OPEN, solution%force, k)
+      open = relative*displacement_terms(alpha, canonical%datum, is_at_stop(solution%state), solution%force, k)
       ! What may be a wrong sign was compared with the gap too, that of the upper stop.
       open = open + solution%violation*solution%gap(k)
       if (present(length)) open = open + length(k)
       if (slack > open) cycle
-      error = max(error, change_by_contact(canonical, alpha, factor, solution%state /= FUGE_OPEN, k, open, &
+      error = max(error, change_by_contact(canonical, alpha, factor, is_at_stop(solution%state), k, open, &
                                            maxval(abs(solution%force))))
       points = points + 1
       if (points == MOST_POINTS) return

@@ -37,7 +37,7 @@ module fuge_kkt_solution
     logical, private :: taken = .true.
     !> (n).
     real(dp), allocatable, private :: residual(:), correction(:), high(:), low(:), column(:)
-    integer, allocatable, private :: points(:)
+    integer, allocatable, private :: points(:), loaded(:)
     !> (m).
     real(dp), allocatable, private :: missing(:), shift(:)
   contains
@@ -55,11 +55,11 @@ contains
     stat = 0
     if (allocated(self%missing)) then
       if (size(self%residual) == n .and. size(self%missing) == m) return
-      deallocate (self%residual, self%correction, self%high, self%low, self%column, self%points, self%missing, &
-                  self%shift, self%gap_rounding)
+      deallocate (self%residual, self%correction, self%high, self%low, self%column, self%points, self%loaded, &
+                  self%missing, self%shift, self%gap_rounding)
     end if
     allocate (self%residual(n), self%correction(n), self%high(n), self%low(n), self%column(n), self%points(n), &
-              self%missing(m), self%shift(m), self%gap_rounding(n), stat=stat)
+              self%loaded(n), self%missing(m), self%shift(m), self%gap_rounding(n), stat=stat)
     if (stat /= 0) return
     self%residual = 0.0_dp
     self%gap_rounding = 0.0_dp
@@ -148,16 +148,18 @@ contains
     type(refinement_arrays), intent(inout) :: arrays
     real(dp), intent(inout), contiguous :: force(:), motion(:)
     real(dp) :: change, last, largest
-    integer :: points, step
+    integer :: loaded, points, step
     logical :: settled
 
     call list_points(contact, arrays%points, points)
+    ! Points at their limits have forces that do not change.
+    call list_points(contact .or. abs(force) > 0.0_dp, arrays%loaded, loaded)
     last = maxval(abs(force))
     arrays%changes(0) = last
     do step = 1, REFINEMENTS
-      call find_residual(canonical, gap, arrays%gap_rounding, regularisation, arrays%points(:points), force, motion, &
-                         arrays%high(:points), arrays%low(:points), arrays%column(:points), arrays%residual, &
-                         arrays%missing)
+      call find_residual(canonical, gap, arrays%gap_rounding, regularisation, arrays%points(:points), &
+                         arrays%loaded(:loaded), force, motion, arrays%high(:points), arrays%low(:points), &
+                         arrays%column(:points), arrays%residual, arrays%missing)
       call factor%solve(arrays%residual, arrays%missing, arrays%correction, arrays%shift)
       change = maxval(abs(arrays%correction))
       arrays%changes(step) = change
@@ -186,11 +188,10 @@ contains
   !>
   !> Where the first correction is so large that the rounding of residuals counts, it is found by one more solve with
   !> the factor, for residuals of the size of that rounding and of either sign.
-  subroutine find_force_error(canonical, gap, factor, contact, force, motion, arrays, error)
+  subroutine find_force_error(canonical, gap, factor, force, motion, arrays, error)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), force(:), motion(:)
     type(kkt_factor), intent(in) :: factor
-    logical, intent(in) :: contact(:)
     type(refinement_arrays), intent(inout) :: arrays
     real(dp), intent(out) :: error
     integer :: j
@@ -199,7 +200,7 @@ contains
     if (arrays%changes(1)*(canonical%survey%largest() + abs(canonical%datum)) <= &
         RESIDUALS_COUNT*arrays%changes(0)*(canonical%survey%most - canonical%survey%least)) return
     arrays%residual = abs(gap) + abs(canonical%datum)*sum(abs(force)) &
-                      + displacement_magnitude(canonical%alpha, 0.0_dp, contact, force)
+                      + displacement_magnitude(canonical%alpha, 0.0_dp, abs(force) > 0.0_dp, force)
     do j = 1, size(motion)
       arrays%residual = arrays%residual + abs(canonical%modes(:, j)*motion(j))
       arrays%missing(j) = RESIDUAL_ROUNDING*sum(abs(canonical%modes(:, j)*force))
@@ -226,14 +227,14 @@ contains
     end do
   end subroutine list_points
 
-  !> Residuals of the gaps (n), at the `points` of the contact only, and of equilibrium (m). `high`, `low` and `column`
-  !> are work space as long as `points`. The arguments are twelve, because three of them are work space that the
-  !> caller keeps.
-  pure subroutine find_residual(canonical, gap, gap_rounding, regularisation, points, force, motion, high, low, &
+  !> Residuals of the gaps (n), at the `points` of the contact only, and of equilibrium (m); `loaded` are the points that
+  !> may have a force. `high`, `low` and `column` are work space as long as `points`. The arguments are thirteen, because three of
+  !> them are work space that the caller keeps.
+  pure subroutine find_residual(canonical, gap, gap_rounding, regularisation, points, loaded, force, motion, high, low, &
                                 column, residual, missing)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), gap_rounding(:), regularisation
-    integer, intent(in), contiguous :: points(:)
+    integer, intent(in), contiguous :: points(:), loaded(:)
     real(dp), intent(in), contiguous :: force(:), motion(:)
     real(dp), intent(inout), contiguous :: high(:), low(:), column(:)
     real(dp), intent(inout) :: residual(:), missing(:)
@@ -246,14 +247,14 @@ contains
     shift_high = bias
     shift_low = 0.0_dp
     waiting = 0
-    do j = 1, size(points)
-      if (.not. abs(force(points(j))) > 0.0_dp) cycle
-      call add_column([canonical%datum], -force(points(j)), shift_high, shift_low)
+    do j = 1, size(loaded)
+      if (.not. abs(force(loaded(j))) > 0.0_dp) cycle
+      call add_column([canonical%datum], -force(loaded(j)), shift_high, shift_low)
       if (waiting == 0) then
-        waiting = points(j)
+        waiting = loaded(j)
         cycle
       end if
-      call add_columns(canonical%alpha, points, waiting, points(j), [force(waiting), force(points(j))], high, low)
+      call add_columns(canonical%alpha, points, waiting, loaded(j), [force(waiting), force(loaded(j))], high, low)
       waiting = 0
     end do
     if (waiting > 0) call add_columns(canonical%alpha, points, waiting, waiting, [force(waiting), 0.0_dp], high, low)

@@ -6,8 +6,9 @@ module fuge_working_set
   use fuge_canonical_problem, only: canonical_problem
   use fuge_compensated_sums, only: difference_rounding
   use fuge_contact_solution, only: contact_solution
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
-  use fuge_displacements, only: add_open_displacement, displacement_terms
+  use fuge_contact_states, only: is_at_stop, FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, &
+    FUGE_LIMITED_UPPER, FUGE_OPEN
+  use fuge_displacements, only: add_elastic_displacement, add_open_displacement, displacement_terms
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: find_force_error, refine_solution, refinement_arrays, solve_set
@@ -33,6 +34,9 @@ module fuge_working_set
     !> stays open.
     logical, allocatable :: contact(:)
     real(dp), allocatable, private :: gap_at_stops(:)
+    !> Forces at the points that are at their limits, zero elsewhere, and the displacements by them, (n); allocated only
+    !> where such points exist.
+    real(dp), allocatable, private :: limit_force(:), limit_displacement(:)
     type(refinement_arrays), private :: arrays
   contains
     procedure :: start
@@ -86,9 +90,28 @@ contains
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: state(:)
 
-    self%contact = state /= FUGE_OPEN
+    self%contact = is_at_stop(state)
     call find_gap_at_stops(self, canonical, state)
+    if (allocated(self%limit_force)) deallocate (self%limit_force, self%limit_displacement)
+    if (any(abs(state) > 1)) call load_limited_points(self, canonical, state)
   end subroutine mark
+
+  !> The forces of the points at their limits, and what they displace.
+  pure subroutine load_limited_points(self, canonical, state)
+    class(working_set), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    integer, intent(in) :: state(:)
+    integer :: n
+
+    n = size(state)
+    allocate (self%limit_force(n), self%limit_displacement(n))
+    self%limit_force = 0.0_dp
+    where (state == FUGE_LIMITED_LOWER) self%limit_force = canonical%limit
+    where (state == FUGE_LIMITED_UPPER) self%limit_force = -canonical%limit_upper
+    self%limit_displacement = 0.0_dp
+    call add_elastic_displacement(canonical%alpha, canonical%datum, abs(state) > 1, self%limit_force, &
+                                  self%limit_displacement)
+  end subroutine load_limited_points
 
   pure subroutine find_gap_at_stops(self, canonical, state)
     class(working_set), intent(inout) :: self
@@ -178,7 +201,13 @@ contains
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(inout) :: solution
 
-    call solve_set(factor, canonical%datum, self%gap_at_stops, canonical%load, solution%force, solution%motion)
+    if (allocated(self%limit_force)) then
+      call solve_set(factor, canonical%datum, self%gap_at_stops + self%limit_displacement, &
+                     canonical%load - matmul(self%limit_force, canonical%modes), solution%force, solution%motion)
+      where (abs(solution%state) > 1) solution%force = self%limit_force
+    else
+      call solve_set(factor, canonical%datum, self%gap_at_stops, canonical%load, solution%force, solution%motion)
+    end if
   end subroutine solve
 
   !> Iterative refinement of forces and motion; `regularisation` as in `refine_solution`.
@@ -201,8 +230,8 @@ contains
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(inout) :: solution
 
-    call find_force_error(canonical, self%gap_at_stops, factor, self%contact, solution%force, solution%motion, &
-                          self%arrays, solution%force_error)
+    call find_force_error(canonical, self%gap_at_stops, factor, solution%force, solution%motion, self%arrays, &
+                          solution%force_error)
     solution%unrefined_error = self%arrays%changes(1)
   end subroutine estimate_error
 
@@ -240,7 +269,12 @@ contains
     type(contact_solution), intent(inout) :: solution
 
     self%elastic = 0.0_dp
-    call add_open_displacement(canonical%alpha, canonical%datum, self%contact, solution%force, self%elastic)
+    if (allocated(self%limit_force)) then
+      call add_elastic_displacement(canonical%alpha, canonical%datum, solution%state /= FUGE_OPEN, solution%force, &
+                                    self%elastic)
+    else
+      call add_open_displacement(canonical%alpha, canonical%datum, self%contact, solution%force, self%elastic)
+    end if
     call self%find_gaps(canonical, solution)
     call judge_signs(self, canonical, exact, solution)
   end subroutine measure
@@ -257,41 +291,47 @@ contains
       solution%gap = solution%gap - canonical%modes(:, j)*solution%motion(j)
     end do
     solution%gap = solution%gap + self%elastic
-    where (solution%state > FUGE_OPEN) solution%gap = 0.0_dp
-    where (solution%state < FUGE_OPEN) solution%gap = canonical%upper
+    where (solution%state == FUGE_AT_LOWER_STOP) solution%gap = 0.0_dp
+    where (solution%state == FUGE_AT_UPPER_STOP) solution%gap = canonical%upper
   end subroutine find_gaps
 
   !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a
   !> length: the gap less the rigid displacement, which the elastic displacement has to make up for at a point in
-  !> contact, and the terms of that displacement. Tied and excluded points cannot be wrong.
+  !> contact, and the terms of that displacement. Excluded points cannot be wrong, nor can tied ones without limits.
   pure subroutine judge_signs(self, canonical, exact, solution)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     logical, intent(in) :: exact
     type(contact_solution), intent(in) :: solution
-    real(dp), allocatable :: scale(:)
+    real(dp), allocatable :: scale(:), least(:), most(:)
     real(dp) :: largest, beyond, rigid_gap, terms
     integer :: j, strongest
 
+    if (canonical%has_limits()) then
+      allocate (least(size(self%contact)), most(size(self%contact)))
+      call canonical%force_range(solution%state, least, most)
+    end if
     strongest = maxloc(abs(solution%force), dim=1)
     largest = abs(solution%force(strongest))
     self%violation = 0.0_dp
     do j = 1, size(self%violation)
-      if (canonical%excluded(j) .or. .not. canonical%upper(j) > 0.0_dp) cycle
+      if (canonical%excluded(j) .or. .not. (canonical%upper(j) > 0.0_dp .or. allocated(least))) cycle
       associate (state => solution%state(j), force => solution%force(j), gap => solution%gap(j))
-        if (state /= FUGE_OPEN) then
-          if (force*state >= -self%zero_force) cycle
+        if (is_at_stop(state)) then
+          beyond = -force*state
+          if (allocated(least)) beyond = max(least(j) - force, force - most(j))
+          if (beyond <= self%zero_force) cycle
           if (.not. allocated(scale)) allocate (scale, source=canonical%force_scale(solution%force))
-          self%violation(j) = abs(force)/scale(j)
+          self%violation(j) = beyond/scale(j)
           cycle
         end if
-        beyond = max(-gap, gap - canonical%upper(j))
+        beyond = -canonical%slack(j, state, gap)
         if (.not. beyond > 0.0_dp) cycle
         rigid_gap = abs(gap - self%elastic(j))
         terms = abs((canonical%alpha(j, strongest) - canonical%datum)*largest)
         ! The other forces can only make the violation smaller.
         if (exact .and. beyond > SIGN_TOLERANCE*(rigid_gap + terms)) then
-          terms = displacement_terms(canonical%alpha, canonical%datum, self%contact, solution%force, j)
+          terms = displacement_terms(canonical%alpha, canonical%datum, abs(solution%force) > 0.0_dp, solution%force, j)
         end if
         self%violation(j) = beyond/max(rigid_gap + terms, beyond)
       end associate

@@ -7,7 +7,9 @@ module fuge_canonical_problem
   use, intrinsic :: iso_c_binding, only: c_long_long
   use fuge_equilibrium, only: is_in_equilibrium
   use fuge_equilibrium_report, only: report_no_equilibrium
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, FUGE_OPEN
   use fuge_kinds, only: dp
+  use fuge_limited_equilibrium, only: find_limited_equilibrium
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text, text
   use fuge_orthogonal_modes, only: bodies_of_modes, make_orthogonal, mode_change, mode_fault
@@ -35,7 +37,9 @@ module fuge_canonical_problem
     real(dp), allocatable :: gap(:)
     !> Play, (n), length; huge where one-sided.
     real(dp), allocatable :: upper(:)
-    !> Points that take no part in the contact, (n).
+    !> Limits of the forces at both stops, (n), force, huge where there is none; not allocated without limits.
+    real(dp), allocatable :: limit(:), limit_upper(:)
+    !> Points that take no part in the contact, (n): their forces are limited to zero.
     logical, allocatable :: excluded(:)
     !> Free rigid modes made orthogonal, (n, m), of size about 1, and the resultants in them, (m).
     real(dp), allocatable :: modes(:, :), load(:)
@@ -63,6 +67,10 @@ module fuge_canonical_problem
     procedure :: set_matrix
     procedure :: mode_count
     procedure :: is_tied
+    procedure :: has_limits
+    procedure :: pushes
+    procedure :: slack
+    procedure :: force_range
     procedure :: to_given_modes
     procedure :: largest_load
     procedure :: is_carried_by
@@ -97,6 +105,9 @@ contains
       canonical%excluded = .false.
       if (allocated(problem%gap_upper)) canonical%upper = min(problem%gap_upper, huge(1.0_dp))
       if (allocated(problem%excluded)) canonical%excluded = problem%excluded
+      if (problem%has_limits()) call set_limits(problem, canonical, stat)
+    end if
+    if (stat == 0) then
       canonical%free = [(j, j=1, problem%mode_count())]
       if (allocated(problem%prescribed)) canonical%free = pack(canonical%free, .not. problem%prescribed)
       m = size(canonical%free)
@@ -120,6 +131,25 @@ contains
     end if
     if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info)
   end subroutine make_canonical
+
+  !> Set the limits of the forces, and exclude the points that they leave no force. `stat` as from allocate.
+  pure subroutine set_limits(problem, canonical, stat)
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(inout) :: canonical
+    integer, intent(out) :: stat
+    integer :: n
+
+    n = size(canonical%gap)
+    allocate (canonical%limit(n), canonical%limit_upper(n), stat=stat)
+    if (stat /= 0) return
+    canonical%limit = huge(1.0_dp)
+    canonical%limit_upper = huge(1.0_dp)
+    if (allocated(problem%limit)) canonical%limit = min(problem%limit, huge(1.0_dp))
+    if (allocated(problem%limit_upper)) canonical%limit_upper = min(problem%limit_upper, huge(1.0_dp))
+    ! A stop without force is none.
+    where (.not. canonical%limit_upper > 0.0_dp) canonical%upper = huge(1.0_dp)
+    where (.not. (canonical%limit > 0.0_dp .or. canonical%upper < huge(1.0_dp))) canonical%excluded = .true.
+  end subroutine set_limits
 
   !> Take the gaps and the load of another checked problem of the paper's kind, if this is one of as many points; all
   !> else is the same then. `is_set` tells whether it was.
@@ -242,6 +272,62 @@ contains
 
     tied = self%upper <= 0.0_dp .and. .not. self%excluded
   end function is_tied
+
+  !> Do forces have limits?
+  pure function has_limits(self)
+    class(canonical_problem), intent(in) :: self
+    logical :: has_limits
+
+    has_limits = allocated(self%limit)
+  end function has_limits
+
+  !> Has the lower stop of point `k` a force?
+  pure function pushes(self, k)
+    class(canonical_problem), intent(in) :: self
+    integer, intent(in) :: k
+    logical :: pushes
+
+    pushes = .true.
+    if (allocated(self%limit)) pushes = self%limit(k) > 0.0_dp
+  end function pushes
+
+  !> How far point `k`, which is not at a stop, is from the nearest one that it may come to, length: negative for an open
+  !> point beyond a stop, and for a limited one before its stop.
+  pure function slack(self, k, state, gap) result(length)
+    class(canonical_problem), intent(in) :: self
+    integer, intent(in) :: k, state
+    real(dp), intent(in) :: gap
+    real(dp) :: length
+
+    select case (state)
+    case (FUGE_LIMITED_LOWER)
+      length = -gap
+    case (FUGE_LIMITED_UPPER)
+      length = gap - self%upper(k)
+    case default
+      length = self%upper(k) - gap
+      if (self%pushes(k)) length = min(length, gap)
+    end select
+  end function slack
+
+  !> The least and the largest force of each point (n) in the state that it has, `state` (n), force. Open points have
+  !> none, limited ones that of their limit, tied ones either sign.
+  pure subroutine force_range(self, state, least, most)
+    class(canonical_problem), intent(in) :: self
+    integer, intent(in) :: state(:)
+    real(dp), intent(out) :: least(:), most(:)
+    integer :: k
+
+    least = 0.0_dp
+    most = 0.0_dp
+    do k = 1, size(state)
+      if (state(k) > FUGE_OPEN) most(k) = self%limit(k)
+      if (state(k) < FUGE_OPEN) least(k) = -self%limit_upper(k)
+      if (state(k) == FUGE_LIMITED_LOWER) least(k) = most(k)
+      if (state(k) == FUGE_LIMITED_UPPER) most(k) = least(k)
+      if (state(k) == FUGE_AT_LOWER_STOP .and. .not. self%upper(k) > 0.0_dp) least(k) = -self%limit_upper(k)
+    end do
+  end subroutine force_range
 
   !> Number of modes, prescribed ones included.
   pure function mode_count(self) result(m)
@@ -476,12 +562,19 @@ contains
     pulls = pushes .and. canonical%upper < huge(1.0_dp)
     ! The orthogonal modes of a body share their rounding.
     noise = max(rounding(columns), epsilon(noise)*maxval(abs(canonical%load(columns))))
-    call find_shared_equilibrium(canonical%space, modes, canonical%load(columns), pushes, pulls, force, rest, noise)
+    if (canonical%has_limits()) then
+      call find_limited_equilibrium(modes, canonical%load(columns), merge(-canonical%limit_upper, 0.0_dp, pulls), &
+                                    merge(canonical%limit, 0.0_dp, pushes), noise, force, rest)
+    else
+      call find_shared_equilibrium(canonical%space, modes, canonical%load(columns), pushes, pulls, force, rest, noise)
+    end if
     if (any(abs(rest) > 0.0_dp)) then
       remainder(columns) = rest
       return
     end if
-    call move_to_edge(canonical%space, modes, noise, canonical%load, columns, force, info)
+    if (.not. canonical%has_limits()) then
+      call move_to_edge(canonical%space, modes, noise, canonical%load, columns, force, info)
+    end if
     if (.not. info%failed()) canonical%feasible_force = canonical%feasible_force + force
   end subroutine balance_body
 

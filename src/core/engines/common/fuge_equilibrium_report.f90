@@ -29,7 +29,9 @@ contains
     real(dp) :: motion(size(remainder))
     integer :: worst
 
-    if (.not. allocated(problem%modes)) then
+    if (problem%has_limits()) then
+      call report_limits(problem, free, change, remainder, info)
+    else if (.not. allocated(problem%modes)) then
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'resultant '//text(problem%resultant(1))//' is negative: contact ' &
                   //'forces can only push, so it must be >= 0')
     else
@@ -46,6 +48,28 @@ contains
       end associate
     end if
   end subroutine report_no_equilibrium
+
+  !> The same where forces have limits: all of them together do not carry the resultant.
+  subroutine report_limits(problem, free, change, remainder, info)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: free(:)
+    type(mode_change), intent(in) :: change
+    real(dp), intent(in) :: remainder(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: motion(size(remainder))
+    integer :: worst
+
+    worst = 1
+    motion = remainder
+    if (allocated(problem%modes)) then
+      motion = change%given_motion(remainder)
+      worst = maxloc(change%contributions(remainder), dim=1)
+    end if
+    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'no forces within their limits give the resultant ' &
+                //text(problem%resultant(free(worst)))//' in motion '//index_text(free(worst)) &
+                //' together with the others: moving along it by '//text(motion(worst)) &
+                //', all forces at their limits do less work than the resultants')
+  end subroutine report_limits
 
   !> With one translation and one tilt, the `pair` of positions among the free modes, report the line of action if it
   !> lies outside of the contact points. Not for points with play or tied ones, which carry any line of action.

@@ -5,7 +5,7 @@
 module fuge_ambiguous_forces
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
-  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_contact_states, only: is_at_stop
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_pivoted_qr, only: orthogonal_complement
@@ -36,7 +36,7 @@ contains
     real(dp) :: displacement, rounding
     integer :: first, k
 
-    touching = solution%state /= FUGE_OPEN
+    touching = is_at_stop(solution%state)
     beyond = .false.
     displacement = max(canonical%survey%most - canonical%datum, canonical%datum - canonical%survey%least) &
                    *sum(abs(solution%force))
@@ -45,7 +45,7 @@ contains
     rounding = ROUNDINGS*epsilon(rounding)*(displacement + sum(abs(solution%motion(first:))))
     do k = 1, size(touching)
       if (touching(k) .or. canonical%excluded(k)) cycle
-      touching(k) = min(solution%gap(k), canonical%upper(k) - solution%gap(k)) <= rounding
+      touching(k) = canonical%slack(k, solution%state(k), solution%gap(k)) <= rounding
       beyond = beyond .or. touching(k)
     end do
   end subroutine mark_touching
@@ -136,8 +136,9 @@ contains
     ! take longer than the solve.
     may = size(basis, 2) > 0
     if (count(idle) <= size(basis, 2) .or. size(basis, 2) > MOST_COMBINATIONS) return
-    ! A combination that takes forces of the wrong sign closes a point, as a motion would.
-    pulls = idle .and. solution%gap(points) < 0.5_dp*canonical%upper(points)
+    ! A combination that takes forces of the wrong sign closes a point, as a motion would. A force at its limit can only
+    ! become smaller.
+    pulls = idle .and. ((solution%gap(points) < 0.5_dp*canonical%upper(points)) .neqv. abs(solution%state(points)) > 1)
     pushes = idle .and. .not. pulls
     do j = 1, size(direction)
       do sense = -1, 1, 2

@@ -2,7 +2,7 @@
 module fuge_unresisted_motions
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
-  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_contact_states, only: is_at_stop, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, FUGE_OPEN
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text
   use fuge_pivoted_qr, only: orthogonal_complement
@@ -44,11 +44,15 @@ contains
     if (stat /= 0 .or. info%failed()) return
     call mark_loaded(canonical, solution, work, loaded)
     call find_unresisted_basis(canonical%modes, loaded, basis, canonical%space)
-    associate (state => solution%state, gap => solution%gap)
-      ! A point that touches without force resists in one sense only.
-      resists_closing = loaded .or. ((state > FUGE_OPEN .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
-      resists_opening = loaded .or. ((state < FUGE_OPEN .or. gap >= canonical%upper) .and. .not. canonical%excluded)
-    end associate
+    if (canonical%has_limits()) then
+      call find_resistance(canonical, solution, loaded, work, resists_closing, resists_opening)
+    else
+      associate (state => solution%state, gap => solution%gap)
+        ! A point that touches without force resists in one sense only.
+        resists_closing = loaded .or. ((state > FUGE_OPEN .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
+        resists_opening = loaded .or. ((state < FUGE_OPEN .or. gap >= canonical%upper) .and. .not. canonical%excluded)
+      end associate
+    end if
     do j = 1, size(basis, 2)
       call find_shared_equilibrium(canonical%space, canonical%modes, basis(:, j), resists_closing, resists_opening, &
                                    work, motion, epsilon(motion)*spread(maxval(abs(basis(:, j))), 1, size(motion)))
@@ -58,6 +62,36 @@ contains
       if (any(abs(motion) > 0.0_dp)) return
     end do
   end subroutine find_unresisted_motion
+
+  !> The senses in which points (n) resist a motion where forces have limits: those of `loaded` ones both, at the end of
+  !> its range a force resists in one sense only. `scale` (n) of the forces.
+  pure subroutine find_resistance(canonical, solution, loaded, scale, resists_closing, resists_opening)
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_solution), intent(in) :: solution
+    logical, intent(in) :: loaded(:)
+    real(dp), intent(in) :: scale(:)
+    logical, intent(out) :: resists_closing(:), resists_opening(:)
+    real(dp), dimension(size(loaded)) :: least, most
+    integer :: k
+
+    call canonical%force_range(solution%state, least, most)
+    do k = 1, size(loaded)
+      associate (state => solution%state(k), force => solution%force(k), gap => solution%gap(k))
+        if (canonical%excluded(k)) then
+          resists_closing(k) = .false.
+          resists_opening(k) = .false.
+        else if (is_at_stop(state)) then
+          resists_closing(k) = loaded(k) .or. most(k) - force > NO_FORCE*scale(k)
+          resists_opening(k) = loaded(k) .or. force - least(k) > NO_FORCE*scale(k)
+        else
+          resists_closing(k) = (state == FUGE_OPEN .and. gap <= 0.0_dp .and. canonical%pushes(k)) &
+                               .or. (state == FUGE_LIMITED_UPPER .and. gap <= canonical%upper(k))
+          resists_opening(k) = (state == FUGE_OPEN .and. gap >= canonical%upper(k)) &
+                               .or. (state == FUGE_LIMITED_LOWER .and. gap >= 0.0_dp)
+        end if
+      end associate
+    end do
+  end subroutine find_resistance
 
   !> Warn of a motion that the contact does not resist, by the mode that dominates it. An earlier warning in `info` is
   !> that of forces that are not unique. Error: FUGE_ERR_MEMORY.
@@ -84,6 +118,7 @@ contains
     type(contact_solution), intent(in) :: solution
     real(dp), intent(out) :: scale(:)
     logical, intent(out) :: loaded(:)
+    real(dp), allocatable :: least(:), most(:)
     integer :: j
 
     scale = 0.0_dp
@@ -96,8 +131,12 @@ contains
     else
       scale = max(scale, canonical%space%largest(maxval(abs(solution%force))))
     end if
-    loaded = solution%state /= FUGE_OPEN .and. (abs(solution%force) > NO_FORCE*scale &
-                                                .or. .not. canonical%upper > 0.0_dp)
+    loaded = is_at_stop(solution%state) .and. (abs(solution%force) > NO_FORCE*scale &
+                                               .or. .not. canonical%upper > 0.0_dp)
+    if (.not. canonical%has_limits()) return
+    allocate (least(size(loaded)), most(size(loaded)))
+    call canonical%force_range(solution%state, least, most)
+    loaded = loaded .and. solution%force - least > NO_FORCE*scale .and. most - solution%force > NO_FORCE*scale
   end subroutine mark_loaded
 
   !> An orthonormal basis of the motions q with R q = 0 at the points marked in `resists` (n).

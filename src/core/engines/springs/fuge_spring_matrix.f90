@@ -1,0 +1,208 @@
+!> The influence matrix of points and motions on springs, so that engines for a matrix need no springs of their own.
+!>
+!> Compliances stand on the diagonal. A spring on a motion is a tied point more, which that motion alone moves and whose
+!> compliance is one over the stiffness: its force is the part of the resultant that the spring carries. The matrix is a
+!> copy, because that of the caller must stay as it is.
+module fuge_spring_matrix
+  use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
+  use, intrinsic :: iso_c_binding, only: c_long_long
+  use fuge_kinds, only: dp
+  use fuge_locks, only: new_stamp
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_matrix_survey, only: matrix_survey, survey_matrix
+  use fuge_number_text, only: text
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  implicit none
+  private
+
+  type, public :: spring_matrix
+    private
+    !> The matrix, (n + springs, n + springs); length per force.
+    real(dp), allocatable :: alpha(:, :)
+    !> What was made into it: the matrix of the caller, and the springs.
+    integer(c_long_long) :: source = 0
+    real(dp), allocatable :: compliance(:), stiffness(:)
+    type(matrix_survey) :: survey
+    integer(c_long_long) :: stamp = 0
+  contains
+    procedure :: set
+    procedure :: as_operator
+    procedure :: clear
+  end type spring_matrix
+
+  public :: extend_problem, spring_count, strip_solution
+
+contains
+
+  !> Add the springs of `problem` to the matrix of `operator`, unless that was done before. Errors: FUGE_ERR_MEMORY,
+  !> FUGE_ERR_OVERFLOW for a stiffness so small that its compliance overflows.
+  subroutine set(self, operator, problem, info)
+    class(spring_matrix), intent(inout) :: self
+    class(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: compliance(operator%points()), stiffness(spring_count(problem))
+    integer :: k, n, stat
+
+    n = operator%points()
+    compliance = 0.0_dp
+    if (allocated(problem%compliance)) compliance = problem%compliance
+    stiffness = spring_stiffnesses(problem)
+    if (is_same(self, operator, compliance, stiffness)) return
+    call self%clear()
+    do k = 1, size(stiffness)
+      if (.not. stiffness(k)*sqrt(huge(1.0_dp)) > 1.0_dp) call report(info, FUGE_ERR_OVERFLOW, 'motion_stiffness ' &
+        //'reaches down to '//text(stiffness(k))//': choose units in which it is larger, or 0 for no spring')
+      if (info%failed()) return
+    end do
+    allocate (self%alpha(n + size(stiffness), n + size(stiffness)), self%compliance(n), &
+              self%stiffness(size(stiffness)), stat=stat)
+    call require_memory(stat, 'the influence matrix with springs of', n, 'points', info)
+    if (stat /= 0) return
+    do k = 1, n
+      self%alpha(:n, k) = operator%alpha(:n, k)
+      self%alpha(n + 1:, k) = 0.0_dp
+      self%alpha(k, k) = self%alpha(k, k) + compliance(k)
+    end do
+    do k = 1, size(stiffness)
+      self%alpha(:, n + k) = 0.0_dp
+      self%alpha(n + k, n + k) = 1.0_dp/stiffness(k)
+    end do
+    call survey_matrix(self%alpha, self%survey)
+    self%compliance = compliance
+    self%stiffness = stiffness
+    self%source = operator%stamp()
+    self%stamp = new_stamp()
+  end subroutine set
+
+  !> Was the matrix made of the same one, and the same springs?
+  pure function is_same(self, operator, compliance, stiffness) result(same)
+    type(spring_matrix), intent(in) :: self
+    class(fuge_dense_operator), intent(in) :: operator
+    real(dp), intent(in) :: compliance(:), stiffness(:)
+    logical :: same
+
+    same = allocated(self%alpha) .and. self%source > 0 .and. self%source == operator%stamp()
+    if (same) same = size(self%stiffness) == size(stiffness) .and. size(self%compliance) == size(compliance)
+    if (same) same = .not. (any(abs(self%stiffness - stiffness) > 0.0_dp) &
+                            .or. any(abs(self%compliance - compliance) > 0.0_dp))
+  end function is_same
+
+  !> Forget the matrix and release its memory.
+  pure subroutine clear(self)
+    class(spring_matrix), intent(inout) :: self
+
+    if (allocated(self%alpha)) deallocate (self%alpha)
+    if (allocated(self%compliance)) deallocate (self%compliance)
+    if (allocated(self%stiffness)) deallocate (self%stiffness)
+    self%source = 0
+  end subroutine clear
+
+  !> The matrix as an operator, which points to it: `self` must be a target for as long as it is used.
+  subroutine as_operator(self, operator)
+    class(spring_matrix), intent(in), target :: self
+    type(fuge_dense_operator), intent(out) :: operator
+
+    call operator%set_surveyed(self%alpha, self%survey, self%stamp)
+  end subroutine as_operator
+
+  !> The number of free motions that have a spring.
+  pure function spring_count(problem)
+    type(fuge_problem), intent(in) :: problem
+    integer :: spring_count
+
+    spring_count = count(has_spring(problem))
+  end function spring_count
+
+  !> Which motions are free and have a spring, (m)?
+  pure function has_spring(problem)
+    type(fuge_problem), intent(in) :: problem
+    logical :: has_spring(problem%mode_count())
+
+    has_spring = .false.
+    if (allocated(problem%motion_stiffness)) has_spring = problem%motion_stiffness > 0.0_dp
+    if (allocated(problem%prescribed)) has_spring = has_spring .and. .not. problem%prescribed
+  end function has_spring
+
+  pure function spring_stiffnesses(problem) result(stiffness)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: stiffness(spring_count(problem))
+
+    if (allocated(problem%motion_stiffness)) stiffness = pack(problem%motion_stiffness, has_spring(problem))
+  end function spring_stiffnesses
+
+  !> The same problem without springs, for the matrix that has them: motions on springs have a tied point more. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine extend_problem(problem, extended, info)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_problem), intent(out) :: extended
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: infinity
+    logical :: on_spring(problem%mode_count())
+    integer :: j, m, n, springs, stat
+
+    n = problem%points()
+    m = problem%mode_count()
+    on_spring = has_spring(problem)
+    springs = spring_count(problem)
+    infinity = ieee_value(1.0_dp, ieee_positive_inf)
+    extended = problem
+    deallocate (extended%gap)
+    if (allocated(extended%compliance)) deallocate (extended%compliance)
+    if (allocated(extended%motion_stiffness)) deallocate (extended%motion_stiffness)
+    call append(problem%gap, n, springs, 0.0_dp, 0.0_dp, extended%gap, stat)
+    if (springs > 0) then
+      if (stat == 0) call append(problem%gap_upper, n, springs, infinity, 0.0_dp, extended%gap_upper, stat)
+      if (stat == 0 .and. allocated(problem%limit)) then
+        call append(problem%limit, n, springs, infinity, infinity, extended%limit, stat)
+      end if
+      if (stat == 0 .and. allocated(problem%limit_upper)) then
+        call append(problem%limit_upper, n, springs, infinity, infinity, extended%limit_upper, stat)
+      end if
+      if (stat == 0 .and. allocated(problem%excluded)) then
+        extended%excluded = [problem%excluded, spread(.false., 1, springs)]
+      end if
+      if (allocated(extended%modes)) deallocate (extended%modes)
+      if (stat == 0) allocate (extended%modes(n + springs, m), stat=stat)
+    end if
+    call require_memory(stat, 'the springs of', n, 'points', info)
+    if (stat /= 0 .or. springs == 0) return
+    extended%modes(:n, :) = 1.0_dp
+    if (allocated(problem%modes)) extended%modes(:n, :) = problem%modes
+    extended%modes(n + 1:, :) = 0.0_dp
+    springs = 0
+    do j = 1, m
+      if (.not. on_spring(j)) cycle
+      springs = springs + 1
+      extended%modes(n + springs, j) = 1.0_dp
+    end do
+  end subroutine extend_problem
+
+  !> `values` (n), or `default` where not allocated, followed by `more` times `value`.
+  pure subroutine append(values, n, more, default, value, longer, stat)
+    real(dp), intent(in), allocatable :: values(:)
+    integer, intent(in) :: n, more
+    real(dp), intent(in) :: default, value
+    real(dp), intent(inout), allocatable :: longer(:)
+    integer, intent(out) :: stat
+
+    if (allocated(longer)) deallocate (longer)
+    allocate (longer(n + more), stat=stat)
+    if (stat /= 0) return
+    longer(:n) = default
+    if (allocated(values)) longer(:n) = values
+    longer(n + 1:) = value
+  end subroutine append
+
+  !> Leave out the points of springs: a solution of `n` points.
+  pure subroutine strip_solution(n, solution)
+    integer, intent(in) :: n
+    type(fuge_solution), intent(inout) :: solution
+
+    if (size(solution%force) == n) return
+    solution%force = solution%force(:n)
+    solution%gap = solution%gap(:n)
+  end subroutine strip_solution
+
+end module fuge_spring_matrix
