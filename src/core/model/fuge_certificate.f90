@@ -399,11 +399,12 @@ contains
     real(dp), intent(in) :: force(:), spring(:)
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: body_forces(size(force)), own, largest, imbalance, sums(2), extremes(4)
+    real(dp) :: body_forces(size(force)), own, largest, imbalance, spring_force, sums(2), extremes(4)
     logical :: loaded(size(force))
     integer :: j
 
     violation = 0.0_dp
+    spring_force = largest_spring_force(problem, spring, space)
     body_forces = largest_of_bodies(problem%modes, abs(force), space)
     loaded = is_loaded(problem)
     do j = 1, size(problem%modes, 2)
@@ -414,8 +415,8 @@ contains
         call space%raise(extremes)
         sums = [sum(mode*force), sum(abs(mode*force))]
         call space%add(sums)
-        own = extremes(1)
-        largest = extremes(2)
+        own = max(extremes(1), spring_force)
+        largest = max(extremes(2), spring_force)
         if (extremes(4) > 0.0_dp) largest = own
         largest = ROUNDINGS*epsilon(largest)*extremes(3)*largest
         imbalance = max(abs((sums(1) - resultant) + spring(j)) - largest, 0.0_dp)
@@ -425,6 +426,23 @@ contains
       end associate
     end do
   end function imbalance_in_modes
+
+  !> The largest force that a spring on a motion stands for, in which motions round together: the part of the resultant
+  !> that it carries, `spring` (m), over the largest displacement of its mode.
+  function largest_spring_force(problem, spring, space) result(largest)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: spring(:)
+    type(point_space), intent(in) :: space
+    real(dp) :: largest
+    real(dp) :: arms(size(spring))
+    integer :: j
+
+    largest = 0.0_dp
+    if (.not. any(abs(spring) > 0.0_dp)) return
+    arms = [(maxval(abs(problem%modes(:, j))), j=1, size(arms))]
+    call space%raise(arms)
+    largest = maxval(abs(spring)/arms, mask=arms > 0.0_dp)
+  end function largest_spring_force
 
   !> The lengths that forces leave open where they dwarf the data, as a fraction of the lengths in the data; 0 up to
   !> RESOLVED. Each point counts with its share of the forces, as in the work that they do: the terms of displacements

@@ -16,7 +16,8 @@ module fuge_dense_engine
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
-  use fuge_spring_matrix, only: extend_problem, spring_count, spring_matrix, strip_solution
+  use fuge_spring_matrix, only: extend_problem, find_spring_motions, spring_count, spring_matrix, &
+    strip_solution
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
   use fuge_tableau_engine, only: solve_by_tableau
@@ -108,6 +109,7 @@ contains
     call move_alloc(springs, self%springs)
     if (info%failed()) return
     self%spring_points = spring_count(problem)
+    call find_spring_motions(problem, extended, solution)
     call strip_solution(problem%points(), solution)
   end subroutine solve_with_springs
 

@@ -31,7 +31,7 @@ module fuge_spring_matrix
     procedure :: clear
   end type spring_matrix
 
-  public :: extend_problem, spring_count, strip_solution
+  public :: extend_problem, find_spring_motions, spring_count, strip_solution
 
 contains
 
@@ -194,6 +194,33 @@ contains
     if (allocated(values)) longer(:n) = values
     longer(n + 1:) = value
   end subroutine append
+
+  !> The motions on springs from the forces of these, where that has less rounding: of the largest force, instead of the
+  !> largest displacement by any motion. `extended` is the problem whose `solution` this is.
+  pure subroutine find_spring_motions(problem, extended, solution)
+    type(fuge_problem), intent(in) :: problem, extended
+    type(fuge_solution), intent(inout) :: solution
+    logical :: on_spring(problem%mode_count())
+    real(dp) :: displacement(extended%points()), arm, stiffness
+    integer :: j, spring
+
+    if (spring_count(problem) < 1) return
+    on_spring = has_spring(problem)
+    displacement = 0.0_dp
+    do j = 1, size(on_spring)
+      displacement = max(displacement, abs(extended%modes(:, j)*solution%motion(j)))
+    end do
+    spring = problem%points()
+    do j = 1, size(on_spring)
+      if (.not. on_spring(j)) cycle
+      spring = spring + 1
+      stiffness = problem%motion_stiffness(j)
+      arm = maxval(abs(extended%modes(:, j)))
+      if (stiffness*(maxval(displacement)/arm) > maxval(abs(solution%force))) then
+        solution%motion(j) = solution%force(spring)/stiffness
+      end if
+    end do
+  end subroutine find_spring_motions
 
   !> Leave out the points of springs: a solution of `n` points.
   pure subroutine strip_solution(n, solution)
