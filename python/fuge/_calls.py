@@ -13,13 +13,12 @@ from typing import Any, Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fuge import _library
 from fuge._arrays import doubles, vector
-from fuge._library import function
+from fuge._library import CALLBACKS, HEADERS, function
 from fuge._messages import Shapes, in_python
 from fuge.errors import Status, error, finish
 
-MESSAGE_LENGTH = 256
+MESSAGE_LENGTH = HEADERS.constants["MESSAGE_LENGTH"]
 
 NO_SHAPES: Shapes = MappingProxyType({})
 
@@ -295,7 +294,7 @@ def product_callback(apply: Callable[[NDArray[np.float64]], Any]) -> Any:
         except BaseException as exception:
             return _keep(exception)
 
-    return _library.Apply(called)
+    return CALLBACKS["fuge_apply"](called)
 
 
 def progress_callback(progress: Callable[[int, float, int], Any] | None) -> Any:
@@ -311,7 +310,7 @@ def progress_callback(progress: Callable[[int, float, int], Any] | None) -> Any:
         except BaseException as exception:
             return _keep(exception)
 
-    return _library.Progress(called)
+    return CALLBACKS["fuge_progress"](called)
 
 
 def profile_callback(profile: Callable[[NDArray[np.float64]], Any]) -> Any:
@@ -329,4 +328,4 @@ def profile_callback(profile: Callable[[NDArray[np.float64]], Any]) -> Any:
         except BaseException as exception:
             return _keep(exception)
 
-    return _library.Profile(called)
+    return CALLBACKS["fuge_smooth_profile"](called)

@@ -8,6 +8,8 @@ from typing import Mapping
 
 import numpy as np
 
+from fuge._words import WORDS
+
 Shapes = Mapping[str, "tuple[int, ...]"]
 """Shapes of the caller's arrays by their names in messages, for those whose indices differ; `point` for all points."""
 
@@ -16,12 +18,11 @@ _PATTERN = re.compile(
     r"|\bmode (?P<mode>\d+) at point \((?P<row>\d+)\)"
     r"|\b(?P<before>point|the first is) (?P<point>\d+)\b"
     r"|\b(?P<name>[a-z]\w*)\((?P<index>\d+)(?:, ?(?P<second>\d+))?\)"
-    r"|\bFUGE_(?P<constant>[A-Z_]*[A-Z])"
+    r"|\bFUGE_(?P<constant>[A-Z_]*[A-Z]\d*)"
     r"|\bfuge_(?P<function>\w+)"
 )
 
-# Prefixes of constants and of functions that Python's words do not have.
-_CONSTANT = re.compile("(?:plane|end|file|level|stiffness|measure|normals)_(?=.)")
+# Prefixes of functions that Python's methods do not have.
 _HANDLE = re.compile("(?:operator|bodies|body|pairs)_(?=.)")
 
 _ARRAYS = {"f": "force", "u": "displacement"}
@@ -55,8 +56,8 @@ def _replaced(match: re.Match[str], shapes: Shapes) -> str:
     if found["name"]:
         return _element(found["name"], found["index"], found["second"], shapes)
     if found["constant"]:
-        constant = found["constant"].lower()
-        return match[0] if constant.startswith("with_") else repr(_CONSTANT.sub("", constant, count=1))
+        word = WORDS.get(found["constant"])
+        return match[0] if word is None else repr(word)
     if found["function"]:
         return _function(found["function"])
     return match[0]

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, new_handle
-from fuge._library import has_sparse
-from fuge._structs import InfoStruct
+from fuge._library import has_sparse, struct
 from fuge.columns import CompressedColumns, compressed, compressed_dense, is_sparse, require_sparse
 from fuge.contact import Info, info_of
 from fuge.errors import Status, error
@@ -232,7 +231,7 @@ class ElasticBodies(Owner):
     @property
     def info(self) -> Info:
         """Report of the last solve, failed or not."""
-        report = InfoStruct()
+        report = struct("fuge_info")
         self._call("fuge_bodies_get_info", ctypes.byref(report))
         return info_of(report)
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fuge._structs import InfoStruct
 from fuge.cells import Cells
 from fuge.errors import Status, error
 
@@ -152,8 +152,8 @@ class History:
     z: NDArray[np.float64]
 
 
-def info_of(report: InfoStruct) -> Info:
-    """The report in a struct of the library."""
+def info_of(report: Any) -> Info:
+    """The report in the struct fuge_info."""
     return Info(
         Status(report.status),
         report.iterations,

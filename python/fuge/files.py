@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from fuge import _arrays
 from fuge._calls import call
 from fuge._instruments import REMARK, read_instrument
+from fuge._words import Words
 from fuge.columns import CompressedColumns, compressed
 from fuge.errors import FileError, Status
 
@@ -20,10 +21,13 @@ PathLike = Union[str, "os.PathLike[str]"]
 StiffnessFormat = Literal["any", "matrix_market", "calculix", "abaqus", "dmig", "op4"]
 SurfaceFormat = Literal["any", "grid", "points", "sdf"]
 
-STIFFNESS_FORMATS = {"any": 0, "matrix_market": 1, "calculix": 2, "abaqus": 3, "dmig": 4, "op4": 5}
-SURFACE_FORMATS = {"any": 0, "grid": 1, "points": 2, "sdf": 3}
-LINE_FORMS = {"mean": 0, "line": 1}
-PLANE_FORMS = {"mean": 0, "plane": 2}
+ProfileForm = Literal["mean", "line"]
+SurfaceForm = Literal["mean", "plane"]
+
+STIFFNESS_FORMATS = Words("format", StiffnessFormat, "STIFFNESS_")
+SURFACE_FORMATS = Words("format", SurfaceFormat, "FILE_")
+PROFILE_FORMS = Words("form", ProfileForm, "LEVEL_")
+SURFACE_FORMS = Words("form", SurfaceForm, "LEVEL_")
 
 
 def encoded(path: PathLike) -> bytes:
@@ -149,7 +153,7 @@ def read_stiffness(
     """
     arguments = [
         encoded(path),
-        _arrays.choice("format", format, STIFFNESS_FORMATS),
+        STIFFNESS_FORMATS.number(format),
         None if names_path is None else encoded(names_path),
         None if name is None else name.encode(),
     ]
@@ -200,11 +204,11 @@ def sample_profile(x: ArrayLike, z: ArrayLike, centre: ArrayLike) -> NDArray[np.
     return height
 
 
-def level_profile(x: ArrayLike, z: ArrayLike, form: Literal["mean", "line"]) -> NDArray[np.float64]:
+def level_profile(x: ArrayLike, z: ArrayLike, form: ProfileForm) -> NDArray[np.float64]:
     """Heights without their mean, or without the least-squares line; each weighted by the length it stands for."""
     places = _arrays.vector("x", x)
     heights = _arrays.vector("z", z, places.size).copy()
-    call("fuge_level_profile", places.size, places, heights, _arrays.choice("form", form, LINE_FORMS))
+    call("fuge_level_profile", places.size, places, heights, PROFILE_FORMS.number(form))
     return heights
 
 
@@ -280,7 +284,7 @@ def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = 
 
 
 def _read_text(path: PathLike, format: SurfaceFormat, fill: bool) -> SurfaceHeights:
-    arguments = [encoded(path), _arrays.choice("format", format, SURFACE_FORMATS), int(bool(fill))]
+    arguments = [encoded(path), SURFACE_FORMATS.number(format), int(bool(fill))]
     nx, ny, filled = _counts(3)
     spacing, origin = np.empty(2), np.empty(2)
     call("fuge_read_surface", *arguments, 0, None, nx, ny, spacing, origin, filled)
@@ -315,11 +319,11 @@ def fill_surface(height: ArrayLike) -> NDArray[np.float64]:
     return heights
 
 
-def level_surface(height: ArrayLike, form: Literal["mean", "plane"]) -> NDArray[np.float64]:
+def level_surface(height: ArrayLike, form: SurfaceForm) -> NDArray[np.float64]:
     """Heights of shape (ny, nx) without their mean, or without the least-squares plane."""
     heights = _arrays.doubles("height", height, ("ny", "nx")).copy()
     ny, nx = heights.shape
-    chosen = _arrays.choice("form", form, PLANE_FORMS)
+    chosen = SURFACE_FORMS.number(form)
     call("fuge_level_surface", nx, ny, heights, chosen, shapes={"height": heights.shape})
     return heights
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import NO_SHAPES, Owner, call, interruptible, new_handle, product_callback
+from fuge._words import Words
 from fuge.cells import Cells
 from fuge.errors import Status, error
 from fuge.halfplane import ELEMENTS, Element
@@ -18,8 +19,8 @@ from fuge.halfspace import AREA_ELEMENTS, AreaElement
 Boundary = Literal["free", "periodic"]
 AreaBoundary = Literal["free", "periodic", "periodic_x", "periodic_y"]
 
-BOUNDARIES = {"free": 0, "periodic": 1}
-AREA_BOUNDARIES = {"free": 0, "periodic": 1, "periodic_x": 2, "periodic_y": 3}
+BOUNDARIES = Words("boundary", Boundary)
+AREA_BOUNDARIES = Words("boundary", AreaBoundary)
 
 Product = Callable[[NDArray[np.float64]], ArrayLike]
 
@@ -204,8 +205,8 @@ class HalfplaneOperator(GridOperator):
             self.n,
             width,
             modulus,
-            _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
-            _arrays.choice("boundary", boundary, BOUNDARIES),
+            ELEMENTS.number(element),
+            BOUNDARIES.number(boundary),
         )
         self.e_star = modulus
         self.cells = Cells((self.n,), (width,), boundary, element)
@@ -275,8 +276,8 @@ class HalfspaceOperator(GridOperator):
             rows,
             *spacing,
             modulus,
-            _arrays.choice("element", element, AREA_ELEMENTS, Status.ERR_ELEMENT),
-            _arrays.choice("boundary", boundary, AREA_BOUNDARIES),
+            AREA_ELEMENTS.number(element),
+            AREA_BOUNDARIES.number(boundary),
         )
         self.n = columns * rows
         self.grid = (rows, columns)

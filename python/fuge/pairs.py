@@ -10,13 +10,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, new_handle
+from fuge._words import Words
 from fuge.errors import Warning
 
 PairMethod = Literal["mortar", "node_to_face"]
 Normals = Literal["averaged", "opposite", "given"]
 
-PAIR_METHODS = {"mortar": 0, "node_to_face": 1}
-NORMALS = {"averaged": 0, "opposite": 1, "given": 2}
+PAIR_METHODS = Words("method", PairMethod)
+NORMALS = Words("normals", Normals, "NORMALS_")
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +62,8 @@ def pair_options(
 ) -> list[Any]:
     """method, normals, normal, reach, play, tied, smooth."""
     return [
-        _arrays.choice("method", method, PAIR_METHODS),
-        _arrays.choice("normals", normals, NORMALS),
+        PAIR_METHODS.number(method),
+        NORMALS.number(normals),
         None if normal is None else _arrays.doubles("normal", normal, np.shape(contact.node)),
         _arrays.number("reach", reach),
         _arrays.number("play", play),

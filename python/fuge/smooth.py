@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, call, interruptible, new_handle, profile_callback
-from fuge._structs import RoundReport, SmoothReport
+from fuge._library import struct
 from fuge.halfplane import PlaneState
 from fuge.stress import at_points, elasticity
-from fuge.stress_peak import Measure, StressPeak, find_peak, measured, plane_body
+from fuge.stress_peak import MEASURES, Measure, StressPeak, find_peak, plane_body
 
 Profile = Callable[[NDArray[np.float64]], "tuple[ArrayLike, ArrayLike]"]
 
@@ -48,7 +48,7 @@ class SmoothContact(Owner):
         arguments = [profile, None, *limits, e_star, force, moment]
         with interruptible():
             self._handle = new_handle("smooth contact", "fuge_solve_smooth_punch", "fuge_smooth_free", *arguments)
-        report = SmoothReport()
+        report = struct("fuge_smooth_report")
         call("fuge_smooth_get_report", self._handle.pointer, ctypes.byref(report))
         self.left: float = report.left
         self.right: float = report.right
@@ -92,7 +92,7 @@ class SmoothContact(Owner):
 
     def peak(self, poisson: float, measure: Measure = "von_mises", *, plane_state: PlaneState = "strain") -> StressPeak:
         """The largest von Mises or Tresca stress and its place."""
-        arguments = [self._handle.pointer, *plane_body(plane_state, poisson), measured(measure)]
+        arguments = [self._handle.pointer, *plane_body(plane_state, poisson), MEASURES.number(measure)]
         return find_peak("fuge_smooth_peak", *arguments)
 
 
@@ -167,7 +167,7 @@ class RoundContact(Owner):
     def __init__(self, solve: str, *arguments: Any) -> None:
         with interruptible():
             self._handle = new_handle("round contact", solve, "fuge_round_free", *arguments)
-        report = RoundReport()
+        report = struct("fuge_round_report")
         call("fuge_round_get_report", self._handle.pointer, ctypes.byref(report))
         self.radius: float = report.radius
         self.load: float = report.load
@@ -204,7 +204,7 @@ class RoundContact(Owner):
 
     def peak(self, poisson: float, measure: Measure = "von_mises") -> StressPeak:
         """The largest von Mises or Tresca stress and its place."""
-        return find_peak("fuge_round_peak", self._handle.pointer, _arrays.number("poisson", poisson), measured(measure))
+        return find_peak("fuge_round_peak", self._handle.pointer, _arrays.number("poisson", poisson), MEASURES.number(measure))
 
 
 def _pressed(load: float | None, approach: float | None, radius: float | None) -> list[Any]:

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, end_call, interruptible, new_handle, progress_callback
-from fuge._library import function
+from fuge._library import function, struct
 from fuge._messages import in_python
-from fuge._structs import InfoStruct, Options
+from fuge._words import Words
 from fuge.contact import Contact, Derivative, History, Info, info_of
 from fuge.errors import GridWarning, Status, error, warn
 from fuge.operators import DenseOperator, Operator
@@ -21,8 +21,8 @@ from fuge.path import Path, check_matrix, collect_path
 Method = Literal["auto", "tableau", "active_set", "iterative"]
 PivotRule = Literal["paper", "most_negative", "greatest_decrease"]
 
-METHODS = {"auto": 0, "tableau": 1, "active_set": 2, "iterative": 3}
-PIVOT_RULES = {"paper": 0, "most_negative": 1, "greatest_decrease": 2}
+METHODS = Words("method", Method)
+PIVOT_RULES = Words("pivot_rule", PivotRule, paper="PAPER_RULE")
 
 Progress = Callable[[int, float, int], Any]
 
@@ -33,14 +33,14 @@ def chosen_options(
     max_iterations: int | None = None,
     keep_history: bool | None = None,
     tolerance: float | None = None,
-) -> Options:
-    """The library's defaults, but for what is not None."""
-    options = Options()
+) -> Any:
+    """fuge_options: the library's defaults, but for what is not None."""
+    options = struct("fuge_options")
     function("fuge_default_options")(ctypes.byref(options))
     if method is not None:
-        options.method = _arrays.choice("method", method, METHODS)
+        options.method = METHODS.number(method)
     if pivot_rule is not None:
-        options.pivot_rule = _arrays.choice("pivot_rule", pivot_rule, PIVOT_RULES)
+        options.pivot_rule = PIVOT_RULES.number(pivot_rule)
     if max_iterations is not None:
         options.max_iterations = _arrays.integer("max_iterations", max_iterations)
     if keep_history is not None:
@@ -249,7 +249,7 @@ class Solver(Owner):
     @property
     def info(self) -> Info:
         """Report of the last solve, failed or not."""
-        report = InfoStruct()
+        report = struct("fuge_info")
         self._call("fuge_get_info", ctypes.byref(report))
         return info_of(report)
 
@@ -319,7 +319,7 @@ class Solver(Owner):
 
     def _contact(self, pointer: ctypes.c_void_p, message: str) -> Contact:
         count = np.empty(1, dtype=np.intc)
-        report = InfoStruct()
+        report = struct("fuge_info")
         self._get("fuge_get_mode_count", pointer, count)
         force, gap = np.empty(self._shape), np.empty(self._shape)
         motion, resultant = np.empty(int(count[0])), np.empty(int(count[0]))

@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
-from fuge.errors import Status
 from fuge.halfplane import ELEMENTS, PLANE_STATES, Element, PlaneState
 
 
@@ -38,7 +37,7 @@ def strips(x: ArrayLike, width: ArrayLike, force: ArrayLike, element: Element) -
         centres,
         _arrays.spread("width", width, centres.size),
         _arrays.vector("force", force, centres.size),
-        _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
+        ELEMENTS.number(element),
     ]
 
 
@@ -67,7 +66,7 @@ def elasticity(young: float, poisson: float, plane_state: PlaneState) -> list[An
     return [
         _arrays.number("young", young),
         _arrays.number("poisson", poisson),
-        _arrays.choice("plane_state", plane_state, PLANE_STATES),
+        PLANE_STATES.number(plane_state),
     ]
 
 

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
-from fuge.errors import Status
 from fuge.halfplane import ELEMENTS, Element, PlaneState
 from fuge.operators import AREA_BOUNDARIES, BOUNDARIES, AreaBoundary, Boundary
 from fuge.stress import elasticity
@@ -25,8 +24,8 @@ def _line(spacing: float, force: ArrayLike, element: Element, boundary: Boundary
         forces.size,
         _arrays.number("spacing", spacing),
         forces,
-        _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
-        _arrays.choice("boundary", boundary, BOUNDARIES),
+        ELEMENTS.number(element),
+        BOUNDARIES.number(boundary),
     ]
 
 
@@ -41,7 +40,7 @@ def _area(
         _arrays.number("spacing_x", spacing_x),
         _arrays.number("spacing_y", spacing_y),
         forces,
-        _arrays.choice("boundary", boundary, AREA_BOUNDARIES),
+        AREA_BOUNDARIES.number(boundary),
     ]
 
 

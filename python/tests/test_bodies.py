@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 
 import fuge
-import headers
 from fuge._library import has_sparse
 
 YOUNG, POISSON, PRESSURE = 2.0, 0.25, 0.01
@@ -168,7 +167,7 @@ class MeshWithMatrix(unittest.TestCase):
 
     def test_blocks_in_files(self):
         # Two blocks 6 wide whose meshes do not match, under 12: the job of the program fuge in this folder.
-        folder = headers.ROOT / "examples" / "data" / "blocks"
+        folder = Path(__file__).resolve().parents[2] / "examples" / "data" / "blocks"
         bodies, surfaces = fuge.ElasticBodies(), []
         for name in ("lower", "upper"):
             mesh, stiffness = fuge.read_mesh(folder / f"{name}.inp"), fuge.read_stiffness(folder / f"{name}.sti")

@@ -41,7 +41,7 @@ run("${venv_python}" -c "print(__import__('fuge').__file__)")
 if(NOT output MATCHES "^${SCRATCH}/venv/")
   message(FATAL_ERROR "fuge is that of ${output}")
 endif()
-execute_process(COMMAND "${venv_python}" -m unittest test_solver test_operators
+execute_process(COMMAND "${venv_python}" -m unittest test_headers test_solver test_operators
   WORKING_DIRECTORY "${SOURCE_DIR}/python/tests" RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "its tests fail:\n${output}")
