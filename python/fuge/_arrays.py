@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
 import operator
-from typing import Any, Mapping, Tuple, Union
+from typing import Any, Collection, Mapping, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -153,6 +154,16 @@ def choice(name: str, value: Any, values: Mapping[str, int], status: Status = St
     if isinstance(value, str) and value in values:
         return values[value]
     raise error(status, f"{name} is {value!r}, but must be one of " + ", ".join(repr(word) for word in values))
+
+
+def texts(words: Collection[str]) -> Any:
+    """A C array of strings."""
+    return (ctypes.c_char_p * len(words))(*(word.encode() for word in words))
+
+
+def addresses(arrays: Sequence[Doubles]) -> Any:
+    """A C array of the addresses of arrays, which the caller has to keep."""
+    return (ctypes.c_void_p * len(arrays))(*(array.ctypes.data for array in arrays))
 
 
 def points(*named: tuple[str, ArrayLike]) -> tuple[tuple[int, ...], list[Doubles]]:

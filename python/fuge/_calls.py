@@ -245,6 +245,13 @@ class Owner:
             code = function(name)(pointer, *arguments)
             end_call(code, lambda: self._read_message(pointer), self._shapes if shapes is None else shapes)
 
+    def _counts(self, getter: str) -> list[int]:
+        """The results of a function of the handle that are all ints."""
+        signature = HEADERS.functions[getter]
+        counts = [np.empty(1, dtype=np.intc) for _ in signature.parameters[1:]]
+        self._call(getter, *counts)
+        return [int(count[0]) for count in counts]
+
     # Shapes of arrays to which messages may refer.
     _shapes: Shapes = NO_SHAPES
 

@@ -216,9 +216,7 @@ class ElasticBodies(Owner):
     def join(self) -> JoinedBodies:
         """The bodies as one, for further loads on the same factor or for points that are excluded."""
         self._call("fuge_bodies_join")
-        sizes = [np.empty(1, dtype=np.intc) for _ in range(4)]
-        self._call("fuge_bodies_get_joined_sizes", *sizes)
-        degrees, entries, n, width = (int(size[0]) for size in sizes)
+        degrees, entries, n, width = self._counts("fuge_bodies_get_joined_sizes")
         column, row = np.empty(degrees + 1, dtype=np.intc), np.empty(entries, dtype=np.intc)
         value, first = np.empty(entries), np.empty(len(self._degrees) + 1, dtype=np.intc)
         dof, normal = np.empty((n, width), dtype=np.intc), np.empty((n, width))
@@ -238,9 +236,7 @@ class ElasticBodies(Owner):
     def _contact(self) -> BodiesContact:
         with self._handle.use() as pointer:
             message = self._read_message(pointer)
-        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
-        self._call("fuge_bodies_get_sizes", *sizes)
-        n, lonely = int(sizes[0][0]), int(sizes[1][0])
+        n, lonely, _ = self._counts("fuge_bodies_get_sizes")
         force, pressure, gap, area, initial_gap = (np.empty(n) for _ in range(5))
         pair, node, face = (np.empty(n, dtype=np.intc) for _ in range(3))
         place, direction = np.empty((n, max(self._dimensions - 1, 0))), np.empty((n, self._dimensions))

@@ -169,9 +169,7 @@ class Body(Owner):
             K is so close to singular that few digits may be correct.
         """
         self._call("fuge_body_condense")
-        count = np.empty(1, dtype=np.intc)
-        self._call("fuge_body_get_mode_count", count)
-        n, m = self._n, int(count[0])
+        n, m = self._n, self._mode_count()
         influence, displacement = np.empty((n, n), order="F"), np.empty(n)
         modes, resultant = np.empty((n, m), order="F"), np.empty(m)
         self._call("fuge_body_get_influence", influence, n)
@@ -204,12 +202,14 @@ class Body(Owner):
             K u is out of balance by more than 1e-10 of the forces.
         """
         forces = _arrays.vector("force", force, self._n)
-        count = np.empty(1, dtype=np.intc)
-        self._call("fuge_body_get_mode_count", count)
-        motions = None if motion is None else _arrays.vector("motion", motion, int(count[0]))
+        m = self._mode_count()
+        motions = None if motion is None else _arrays.vector("motion", motion, m)
         displacement = np.empty(self.degrees)
         self._call("fuge_body_recover", forces, motions, displacement)
         return displacement
+
+    def _mode_count(self) -> int:
+        return self._counts("fuge_body_get_mode_count")[0]
 
 
 def rigid_modes(position: ArrayLike) -> NDArray[np.float64]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 from dataclasses import dataclass
 from typing import Any, Literal, Mapping, Union
@@ -334,9 +333,7 @@ def level_surface(height: ArrayLike, form: SurfaceForm) -> NDArray[np.float64]:
 def _named(fields: Mapping[str, ArrayLike], shape: tuple[int, ...]) -> tuple[list[Any], Any]:
     """C arrays of names and fields, and what keeps them alive."""
     arrays = [_arrays.doubles(f"the field {name!r}", field, shape) for name, field in fields.items()]
-    names = (ctypes.c_char_p * len(arrays))(*(name.encode() for name in fields))
-    pointers = (ctypes.c_void_p * len(arrays))(*(array.ctypes.data for array in arrays))
-    return [len(arrays), names, pointers], arrays
+    return [len(arrays), _arrays.texts(fields), _arrays.addresses(arrays)], arrays
 
 
 def _grid_shape(fields: Mapping[str, ArrayLike], *dimensions: str) -> tuple[int, ...]:

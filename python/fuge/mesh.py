@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Handle, Owner, call, end_call, new_handle
-from fuge._library import function
+from fuge._calls import Handle, Owner, call, new_handle
 from fuge.files import PathLike, StiffnessFile, encoded
 from fuge.pairs import Surface
 
@@ -39,13 +38,13 @@ class Mesh(Owner):
 
     def __init__(self, handle: Handle) -> None:
         self._handle = handle
-        nodes, elements, connections = self._sizes("fuge_mesh_get_sizes")
+        nodes, elements, connections = self._counts("fuge_mesh_get_sizes")
         self.node, self.element = np.empty(nodes, dtype=np.intc), np.empty(elements, dtype=np.intc)
         self.position = np.empty((nodes, 3))
         self.first, self.connection = np.empty(elements + 1, dtype=np.intc), np.empty(connections, dtype=np.intc)
-        self._get("fuge_mesh_get_nodes", self.node, self.position)
-        self._get("fuge_mesh_get_elements", self.element, self.first, self.connection)
-        counts = self._sizes("fuge_mesh_get_set_counts")
+        self._call("fuge_mesh_get_nodes", self.node, self.position)
+        self._call("fuge_mesh_get_elements", self.element, self.first, self.connection)
+        counts = self._counts("fuge_mesh_get_set_counts")
         self.node_sets = [self._text("fuge_mesh_get_node_set_name", k) for k in range(counts[0])]
         self.element_sets = [self._text("fuge_mesh_get_element_set_name", k) for k in range(counts[1])]
         self.surfaces = [self._text("fuge_mesh_get_surface_name", k) for k in range(counts[2])]
@@ -66,9 +65,8 @@ class Mesh(Owner):
         places = _arrays.doubles("position", position, (None, 2), (None, 3))
         elements = _arrays.integers("element", element, (None, None))
         types = [type] if isinstance(type, str) else list(type)
-        names = (ctypes.c_char_p * len(types))(*(name.encode() for name in types))
         nodes, dimensions = places.shape
-        arguments = [dimensions, nodes, places, elements.shape[1], elements.shape[0], elements, len(types), names]
+        arguments = [dimensions, nodes, places, elements.shape[1], elements.shape[0], elements, len(types), _arrays.texts(types)]
         return cls(new_handle("mesh", "fuge_mesh_create", "fuge_mesh_free", *arguments))
 
     def write(
@@ -94,10 +92,9 @@ class Mesh(Owner):
                 names.append(name)
                 at_elements.append(int(given is not node_fields))
         components = np.array([field.shape[1] if field.ndim == 2 else 1 for field in fields], dtype=np.intc)
-        texts = (ctypes.c_char_p * len(names))(*(name.encode() for name in names))
-        pointers = (ctypes.c_void_p * len(names))(*(field.ctypes.data for field in fields))
-        places = np.array(at_elements, dtype=np.intc)
-        call("fuge_write_mesh", encoded(path), self._handle.pointer, len(names), texts, components, places, pointers)
+        where = np.array(at_elements, dtype=np.intc)
+        arguments = [len(names), _arrays.texts(names), components, where, _arrays.addresses(fields)]
+        call("fuge_write_mesh", encoded(path), self._handle.pointer, *arguments)
         del fields
 
     def element_type(self, k: int) -> str:
@@ -162,16 +159,12 @@ class Mesh(Owner):
 
     def _text(self, getter: str, k: int) -> str:
         text = ctypes.create_string_buffer(_NAME_LENGTH + 1)
-        self._get(getter, k, text, len(text))
+        self._call(getter, k, text, len(text))
         return text.value.decode(errors="replace")
 
-    def _sizes(self, getter: str) -> list[int]:
-        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
-        self._get(getter, *sizes)
-        return [int(size[0]) for size in sizes]
-
-    def _get(self, name: str, *results: object) -> None:
-        end_call(function(name)(self._handle.pointer, *results), lambda: "")
+    def _read_message(self, pointer: ctypes.c_void_p) -> str:
+        """None: a mesh does not keep messages, and the exception has the general text of the status."""
+        return ""
 
 
 def read_mesh(path: PathLike) -> Mesh:

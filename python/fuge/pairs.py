@@ -171,9 +171,7 @@ class ContactPairs(Owner):
         self._collect(dimensions)
 
     def _collect(self, dimensions: int) -> None:
-        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
-        self._call("fuge_pairs_get_sizes", *sizes)
-        n, width, unpaired = (int(size[0]) for size in sizes)
+        n, width, unpaired = self._counts("fuge_pairs_get_sizes")
         lonely = self._keep(n, width, unpaired, dimensions)
         self._call("fuge_pairs_get_contact", self.dof, self.normal)
         self._call("fuge_pairs_get_gaps", self.gap, self.gap_upper, self.area)

@@ -194,9 +194,7 @@ class Solver(Owner):
     @property
     def mode_count(self) -> int:
         """Number m of rigid motions of the problem."""
-        m = np.empty(1, dtype=np.intc)
-        self._call("fuge_get_mode_count", m)
-        return int(m[0])
+        return self._counts("fuge_get_mode_count")[0]
 
     # ---- the solution
 
