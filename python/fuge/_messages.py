@@ -11,7 +11,7 @@ import numpy as np
 from fuge._words import WORDS
 
 Shapes = Mapping[str, "tuple[int, ...]"]
-"""Shapes of the caller's arrays by their names in messages, for those whose indices differ; `point` for all points."""
+"""Shapes of arrays whose indices differ in Python, by their names in messages; `point` is that of all points."""
 
 _PATTERN = re.compile(
     r'"[^"]*"'
@@ -39,9 +39,9 @@ _FUNCTIONS = {
 
 
 def in_python(message: str, shapes: Shapes) -> str:
-    """The message with indices in brackets, as of the arrays of these shapes, and with Python's names and options.
+    """The message with Python's indices, for arrays of these shapes, and with the names and words of this package.
 
-    What is quoted stays as it is.
+    Quoted text stays as it is.
     """
     return _PATTERN.sub(lambda match: _replaced(match, shapes), message)
 
@@ -64,7 +64,7 @@ def _replaced(match: re.Match[str], shapes: Shapes) -> str:
 
 
 def _element(name: str, index: str, second: str | None, shapes: Shapes) -> str:
-    """An element of an array; two indices count as in Fortran's order, which is Python's for arrays without a shape."""
+    """An element of an array; two indices come in Fortran's order, which Python reverses for arrays with a shape."""
     if second is None:
         place = _places(name, index, shapes)
     else:

@@ -30,23 +30,23 @@ class BodiesContact:
     pressure : ndarray, shape (n,)
         Force over area.
     gap, initial_gap : ndarray, shape (n,)
-        Under load and before; length.
+        Gaps under load and before it; length.
     area : ndarray, shape (n,)
-        In the plane lengths.
+        Areas of the contact points; in the plane lengths.
     pair, node, face : ndarray of int, shape (n,)
         The pair, the node of its contact surface, and the opposite face.
     place : ndarray, shape (n, dimensions - 1)
-        Place in the opposite face.
+        Coordinates in the opposite face.
     direction : ndarray, shape (n, dimensions)
         Direction of the gap.
     unpaired : ndarray of int, shape (count, 2)
-        Pair and node of the nodes that have no opposite.
+        Pair and node of each node without an opposite face.
     displacement : list of ndarray
-        Of all degrees of freedom of each body; length.
+        For each body, of all its degrees of freedom; length.
     info : Info
         Report, with the certificate.
     message : str
-        What there is to say about the solution; mostly empty.
+        What the library remarks on the solution; mostly empty.
     """
 
     force: NDArray[np.float64]
@@ -67,7 +67,7 @@ class BodiesContact:
 
 @dataclass(frozen=True, eq=False)
 class JoinedBodies:
-    """Bodies as one, for :class:`Body`.
+    """Several bodies as one, whose matrix is one for :class:`Body`.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ class ElasticBodies(Owner):
         self._dimensions = 0
 
     def add(self, stiffness: Any) -> int:
-        """Add a body; its number, from 0.
+        """Add a body and return its number, from 0.
 
         Parameters
         ----------
@@ -134,12 +134,15 @@ class ElasticBodies(Owner):
         self._call("fuge_bodies_fix", _arrays.integer("body", body), fixed.size, fixed, given)
 
     def set_load(self, body: int, load: ArrayLike) -> None:
-        """External load of a body, one force for each of its degrees of freedom."""
+        """Set the external load of a body, one force for each of its degrees of freedom."""
         number = self._number(body)
         self._call("fuge_bodies_set_load", number, _arrays.vector("load", load, self._degrees[number]))
 
     def set_rigid_modes(self, body: int, rigid_modes: ArrayLike) -> None:
-        """Rigid modes that the supports of a body leave, (degrees, m): for all bodies that float, or they are found."""
+        """Set the rigid modes that the supports of a body leave, (degrees, m).
+
+        Give those of all bodies that float, or of none: then they are found.
+        """
         number = self._number(body)
         modes = _arrays.columns("rigid_modes", rigid_modes, (self._degrees[number], None))
         self._call("fuge_bodies_set_rigid_modes", number, modes.shape[1], modes)
@@ -191,20 +194,20 @@ class ElasticBodies(Owner):
         Parameters
         ----------
         sparse : bool, optional
-            Factorise by CHOLMOD, or as a band, which is for small models; by CHOLMOD if the library has it.
+            True: factorise by CHOLMOD; False: as a band, for small models. By CHOLMOD if the library has it.
         method, max_iterations, tolerance
             As in :class:`Solver`.
 
         Raises
         ------
         Error
-            As :meth:`ContactPairs.find`, :meth:`Body.condense` and :meth:`Solver.solve`; the message names the body or
-            the pair.
+            Those of :meth:`ContactPairs.find`, :meth:`Body.condense` and :meth:`Solver.solve`; the message names the
+            body or the pair.
 
         Warns
         -----
         Warning
-            Those of these calls.
+            Those of the same three.
         """
         options = chosen_options(method, None, max_iterations, None, tolerance)
         by_cholmod = has_sparse() if sparse is None else sparse
@@ -214,7 +217,7 @@ class ElasticBodies(Owner):
         return self._contact()
 
     def join(self) -> JoinedBodies:
-        """The bodies as one, for further loads on the same factor or for points that are excluded."""
+        """Join the bodies into one, for further loads on the same factor, or to exclude points."""
         self._call("fuge_bodies_join")
         degrees, entries, n, width = self._counts("fuge_bodies_get_joined_sizes")
         column, row = np.empty(degrees + 1, dtype=np.intc), np.empty(entries, dtype=np.intc)

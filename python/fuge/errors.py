@@ -17,7 +17,7 @@ from fuge._library import Constants, function
 
 
 class Status(Constants):
-    """What a call of the library has come to; doc/errors.md has a line for each."""
+    """The result of a call of the library; doc/errors.md has a line for each."""
 
     DONE = auto()
     WARN_RESIDUAL = auto()
@@ -56,7 +56,7 @@ class Status(Constants):
 
 
 class Error(Exception):
-    """A call that could not be done.
+    """A call failed, and changed nothing.
 
     Attributes
     ----------
@@ -138,7 +138,7 @@ class ResidualWarning(Warning):
 
 
 class NotUniqueWarning(Warning):
-    """The solution is one of many; the message says which part of it."""
+    """The solution is one of many; the message says whether forces or motions are not unique."""
 
 
 class IllConditionedWarning(Warning):
@@ -150,7 +150,7 @@ class PairsWarning(Warning):
 
 
 class NoContactWarning(Warning):
-    """No point of the bodies touches: loads and supports open all gaps."""
+    """No point of the bodies is in contact: loads and supports open all gaps."""
 
 
 class GridWarning(Warning):

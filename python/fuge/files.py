@@ -140,10 +140,10 @@ def read_stiffness(
     format : {'any', 'matrix_market', 'calculix', 'abaqus', 'dmig', 'op4'}
         'any' recognises it by its content.
     names_path : str or path, optional
-        File with a line node.direction for each row, of a matrix whose entries have numbers only; without it job.dof
-        for a path job.sti.
+        For a matrix whose rows have no names: a file with a line node.direction for each row. By default that of
+        job.sti is job.dof.
     name : str, optional
-        Which matrix of a file of Nastran, such as KAAX.
+        Name of the matrix in a file of Nastran, such as KAAX.
 
     Raises
     ------
@@ -225,13 +225,14 @@ class SurfaceHeights:
     height : ndarray, shape (ny, nx)
         In the unit of the file.
     spacing : tuple of float or None
-        Along x and y; None if the file does not say.
+        Along x and y; None if the file does not give it.
     origin : tuple of float
         Position of height[0, 0].
     filled : int
         Number of points that were not measured and have been filled.
     unit : str or None
-        'm' of a file of an instrument that says its unit; else None, lengths are in the unit of the file (SDF: metres).
+        'm' if a file of an instrument gives its unit; otherwise None, and lengths are in the unit of the file (SDF:
+        metres).
     """
 
     height: NDArray[np.float64]
@@ -242,7 +243,7 @@ class SurfaceHeights:
 
 
 def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = False) -> SurfaceHeights:
-    """Read a surface.
+    """Read the heights of a surface on a grid.
 
     Other files of instruments, such as x3p, sur, vk4, plux, al3d, datx, opd and gwy, are read by the package
     SurfaceTopography where that is installed, in metres.
@@ -251,8 +252,8 @@ def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = 
     ----------
     path : str or path
     format : {'any', 'grid', 'points', 'sdf'}
-        A line for each row; x, y and height of a point on each line; ISO 25178-71; 'any' recognises them, and files of
-        instruments.
+        'grid': a line for each row; 'points': x, y and height of a point on each line; 'sdf': ISO 25178-71. 'any'
+        recognises them, and files of instruments.
     fill : bool
         Points that were not measured get the mean height of their neighbours; otherwise they are refused.
 

@@ -149,9 +149,9 @@ class HertzContact:
     semi_axis_x, semi_axis_y : float
         Of the area of contact; length.
     approach : float
-        Absolute; length.
+        By how much distant points of the bodies approach each other; length.
     peak_pressure : float
-        In the middle; force per length^2.
+        The pressure in the middle; force per length^2.
     """
 
     semi_axis_x: float

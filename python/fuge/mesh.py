@@ -18,7 +18,7 @@ _NAME_LENGTH = 80
 
 
 class Mesh(Owner):
-    """Nodes, elements, sets and surfaces; places in its arrays count from 0.
+    """Nodes, elements, sets and surfaces; indices of its arrays count from 0.
 
     Made by :func:`read_mesh`, :meth:`from_arrays` or :func:`join_meshes`.
 
@@ -31,7 +31,7 @@ class Mesh(Owner):
     element : ndarray of int, shape (elements,)
         Number of each element in the file.
     first, connection : ndarray of int
-        Element k has the nodes connection[first[k]:first[k + 1]], as places.
+        Element k has the nodes with the indices connection[first[k]:first[k + 1]].
     node_sets, element_sets, surfaces : list of str
         Their names, in upper case.
     """
@@ -51,7 +51,7 @@ class Mesh(Owner):
 
     @classmethod
     def from_arrays(cls, position: ArrayLike, element: ArrayLike, type: str | Sequence[str]) -> Mesh:
-        """A mesh without sets and surfaces, such as for :meth:`write`.
+        """Make a mesh without sets and surfaces, for example to write it.
 
         Parameters
         ----------
@@ -66,8 +66,9 @@ class Mesh(Owner):
         elements = _arrays.integers("element", element, (None, None))
         types = [type] if isinstance(type, str) else list(type)
         nodes, dimensions = places.shape
-        arguments = [dimensions, nodes, places, elements.shape[1], elements.shape[0], elements, len(types), _arrays.texts(types)]
-        return cls(new_handle("mesh", "fuge_mesh_create", "fuge_mesh_free", *arguments))
+        arguments = [dimensions, nodes, places, elements.shape[1], elements.shape[0], elements]
+        names = [len(types), _arrays.texts(types)]
+        return cls(new_handle("mesh", "fuge_mesh_create", "fuge_mesh_free", *arguments, *names))
 
     def write(
         self,
@@ -102,15 +103,15 @@ class Mesh(Owner):
         return self._text("fuge_mesh_get_type", _arrays.integer("k", k))
 
     def node_set(self, name: str) -> NDArray[np.intc]:
-        """Places of the nodes of a set; InputError if the mesh has none of this name, in upper or lower case."""
+        """Indices of the nodes of a set; InputError if the mesh has none of this name, in upper or lower case."""
         return self._members("fuge_mesh_get_node_set", name, 1).reshape(-1)
 
     def element_set(self, name: str) -> NDArray[np.intc]:
-        """Places of the elements of a set."""
+        """Indices of the elements of a set."""
         return self._members("fuge_mesh_get_element_set", name, 1).reshape(-1)
 
     def faces(self, name: str) -> NDArray[np.intc]:
-        """Nodes of the faces of a surface, places, shape (faces, 8), -1 in unused places; for :class:`Surface`."""
+        """Indices of the nodes of a surface's faces, shape (faces, 8), -1 where unused; for :class:`Surface`."""
         return self._members("fuge_mesh_get_faces", name, 8)
 
     def surface(self, name: str, stiffness: StiffnessFile, dimensions: int = 3) -> Surface:
@@ -179,6 +180,6 @@ def read_mesh(path: PathLike) -> Mesh:
 
 
 def join_meshes(meshes: Sequence[Mesh]) -> Mesh:
-    """One mesh of several ones, such as those of several bodies: nodes and elements, one mesh after the other."""
+    """Join meshes, such as those of several bodies: nodes and elements, one mesh after the other."""
     pointers = (ctypes.c_void_p * len(meshes))(*(mesh._handle.pointer.value for mesh in meshes))
     return Mesh(new_handle("mesh", "fuge_mesh_join", "fuge_mesh_free", len(meshes), pointers))

@@ -99,7 +99,7 @@ class SmoothContact(Owner):
 def solve_smooth_punch(
     profile: Profile, lower: float, upper: float, e_star: float, force: float, *, moment: float | None = None
 ) -> SmoothContact:
-    """Press a smooth punch into a half-plane; a few dozen coefficients of the pressure reach rounding.
+    """Press a smooth punch into a half-plane; a few dozen coefficients give the pressure to rounding.
 
     Parameters
     ----------
@@ -152,10 +152,11 @@ class RoundContact(Owner):
     Attributes
     ----------
     radius : float
-        Of the contact; length.
+        Radius of the contact; length.
     load : float
+        Force.
     approach : float
-        Absolute; length.
+        By how much distant points of the bodies approach each other; length.
     residual : float
         The certificate: largest scaled violation of the problem.
     radius_error, pressure_error : float
@@ -204,7 +205,8 @@ class RoundContact(Owner):
 
     def peak(self, poisson: float, measure: Measure = "von_mises") -> StressPeak:
         """The largest von Mises or Tresca stress and its place."""
-        return find_peak("fuge_round_peak", self._handle.pointer, _arrays.number("poisson", poisson), MEASURES.number(measure))
+        arguments = [self._handle.pointer, _arrays.number("poisson", poisson), MEASURES.number(measure)]
+        return find_peak("fuge_round_peak", *arguments)
 
 
 def _pressed(load: float | None, approach: float | None, radius: float | None) -> list[Any]:
@@ -276,7 +278,9 @@ def solve_round_powers(
     approach: float | None = None,
     radius: float | None = None,
 ) -> RoundContact:
-    """The same for the initial gap sum of coefficients[k] (r - starts[k])^powers[k], each term from starts[k] on.
+    """Press a punch of revolution whose initial gap is a sum of powers into a half-space.
+
+    The sum is that of coefficients[k] (r - starts[k])^powers[k], each term from r = starts[k] on.
 
     Parameters
     ----------

@@ -56,18 +56,20 @@ def _at_depths(
 def halfplane_stress_grid(
     spacing: float, force: ArrayLike, element: Element, depth: ArrayLike, boundary: Boundary = "free"
 ) -> NDArray[np.float64]:
-    """Stresses in a half-plane.
+    """Stresses in a half-plane below the centres of its cells.
 
     Parameters
     ----------
     spacing : float
         Width of a cell; length.
     force : array_like, shape (n,)
-        Per depth, compression positive.
+        Forces on the cells per depth, positive in compression.
     element : {'centre', 'mean', 'hat'}
+        As in :func:`halfplane_matrix`.
     depth : array_like, shape (d,), or float
         Not negative; length.
     boundary : {'free', 'periodic'}
+        As for :class:`HalfplaneOperator`.
 
     Returns
     -------
@@ -105,19 +107,20 @@ def halfspace_stress_grid(
     depth: ArrayLike,
     boundary: AreaBoundary = "free",
 ) -> NDArray[np.float64]:
-    """Stresses in a half-space.
+    """Stresses in a half-space below the centres of its cells.
 
     Parameters
     ----------
     spacing_x, spacing_y : float
         Widths of a cell; length.
     force : array_like, shape (ny, nx)
-        Of the cells, compression positive.
+        Forces on the cells, positive in compression.
     poisson : float
         Poisson's ratio of the body.
     depth : array_like, shape (d,), or float
         Not negative; length.
     boundary : {'free', 'periodic', 'periodic_x', 'periodic_y'}
+        As for :class:`HalfspaceOperator`.
 
     Returns
     -------
