@@ -152,7 +152,7 @@ class MeshWithMatrix(unittest.TestCase):
             )
             mesh = fuge.read_mesh(path)
         node, direction = np.repeat(np.array([10, 20, 30, 40], dtype=np.intc), 2), np.tile([1, 2], 4).astype(np.intc)
-        # The program has left out a support.
+        # The matrix has no row for one degree of freedom, which is fixed.
         node, direction = node[1:], direction[1:]
         identity = np.arange(8, dtype=np.intc)
         stiffness = fuge.StiffnessFile((7, 7), identity, identity[:7], np.ones(7), node, direction)
