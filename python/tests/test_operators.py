@@ -305,7 +305,7 @@ class Grids(QuietRims):
         np.testing.assert_allclose(fuge.HalfplaneOperator(3, 1.0, 1.0) @ [1.0, 0.0, 0.0], wanted, rtol=1e-13)
 
     def test_path_without_a_matrix(self):
-        # Gaps of either shape are refused in the same way.
+        # The operator is refused, whatever the shapes of gaps and motions are.
         operator = fuge.HalfspaceOperator(2, 2, 1.0, 1.0, 1.0)
         words = r"influence matrix, which HalfspaceOperator\(nx=2"
         with self.assertRaisesRegex(fuge.UnsupportedError, words):
