@@ -245,7 +245,7 @@ class Owner:
             end_call(code, lambda: self._read_message(pointer), self._shapes if shapes is None else shapes)
 
     def _counts(self, getter: str) -> list[int]:
-        """The results of a function of the handle that are all ints."""
+        """The ints that a function of the handle returns, one in each argument after the handle."""
         signature = HEADERS.functions[getter]
         counts = [np.empty(1, dtype=np.intc) for _ in signature.parameters[1:]]
         self._call(getter, *counts)

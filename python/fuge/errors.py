@@ -17,7 +17,7 @@ from fuge._library import Constants, function
 
 
 class Status(Constants):
-    """The result of a call of the library; doc/errors.md has a line for each."""
+    """The result of a call of the library, an ``IntEnum``; doc/errors.md has a line for each."""
 
     DONE = auto()
     WARN_RESIDUAL = auto()
@@ -56,7 +56,7 @@ class Status(Constants):
 
 
 class Error(Exception):
-    """A call failed, and changed nothing.
+    """A call that failed, and changed nothing.
 
     Attributes
     ----------

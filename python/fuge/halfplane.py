@@ -167,7 +167,7 @@ def graded_cells(
 
 
 class EdgeKind(IntEnum):
-    """How well an edge of contact is known; all but REFINED are edges of cells."""
+    """How well an edge of contact is known, an ``IntEnum``; all but REFINED are edges of cells."""
 
     REFINED = HEADERS.constants["EDGE_REFINED"]
     """Extrapolated from the forces, more accurate than the grid."""

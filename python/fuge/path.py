@@ -17,7 +17,7 @@ from fuge.operators import DenseOperator, Operator
 
 
 class PointState(Constants):
-    """State of a contact point."""
+    """State of a contact point, an ``IntEnum``."""
 
     AT_LOWER_STOP = auto()
     """Gap 0, force >= 0; of either sign if the point is tied."""
