@@ -16,7 +16,7 @@ def rows_of(text):
 
 
 def _number(text):
-    match = re.match(r"([-+.\dE]+) *(ms|MB)?$", text.strip())
+    match = re.match(r"([-+.\dE]*\d[.\dE+-]*) *(ms|MB)?$", text.strip())
     return float(match[1])*UNITS.get(match[2], 1.0) if match else None
 
 

@@ -83,7 +83,7 @@ contains
     case default
       call run_sized(row(:index(row, '_') - 1), size_in(row), found)
     end select
-    memory = ''
+    memory = '-'
     if (found%memory > 0.0_dp) write (memory, '(f0.1,a)') 1.0e-6_dp*found%memory, ' MB'
     write (output_unit, '(8a,f0.3,3a)') '| ', trim(row), ' | ', number(found%pressure), ' | ', number(found%approach), &
       ' | ', number(found%half_width)//' | ', 1.0e3_dp*found%watch%best, ' ms | ', trim(memory), ' |'

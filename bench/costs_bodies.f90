@@ -64,7 +64,11 @@ contains
     write (output_unit, '(a,2(i0,a),f0.1,a)', advance='no') '| '//name//', ', size(block%column) - 1, &
       ' degrees of freedom, ', size(condensed%alpha, 2), ' points | ', 1.0e3_dp*watch%best, ' ms |'
     call measure_contact(condensed, size(block%column) - 1, places(elements))
-    write (output_unit, '(f7.0,a)') 1.0e-6_dp*memory, ' MB |'
+    if (memory < 0.0_dp) then
+      write (output_unit, '(a)') ' - |'
+    else
+      write (output_unit, '(f7.0,a)') 1.0e-6_dp*memory, ' MB |'
+    end if
     flush (output_unit)
   end subroutine measure
 

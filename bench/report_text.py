@@ -92,8 +92,9 @@ def power(n):
 
 
 def memory(value):
+    """Such as 1.5 MB; a dash where the system does not tell the peak."""
     if value is None:
-        return ""
+        return "-"
     if value >= 1e9:
         return f"{value / 1e9:.2g} GB"
     return f"{value / 1e6:.2g} MB" if value < 99.5e6 else f"{value / 1e6:.0f} MB"

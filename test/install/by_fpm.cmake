@@ -1,5 +1,5 @@
 # fpm projects in Fortran and C: one links the copy in PREFIX; the other one, without PREFIX, depends on the
-# sources in SOURCE_DIR.
+# sources in SOURCE_DIR. After the latter also the project src/program, which depends on them too.
 # ctest sets PREFIX and PKG_CONFIG, or SOURCE_DIR, MAKE_PROGRAM and BUILT; LIBDIR, KIND, SCRATCH, FPM and
 # Fortran_COMPILER.
 cmake_minimum_required(VERSION 3.20)
@@ -27,7 +27,8 @@ if(NOT PREFIX)
     set(Fortran_COMPILER "${SCRATCH}/gfortran")
   endif()
   # fpm takes no absolute path.
-  file(RELATIVE_PATH SOURCE_DIR "${SCRATCH}" "${SOURCE_DIR}")
+  set(sources "${SOURCE_DIR}")
+  file(RELATIVE_PATH SOURCE_DIR "${SCRATCH}" "${sources}")
   configure_file("${CMAKE_CURRENT_LIST_DIR}/${project}/fpm.toml" "${SCRATCH}/fpm.toml" @ONLY)
 endif()
 configure_file("${CMAKE_CURRENT_LIST_DIR}/fortran/main.f90" "${SCRATCH}/app/main.f90" COPYONLY)
@@ -39,4 +40,20 @@ string(REGEX MATCHALL "${answer}" answers "${output}")
 list(LENGTH answers count)
 if(NOT count EQUAL 2)
   message(FATAL_ERROR "${count} programs by fpm have answered, not 2: ${output}")
+endif()
+
+if(NOT PREFIX)
+  # The program, beside it, with the dependency as that project has it.
+  set(program "${SCRATCH}_program")
+  file(REMOVE_RECURSE "${program}")
+  file(COPY "${sources}/src/program/" DESTINATION "${program}" PATTERN build EXCLUDE)
+  file(READ "${program}/fpm.toml" text)
+  string(REPLACE "\"../..\"" "\"${SOURCE_DIR}\"" text "${text}")
+  file(WRITE "${program}/fpm.toml" "${text}")
+  run("the program by fpm" ${compiling} "${CMAKE_COMMAND}" -E chdir "${program}"
+    "${FPM}" run --compiler "${Fortran_COMPILER}" ${options} -- --version)
+  if(NOT output MATCHES "fuge [0-9]+[.][0-9]")
+    message(FATAL_ERROR "the program by fpm does not say its version: ${output}")
+  endif()
+  file(REMOVE_RECURSE "${program}")
 endif()
