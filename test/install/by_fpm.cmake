@@ -20,6 +20,8 @@ if(NOT PREFIX)
   prepare_compiling()
   set(options --flag "${flags}" --c-flag -O0)
   if(BUILT)
+    # What is compiled anew is not optimised.
+    list(APPEND compiling FURTHER=-O0)
     # fpm knows a compiler by its name.
     file(CONFIGURE OUTPUT "${SCRATCH}/gfortran" @ONLY
       CONTENT "#!/bin/sh\nexec '@CMAKE_CURRENT_LIST_DIR@/take_built.sh' '@Fortran_COMPILER@' \"$@\"\n")
@@ -43,17 +45,19 @@ if(NOT count EQUAL 2)
 endif()
 
 if(NOT PREFIX)
-  # The program, beside it, with the dependency as that project has it.
-  set(program "${SCRATCH}_program")
-  file(REMOVE_RECURSE "${program}")
-  file(COPY "${sources}/src/program/" DESTINATION "${program}" PATTERN build EXCLUDE)
-  file(READ "${program}/fpm.toml" text)
-  string(REPLACE "\"../..\"" "\"${SOURCE_DIR}\"" text "${text}")
-  file(WRITE "${program}/fpm.toml" "${text}")
-  run("the program by fpm" ${compiling} "${CMAKE_COMMAND}" -E chdir "${program}"
+  # The program, in a copy of its folder that lies among the others as in the sources, where fpm would leave its build.
+  set(tree "${SCRATCH}_program")
+  file(REMOVE_RECURSE "${tree}")
+  file(COPY "${sources}/src/program" DESTINATION "${tree}/src" PATTERN build EXCLUDE)
+  file(GLOB others RELATIVE "${sources}" "${sources}/fpm.toml" "${sources}/examples" "${sources}/src/*")
+  list(REMOVE_ITEM others src/program)
+  foreach(other IN LISTS others)
+    file(CREATE_LINK "${sources}/${other}" "${tree}/${other}" SYMBOLIC)
+  endforeach()
+  run("the program by fpm" ${compiling} "${CMAKE_COMMAND}" -E chdir "${tree}/src/program"
     "${FPM}" run --compiler "${Fortran_COMPILER}" ${options} -- --version)
   if(NOT output MATCHES "fuge [0-9]+[.][0-9]")
     message(FATAL_ERROR "the program by fpm does not say its version: ${output}")
   endif()
-  file(REMOVE_RECURSE "${program}")
+  file(REMOVE_RECURSE "${tree}")
 endif()
