@@ -279,7 +279,7 @@ def machine_texts(directory):
     if not said:
         return {}
     own = said.split("Peers: ")[0].strip().rstrip(".")
-    measured = f"All is measured by one run of `script/bench --doc`: {own}."
+    measured = f"All figures are from one run of `script/bench --doc`: {own}."
     return {"machine": "\n".join(textwrap.fill(part, 120, break_on_hyphens=False) for part in said.splitlines()) + "\n",
             "measured": textwrap.fill(measured, 120, break_on_hyphens=False) + "\n", "older": ""}
 
@@ -334,7 +334,7 @@ def speed_text(data):
     if not areas or not ratios:
         return ""
     (few, small), (many, large) = ratios[0], ratios[-1]
-    lines = (f" Line contacts by a matrix take the fastest of {len(QUADRATIC)} quadratic programming codes "
+    lines = (f" For line contacts by a matrix the fastest of {len(QUADRATIC)} quadratic programming codes takes "
              f"{area_report.span(small)} times as long with {few} points, and {area_report.span(large)} times with {many} "
              "(`script/bench --peers`).")
     return textwrap.fill(areas + lines, 120, break_on_hyphens=False) + "\n"
