@@ -21,7 +21,7 @@ from report_text import Table, cell, fit, memory, power, seconds, short, table, 
 KNOWN = ("quartic", "cylinder", "wave", "flat", "tilted", "lifted")
 QUADRATIC = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls")
 PEERS = (*QUADRATIC, "tamaas", *area_report.CODES)
-# README compares line contacts of at least so many points.
+# README compares line contacts of this many points or more.
 SMALLEST_LINE = 32
 # Programs bound_*, each a part of one table.
 BOUNDS = ("dense", "path", "fft", "surface", "condensation")
@@ -120,7 +120,7 @@ def write_growth(path, data):
 # The tables.
 
 def choice_table(data):
-    """For a given error the fastest method; a curve counts from the grid on from which it stays below that error."""
+    """The fastest method for a given error; a curve counts from the grid from which on it stays below that error."""
     rows = []
     for column, text in (("error_pressure", "pressure"), ("error_halfwidth", "half width")):
         for target in (1e-3, 1e-6, 1e-9):

@@ -101,7 +101,7 @@ def memory(value):
 
 
 def table(head, rows, left=1):
-    """Markdown, the first columns to the left, as many as `left` says."""
+    """A table in Markdown, its first `left` columns aligned to the left, the others to the right."""
     lines = [head, [*["---"] * left, *["---:"] * (len(head) - left)], *rows]
     return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
 

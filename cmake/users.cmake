@@ -1,4 +1,4 @@
-# Who has to be tested: cmake -D SRC=src -D "FOLDERS=area core/engines/path" -P users.cmake
+# The labels of what has to be tested: cmake -D SRC=src -D "FOLDERS=area core/engines/path" -P users.cmake
 #
 # Prints the components and folders of src/ that are named or may use one of those, directly or through others, as a
 # pattern of labels for ctest. Nothing, and a message, if there is no component or folder of such a name.
