@@ -17,7 +17,7 @@ program hard
   !> With a residual above this an answer counts as wrong.
   real(dp), parameter :: WRONG = 1.0e-6_dp
 
-  !> Of a line of answers.csv.
+  !> Most characters in a line of answers.csv.
   integer, parameter :: LENGTH = 400
 
   call run()

@@ -22,7 +22,7 @@ program mpi_model
   integer, parameter :: SUMS = 10
   ! As in fuge_slab_rows.
   integer, parameter :: FEWEST_CELLS = 16384, SHORTEST = 128
-  ! The least grid that is measured.
+  ! Cells along a side of the smallest grid that is measured.
   integer, parameter :: LEAST = 512
 
   ! Seconds at a cell: of a product and a preconditioning (a + b log2 n), of passes; of a message, a number, a sum.

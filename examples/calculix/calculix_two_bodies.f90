@@ -26,7 +26,7 @@ program calculix_two_bodies
   character(len=18), parameter :: METHOD(10) = [character(len=18) :: 'SURFACE TO SURFACE', 'SURFACE TO SURFACE', &
     'SURFACE TO SURFACE', 'SURFACE TO SURFACE', 'NODE TO SURFACE', 'NODE TO SURFACE', 'NODE TO SURFACE', &
     'NODE TO SURFACE', 'MORTAR', 'PGLINMORTAR']
-  !> The last ones are those of the files that stay behind.
+  !> Systems of units; the files in the last one remain.
   type(unit_system), parameter :: UNITS(3) = [unit_system('m, N', 1.0e-3_dp, 1.0_dp), &
                                               unit_system('inch,lbf', 1.0_dp/25.4_dp, 1.0_dp/4.4482216152605_dp), &
                                               unit_system('mm, N', 1.0_dp, 1.0_dp)]

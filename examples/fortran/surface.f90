@@ -23,7 +23,7 @@ program surface
   !> p/(E* g): the loads, and that of the map.
   real(dp), parameter :: LOADS(10) = &
     [0.02_dp, 0.035_dp, 0.06_dp, 0.1_dp, 0.16_dp, 0.25_dp, 0.4_dp, 0.65_dp, 1.0_dp, 1.6_dp]
-  !> No picture shows more digits.
+  !> A tolerance that is finer than the digits of any picture.
   type(fuge_options), parameter :: OPTIONS = fuge_options(tolerance=1.0e-8_dp)
   integer, parameter :: SHOWN = 4
   !> The map has this many pixels in each direction.

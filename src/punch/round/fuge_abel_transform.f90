@@ -1,6 +1,6 @@
 !> Abel's transform of the profile of a round punch, on which its contact depends in closed form.
 !>
-!> A rigid punch with the profile f(r) that touches a half-space in a disc of radius a has
+!> A rigid punch with the profile g(r) that touches a half-space in a disc of radius a has
 !>
 !>     chi(t) = t integral of g'(r)/sqrt(t**2 - r**2) dr, r = 0 .. t,
 !>     approach = g(0) + chi(a),   load = 2 E* integral of t chi'(t) dt, t = 0 .. a
