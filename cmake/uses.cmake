@@ -1,6 +1,6 @@
 # Reads the tables in src/ that say who may use whom: components.txt, and folders.txt of each component that has one.
 #
-#   fuge_read_uses(table prefix)  `names`: the rows of one table in their order; <prefix><name>: what the row `name` lists
+#   fuge_read_uses(table prefix)  `names`: the rows of one table in order; <prefix><name>: what the row `name` lists
 #   fuge_read_all_uses(src)       all tables below the folder `src`:
 #       components                the components in the order of components.txt
 #       may_<component>           the components that a component may use

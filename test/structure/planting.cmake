@@ -1,4 +1,4 @@
-# How the tests of the tests of this folder plant offences: all in one copy of the sources, in SCRATCH, so each has files
+# How the tests of this folder plant offences: all in one copy of the sources, in SCRATCH, so each has files
 # and rows of its own. Then the script must say what each of them is.
 file(REMOVE_RECURSE "${SCRATCH}")
 set(expected)
