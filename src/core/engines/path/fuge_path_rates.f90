@@ -4,7 +4,7 @@
 !> next piece is a contact problem in the rates. It is solved by block pivoting on them; if that stalls, the
 !> active-set engine solves it, which ends.
 module fuge_path_rates
-  use fuge_block_pivoting, only: MAX_STALLS, run_block_pivoting
+  use fuge_block_pivoting, only: run_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
@@ -18,6 +18,7 @@ module fuge_path_rates
   use fuge_path_position, only: gaps_to_close, largest_of_bodies, load_at, load_line, path_position, ROUNDING, &
     ROUNDING_OF_SUMS
   use fuge_row_displacements, only: add_displacement, extended_gaps
+  use fuge_stall_counter, only: stall_counter
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   use fuge_unresisted_motions, only: find_unresisted_basis, is_resisted, without_unresisted
   implicit none
@@ -28,6 +29,8 @@ module fuge_path_rates
   !> A correction above this fraction of the largest force calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
   integer, parameter :: REFINEMENTS = 10
+  !> Block exchanges in a row without a new minimum of wrong points, before the active-set engine takes over.
+  integer, parameter :: MAX_STALLS = 3
 
 contains
 
@@ -39,20 +42,18 @@ contains
     type(path_position), intent(inout) :: position
     integer, intent(out) :: status
     logical :: wrong(size(position%state))
-    integer :: fewest_wrong, stalls_left
+    type(stall_counter) :: stalls
 
     call follow_last_rates(position)
-    fewest_wrong = huge(fewest_wrong)
-    stalls_left = MAX_STALLS
+    call stalls%start(MAX_STALLS)
     do
       call solve_for_rates(canonical, line, factor, position, status)
       if (status /= FUGE_DONE) return
       call find_wrong(canonical, line, position, wrong)
       if (.not. any(wrong)) exit
-      stalls_left = stalls_left - 1
-      if (count(wrong) < fewest_wrong) stalls_left = MAX_STALLS
-      fewest_wrong = min(fewest_wrong, count(wrong))
-      if (stalls_left < 0) then
+      call stalls%spend()
+      call stalls%renew_if_fewer(count(wrong))
+      if (stalls%has_stalled()) then
         call solve_rate_problem(canonical, line, factor, position, status)
         if (status /= FUGE_DONE) return
         exit

@@ -18,6 +18,7 @@ module fuge_contact_set_search
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_projected_gradients, only: run_projected_gradients
+  use fuge_stall_counter, only: stall_counter
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE
   use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
     penetrated_stop
@@ -33,8 +34,8 @@ module fuge_contact_set_search
   real(dp), parameter :: SAFETY = 0.4_dp
   !> On a coarser grid a set is good enough if at most this fraction of its points is wrong.
   real(dp), parameter :: WRONG_ON_COARSE = 0.01_dp
-  !> Block exchanges without a new minimum of wrong points before single exchanges begin; edges
-  !> are extrapolated in the first half of them only.
+  !> Block exchanges in a row without a new minimum of wrong points, before single exchanges begin; edges are
+  !> extrapolated in the first half of them only.
   integer, parameter :: MAX_STALLS = 10
   !> Tensions up to so many units in the last place of the largest force are rounding in any case.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
@@ -68,13 +69,13 @@ contains
     type(fuge_info), intent(inout) :: info
     type(contact_preconditioner) :: preconditioner
     real(dp) :: previous_residual
-    integer :: cells(2), products, wrong, fewest_wrong, stalls_left
+    type(stall_counter) :: stalls
+    integer :: cells(2), products, wrong
     logical :: to_tolerance, confirmed, fresh, in_row, undetermined
 
     cells = operator%grid()
     in_row = all(cells > 0) .and. any(cells == 1)
-    fewest_wrong = huge(fewest_wrong)
-    stalls_left = MAX_STALLS
+    call stalls%start(MAX_STALLS)
     previous_residual = huge(previous_residual)
     to_tolerance = .false.
     if (.not. settings%prepared) then
@@ -88,7 +89,7 @@ contains
         call solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
         if (info%failed()) exit
         if (scene%rows%everywhere(all(iterate%contact))) exit
-        stalls_left = stalls_left - 1
+        call stalls%spend()
         cycle
       end if
       if (info%failed()) exit
@@ -114,15 +115,14 @@ contains
         if (wrong == 0) cycle
       end if
       to_tolerance = .false.
-      stalls_left = stalls_left - 1
-      if (wrong < fewest_wrong) stalls_left = MAX_STALLS
-      fewest_wrong = min(fewest_wrong, wrong)
-      if (stalls_left < 0) then
+      call stalls%spend()
+      call stalls%renew_if_fewer(wrong)
+      if (stalls%has_stalled()) then
         call exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
         exit
       end if
       call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
-                                 in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
+                                 in_row .and. 2*stalls%left > MAX_STALLS, iterate, info)
       if (info%failed()) exit
       iterate%least_compliance = 0.0_dp
       ! The residual of another set tells nothing of this one.
