@@ -5,7 +5,8 @@ module fuge_grid_store
   implicit none
   private
 
-  type, public :: stored_grid
+  !> One of them, unallocated before it is made.
+  type :: stored_grid
     class(fuge_operator), allocatable :: operator
   end type stored_grid
 

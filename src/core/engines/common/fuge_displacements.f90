@@ -6,6 +6,7 @@
 module fuge_displacements
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemv, dsymv
+  use fuge_marked_runs, only: next_run
   implicit none
   private
 
@@ -16,7 +17,7 @@ module fuge_displacements
   integer, parameter :: SHORT_RUN = 16
   !> Runs of columns from this length on are left to BLAS, where rounding does not matter.
   integer, parameter :: LONG_RUN = 8
-  !> With force at more than this part of the points, half of the matrix is read instead of columns.
+  !> With force at more than this fraction of the points, half of the matrix is read instead of columns.
   real(dp), parameter :: MANY = 0.6_dp
 
 contains
@@ -88,21 +89,6 @@ contains
     end do
     point = to
   end function findloc_contact
-
-  !> The next run of marked points from `start` on; `first` is beyond the last point if there is none.
-  pure subroutine next_run(marked, start, first, last)
-    logical, intent(in) :: marked(:)
-    integer, intent(in) :: start
-    integer, intent(out) :: first, last
-
-    do first = start, size(marked)
-      if (marked(first)) exit
-    end do
-    do last = first, size(marked) - 1
-      if (.not. marked(last + 1)) return
-    end do
-    last = size(marked)
-  end subroutine next_run
 
   !> (row - datum).force, in four sums that the processor can add side by side.
   pure function displacement_at(row, datum, force) result(displacement)
