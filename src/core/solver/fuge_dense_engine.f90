@@ -107,7 +107,8 @@ contains
       if (info%failed()) return
     end if
     call estimate_force_error(self%canonical, operator%alpha, self%factor, problem, solution%motion, found, &
-                              info%force_error)
+                              info%force_error, info)
+    if (info%failed()) return
     call move_alloc(found%force, solution%force)
     call move_alloc(found%gap, solution%gap)
     call move_alloc(found%state, self%state)

@@ -47,7 +47,8 @@ contains
     call require_memory(stat, 'the derivatives of', size(state), 'points', info)
     if (stat /= 0) return
     datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
-    call canonical%transform_change(gap_change, load_change, reduced_gap, load)
+    call canonical%transform_change(gap_change, load_change, reduced_gap, load, info)
+    if (info%failed()) return
     call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
     call refuse_unresisted(load, unresisted, info)
     if (info%failed()) return

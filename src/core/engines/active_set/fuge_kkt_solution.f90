@@ -2,10 +2,10 @@
 module fuge_kkt_solution
   use fuge_canonical_problem, only: canonical_problem
   use fuge_compensated_sums, only: add_column, add_terms, add_two_columns, bias_above, compensated_dot
-  use fuge_displacements, only: displacement_magnitude, displacement_terms
+  use fuge_displacements, only: displacement_magnitude, displacement_magnitude_at
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_refinement_error, only: as_rounding, error_left, LARGEST, RANDOM_SIGNS
+  use fuge_refinement_error, only: error_left, make_random_errors, LARGEST, RANDOM_SIGNS
   implicit none
   private
 
@@ -128,7 +128,7 @@ contains
       end do
       if (next == 0) exit
       last_depth = least_depth
-      terms = least_depth + displacement_terms(alpha, datum, contact, force, next)
+      terms = least_depth + displacement_magnitude_at(alpha, datum, contact, force, next)
       if (terms >= least) cycle
       least = terms
       point = next
@@ -204,7 +204,8 @@ contains
       arrays%residual = arrays%residual + abs(canonical%modes(:, j)*motion(j))
       arrays%missing(j) = RESIDUAL_ROUNDING*sum(abs(canonical%modes(:, j)*force))
     end do
-    arrays%residual = RANDOM_SIGNS*RESIDUAL_ROUNDING*as_rounding(arrays%residual)
+    call make_random_errors(arrays%residual)
+    arrays%residual = RANDOM_SIGNS*RESIDUAL_ROUNDING*arrays%residual
     call factor%solve(arrays%residual, arrays%missing, arrays%correction, arrays%shift)
     error = error + maxval(abs(arrays%correction))
     ! Also where it is NaN.

@@ -7,7 +7,7 @@ module fuge_working_set
   use fuge_compensated_sums, only: difference_rounding
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
-  use fuge_displacements, only: add_open_displacement, displacement_terms
+  use fuge_displacements, only: add_open_displacement, displacement_magnitude_at
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: find_force_error, refine_solution, refinement_arrays, solve_set
@@ -291,7 +291,7 @@ contains
         terms = abs((canonical%alpha(j, strongest) - canonical%datum)*largest)
         ! The other forces can only make the violation smaller.
         if (exact .and. beyond > SIGN_TOLERANCE*(rigid_gap + terms)) then
-          terms = displacement_terms(canonical%alpha, canonical%datum, self%contact, solution%force, j)
+          terms = displacement_magnitude_at(canonical%alpha, canonical%datum, self%contact, solution%force, j)
         end if
         self%violation(j) = beyond/max(rigid_gap + terms, beyond)
       end associate

@@ -9,13 +9,12 @@ module fuge_canonical_problem
   use fuge_equilibrium_report, only: report_no_equilibrium
   use fuge_kinds, only: dp
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
-  use fuge_number_text, only: index_text, text
+  use fuge_number_text, only: index_text
   use fuge_orthogonal_modes, only: bodies_of_modes, make_orthogonal, mode_change, mode_fault
-  use fuge_problem_type, only: fuge_problem
   use fuge_point_space, only: point_space
+  use fuge_problem_type, only: fuge_problem
   use fuge_shared_equilibrium, only: find_shared_equilibrium, move_to_edge
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, &
-    FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
@@ -102,9 +101,7 @@ contains
       m = size(canonical%free)
       allocate (canonical%modes(n, m), canonical%load(m), stat=stat)
     end if
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
-    end if
+    call require_memory(stat, 'the modes of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call allocate_rows(problem, canonical, info)
@@ -205,7 +202,7 @@ contains
     call make_orthogonal(columns, canonical%excluded, canonical%modes, canonical%change, canonical%has_translation, &
                          fault, canonical%space)
     if (fault%stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
+      call require_memory(fault%stat, 'orthogonal modes of', size(modes, 1), 'points', info)
     else if (fault%idle > 0) then
       call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(fault%idle))//' moves no point')
     else if (fault%dependent > 0) then
@@ -332,17 +329,25 @@ contains
   end function dominant_mode
 
   !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the gaps and loads of the canonical
-  !> problem.
-  subroutine transform_change(self, gap_change, load_change, reduced_gap, load)
+  !> problem. Error: FUGE_ERR_MEMORY.
+  subroutine transform_change(self, gap_change, load_change, reduced_gap, load, info)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: gap_change(:), load_change(:)
     real(dp), allocatable, intent(out) :: reduced_gap(:), load(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: rigid(:)
+    integer :: stat
 
+    allocate (reduced_gap(size(gap_change)), load(size(self%free)), stat=stat)
+    if (stat == 0 .and. allocated(self%prescribed_modes)) allocate (rigid(size(gap_change)), stat=stat)
+    call require_memory(stat, 'changes of', size(gap_change), 'gaps', info)
+    call self%space%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     reduced_gap = gap_change
     if (allocated(self%prescribed_modes)) then
-      reduced_gap = reduced_gap - matmul(self%prescribed_modes, merge(load_change, 0.0_dp, self%prescribed))
+      rigid = matmul(self%prescribed_modes, merge(load_change, 0.0_dp, self%prescribed))
+      reduced_gap = reduced_gap - rigid
     end if
-    allocate (load(size(self%free)))
     call self%change%orthogonal_load(load_change(self%free), load)
   end subroutine transform_change
 
@@ -401,9 +406,7 @@ contains
     integer :: body(size(canonical%load)), j, stat
 
     allocate (canonical%feasible_force(size(canonical%gap)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium')
-    end if
+    call require_memory(stat, 'the equilibrium of', size(canonical%gap), 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     canonical%feasible_force = 0.0_dp
@@ -465,7 +468,7 @@ contains
 
     n = size(canonical%gap)
     allocate (modes(n, size(columns)), force(n), pushes(n), pulls(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium of '//text(n)//' points')
+    call require_memory(stat, 'the equilibrium of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     columns = pack([(j, j=1, size(member))], member)

@@ -11,7 +11,7 @@ module fuge_displacements
   private
 
   public :: add_elastic_displacement, add_open_displacement, add_rough_product, displacement_magnitude, &
-    displacement_terms, rigid_displacement
+    displacement_magnitude_at, rigid_displacement
 
   !> Runs of points in contact, or open, that are shorter than this on average are not worth a loop each.
   integer, parameter :: SHORT_RUN = 16
@@ -174,19 +174,19 @@ contains
   end function displacement_magnitude
 
   !> As `displacement_magnitude`, at point k only.
-  pure function displacement_terms(alpha, datum, contact, force, k) result(terms)
+  pure function displacement_magnitude_at(alpha, datum, contact, force, k) result(magnitude)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, force(:)
     logical, intent(in) :: contact(:)
     integer, intent(in) :: k
-    real(dp) :: terms
+    real(dp) :: magnitude
     integer :: j
 
-    terms = 0.0_dp
+    magnitude = 0.0_dp
     do j = 1, size(contact)
-      if (contact(j)) terms = terms + abs((alpha(j, k) - datum)*force(j))
+      if (contact(j)) magnitude = magnitude + abs((alpha(j, k) - datum)*force(j))
     end do
-  end function displacement_terms
+  end function displacement_magnitude_at
 
   !> u := u + factor alpha f, (n), for a guess: with the digits that BLAS leaves, and where many points have force
   !> from half of the matrix. Columns without force are not read otherwise.

@@ -25,7 +25,7 @@ module fuge_contact_set_search
   implicit none
   private
 
-  public :: find_contact_set, states_of
+  public :: find_contact_set, find_states
 
   !> Relative residual required on a coarser grid, which only provides a starting point.
   real(dp), parameter :: COARSE_TOLERANCE = 1.0e-4_dp
@@ -341,7 +341,7 @@ contains
       call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)
       if (info%failed()) exit
       noise = iterate%tension_noise
-      state = states_of(iterate)
+      call find_states(iterate, state)
       if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
         call step_to_blocking(iterate%force, noise, tied, state, feasible, newest, locked, scene%rows%point_space)
         iterate%contact = state /= FUGE_OPEN
@@ -402,7 +402,7 @@ contains
     force = scene%balance
     noise = 0.0_dp
     locked = .false.
-    state = states_of(iterate)
+    call find_states(iterate, state)
     ! Where the balance is at the other stop, or open, it decides.
     where (abs(force) > 0.0_dp) state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, force > 0.0_dp)
     if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
@@ -411,13 +411,13 @@ contains
     end if
   end subroutine step_from_balance
 
-  !> The states of the points, (n).
-  pure function states_of(iterate) result(state)
+  !> The `state` of each point, (n).
+  pure subroutine find_states(iterate, state)
     type(contact_iterate), intent(in) :: iterate
-    integer :: state(size(iterate%contact))
+    integer, intent(out) :: state(:)
 
     state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
     if (allocated(iterate%at_upper)) where (iterate%contact .and. iterate%at_upper) state = FUGE_AT_UPPER_STOP
-  end function states_of
+  end subroutine find_states
 
 end module fuge_contact_set_search

@@ -6,7 +6,7 @@ module fuge_general_scene
   use fuge_contact_iterate, only: contact_iterate, deformed_gap, rounding_force
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_segments, only: contact_segments
-  use fuge_contact_set_search, only: states_of
+  use fuge_contact_set_search, only: find_states
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
   use fuge_kinds, only: dp
@@ -154,7 +154,7 @@ contains
     end if
     call canonical%space%agree(info)
     if (info%failed()) return
-    found%state = states_of(iterate)
+    call find_states(iterate, found%state)
     call drop_rounding(scene, found%state, iterate, info)
     if (info%failed()) return
     found%force = scaling%load*iterate%force

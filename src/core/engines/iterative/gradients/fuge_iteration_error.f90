@@ -7,7 +7,7 @@
 !> too, although the equations may hold exactly with it.
 module fuge_iteration_error
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_contact_iterate, only: contact_iterate, largest_term
+  use fuge_contact_iterate, only: contact_iterate, largest_rigid_magnitude
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: contact_segments, max_abs_over
   use fuge_kinds, only: dp
@@ -69,7 +69,7 @@ contains
     logical :: exact(problem%mode_count())
 
     exact = exact_modes(problem, scene%rows%point_space)
-    length = epsilon(length)*largest_term(scene, iterate)
+    length = epsilon(length)*largest_rigid_magnitude(scene, iterate)
     if (allocated(problem%prescribed) .or. .not. all(exact)) then
       length = length + largest_rounding(problem, exact, iterate%segments, solution%motion)/load
     end if

@@ -13,7 +13,7 @@ module fuge_set_derivative
   use fuge_problem_type, only: fuge_solution
   use fuge_projected_gradients, only: run_projected_gradients
   use fuge_shared_rows, only: rows_of
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ITERATION_LIMIT
   use fuge_unresisted_motions, only: find_unresisted_basis, refuse_unresisted
   implicit none
   private
@@ -53,9 +53,7 @@ contains
       if (info%failed()) return
     end if
     allocate (gap(n), motion(size(load_change)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(n)//' points')
-    end if
+    call require_memory(stat, 'the derivatives of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call start_iterate(iterate, scene, info=info)
@@ -83,15 +81,14 @@ contains
     call rows_of(operator, 0, scene%rows, info)
     if (info%failed()) return
     n = size(gap_change)
-    call canonical%transform_change(gap_change, load_change, scene%gap, load)
+    call canonical%transform_change(gap_change, load_change, scene%gap, load, info)
+    if (info%failed()) return
     m = size(load)
     scene%prescribed = .true.
     scene%absorbs_datum = canonical%has_translation
     if (m < 1) return
     allocate (scene%modes(n, m), scene%balance(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
-    end if
+    call require_memory(stat, 'the modes of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     scene%modes = canonical%modes

@@ -14,7 +14,7 @@ module fuge_contact_iterate
   private
 
   public :: clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
-    find_penetration, is_accurate, largest_term, make_feasible, project_residual, rounding_force, start_iterate
+    find_penetration, is_accurate, largest_rigid_magnitude, make_feasible, project_residual, rounding_force, start_iterate
 
   !> Units in the last place by which gaps less rigid displacements may be rounded.
   real(dp), parameter :: ROUNDINGS = 2.0_dp
@@ -337,7 +337,7 @@ contains
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
     if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%total(sum(iterate%force))
     if (allocated(scene%modes)) then
-      iterate%rounding = ROUNDINGS*epsilon(offset)*largest_term(scene, iterate)
+      iterate%rounding = ROUNDINGS*epsilon(offset)*largest_rigid_magnitude(scene, iterate)
       call add_magnitudes(operator, scene, offset, iterate, elastic, info)
       if (info%failed()) return
       iterate%least_magnitude = least_over(iterate%segments, iterate%work)
@@ -387,7 +387,7 @@ contains
   end subroutine add_magnitudes
 
   !> The largest sum of the terms of a gap and a rigid displacement on the contact set.
-  function largest_term(scene, iterate) result(largest)
+  function largest_rigid_magnitude(scene, iterate) result(largest)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: largest, rigid
@@ -402,7 +402,7 @@ contains
       end do
     end do
     largest = scene%rows%largest(largest)
-  end function largest_term
+  end function largest_rigid_magnitude
 
   !> Is the residual within `tolerance`, relative to the least magnitude, or rounding?
   pure function is_accurate(iterate, tolerance)
