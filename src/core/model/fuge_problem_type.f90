@@ -15,8 +15,8 @@ module fuge_problem_type
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
-    FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, &
+    FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP
   implicit none
   private
 
@@ -108,12 +108,10 @@ contains
     integer :: stat
 
     allocate (problem%gap(size(gap)), problem%resultant(1), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the gaps')
-    else
-      problem%gap = gap
-      problem%resultant = load
-    end if
+    call require_memory(stat, 'a copy of the gaps', info)
+    if (stat /= 0) return
+    problem%gap = gap
+    problem%resultant = load
   end subroutine set_problem
 
   !> Refuse data that no engine can use, for an operator of `n` points: wrong sizes

@@ -9,7 +9,7 @@ module fuge_ambiguous_forces
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_pivoted_qr, only: orthogonal_complement
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_unresisted_motions, only: find_unresisted_basis, mark_loaded
   implicit none
   private
@@ -18,11 +18,11 @@ module fuge_ambiguous_forces
 
   !> Units in the last place by which a gap may be rounded, of the largest displacement or motion.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
-  !> Displacements below this fraction of their terms are none.
+  !> Displacements below this fraction of their terms count as zero.
   real(dp), parameter :: NO_DISPLACEMENT = 1.0e-12_dp
-  !> Forces below this fraction of the others are none.
+  !> Forces below this fraction of the others count as zero.
   real(dp), parameter :: NO_FORCE = 1.0e-10_dp
-  !> Of more independent combinations than this, one is taken to be allowed.
+  !> Where there are more independent combinations than this, one of them is taken to be allowed.
   integer, parameter :: MOST_COMBINATIONS = 32
 
 contains
@@ -75,10 +75,8 @@ contains
       call set_equations(canonical, points, unresisted, equations)
       call orthogonal_complement(equations, NO_DISPLACEMENT, basis, status)
     end if
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to tell whether forces are unique')
-      return
-    end if
+    call require_memory(status, 'the test whether forces are unique', info)
+    if (status /= 0) return
     ambiguous = any_may_be_added(canonical, solution, points, loaded, basis(:size(points), :))
   end subroutine find_ambiguous_forces
 

@@ -14,23 +14,22 @@ module fuge_set_compliance
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_null_direction, only: find_softness, softness_so_far, stores_no_energy
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_projected_gradients, only: precondition_residual, update_direction
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   public :: probe_compliance
 
-  !> Points touch within this many times the error of the equations.
+  !> Points touch if they are open by no more than this many times the error of the equations.
   real(dp), parameter :: WITHIN = 4.0_dp
-  !> The smallest value is looked at after the first of these numbers of steps, then each time after the second one.
+  !> The smallest value of Lanczos is looked at after FIRST_LOOK steps, then after every STRIDE more, up to MOST_STEPS.
   integer, parameter :: FIRST_LOOK = 2, STRIDE = 3
   integer, parameter :: MOST_STEPS = 60
-  !> The monitor hears of a long search after each of so many steps.
+  !> The monitor hears of a long search once in this many steps.
   integer, parameter :: STEPS_OF_A_REPORT = 10
-  !> It has settled if it is above this fraction of the one before.
+  !> The smallest value has settled if it is above this fraction of the one before.
   real(dp), parameter :: SETTLED = 0.7_dp
 
 contains
@@ -69,7 +68,7 @@ contains
 
   !> The points that `touch` (n): the contact set, and those whose distance from a stop is within the error of the
   !> equations and the `rounding` of gaps and motions.
-  subroutine mark_touching(scene, rounding, iterate, touch)
+  subroutine mark_possible_contact(scene, rounding, iterate, touch)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: rounding
     type(contact_iterate), intent(in) :: iterate
@@ -86,7 +85,7 @@ contains
       touch(k) = gap <= open
       if (allocated(scene%play)) touch(k) = touch(k) .or. gap >= scene%play(k) - open
     end do
-  end subroutine mark_touching
+  end subroutine mark_possible_contact
 
   !> Are the forces of the set those of equilibrium alone, whatever the operator?
   pure function follow_from_equilibrium(scene, probe) result(follow)
@@ -113,13 +112,13 @@ contains
 
     n = size(iterate%contact)
     allocate (probe%residual(n), probe%direction(n), probe%work(n), probe%contact(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to estimate the error of '//text(n)//' forces')
+    call require_memory(stat, 'the estimated error of', n, 'forces', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     probe%prescribed = iterate%prescribed
     probe%softness = iterate%softness
     if (.not. probe%softness > 0.0_dp) probe%softness = softness_so_far(scene, iterate)
-    call mark_touching(scene, rounding, iterate, probe%contact)
+    call mark_possible_contact(scene, rounding, iterate, probe%contact)
     probe%segments%space = scene%rows%point_space
     call probe%segments%find(probe%contact, info)
     if (allocated(scene%modes) .and. .not. info%failed()) call probe%projection%set(scene%modes, probe%segments, info)

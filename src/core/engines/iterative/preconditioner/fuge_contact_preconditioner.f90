@@ -19,7 +19,7 @@ module fuge_contact_preconditioner
   use fuge_rigid_images, only: rigid_images
   use fuge_shared_exchange, only: count_segments
   use fuge_shared_rows, only: rows_of, shared_rows
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
 
@@ -164,9 +164,7 @@ contains
     if (stat == 0) allocate (self%rigid%basis(size(contact), projection%rank), &
                              self%rigid%images(size(contact), projection%rank), &
                              self%rigid%contact(size(contact)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(contact))//' points')
-    end if
+    call require_memory(stat, 'the rigid motions of', size(contact), 'points', info)
     call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     self%rigid%contact = contact

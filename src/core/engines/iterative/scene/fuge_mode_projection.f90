@@ -5,16 +5,15 @@
 module fuge_mode_projection
   use fuge_contact_segments, only: contact_segments, dot_over
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   !> A mode is a combination of the others on the set if its remainder is below this fraction: modes about a far-away
   !> point have lost digits when they were made orthogonal.
   real(dp), parameter :: DEPENDENT = 1.0e-10_dp
-  !> What is missing in a resultant is rounding up to so many units in the last place of its terms, times the root of
-  !> their number.
+  !> What is missing in a resultant counts as rounding up to this many units in the last place of its terms, times the
+  !> root of their number.
   real(dp), parameter :: ROUNDINGS = 8.0_dp
 
   !> Set it for a contact set; it belongs to that set only.
@@ -48,9 +47,7 @@ contains
     m = size(modes, 2)
     stat = 0
     if (.not. allocated(self%basis)) allocate (self%basis(size(modes, 1), m), self%coefficients(m, m), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(modes, 1))//' points')
-    end if
+    call require_memory(stat, 'the rigid motions of', size(modes, 1), 'points', info)
     call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     self%rank = 0

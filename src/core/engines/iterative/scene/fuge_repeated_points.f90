@@ -7,15 +7,14 @@ module fuge_repeated_points
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   public :: find_repeated_points
 
-  !> Numbers that differ by so many units in the last place of the largest count as equal.
+  !> Numbers that differ by at most this many units in the last place of the largest one count as equal.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
 contains
@@ -39,13 +38,13 @@ contains
     pair = 0
     if (all(operator%grid() > 0)) return
     allocate (touches, source=touching_points(scene, iterate), stat=stat)
-    if (stat /= 0) call report_memory(size(scene%gap), info)
+    call require_memory(stat, 'a search for repeated ones among', size(scene%gap), 'points', info)
     if (info%failed()) return
     if (count(touches) < 2) return
     allocate (order, source=pack([(k, k=1, size(touches))], touches), stat=stat)
     if (stat == 0) allocate (data, source=data_at(scene, iterate), stat=stat)
     if (stat == 0) allocate (force(size(data)), displacement(size(data)), stat=stat)
-    if (stat /= 0) call report_memory(size(scene%gap), info)
+    call require_memory(stat, 'a search for repeated ones among', size(scene%gap), 'points', info)
     if (info%failed()) return
     call heap_sort(data, order)
     if (equal_neighbour(data, data, order, touches) < 1) return
@@ -64,13 +63,6 @@ contains
     if (maxval(abs(displacement)) <= ROUNDINGS*epsilon(softness)*softness) pair = [minval(order(k - 1:k)), &
                                                                                    maxval(order(k - 1:k))]
   end subroutine find_repeated_points
-
-  pure subroutine report_memory(points, info)
-    integer, intent(in) :: points
-    type(fuge_info), intent(inout) :: info
-
-    call report(info, FUGE_ERR_MEMORY, 'no memory to look for repeated points among '//text(points))
-  end subroutine report_memory
 
   !> The contact set, and the open points that only rounding parts from their lower stop, (n).
   pure function touching_points(scene, iterate) result(touches)
