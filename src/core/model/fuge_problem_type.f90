@@ -23,7 +23,7 @@ module fuge_problem_type
   public :: set_problem, check_problem, check_load, check_play, move_solution
 
   !> The data of a contact problem except the operator, in the units of the operator. Set the
-  !> components by name: later versions may have more. What is not allocated has the default
+  !> components by name: later versions may have more. A component that is not allocated has the default
   !> that its comment gives.
   type, public :: fuge_problem
     !> Initial gap g at each point, (n), length: the sum of both bodies' distances from a common
@@ -207,8 +207,8 @@ contains
     end if
   end subroutine check_modes
 
-  !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE), negative (FUGE_ERR_NO_EQUILIBRIUM), or so small that its
-  !> parts have not all digits (FUGE_ERR_OVERFLOW).
+  !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE), negative (FUGE_ERR_NO_EQUILIBRIUM), or so small that
+  !> forces below it lose digits (FUGE_ERR_OVERFLOW).
   pure subroutine check_load(load, info)
     real(dp), intent(in) :: load
     type(fuge_info), intent(inout) :: info

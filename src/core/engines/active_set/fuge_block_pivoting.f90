@@ -27,9 +27,9 @@ module fuge_block_pivoting
   integer, parameter :: MOST_ATTEMPTS = 3
   !> Forces on a singular contact below this fraction of the largest one of the body are rounding.
   real(dp), parameter :: IDLE_FORCE = 1.0e-10_dp
-  !> A length below this fraction of its terms is rounding.
+  !> A length up to this fraction of its terms is rounding.
   real(dp), parameter :: NO_LENGTH = 16.0_dp*epsilon(1.0_dp)
-  !> A large ratio of the pivots raises the violations that count as rounding.
+  !> Violations that count as rounding grow with the ratio of the pivots, times this factor.
   real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
   !> A violation above this fraction of the last one is not on its way to zero.
   real(dp), parameter :: LASTING = 0.5_dp
@@ -107,7 +107,7 @@ contains
       else
         if (is_noise(set, progress, factor)) exit
         if (progress%stalls%has_stalled()) then
-          ! What the primal active-set method leaves twice stays: signs that are rounding of gaps and motions.
+          ! A violation that the primal active-set method leaves twice is rounding of gaps and motions.
           if (maxval(set%violation) > LASTING*progress%violation_left) exit
           progress%violation_left = maxval(set%violation)
         end if
@@ -174,8 +174,8 @@ contains
                .and. maxval(set%violation) < NOISE*max(1.0_dp, NOISE_GROWTH*factor%pivot_ratio)
   end function is_noise
 
-  !> Count an exchange of the `wrong` points (n), of which the `open` ones join. An exchange that only opens points is no
-  !> stall: as long as none joins, the contact shrinks, be it by a layer of points at a time, and no set comes again.
+  !> Count an exchange of the `wrong` points (n), of which the `open` ones join. An exchange that only opens points is
+  !> no stall: as long as none joins, the contact shrinks, be it by a layer of points at a time, and no set comes again.
   pure subroutine count_progress(wrong, open, progress)
     logical, intent(in) :: wrong(:), open(:)
     type(pivoting_progress), intent(inout) :: progress
@@ -202,9 +202,9 @@ contains
     type(working_set), intent(inout) :: set
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(inout) :: solution
-    real(dp) :: given(size(solution%force))
+    real(dp) :: before(size(solution%force))
 
-    given = solution%force
+    before = solution%force
     if (factor%regularisation > 0.0_dp) then
       call set%refine(canonical, factor, 0.0_dp, solution)
       call solve_without_idle(canonical, set, solution)
@@ -218,10 +218,10 @@ contains
         motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, set%contact, force, &
                                               motion(1))
       end if
-      solution%force_error = solution%force_error + maxval(abs(force - given))
+      solution%force_error = solution%force_error + maxval(abs(force - before))
       ! A motion is rounding then.
       if (set%has_no_length(canonical)) motion = 0.0_dp
-      if (any(abs(force - given) > 0.0_dp)) call set%measure(canonical, .false., solution)
+      if (any(abs(force - before) > 0.0_dp)) call set%measure(canonical, .false., solution)
       call set%find_gaps(canonical, solution)
       where (state == FUGE_OPEN .and. .not. canonical%excluded) solution%gap = min(max(solution%gap, 0.0_dp), upper)
       if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + canonical%datum*canonical%load(1)

@@ -1,4 +1,4 @@
-!> What rounding that no refinement sees means for the forces: that of rigid modes and prescribed motions, and that of
+!> The error of the forces by rounding that no refinement sees: that of rigid modes and prescribed motions, and that of
 !> the gaps which decide whether a point is in contact.
 !>
 !> The dense engines solve with modes that they made orthogonal, and with gaps less the prescribed motions. Where modes
@@ -22,11 +22,11 @@ module fuge_force_error
 
   public :: estimate_force_error
 
-  !> Units in the last place by which a gap may be rounded, of the terms of its displacement.
+  !> A gap may be rounded by this many units in the last place of the terms of its displacement.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
   !> Points whose contact is not certain are looked at up to this number.
   integer, parameter :: MOST_POINTS = 4
-  !> Roundings that add up, in each equation, to the error before refinement; found on the problems of test/hard.
+  !> The error before refinement is about this many roundings of the terms of each equation, as in test/hard.
   real(dp), parameter :: UNREFINED = 32.0_dp
   !> A bound below this fraction of the largest force is good enough with more points in contact than MANY_POINTS, where
   !> it saves a solve that takes some time.
@@ -37,7 +37,7 @@ module fuge_force_error
   type :: estimate_arrays
     !> The contact set.
     logical, allocatable :: contact(:)
-    !> What the rounding of modes and prescribed motions leaves open of each gap, length; not allocated if nothing.
+    !> The rounding of each gap by modes and prescribed motions, length; not allocated if there is none.
     real(dp), allocatable :: length(:)
     !> A column of alpha; forces that answer to one at a point, and changes of forces; gaps that are left open.
     real(dp), allocatable :: column(:), force(:), force_change(:), open(:)
@@ -197,7 +197,7 @@ contains
       slack = min(solution%gap(k), canonical%upper(k) - solution%gap(k))
       if (slack > most) cycle
       open = relative*displacement_magnitude_at(alpha, canonical%datum, arrays%contact, solution%force, k)
-      ! What may be a wrong sign was compared with the gap too, that of the upper stop.
+      ! Signs were compared with the gap too, that of the upper stop.
       open = open + solution%violation*solution%gap(k)
       if (allocated(arrays%length)) open = open + arrays%length(k)
       if (slack > open) cycle
@@ -208,8 +208,8 @@ contains
     end do
   end subroutine error_by_contact_set
 
-  !> The largest `change` of a force if contact at `point` has to close a gap of `length` there, up to `most`: the forces
-  !> that answer to one at that point, and the compliance that is left.
+  !> The largest `change` of a force, up to `most`, if contact at `point` has to close a gap of `length` there: from the
+  !> forces that answer to one at that point, and the compliance that is left.
   !>
   !> That compliance is a difference of large terms. The forces are corrected once, and their residual is taken into
   !> account, so that what is wrong with them counts by its square.
@@ -246,7 +246,7 @@ contains
       end do
       compliance = column(point) + sum((column + open)*force, mask=contact) + sum((missing - row)*motion)
       terms = abs(column(point)) + sum(abs(column*force), mask=contact) + sum(abs(row*motion))
-      ! What is less is rounding.
+      ! A smaller compliance is rounding.
       compliance = max(compliance, epsilon(terms)*terms)
       change = length*max(1.0_dp, maxval(abs(force)))
     end associate

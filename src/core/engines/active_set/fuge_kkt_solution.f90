@@ -15,20 +15,21 @@ module fuge_kkt_solution
   real(dp), parameter :: EXACT_ENOUGH = 0.1_dp*epsilon(1.0_dp)
   !> A correction of the forces below this fraction of the largest is rounding.
   real(dp), parameter :: NO_CHANGE = 8.0_dp*epsilon(1.0_dp)
+  !> A refinement makes at most this many corrections.
   integer, parameter :: REFINEMENTS = 10
   !> A first correction beyond this fraction of the largest force shows a condition with which the rounding of
   !> residuals counts.
   real(dp), parameter :: RESIDUALS_COUNT = 1.0e-10_dp
   !> Rounding of a residual relative to its terms: the lower halves of the products are summed in double precision.
   real(dp), parameter :: RESIDUAL_ROUNDING = 2.0_dp**(-79)
-  !> Rows that are gathered at a time.
+  !> At most this many rows are gathered at a time.
   integer, parameter :: PANEL = 256
-  !> Most points whose terms are compared.
+  !> The terms of at most this many points are compared.
   integer, parameter :: CANDIDATES = 8
 
   !> Arrays of a refinement, kept so that small problems do not spend their time on allocations.
   type, public :: refinement_arrays
-    !> What rounding took from the gaps that `refine_solution` is given, (n), length; zero unless it is set.
+    !> The rounding errors of the gaps of `refine_solution`, (n), length; zero unless they are set.
     real(dp), allocatable :: gap_rounding(:)
     !> The last refinement: the largest force before it, the largest changes by its corrections, how many there were,
     !> and whether the last one was applied.

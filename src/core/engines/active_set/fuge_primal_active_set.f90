@@ -73,8 +73,8 @@ contains
         else if (lenient .or. .not. any(locked)) then
           return
         else
-          ! What locked the points out was more than SIGN_TOLERANCE, yet rounding: of resultants near the edge of those
-          ! that the contact can carry.
+          ! The tension that locked the points out was above SIGN_TOLERANCE, yet rounding: of resultants near the edge
+          ! of those that the contact can carry.
           lenient = .true.
           locked = .false.
         end if

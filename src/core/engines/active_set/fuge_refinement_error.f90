@@ -11,7 +11,7 @@ module fuge_refinement_error
   real(dp), parameter, public :: RANDOM_SIGNS = 3.0_dp
   !> The sum of a slow geometric series of corrections counts as at most this many times the last one.
   real(dp), parameter :: SLOWEST = 100.0_dp
-  !> Errors beyond this one are not told apart.
+  !> Errors above this one all count as this one, so that sums and quotients of errors do not overflow.
   real(dp), parameter, public :: LARGEST = huge(1.0_dp)/(2.0_dp*SLOWEST)
 
 contains
@@ -53,8 +53,8 @@ contains
     if (change < before) ratio = change/before
   end function ratio
 
-  !> Replace the largest sizes of rounding errors, `errors` (n), by errors up to these: of either sign, without a pattern
-  !> that a matrix could have too, and the same in each call.
+  !> Replace bounds of rounding errors, `errors` (n), by errors within them: of either sign, without a pattern that a
+  !> matrix could have too, and the same in each call.
   pure subroutine make_random_errors(errors)
     real(dp), intent(inout) :: errors(:)
     integer(int64) :: seed

@@ -14,7 +14,8 @@ module fuge_canonical_problem
   use fuge_point_space, only: point_space
   use fuge_problem_type, only: fuge_problem
   use fuge_shared_equilibrium, only: find_shared_equilibrium, move_to_edge
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, &
+    FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
@@ -24,7 +25,7 @@ module fuge_canonical_problem
   type, public :: canonical_problem
     !> Influence matrix, (at least n rows, n columns), length per force; owned by the caller.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
-    !> What is known of it, and the number that tells it from other matrices, 0 if there is none.
+    !> Its survey, and the number that tells it from other matrices, 0 if there is none.
     type(matrix_survey) :: survey = matrix_survey()
     integer(c_long_long) :: stamp = 0
     !> Taken out of all of alpha, where it costs digits: the coefficient nearest to zero if there is a
@@ -132,7 +133,7 @@ contains
     self%load = problem%resultant
   end subroutine set_again
 
-  !> Allocate the parts of R that are kept. Error: FUGE_ERR_MEMORY.
+  !> Allocate the rows and columns of R that are kept. Error: FUGE_ERR_MEMORY.
   subroutine allocate_rows(problem, canonical, info)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
@@ -211,8 +212,9 @@ contains
     end if
   end subroutine orthogonalise
 
-  !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero, `survey` what is known
-  !> of it; without one it is surveyed here. `stamp` tells it from other matrices; without one factors are not kept.
+  !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero, `survey` that of
+  !> the matrix; without one it is surveyed here. `stamp` tells it from other matrices; without one factors are not
+  !> kept.
   subroutine set_matrix(self, alpha, datum, survey, stamp)
     class(canonical_problem), intent(inout) :: self
     real(dp), intent(in), pointer, contiguous :: alpha(:, :)
@@ -289,8 +291,8 @@ contains
     has_bodies = allocated(self%body)
   end function has_bodies
 
-  !> What forces (n) are compared with, (n): the largest force of the body if there is a load on it, else the largest of
-  !> all, beside which they may be rounding.
+  !> The force with which each of the forces (n) is compared, (n): the largest one of the body if there is a load on it,
+  !> else the largest of all, beside which they may be rounding.
   pure function force_scale(self, force) result(scale)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: force(:)

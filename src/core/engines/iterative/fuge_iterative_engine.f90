@@ -113,7 +113,7 @@ contains
     else
       call history%record_cold(iterate%start_error, options%tolerance, coarse_products, fine_products)
     end if
-    call assemble(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    call assemble_solution(operator, problem, canonical, scene, scaling, iterate, solution, info)
     if (info%failed()) return
     call find_rounding(problem, canonical, scene, scaling%load, iterate, solution, length, force)
     call judge_forces(operator, scene, length, force, monitor, iterate, info)
@@ -126,7 +126,7 @@ contains
   end subroutine solve_by_iteration
 
   !> The solution in the units of the problem. Error: FUGE_ERR_MEMORY.
-  subroutine assemble(operator, problem, canonical, scene, scaling, iterate, solution, info)
+  subroutine assemble_solution(operator, problem, canonical, scene, scaling, iterate, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
@@ -141,7 +141,7 @@ contains
     else
       call assemble_simple(operator, scene, scaling, iterate, solution, info)
     end if
-  end subroutine assemble
+  end subroutine assemble_solution
 
   !> The estimated error of the forces, info%force_error, and a warning where two points are repeated, so that forces
   !> are not unique. `length` and `force` as from `find_rounding`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED, those of
@@ -314,8 +314,8 @@ contains
     if (.not. info%failed()) call start_iterate(iterate, scene, start, info)
   end subroutine start_on_coarser_grids
 
-  !> What the iteration subtracts from gaps, the prescribed motion or else the least gap, and what
-  !> it divides forces and lengths by: the load, or 1 for a prescribed motion.
+  !> The scaling of the iteration: gaps less the prescribed motion, or else less the least gap; forces and lengths over
+  !> the load, or over 1 for a prescribed motion.
   subroutine choose_scaling(problem, space, scaling)
     type(fuge_problem), intent(in) :: problem
     type(point_space), intent(in) :: space

@@ -89,7 +89,7 @@ contains
       line%start = start_values(problem)
       line%rate = finish - line%start
       line%last = 1.0_dp
-      line%origin = 1.0_dp + min(ratio(line%start, line%rate), LARGEST_ORIGIN)
+      line%origin = 1.0_dp + min(size_ratio(line%start, line%rate), LARGEST_ORIGIN)
       call follow(operator, problem, line, path, info)
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'the path needs the coefficients of a dense operator')
@@ -150,7 +150,8 @@ contains
     if (allocated(problem%prescribed)) where (problem%prescribed) values = problem%motion
   end function start_values
 
-  pure function ratio(values, changes)
+  !> The largest value over the largest change, at most LARGEST_ORIGIN; 0 without values.
+  pure function size_ratio(values, changes) result(ratio)
     real(dp), intent(in) :: values(:), changes(:)
     real(dp) :: ratio, largest, change
 
@@ -163,7 +164,7 @@ contains
     else if (change > 0.0_dp) then
       ratio = largest/change
     end if
-  end function ratio
+  end function size_ratio
 
   !> Follow a checked problem along a line whose start, rate and end are set; the rest of `line` is set here.
   subroutine follow(operator, problem, line, path, info)

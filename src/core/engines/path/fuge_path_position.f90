@@ -3,7 +3,6 @@ module fuge_path_position
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
-  use fuge_displacements, only: rigid_displacement
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
@@ -41,7 +40,7 @@ module fuge_path_position
     real(dp), allocatable :: force(:), gap(:), motion(:), force_rate(:), gap_rate(:), motion_rate(:)
     !> An orthonormal basis of the motions that the points at their stops do not resist, (m, any number).
     real(dp), allocatable :: unresisted(:, :)
-    !> What counts as zero: ROUNDING or ROUNDING_OF_SUMS.
+    !> The fraction up to which values count as zero: ROUNDING or ROUNDING_OF_SUMS.
     real(dp) :: rounding = ROUNDING
     !> The rates are those with which the position was reached.
     logical :: has_rates = .false.

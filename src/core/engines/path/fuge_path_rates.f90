@@ -28,6 +28,7 @@ module fuge_path_rates
 
   !> A correction above this fraction of the largest force calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
+  !> Values are corrected at most this many times.
   integer, parameter :: REFINEMENTS = 10
   !> Block exchanges in a row without a new minimum of wrong points, before the active-set engine takes over.
   integer, parameter :: MAX_STALLS = 3
@@ -114,8 +115,8 @@ contains
     call clear_small_forces(line, line%reduced_gap_rate, line%load_rate, position%force_rate)
   end subroutine solve_for_rates
 
-  !> Without a load all forces may be rounding: those that displace nothing by more than the rounding of the gaps are
-  !> zero.
+  !> Without a load all forces may be rounding: those that displace no point by more than the rounding of the gaps
+  !> become zero.
   pure subroutine clear_small_forces(line, gap, load, force)
     type(load_line), intent(in) :: line
     real(dp), intent(in) :: gap(:), load(:)

@@ -11,7 +11,7 @@ module fuge_row_displacements
 
   public :: add_displacement, extended_gaps
 
-  !> Runs of neighbours up to which open points and contact points are taken run by run.
+  !> Open points and contact points are taken run by run if there are at most about this many runs of neighbours.
   integer, parameter :: MOST_RUNS = 8
 
 contains

@@ -16,7 +16,7 @@ module fuge_ambiguous_forces
 
   public :: find_ambiguous_forces, mark_touching
 
-  !> Units in the last place by which a gap may be rounded, of the largest displacement or motion.
+  !> A gap may be rounded by this many units in the last place of the largest displacement or motion.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
   !> Displacements below this fraction of their terms count as zero.
   real(dp), parameter :: NO_DISPLACEMENT = 1.0e-12_dp
@@ -81,8 +81,8 @@ contains
   end subroutine find_ambiguous_forces
 
   !> The equations of forces at the `points`, and of motions, that are in balance with each other, as columns: no
-  !> displacement, no resultants, no part in the `unresisted` motions. Displacements at a point are divided by the root
-  !> of the largest coefficient there, and forces multiplied by it, which keeps signs.
+  !> displacement, no resultants, no component in the `unresisted` motions. Displacements at a point are divided by the
+  !> root of the largest coefficient there, and forces multiplied by it, which keeps signs.
   pure subroutine set_equations(canonical, points, unresisted, equations)
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: points(:)
@@ -130,8 +130,8 @@ contains
     integer :: j, sense
 
     idle = .not. loaded(points) .and. maxval(abs(basis), dim=2) > NO_FORCE
-    ! Combinations give any forces to so few points. Of very many one is taken to be allowed, because the search would
-    ! take longer than the solve.
+    ! At no more points than combinations, these give any forces. Of very many combinations one is taken to be allowed,
+    ! because the search would take longer than the solve.
     may = size(basis, 2) > 0
     if (count(idle) <= size(basis, 2) .or. size(basis, 2) > MOST_COMBINATIONS) return
     ! A combination that takes forces of the wrong sign closes a point, as a motion would.

@@ -37,10 +37,10 @@ module fuge_contact_set_search
   !> Block exchanges in a row without a new minimum of wrong points, before single exchanges begin; edges are
   !> extrapolated in the first half of them only.
   integer, parameter :: MAX_STALLS = 10
-  !> Tensions up to so many units in the last place of the largest force are rounding in any case.
+  !> Tensions up to this many units in the last place of the largest force are rounding in any case.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
-  !> What is required of the search on one grid.
+  !> The requirements on the search on one grid.
   type, public :: search_settings
     !> Relative residual to reach.
     real(dp) :: tolerance = COARSE_TOLERANCE
@@ -217,7 +217,7 @@ contains
     call tell_progress(scene, iterate, monitor, info)
   end subroutine solve_on_contact_set
 
-  !> Report that forces without energy, the largest of them at `point`, grow for ever (FUGE_ERR_NOT_DEFINITE).
+  !> Report that forces without energy, the largest of them at `point`, grow without bound (FUGE_ERR_NOT_DEFINITE).
   pure subroutine report_unbounded(point, info)
     integer, intent(in) :: point
     type(fuge_info), intent(inout) :: info
@@ -352,7 +352,7 @@ contains
         found = scene%rows%anywhere(newest > 0)
         if (.not. (found .and. iterate%converged)) exit
         call join_contact(scene, newest, iterate)
-        ! What penetrates a contact complete but for one point is rounding.
+        ! A penetration at the only open point is rounding.
         if (has_undetermined_forces(operator, scene, iterate, info)) then
           if (newest > 0) iterate%contact(newest) = .false.
           exit

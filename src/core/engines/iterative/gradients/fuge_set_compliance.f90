@@ -1,15 +1,16 @@
 !> The least compliance of a contact set: by how little forces without resultants displace it.
 !>
-!> Conjugate gradients see only those forces that the residual asks for. Where alpha is badly conditioned, or the start
-!> was exact, others that hardly displace anything take no part, although they may be wrong by much. Random lengths ask
-!> for all forces. Points that are open by no more than the equations are wrong, or than the gaps and motions are
+!> Conjugate gradients see only those forces that the residual requires. Where alpha is badly conditioned, or the start
+!> was exact, others that hardly displace anything do not show, although they may be wrong by much. Random lengths
+!> require all forces. Points that are open by no more than the equations are wrong, or than the gaps and motions are
 !> rounded, may as well be in contact, and count.
 module fuge_set_compliance
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, deformed_gap
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, deformed_gap, &
+    remove_rigid_part
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
-  use fuge_contact_segments, only: center_over, contact_segments, dot_over, max_abs_over, sum_over
+  use fuge_contact_segments, only: contact_segments, dot_over, max_abs_over
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
@@ -131,25 +132,8 @@ contains
       seed = mod(16807_int64*seed, 2147483647_int64)
       probe%residual(k) = merge(2.0_dp*real(seed, dp)/2147483647.0_dp - 1.0_dp, 0.0_dp, probe%contact(k))
     end do
-    call remove_rigid_part(scene, probe)
+    call remove_rigid_part(scene, probe%prescribed, probe%projection, probe%segments, probe%residual)
   end subroutine start_probe
-
-  !> Take the rigid motion out of the lengths of the set.
-  subroutine remove_rigid_part(scene, probe)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: probe
-    real(dp), allocatable :: parts(:)
-    real(dp) :: mean
-
-    if (allocated(scene%modes)) then
-      allocate (parts(size(scene%load)))
-      call probe%projection%components(probe%segments, probe%residual, parts)
-      call probe%projection%subtract_on(probe%segments, parts, probe%residual)
-    else if (.not. probe%prescribed) then
-      mean = sum_over(probe%segments, probe%residual)/real(probe%segments%points, dp)
-      call center_over(probe%segments, mean, probe%residual, probe%residual_norm)
-    end if
-  end subroutine remove_rigid_part
 
   !> Conjugate gradients from the lengths of `probe` on, until the smallest value of Lanczos has settled: the compliance
   !> that it stands for, 0 where the operator is singular, negative where no lengths are left. Of a long search
@@ -200,7 +184,7 @@ contains
         if (info%failed()) return
       end if
       call subtract_over(probe%segments, energy/curvature, probe%work, probe%residual)
-      call remove_rigid_part(scene, probe)
+      call remove_rigid_part(scene, probe%prescribed, probe%projection, probe%segments, probe%residual)
     end do
     value = probe%lanczos%smallest()/amplification
   end subroutine find_smallest_value

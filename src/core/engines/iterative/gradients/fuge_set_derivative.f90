@@ -20,7 +20,7 @@ module fuge_set_derivative
 
   public :: find_derivative_by_products
 
-  !> Restarts with fresh products, each of which makes up for the rounding that the one before has gathered.
+  !> At most this many restarts with fresh products make up for the rounding that the run before has gathered.
   integer, parameter :: RESTARTS = 4
 
 contains
@@ -61,7 +61,7 @@ contains
     iterate%contact = state /= FUGE_OPEN
     call solve_on_set(operator, scene, tolerance, iterate, info)
     if (info%failed()) return
-    call assemble(operator, canonical, scene, gap_change, load_change, iterate, gap, motion)
+    call find_gaps_and_motions(operator, canonical, scene, gap_change, load_change, iterate, gap, motion)
     where (iterate%contact .and. .not. canonical%excluded) gap = 0.0_dp
     call move_alloc(iterate%force, change%force)
     call move_alloc(gap, change%gap)
@@ -110,7 +110,7 @@ contains
     previous = huge(previous)
     iterate%force = 0.0_dp
     do restart = 0, RESTARTS
-      call prepare(operator, scene, iterate, info)
+      call correct_forces(operator, scene, iterate, info)
       if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
       if (info%failed()) return
       if (is_accurate(iterate, tolerance)) return
@@ -135,7 +135,7 @@ contains
   end subroutine solve_on_set
 
   !> Forces on the set with the resultants of the scene, and their displacements.
-  subroutine prepare(operator, scene, iterate, info)
+  subroutine correct_forces(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
@@ -151,10 +151,10 @@ contains
     end if
     if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
                                                        iterate%displacement, info)
-  end subroutine prepare
+  end subroutine correct_forces
 
   !> Gaps at all points and motions in the given modes.
-  subroutine assemble(operator, canonical, scene, gap_change, load_change, iterate, gap, motion)
+  subroutine find_gaps_and_motions(operator, canonical, scene, gap_change, load_change, iterate, gap, motion)
     class(fuge_operator), intent(in) :: operator
     type(canonical_problem), intent(in) :: canonical
     type(contact_scene), intent(in) :: scene
@@ -176,6 +176,6 @@ contains
     end if
     call canonical%to_given_modes(load_change, free_motion, motion)
     call canonical%set_excluded_gaps_from(iterate%displacement, gap_change, motion, gap)
-  end subroutine assemble
+  end subroutine find_gaps_and_motions
 
 end module fuge_set_derivative

@@ -1,7 +1,7 @@
 !> Contact points that are the same point twice: their forces are one of many possible.
 !>
-!> Conjugate gradients cannot see the difference of two such forces, because no residual has a part in it. But the two
-!> points have equal displacements under any forces, so that one product with random ones shows them.
+!> Conjugate gradients cannot see the difference of two such forces, because no residual has a component along it. But
+!> the two points have equal displacements under any forces, so that one product with random ones shows them.
 module fuge_repeated_points
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, deformed_gap
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
@@ -64,7 +64,7 @@ contains
                                                                                    maxval(order(k - 1:k))]
   end subroutine find_repeated_points
 
-  !> The contact set, and the open points that only rounding parts from their lower stop, (n).
+  !> The contact set, and the open points that are within rounding of their lower stop, (n).
   pure function touching_points(scene, iterate) result(touches)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
