@@ -8,10 +8,9 @@
 module fuge_peak_starts
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_values, only: evaluate_measure
   use fuge_pressed_cells, only: pressed_cells
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   use fuge_surface_scan, only: scan_surface, surface_place
   implicit none
@@ -112,11 +111,8 @@ contains
     call thin_out(list, count, info)
     if (info%failed()) return
     allocate (starts(count), stat=stat)
-    if (stat == 0) then
-      starts = list(:count)
-    else
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(count)//' starts of the search')
-    end if
+    call require_memory(stat, '', count, 'starts of the search', info)
+    if (stat == 0) starts = list(:count)
   end subroutine find_starts
 
   !> Evaluate the candidates of `parts`, add the good ones to the `list`, and halve the parts that may hide better ones.
@@ -360,10 +356,8 @@ contains
     if (count == 0) return
     best = maxval(list(:count)%value)
     allocate (order(count), kept(MOST_STARTS), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(count)//' candidates of the search')
-      return
-    end if
+    call require_memory(stat, 'the order of', count, 'candidates of the search', info)
+    if (stat /= 0) return
     order = [(k, k=1, count)]
     call heap_sort(-list(:count)%value, order)
     number = 0

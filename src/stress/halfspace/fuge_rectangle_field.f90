@@ -4,7 +4,7 @@
 !> each of its sides, is summed by Gauss's rule over point forces, in which nothing cancels. Others are
 !> cut in two until each part is far, or close enough and compact enough for the closed form.
 module fuge_rectangle_field
-  use fuge_gauss_legendre, only: gauss_rule
+  use fuge_gauss_legendre, only: gauss_rules
   use fuge_kinds, only: dp
   use fuge_point_forces, only: add_force_displacements, add_force_stresses, finish_displacement, finish_stress
   use fuge_rectangle_corners, only: corner_displacement, corner_stress
@@ -47,12 +47,9 @@ contains
   !> The rules that all rectangles share: make them once.
   pure subroutine new_rectangle_rules(rules)
     type(rectangle_rules), intent(out) :: rules
-    integer :: k
 
-    do k = 1, MOST_NODES
-      call gauss_rule(rules%node(:k, k), rules%weight(:k, k))
-      rules%node(:k, k) = 2.0_dp*rules%node(:k, k) - 1.0_dp
-    end do
+    call gauss_rules(rules%node, rules%weight)
+    rules%node = 2.0_dp*rules%node - 1.0_dp
   end subroutine new_rectangle_rules
 
   !> Stresses xx, yy, zz, yz, xz, xy under unit pressure on a rectangle; tension is positive.

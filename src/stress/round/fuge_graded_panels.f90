@@ -6,7 +6,7 @@
 !> Approximation Practice, 2013, chapter 19). So the panels grow in proportion to this distance, and the number of nodes
 !> is only as large as it needs to be.
 module fuge_graded_panels
-  use fuge_gauss_legendre, only: gauss_rule
+  use fuge_gauss_legendre, only: gauss_rules
   use fuge_kinds, only: dp
   implicit none
   private
@@ -32,9 +32,7 @@ contains
     type(panel_rules) :: rules
     integer :: n
 
-    do n = 1, MOST_NODES
-      call gauss_rule(rules%node(:n, n), rules%weight(:n, n))
-    end do
+    call gauss_rules(rules%node, rules%weight)
     do n = 1, SINGULAR_NODES
       rules%reach(n) = cosh(-log(ERROR)/real(2*n, dp))
     end do
