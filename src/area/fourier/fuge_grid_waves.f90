@@ -231,8 +231,8 @@ contains
   !> `y` (nx*ny): the values convolved with a kernel of the kind `odd` (2) whose spectrum is given, cyclic in both
   !> directions.
   !>
-  !> `spectrum` (0:nx/2, 0:ny/2): the factor of the waves of that many periods along x and y, but for the imaginary unit
-  !> of a kernel that is odd in one direction.
+  !> `spectrum` (0:nx/2, 0:ny/2): (j, k) is the factor of the wave of j and k periods along x and y, but for the
+  !> imaginary unit of a kernel that is odd in one direction.
   subroutine multiply(self, odd, spectrum, y)
     class(grid_waves), intent(inout) :: self
     logical, intent(in) :: odd(2)

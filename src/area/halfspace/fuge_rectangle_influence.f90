@@ -24,7 +24,7 @@ module fuge_rectangle_influence
   type(double_double), parameter, public :: HALFSPACE_FACTOR = &
     double_double(0.3183098861837907_dp, -1.9678676675182486e-17_dp)
 
-  !> What all pairs share.
+  !> Data that all pairs share.
   type, public :: rectangle_kernel
     private
     type(double_double) :: factor

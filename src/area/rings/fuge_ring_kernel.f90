@@ -23,7 +23,7 @@ module fuge_ring_kernel
   type, public :: ring_kernel
     private
     real(dp) :: node(MOST_NODES, MOST_NODES) = 0.0_dp, weight(MOST_NODES, MOST_NODES) = 0.0_dp
-    !> Closest reach for which so many nodes suffice, see `nodes_for`.
+    !> Closest reach for which a rule of n nodes suffices, see `nodes_for`.
     real(dp) :: reach(MOST_NODES) = 0.0_dp
   end type ring_kernel
 

@@ -175,7 +175,7 @@ contains
     derivative = chebyshev_derivative(g)
   end function transformed
 
-  !> The least power of two that is not below the degree of a series with so many terms.
+  !> The least power of two that is not below the degree of a series of `terms` terms.
   pure function degree_for(terms) result(n)
     integer, intent(in) :: terms
     integer :: n

@@ -222,7 +222,7 @@ contains
     displacement = 2.0_dp/PI*r*rim_angle*dot_product(weight, transform%slopes(part)*angle*cos(angle))
   end function displacement_integral
 
-  !> What the edges add to it; length.
+  !> The displacement that the edges add; length.
   pure function edges_displacement(transform, r) result(displacement)
     type(abel_transform), intent(in) :: transform
     real(dp), intent(in) :: r

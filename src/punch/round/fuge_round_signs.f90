@@ -29,7 +29,7 @@ module fuge_round_signs
     real(dp) :: tension = 0.0_dp, tension_radius = 0.0_dp
     !> The deepest penetration relative to the magnitude of the gap there, no unit, and its radius, length.
     real(dp) :: penetration = 0.0_dp, penetration_radius = 0.0_dp
-    !> A bound for what may have been overlooked; no unit.
+    !> A bound for the penetration that may have been overlooked; no unit.
     real(dp) :: undecided = 0.0_dp
   end type round_violation
 
@@ -40,10 +40,10 @@ module fuge_round_signs
     procedure :: gaps_at => round_gaps
   end type exterior_view
 
-  !> Signs are decided to this fraction: of the mean pressure, of the slope at the rim.
+  !> Signs are resolved to this fraction of the mean pressure, and of the slope at the rim.
   real(dp), parameter :: RESOLUTION = 1.0e-11_dp
-  !> Degree of the series of a panel, a power of two, where its tail begins, and the sum of what it neglects in sums of
-  !> its tail.
+  !> Degree of the series of a panel, a power of two, where its tail begins, and a bound for its neglected terms in
+  !> sums of its tail.
   integer, parameter :: DEGREE = 16, TAIL = 13
   real(dp), parameter :: BEYOND_TAIL = 4.0_dp
   !> Width of the smallest panel over the radius, and closest distance from the axis over it.

@@ -20,7 +20,7 @@ module fuge_smooth_exterior
   type, public :: exterior_violation
     !> The deepest one found, and its position, length.
     real(dp) :: penetration = 0.0_dp, position = 0.0_dp
-    !> What may have been overlooked where the profile is too rough for a series.
+    !> A bound for the penetration that may have been overlooked where the profile is too rough for a series.
     real(dp) :: undecided = 0.0_dp
   end type exterior_violation
 
@@ -36,11 +36,11 @@ module fuge_smooth_exterior
   real(dp), parameter :: MAX_ANGLE = 1.0_dp, MAX_LENGTH = 1.0_dp/32.0_dp
   !> Panels in all, and pending ones.
   integer, parameter :: MAX_PANELS = 4096, MAX_PENDING = 128
-  !> The sum of what a series neglects, in sums of its tail; the amplitude of noise and its largest value, in
+  !> A bound for the neglected terms of a series, in sums of its tail; the amplitude of noise and its largest value, in
   !> largest coefficients of the tail.
   real(dp), parameter :: BEYOND_TAIL = 4.0_dp, NOISE_OF_TAIL = 2.0_dp, LARGEST_OF_TAIL = 10.0_dp
-  !> The tail is noise if parts of this length at both ends of a panel have this part of it. Waves shorter than that
-  !> and a detail at one place are not noise.
+  !> The tail of a panel counts as noise if short panels at both of its ends, SHORT_PART of its length, have at least
+  !> NOISE_RATIO of it. A detail at one place, and a wave that the short panels resolve, are not noise.
   real(dp), parameter :: SHORT_PART = 1.0_dp/16.0_dp, NOISE_RATIO = 0.5_dp
   !> A gap is resolved to this fraction of its magnitude, or to its rounding.
   real(dp), parameter :: RESOLUTION = 1.0e-11_dp

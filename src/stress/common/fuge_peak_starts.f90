@@ -18,13 +18,14 @@ module fuge_peak_starts
 
   public :: find_starts
 
-  !> Candidates below this part of the best one are not followed: those beside the largest stress keep more of it.
+  !> Candidates below this fraction of the best value are not followed: those beside the largest stress have more.
   real(dp), parameter, public :: START_SHARE = 0.7_dp
-  !> A part is not halved if its best value and what its cells could add remain below this part of the best one. Uniform
-  !> pressure on a patch adds up to UNSEEN_SHARE of itself, at the surface with a negative Poisson's ratio more, and as
-  !> much again beside a patch that is pulled.
+  !> A part is not halved if the sum of its best value and of what its cells could add is below HALVED_SHARE of the best
+  !> value. Uniform pressure on a patch adds up to UNSEEN_SHARE of itself, at the surface with a negative Poisson's
+  !> ratio more, and as much again beside a patch that is pulled.
   real(dp), parameter :: HALVED_SHARE = 0.8_dp, UNSEEN_SHARE = 0.85_dp
-  !> After so many candidates at the surface there are no more unless the best of them has this part of the best one.
+  !> After FIRST_SURFACE candidates at the surface, more are tried only if the best of them has at least SURFACE_SHARE
+  !> of the best value.
   integer, parameter :: FIRST_SURFACE = 64
   real(dp), parameter :: SURFACE_SHARE = 0.5_dp
   !> Depth of a candidate over the size of its part; below a single cell it is halved twice.
@@ -32,9 +33,9 @@ module fuge_peak_starts
   !> Candidates of a part: DEPTHS below its middle, one at the surface, and those below the edges of a cell, where the
   !> pressure jumps.
   integer, parameter :: DEPTHS = 3, AT_SURFACE = DEPTHS + 1, CANDIDATES = AT_SURFACE + 4
-  !> The size of a long part is at most so many times its breadth.
+  !> The greatest size of a part, in its breadths.
   real(dp), parameter :: LONGEST = 3.0_dp
-  !> Two starts that are closer than this part of the lesser depth climb to the same maximum.
+  !> Two starts climb to the same maximum if their distance is below this fraction of the lesser length of them.
   real(dp), parameter :: NEARNESS = 0.75_dp
   !> Parts in one portion, and the number of starts at most.
   integer, parameter :: PORTION = 2**13, MOST_STARTS = 2000
@@ -57,13 +58,13 @@ module fuge_peak_starts
     integer :: tried = 0
   end type part
 
-  !> The best candidate so far, the best one at the surface, and how many are there.
+  !> The best value so far, the best one at the surface, and the number of candidates there.
   type :: tally
     real(dp) :: best = -1.0_dp, surface_best = -1.0_dp
     integer :: surface_count = 0
   end type tally
 
-  !> What is known of a part.
+  !> Extent and pressure of a part.
   type :: survey
     real(dp) :: middle(2) = 0.0_dp, length = 0.0_dp, split_at = 0.0_dp, pressure = 0.0_dp
     integer :: split_axis = 0, strongest = 0

@@ -20,7 +20,7 @@ module fuge_surface_scan
   integer, parameter :: PORTION = 2**12
   !> Places beside a cell, at most.
   integer, parameter :: NEIGHBOURS = 8
-  !> A place lies beside a cell if it is farther from it than this part of the cell's lesser width.
+  !> A place lies beside a cell if its distance from it exceeds this fraction of the lesser width of the cell.
   real(dp), parameter :: BESIDE = 0.499_dp
 
   !> A place of the surface, its value, -1 for none, and the length of the cell there. A search may go on from it if the

@@ -13,7 +13,7 @@ module fuge_halfplane_interior
 
   public :: fuge_halfplane_stress, fuge_halfplane_displacement, displacement_factors
 
-  !> From so many points on it pays to put many cells into clusters.
+  !> Many cells are put into clusters for this number of points or more: for fewer it takes longer than the plain sum.
   integer, parameter :: MANY_POINTS = 32
 
 contains
@@ -100,7 +100,7 @@ contains
     end do
   end subroutine fuge_halfplane_displacement
 
-  !> What the displacements are made of: 1/(2 pi mu), 2/(pi E*) and (1 - 2 nu)/(2 pi mu), the last one for plane strain,
+  !> The factors of the displacements: 1/(2 pi mu), 2/(pi E*) and (1 - 2 nu)/(2 pi mu), the last one for plane strain,
   !> mu being the shear modulus. Errors as for `fuge_plane_modulus`, and FUGE_ERR_OVERFLOW.
   pure subroutine displacement_factors(young, poisson, plane_state, factor, info)
     real(dp), intent(in) :: young, poisson

@@ -18,11 +18,11 @@ module fuge_area_field
 
   !> Points of a batch, at most.
   integer, parameter :: MOST_POINTS = 64
-  !> Forces that are collected before they are summed.
+  !> Forces that are collected before they are summed, at most.
   integer, parameter :: SOURCES = 1024
-  !> As many points cost less than the moments of clusters.
+  !> Up to this number of points, a sum over all loads takes less time than the moments of clusters.
   integer, parameter :: FEW_POINTS = 8
-  !> A batch is halved if its extent is a greater part of that of the cluster.
+  !> A batch is halved if its extent exceeds this fraction of that of the cluster.
   real(dp), parameter :: BATCH_EXTENT = 0.5_dp
 
   !> The loads of an area, for any number of points. Clusters are made when they are needed.
@@ -32,7 +32,7 @@ module fuge_area_field
     type(force_clusters) :: clusters
     type(rectangle_rules) :: rules
     real(dp) :: poisson = 0.0_dp
-    !> Points asked for so far.
+    !> Points evaluated so far, as far as they matter for the clusters.
     integer :: asked = 0
   end type area_field
 
@@ -166,7 +166,7 @@ contains
     scaled = scale(values, loads%force_unit - unit*merge(2, 1, size(values) == 6))
   end function in_caller_units
 
-  !> What the sums over point forces come to at depth `z`.
+  !> The values that belong to sums over point forces, at depth `z`.
   pure function finished(sums, z, poisson, components) result(values)
     real(dp), intent(in) :: sums(6), z, poisson
     integer, intent(in) :: components

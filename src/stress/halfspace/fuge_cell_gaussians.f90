@@ -17,7 +17,7 @@ module fuge_cell_gaussians
   integer, parameter :: NEIGHBOURS = 5, ALIASES = 3
   !> exp(-x) is less than rounding.
   real(dp), parameter :: NEGLIGIBLE = 80.0_dp
-  !> From this width on a Gaussian is smooth over a cell, for a rule of NODES nodes.
+  !> From this width on, a Gauss rule of NODES nodes integrates a Gaussian over a cell to rounding.
   real(dp), parameter :: SMOOTH = 2.0_dp
   integer, parameter :: NODES = 8
   !> From this width on, in units of a circle, few waves make up a Gaussian on it.

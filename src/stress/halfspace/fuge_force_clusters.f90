@@ -24,9 +24,9 @@ module fuge_force_clusters
   integer, parameter, public :: CLASS_POINTS(CLASSES) = [FINEST, 22, 20, 17, 14, 12, 10, 8]
   real(dp), parameter :: CLASS_DISTANCE(CLASSES) = &
     [2.77_dp, 3.13_dp, 3.64_dp, 4.9_dp, 7.46_dp, 11.1_dp, 19.3_dp, 43.7_dp]
-  !> A cluster of at most this many loads is not divided.
+  !> A cluster of at most LEAST loads is not divided.
   integer, parameter, public :: LEAST = 32
-  !> Gauss's rule of this many nodes is exact for the finest grid's polynomials.
+  !> Nodes of the Gauss rule that is exact for the polynomials of the finest grid.
   integer, parameter :: NODES = FINEST/2
 
   !> The forces on one grid of one cluster.

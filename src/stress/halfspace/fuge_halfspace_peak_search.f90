@@ -21,7 +21,7 @@ module fuge_halfspace_peak_search
     procedure :: stresses
   end type field_of_rectangles
 
-  !> The search cuts rectangles that are longer than this many widths, into so many pieces at most.
+  !> Rectangles longer than LONGEST widths are cut for the search, into at most MOST_PIECES pieces.
   real(dp), parameter :: LONGEST = 4.0_dp
   integer, parameter :: MOST_PIECES = 32
 

@@ -22,9 +22,9 @@ module fuge_rectangle_field
      3.0_dp, 2.7_dp, 2.45_dp, 2.27_dp, 2.12_dp, 2.0_dp]
   !> The closed form takes sides of at most this ratio.
   real(dp), parameter :: COMPACT_RATIO = 2.0_dp
-  !> Outside of the rectangle, the closed form takes points deeper than this part of the distance to it.
+  !> Outside of the rectangle, the closed form takes points deeper than this fraction of the distance to it.
   real(dp), parameter :: DEEP = 0.5_dp
-  !> Points outside by a smaller part of the rectangle count as lying at its edge.
+  !> Points count as lying at the edge up to this distance from it, in the greater half width of the rectangle.
   real(dp), parameter :: SMALLEST = 1.0e-18_dp
 
   !> Gauss's rules of 1 .. MOST_NODES nodes on (-1, 1): (node, rule). Their weights add up to 1.

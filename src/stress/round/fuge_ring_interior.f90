@@ -81,7 +81,7 @@ contains
     end do
   end subroutine fuge_ring_interior_displacement
 
-  !> Refuse rings that are none, and forces that are not as many, not finite, or a pressure out of range.
+  !> Refuse radii of no rings, forces that are not finite or not one for each ring, and pressures out of range.
   pure subroutine check_ring_forces(radius, force, info)
     real(dp), intent(in) :: radius(:), force(:)
     type(fuge_info), intent(inout) :: info
