@@ -183,7 +183,7 @@ contains
       if (count == size(list)) call thin_out(list, count, info)
       if (info%failed()) return
       count = count + 1
-      list(count) = peak_start(best(k)%place, best(k)%value, best(k)%length, 0.0_dp, .not. best(k)%smooth)
+      list(count) = peak_start(best(k)%place, best(k)%value, best(k)%length, 0.0_dp, .not. best(k)%continuous)
     end do
   end subroutine add_surface
 

@@ -169,14 +169,14 @@ contains
     real(dp), intent(in) :: z, poisson
     real(dp), intent(inout) :: stress(6)
     real(dp), dimension(MOST_NODES) :: x, y, depth, origin
-    real(dp) :: lines(order(1), 6)
+    real(dp) :: node_sums(order(1), 6)
 
     call nodes_of(rules, part, order, z, x, y, depth, origin)
-    lines = 0.0_dp
+    node_sums = 0.0_dp
     call add_force_stresses(origin(:order(2)), y(:order(2)), rules%weight(:order(2), order(2)), poisson, &
-                            x(:order(1)), origin(:order(1)), depth(:order(1)), lines)
+                            x(:order(1)), origin(:order(1)), depth(:order(1)), node_sums)
     stress = stress + 4.0_dp*product(part%half) &
-             *finish_stress(matmul(rules%weight(:order(1), order(1)), lines), z)
+             *finish_stress(matmul(rules%weight(:order(1), order(1)), node_sums), z)
   end subroutine add_distant_stress
 
   !> Add the displacements of a distant part, likewise.
@@ -187,14 +187,14 @@ contains
     real(dp), intent(in) :: z, poisson
     real(dp), intent(inout) :: displacement(3)
     real(dp), dimension(MOST_NODES) :: x, y, depth, origin
-    real(dp) :: lines(order(1), 3)
+    real(dp) :: node_sums(order(1), 3)
 
     call nodes_of(rules, part, order, z, x, y, depth, origin)
-    lines = 0.0_dp
+    node_sums = 0.0_dp
     call add_force_displacements(origin(:order(2)), y(:order(2)), rules%weight(:order(2), order(2)), poisson, &
-                                 x(:order(1)), origin(:order(1)), depth(:order(1)), lines)
+                                 x(:order(1)), origin(:order(1)), depth(:order(1)), node_sums)
     displacement = displacement + 4.0_dp*product(part%half) &
-                   *finish_displacement(matmul(rules%weight(:order(1), order(1)), lines), poisson)
+                   *finish_displacement(matmul(rules%weight(:order(1), order(1)), node_sums), poisson)
   end subroutine add_distant_displacement
 
   !> Points at `x` to which the origin lies as the nodes along x do to the point, and forces at `y` that lie to the
