@@ -21,6 +21,17 @@ static const double SENTINEL = -12345.75;
 #define CHECK_STRING(actual, expected) check_string(__FILE__, __LINE__, #actual, (actual), (expected))
 #define CHECK_CONTAINS(text, part) check_contains(__FILE__, __LINE__, #text, (text), (part))
 #define CHECK_STATUS(call, expected) check_status(__FILE__, __LINE__, #call, (call), (expected))
+/* Status and message of one call: a part of the message, or all of it. */
+#define CHECK_SAYS(call, expected, message, part) \
+  do { \
+    CHECK_STATUS(call, expected); \
+    CHECK_CONTAINS(message, part); \
+  } while (0)
+#define CHECK_MESSAGE(call, expected, message, whole) \
+  do { \
+    CHECK_STATUS(call, expected); \
+    CHECK_STRING(message, whole); \
+  } while (0)
 #define CHECK_UNTOUCHED(array, n) check_untouched(__FILE__, __LINE__, #array, (array), (n))
 
 static inline int check_count(const char *file, int line, int passed) {

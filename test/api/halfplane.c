@@ -163,9 +163,8 @@ static void test_leading_dimension(void) {
     double alpha[N * N];
     char message[256] = "";
     fill(alpha, N * N);
-    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N - 1, message, sizeof message),
-                 FUGE_ERR_SIZE);
-    CHECK_CONTAINS(message, "lda = 4");
+    CHECK_SAYS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N - 1, message, sizeof message),
+               FUGE_ERR_SIZE, message, "lda = 4");
     CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, -N, NULL, 0), FUGE_ERR_SIZE);
     CHECK_UNTOUCHED(alpha, N * N);
   }
@@ -176,15 +175,12 @@ static void test_null_pointers(void) {
     double alpha[N * N];
     char message[256] = "";
     fill(alpha, N * N);
-    CHECK_STATUS(fuge_halfplane_matrix(N, NULL, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
-                 FUGE_ERR_POINTER);
-    CHECK_STRING(message, "x is NULL");
-    CHECK_STATUS(fuge_halfplane_matrix(N, X, NULL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
-                 FUGE_ERR_POINTER);
-    CHECK_STRING(message, "width is NULL");
-    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, NULL, N, message, sizeof message),
-                 FUGE_ERR_POINTER);
-    CHECK_STRING(message, "alpha is NULL");
+    CHECK_MESSAGE(fuge_halfplane_matrix(N, NULL, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
+                  FUGE_ERR_POINTER, message, "x is NULL");
+    CHECK_MESSAGE(fuge_halfplane_matrix(N, X, NULL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
+                  FUGE_ERR_POINTER, message, "width is NULL");
+    CHECK_MESSAGE(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, NULL, N, message, sizeof message),
+                  FUGE_ERR_POINTER, message, "alpha is NULL");
     CHECK_UNTOUCHED(alpha, N * N);
   }
 }
@@ -220,9 +216,8 @@ static void test_graded_cells(void) {
 static void check_bad_cells(int n, int kind, int beyond, double right, double *x, double *width, int status,
                             const char *part) {
   char message[256] = "";
-  CHECK_STATUS(fuge_graded_cells(1.0, right, FUGE_END_EDGE, kind, 0, beyond, n, x, width, message, sizeof message),
-               status);
-  CHECK_CONTAINS(message, part);
+  CHECK_SAYS(fuge_graded_cells(1.0, right, FUGE_END_EDGE, kind, 0, beyond, n, x, width, message, sizeof message),
+             status, message, part);
 }
 
 static void test_bad_graded_cells(void) {

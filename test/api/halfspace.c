@@ -30,8 +30,7 @@ static void test_four_squares(int element) {
   double alpha[LDA * N];
   char message[256] = "old";
   fill(alpha, LDA * N);
-  CHECK_STATUS(matrix(N, X, element, alpha, LDA, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(matrix(N, X, element, alpha, LDA, message, sizeof message), FUGE_DONE, message, "");
   for (int k = 0; k < N; k++) {
     CHECK_NEAR(alpha[k + LDA * k], alpha[0], 0.0);
     CHECK_NEAR(alpha[k + LDA * (k ^ 1)], alpha[1], 0.0);
@@ -73,23 +72,18 @@ static void test_refusals(void) {
   fill(alpha, N * N);
   CHECK_STATUS(matrix(0, X, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STATUS(matrix(N, X, FUGE_MEAN, alpha, N - 1, message, sizeof message), FUGE_ERR_SIZE);
-  CHECK_STATUS(matrix(N, NULL, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "x is NULL");
+  CHECK_MESSAGE(matrix(N, NULL, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_POINTER, message, "x is NULL");
   CHECK_STATUS(matrix(N, X, FUGE_MEAN, NULL, N, message, sizeof message), FUGE_ERR_POINTER);
   CHECK_STATUS(matrix(N, X, FUGE_HAT, alpha, N, message, sizeof message), FUGE_ERR_ELEMENT);
-  CHECK_STATUS(matrix(N, nan, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_NOT_FINITE);
-  CHECK_CONTAINS(message, "x(3) = NaN");
-  CHECK_STATUS(fuge_halfspace_matrix(N, X, X, ONES, ONES, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
-               FUGE_ERR_WIDTH);
-  CHECK_CONTAINS(message, "rectangles 0 and 2 overlap");
-  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, zero, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
-               FUGE_ERR_WIDTH);
-  CHECK_CONTAINS(message, "width_y(2) = 0.");
+  CHECK_SAYS(matrix(N, nan, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_NOT_FINITE, message, "x(3) = NaN");
+  CHECK_SAYS(fuge_halfspace_matrix(N, X, X, ONES, ONES, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
+             FUGE_ERR_WIDTH, message, "rectangles 0 and 2 overlap");
+  CHECK_SAYS(fuge_halfspace_matrix(N, X, Y, ONES, zero, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
+             FUGE_ERR_WIDTH, message, "width_y(2) = 0.");
   CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, 0.0, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
                FUGE_ERR_MODULUS);
-  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, E_STAR, FUGE_MEAN, 0, 1, alpha, N, message, sizeof message),
-               FUGE_ERR_WIDTH);
-  CHECK_CONTAINS(message, "y(0) = -0.5");
+  CHECK_SAYS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, E_STAR, FUGE_MEAN, 0, 1, alpha, N, message, sizeof message),
+             FUGE_ERR_WIDTH, message, "y(0) = -0.5");
   CHECK_UNTOUCHED(alpha, N * N);
 }
 
@@ -118,9 +112,8 @@ static void test_grid(int element) {
     width_y[k] = 0.75;
     gap[k] = 0.3 * (x[k] * x[k] + y[k] * y[k]);
   }
-  CHECK_STATUS(fuge_operator_halfspace(NX, NY, 0.5, 0.75, E_STAR, element, FUGE_FREE, &op, message, sizeof message),
-               FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_operator_halfspace(NX, NY, 0.5, 0.75, E_STAR, element, FUGE_FREE, &op, message, sizeof message),
+                FUGE_DONE, message, "");
   solver = ball_on_grid(op, gap);
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
   CHECK_STATUS(fuge_operator_set_threads(op, 3, message, sizeof message), FUGE_DONE);
@@ -229,8 +222,7 @@ static void test_grid_problems(void) {
   /* The mean gap is less than 1: nothing holds a periodic surface there. */
   CHECK_STATUS(fuge_set_approach(solver, 2.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_NO_EQUILIBRIUM);
-  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-  CHECK_CONTAINS(message, "periodic surface");
+  CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "periodic surface");
   CHECK_STATUS(fuge_get_force(solver, again), FUGE_ERR_CALL_ORDER);
   CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);

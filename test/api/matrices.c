@@ -23,8 +23,7 @@ static void test_read_matrix(void) {
   int rows = -1, columns = -1;
   char message[256] = "old";
   write_file("%%MatrixMarket matrix array real general\n3 2\n1\n2\n3\n4\n5\n6\n");
-  CHECK_STATUS(fuge_read_matrix(NAME, 0, 0, NULL, &rows, &columns, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_read_matrix(NAME, 0, 0, NULL, &rows, &columns, message, sizeof message), FUGE_DONE, message, "");
   CHECK_INT(rows, 3);
   CHECK_INT(columns, 2);
   fill(matrix, 9);
@@ -54,9 +53,8 @@ static void test_read_refusals(void) {
   CHECK_STATUS(fuge_read_matrix(NAME, 2, 2, matrix, &rows, &columns, message, sizeof message), FUGE_ERR_FILE);
   CHECK_STRING(message, "\"api_matrices_scratch.mtx\", line 3: row \"3\" is outside 1 .. 2");
   message[0] = '\0';
-  CHECK_STATUS(fuge_read_sparse(NAME, 2, 4, column, row, value, &rows, &columns, &entries, message, sizeof message),
-               FUGE_ERR_FILE);
-  CHECK_STRING(message, "\"api_matrices_scratch.mtx\", line 3: row \"3\" is outside 1 .. 2");
+  CHECK_MESSAGE(fuge_read_sparse(NAME, 2, 4, column, row, value, &rows, &columns, &entries, message, sizeof message),
+                FUGE_ERR_FILE, message, "\"api_matrices_scratch.mtx\", line 3: row \"3\" is outside 1 .. 2");
   remove(NAME);
   CHECK_STATUS(fuge_read_matrix(NAME, 2, 2, matrix, &rows, &columns, message, sizeof message), FUGE_ERR_FILE);
   CHECK_CONTAINS(message, "cannot be opened");

@@ -20,8 +20,7 @@ static void test_mesh(void) {
   write_file("*NODE\n10, 0., 0., 0.\n20, 1., 0., 0.\n30, 0., 1., 0.\n40, 0., 0., 1.\n"
              "*ELEMENT, TYPE=c3d4, ELSET=Tet\n7, 10, 20, 30, 40\n*NSET, NSET=BASE\n10, 30, 20\n"
              "*SURFACE, NAME=FOOT\nTET, S1\nTET, S3\n");
-  CHECK_STATUS(fuge_read_mesh(NAME, &mesh, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_read_mesh(NAME, &mesh, message, sizeof message), FUGE_DONE, message, "");
   CHECK(mesh != NULL);
   if (mesh == NULL) return;
   CHECK_STATUS(fuge_mesh_get_sizes(mesh, &nodes, &elements, &connections), FUGE_DONE);
@@ -33,8 +32,7 @@ static void test_mesh(void) {
   CHECK_STATUS(fuge_mesh_get_nodes(mesh, NULL, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_mesh_get_elements(mesh, element, first, connection), FUGE_DONE);
   CHECK(element[0] == 7 && first[0] == 0 && first[1] == 4 && connection[0] == 0 && connection[3] == 3);
-  CHECK_STATUS(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE);
-  CHECK_STRING(type, "C3D4");
+  CHECK_MESSAGE(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE, type, "C3D4");
   CHECK_STATUS(fuge_mesh_get_type(mesh, 1, type, sizeof type), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_mesh_get_type(mesh, -1, type, sizeof type), FUGE_ERR_SIZE);
   member[2] = -9;
@@ -54,12 +52,9 @@ static void test_mesh(void) {
   CHECK_STATUS(fuge_mesh_get_set_counts(mesh, &nodes, &elements, &count), FUGE_DONE);
   CHECK(nodes == 1 && elements == 1 && count == 1);
   CHECK_STATUS(fuge_mesh_get_set_counts(mesh, NULL, NULL, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_mesh_get_node_set_name(mesh, 0, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "BASE");
-  CHECK_STATUS(fuge_mesh_get_element_set_name(mesh, 0, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "TET");
-  CHECK_STATUS(fuge_mesh_get_surface_name(mesh, 0, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "FOOT");
+  CHECK_MESSAGE(fuge_mesh_get_node_set_name(mesh, 0, message, sizeof message), FUGE_DONE, message, "BASE");
+  CHECK_MESSAGE(fuge_mesh_get_element_set_name(mesh, 0, message, sizeof message), FUGE_DONE, message, "TET");
+  CHECK_MESSAGE(fuge_mesh_get_surface_name(mesh, 0, message, sizeof message), FUGE_DONE, message, "FOOT");
   CHECK_STATUS(fuge_mesh_get_surface_name(mesh, 1, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_mesh_get_node_set_name(mesh, -1, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_mesh_get_element_set_name(NULL, 0, message, sizeof message), FUGE_ERR_POINTER);
@@ -138,8 +133,7 @@ static void test_write(void) {
   CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 2, types, &mesh, message, sizeof message), FUGE_DONE);
   CHECK_STRING(message, "");
   if (mesh == NULL) return;
-  CHECK_STATUS(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE);
-  CHECK_STRING(type, "CPS4");
+  CHECK_MESSAGE(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE, type, "CPS4");
   CHECK_STATUS(fuge_mesh_get_node_set(mesh, "A", 0, NULL, &count, NULL, 0), FUGE_ERR_OPTION);
   both[0] = mesh;
   both[1] = mesh;
@@ -164,33 +158,26 @@ static void test_write(void) {
   CHECK(read_back(content, sizeof content) < bytes);
   CHECK_STATUS(fuge_write_mesh(NAME, mesh, 2, names, components, NULL, fields, message, sizeof message), FUGE_DONE);
   remove(NAME);
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, same, components, elements, fields, message, sizeof message),
-               FUGE_ERR_OPTION);
-  CHECK_CONTAINS(message, "fields 0 and 1 have the same name");
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, elements, elements, fields,
-               message, sizeof message), FUGE_ERR_SIZE);
-  CHECK_CONTAINS(message, "components[0] = 0");
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, missing, message, sizeof message),
-               FUGE_ERR_POINTER);
-  CHECK_STRING(message, "field[1] is NULL");
+  CHECK_SAYS(fuge_write_mesh(NAME, joined, 2, same, components, elements, fields, message, sizeof message),
+             FUGE_ERR_OPTION, message, "fields 0 and 1 have the same name");
+  CHECK_SAYS(fuge_write_mesh(NAME, joined, 2, names, elements, elements, fields, message, sizeof message),
+             FUGE_ERR_SIZE, message, "components[0] = 0");
+  CHECK_MESSAGE(fuge_write_mesh(NAME, joined, 2, names, components, elements, missing, message, sizeof message),
+                FUGE_ERR_POINTER, message, "field[1] is NULL");
   CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, NULL, components, elements, fields, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_write_mesh(NAME, joined, -1, names, components, elements, fields, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_mesh(NULL, joined, 0, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_write_mesh(NAME, NULL, 0, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
   u[3] = NAN;
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields, message, sizeof message),
-               FUGE_ERR_NOT_FINITE);
-  CHECK_CONTAINS(message, "field \"u\", column 1: component(1) = NaN");
+  CHECK_SAYS(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields, message, sizeof message),
+             FUGE_ERR_NOT_FINITE, message, "field \"u\", column 1: component(1) = NaN");
   CHECK(fopen(NAME, "rb") == NULL);
-  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, types, &none, message, sizeof message),
-               FUGE_ERR_ELEMENT);
-  CHECK_STRING(message, "element 1 of type CPS4 has 3 nodes instead of 4");
-  CHECK_STATUS(fuge_mesh_create(2, 4, position, 4, 2, element, 2, types, &none,
-               message, sizeof message), FUGE_ERR_SIZE);
-  CHECK_STRING(message, "element 1 names node 4: there are 4");
-  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, &long_type, &none, message, sizeof message),
-               FUGE_ERR_OPTION);
-  CHECK_CONTAINS(message, "type[0]");
+  CHECK_MESSAGE(fuge_mesh_create(2, 5, position, 4, 2, element, 1, types, &none, message, sizeof message),
+                FUGE_ERR_ELEMENT, message, "element 1 of type CPS4 has 3 nodes instead of 4");
+  CHECK_MESSAGE(fuge_mesh_create(2, 4, position, 4, 2, element, 2, types, &none, message, sizeof message),
+                FUGE_ERR_SIZE, message, "element 1 names node 4: there are 4");
+  CHECK_SAYS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, &long_type, &none, message, sizeof message),
+             FUGE_ERR_OPTION, message, "type[0]");
   CHECK_STATUS(fuge_mesh_create(2, 5, NULL, 4, 2, element, 2, types, &none, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, NULL, 2, types, &none, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 2, NULL, &none, NULL, 0), FUGE_ERR_POINTER);
@@ -199,8 +186,7 @@ static void test_write(void) {
   CHECK_STATUS(fuge_mesh_join(0, both, &none, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_mesh_join(2, NULL, &none, NULL, 0), FUGE_ERR_POINTER);
   both[1] = NULL;
-  CHECK_STATUS(fuge_mesh_join(2, both, &none, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "mesh[1] is NULL");
+  CHECK_MESSAGE(fuge_mesh_join(2, both, &none, message, sizeof message), FUGE_ERR_POINTER, message, "mesh[1] is NULL");
   CHECK(none == NULL);
   fuge_mesh_free(&joined);
   fuge_mesh_free(&mesh);

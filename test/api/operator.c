@@ -215,8 +215,7 @@ static void test_halfplane_threads(void) {
     CHECK_STATUS(fuge_get_force(solver, one), FUGE_DONE);
     for (int threads = 2; threads >= 1; threads--) {
       char message[64] = "not written";
-      CHECK_STATUS(fuge_operator_set_threads(op, threads, message, sizeof message), FUGE_DONE);
-      CHECK_STRING(message, "");
+      CHECK_MESSAGE(fuge_operator_set_threads(op, threads, message, sizeof message), FUGE_DONE, message, "");
       CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
       CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
       CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
@@ -229,11 +228,9 @@ static void test_halfplane_threads(void) {
 static void test_thread_refusals(void) {
   char message[256] = "";
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_set_threads(NULL, 2, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_CONTAINS(message, "op is NULL");
+  CHECK_SAYS(fuge_operator_set_threads(NULL, 2, message, sizeof message), FUGE_ERR_POINTER, message, "op is NULL");
   CHECK_STATUS(fuge_operator_halfplane(9, 0.25, 3, FUGE_MEAN, FUGE_FREE, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_threads(op, 0, message, sizeof message), FUGE_ERR_OPTION);
-  CHECK_CONTAINS(message, "threads = 0");
+  CHECK_SAYS(fuge_operator_set_threads(op, 0, message, sizeof message), FUGE_ERR_OPTION, message, "threads = 0");
   CHECK_STATUS(fuge_operator_set_threads(op, -3, NULL, 0), FUGE_ERR_OPTION);
   fuge_operator_free(&op);
   CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
@@ -251,8 +248,7 @@ static void test_halfplane_unsupported(void) {
     fuge_operator *op = NULL;
     fuge_solver *solver = halfplane_solver(FUGE_MEAN, FUGE_FREE, method, &op);
     CHECK_STATUS(fuge_solve(solver), FUGE_ERR_UNSUPPORTED);
-    CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-    CHECK_CONTAINS(message, "FUGE_ITERATIVE");
+    CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "FUGE_ITERATIVE");
     fill(force, CELLS);
     CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
     CHECK_UNTOUCHED(force, CELLS);
@@ -328,8 +324,7 @@ static void check_halfplane_product(int element) {
   }
   CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, 0, alpha, CELLS, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_operator_dense(CELLS, alpha, CELLS, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_apply(op, CELLS, f, dense, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_operator_apply(op, CELLS, f, dense, message, sizeof message), FUGE_DONE, message, "");
   fuge_operator_free(&op);
   CHECK_STATUS(fuge_operator_halfplane(CELLS, SPACING, E_STAR, element, FUGE_FREE, &op, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_operator_apply(op, CELLS, f, u, NULL, 0), FUGE_DONE);
@@ -366,16 +361,13 @@ static void test_product_refusals(void) {
   char message[256] = "";
   fuge_operator *op = NULL;
   fill(u, 2);
-  CHECK_STATUS(fuge_operator_apply(NULL, 2, f, u, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "op is NULL");
+  CHECK_MESSAGE(fuge_operator_apply(NULL, 2, f, u, message, sizeof message), FUGE_ERR_POINTER, message, "op is NULL");
   CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
   CHECK_STATUS(fuge_operator_apply(op, 3, f, u, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STRING(message, "n = 3, but op has 2 points");
   CHECK_STATUS(fuge_operator_apply(op, -1, f, u, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_operator_apply(op, 2, NULL, u, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "f is NULL");
-  CHECK_STATUS(fuge_operator_apply(op, 2, f, NULL, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "u is NULL");
+  CHECK_MESSAGE(fuge_operator_apply(op, 2, NULL, u, message, sizeof message), FUGE_ERR_POINTER, message, "f is NULL");
+  CHECK_MESSAGE(fuge_operator_apply(op, 2, f, NULL, message, sizeof message), FUGE_ERR_POINTER, message, "u is NULL");
   CHECK_STATUS(fuge_operator_apply(op, 2, infinite, u, message, sizeof message), FUGE_ERR_NOT_FINITE);
   CHECK_CONTAINS(message, "f(1) = Inf");
   CHECK_STATUS(fuge_operator_apply(op, 2, large, u, message, sizeof message), FUGE_ERR_OVERFLOW);

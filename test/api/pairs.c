@@ -100,8 +100,7 @@ static void test_geometry(void) {
     } else {
       CHECK_STATUS(fuge_pairs_find(pairs, FUGE_MORTAR, FUGE_NORMALS_OPPOSITE, NULL, 0.0, INFINITY, 0, 1),
                    FUGE_ERR_OPTION);
-      CHECK_STATUS(fuge_pairs_message(pairs, message, sizeof message), FUGE_DONE);
-      CHECK_CONTAINS(message, "crease = 91.0");
+      CHECK_SAYS(fuge_pairs_message(pairs, message, sizeof message), FUGE_DONE, message, "crease = 91.0");
     }
     fuge_pairs_free(&pairs);
   }

@@ -50,8 +50,7 @@ static void check_motions(const fuge_solver *solver, int m, const double *motion
 
 static void check_message(const fuge_solver *solver, const char *part) {
   char message[300];
-  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-  CHECK_CONTAINS(message, part);
+  CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, part);
 }
 
 static void test_approach(void) {

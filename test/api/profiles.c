@@ -16,8 +16,7 @@ static void test_read(void) {
   int count = -1;
   char message[256] = "old";
   write_file("x z\n0 1\n1 2\n2 4\n");
-  CHECK_STATUS(fuge_read_profile(NAME, 3, x, z, &count, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_read_profile(NAME, 3, x, z, &count, message, sizeof message), FUGE_DONE, message, "");
   CHECK_INT(count, 3);
   CHECK_NEAR(x[2], 2.0, 0.0);
   CHECK_NEAR(z[2], 4.0, 0.0);
@@ -79,8 +78,7 @@ static void test_level(void) {
   double z[3];
   char message[256] = "";
   fill(z, 3);
-  CHECK_STATUS(fuge_level_profile(3, x, z, 5, message, sizeof message), FUGE_ERR_OPTION);
-  CHECK_CONTAINS(message, "form = 5");
+  CHECK_SAYS(fuge_level_profile(3, x, z, 5, message, sizeof message), FUGE_ERR_OPTION, message, "form = 5");
   CHECK_STATUS(fuge_level_profile(1, x, z, FUGE_LEVEL_MEAN, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_level_profile(3, NULL, z, FUGE_LEVEL_MEAN, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_level_profile(3, x, NULL, FUGE_LEVEL_MEAN, NULL, 0), FUGE_ERR_POINTER);

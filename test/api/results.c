@@ -232,8 +232,7 @@ static void test_message_is_empty_when_done(void) {
   fuge_solver *solver = table1_solver(NULL, &op);
   CHECK_STATUS(fuge_set_load(solver, -1.0), FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "");
   free_both(&solver, &op);
 }
 
@@ -241,8 +240,7 @@ static void test_message_of_new_solver(void) {
   char message[16] = "not yet written";
   fuge_operator *op = NULL;
   fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
-  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "");
   free_both(&solver, &op);
 }
 
@@ -253,14 +251,12 @@ static void test_message_is_cut(void) {
   fuge_solver *solver = table1_solver(NULL, &op);
   CHECK_STATUS(fuge_set_load(solver, -1.0), FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_STATUS(fuge_solver_message(solver, whole, sizeof whole), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_message(solver, buffer, 0), FUGE_DONE);
-  CHECK_STRING(buffer, "#######");
+  CHECK_MESSAGE(fuge_solver_message(solver, buffer, 0), FUGE_DONE, buffer, "#######");
   CHECK_STATUS(fuge_solver_message(solver, buffer, 5), FUGE_DONE);
   CHECK_INT(strlen(buffer), 4);
   CHECK(strncmp(buffer, whole, 4) == 0);
   CHECK_STRING(buffer + 5, "##");
-  CHECK_STATUS(fuge_solver_message(solver, buffer, 1), FUGE_DONE);
-  CHECK_STRING(buffer, "");
+  CHECK_MESSAGE(fuge_solver_message(solver, buffer, 1), FUGE_DONE, buffer, "");
   CHECK(store[0] == '#');
   CHECK(strlen(whole) > 8 && whole[strlen(whole) - 1] != ' ');
   free_both(&solver, &op);

@@ -23,8 +23,7 @@ static void check_no_answer(const fuge_solver *solver) {
 
 static void check_message(const fuge_solver *solver, const char *part) {
   char message[256] = "";
-  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-  CHECK_CONTAINS(message, part);
+  CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, part);
 }
 
 static void test_life_cycle(void) {

@@ -10,8 +10,7 @@ static void test_scalars(void) {
   double value[POINTS + 1];
   char message[256] = "old";
   fill(value, POINTS + 1);
-  CHECK_STATUS(fuge_von_mises(POINTS, TENSOR, value, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_von_mises(POINTS, TENSOR, value, message, sizeof message), FUGE_DONE, message, "");
   CHECK_NEAR(value[0], 3.0, 1e-15);
   CHECK_NEAR(value[1], 2.0 * sqrt(3.0), 1e-15);
   CHECK_STATUS(fuge_tresca(POINTS, TENSOR, value, NULL, 0), FUGE_DONE);
@@ -61,8 +60,7 @@ static void test_refusals(void) {
   char message[256] = "";
   fill(value, 6);
   CHECK_STATUS(fuge_von_mises(-1, TENSOR, value, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_tresca(1, NULL, value, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_CONTAINS(message, "tensor is NULL");
+  CHECK_SAYS(fuge_tresca(1, NULL, value, message, sizeof message), FUGE_ERR_POINTER, message, "tensor is NULL");
   CHECK_STATUS(fuge_mean_stress(1, TENSOR, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_principal_stresses(1, TENSOR, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_round_tensor(1, NULL, value, NULL, 0), FUGE_ERR_POINTER);
