@@ -41,21 +41,18 @@ static void test_read(void) {
   CHECK_NEAR(origin[1], 0.0, 0.0);
   fill(height, 6);
   write_file("10 5 1\n12 5 2\n12 6 4\n10 6 3\n10 7 5\n12 7 6\n");
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 4, height, &nx, &ny, spacing, origin, NULL, NULL, 0),
-               FUGE_DONE);
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 4, height, &nx, &ny, spacing, origin, NULL, NULL, 0));
   CHECK_INT(nx, 2);
   CHECK_INT(ny, 3);
   CHECK_NEAR(height[2], 3.0, 0.0);
   CHECK_NEAR(height[3], 4.0, 0.0);
   CHECK_UNTOUCHED(height + 4, 2);
-  CHECK_NEAR(spacing[0], 2.0, 0.0);
-  CHECK_NEAR(spacing[1], 1.0, 0.0);
-  CHECK_NEAR(origin[0], 10.0, 0.0);
-  CHECK_NEAR(origin[1], 5.0, 0.0);
+  CHECK_VALUES(spacing, 0.0, 2.0, 1.0);
+  CHECK_VALUES(origin, 0.0, 10.0, 5.0);
   fill(height, 6);
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 0, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 0, height, &nx, &ny, NULL, NULL, NULL, NULL, 0));
   CHECK_UNTOUCHED(height, 6);
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 9, NULL, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 9, NULL, &nx, &ny, NULL, NULL, NULL, NULL, 0));
   remove(NAME);
 }
 
@@ -87,14 +84,14 @@ static void test_write(void) {
   double back[6], found[2];
   int nx, ny;
   char message[256] = "";
-  CHECK_STATUS(fuge_write_surface(NAME, 2, 3, spacing, height, message, sizeof message), FUGE_DONE);
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_GRID, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_write_surface(NAME, 2, 3, spacing, height, message, sizeof message));
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_GRID, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0));
   CHECK_INT(nx, 2);
   CHECK_INT(ny, 3);
   CHECK(memcmp(back, height, sizeof back) == 0);
   CHECK(memcmp(found, spacing, sizeof found) == 0);
-  CHECK_STATUS(fuge_write_surface(NAME, 6, 1, NULL, height, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_write_surface(NAME, 6, 1, NULL, height, NULL, 0));
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0));
   CHECK_INT(nx, 6);
   CHECK_NEAR(found[0], 0.0, 0.0);
   CHECK_STATUS(fuge_write_surface(NAME, 2, 3, wrong, height, NULL, 0), FUGE_ERR_WIDTH);
@@ -111,9 +108,9 @@ static void test_write(void) {
 static void test_level(void) {
   double height[6] = {1.0, 3.0, 2.0, 4.0, 3.0, 5.0};
   char message[256] = "";
-  CHECK_STATUS(fuge_level_surface(2, 3, height, FUGE_LEVEL_MEAN, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_level_surface(2, 3, height, FUGE_LEVEL_MEAN, NULL, 0));
   CHECK_NEAR(height[0], -2.0, 1e-15);
-  CHECK_STATUS(fuge_level_surface(2, 3, height, FUGE_LEVEL_PLANE, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_level_surface(2, 3, height, FUGE_LEVEL_PLANE, NULL, 0));
   CHECK_NEAR(height[0], 0.0, 1e-15);
   CHECK_NEAR(height[5], 0.0, 1e-15);
   fill(height, 6);
@@ -132,7 +129,7 @@ static void test_fill(void) {
   CHECK_INT(filled, 1);
   CHECK_NEAR(height[2], (1.0 + 4.0 + 3.0) / 3.0, 1e-15);
   CHECK_NEAR(height[5], 5.0, 0.0);
-  CHECK_STATUS(fuge_fill_surface(2, 3, height, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_fill_surface(2, 3, height, NULL, NULL, 0));
   CHECK_STATUS(fuge_fill_surface(2, 1, hole, &filled, message, sizeof message), FUGE_ERR_NOT_FINITE);
   CHECK_CONTAINS(message, "all heights are NaN");
   CHECK(isnan(hole[0]) && isnan(hole[1]));
@@ -152,8 +149,7 @@ static void test_volume(void) {
   char message[256] = "", *bytes, *values;
   size_t length;
   double back[6];
-  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, origin, 3, depth, 1, names, fields, message, sizeof message),
-               FUGE_DONE);
+  CHECK_DONE(fuge_write_volume(NAME, 2, 1, spacing, origin, 3, depth, 1, names, fields, message, sizeof message));
   bytes = read_file(&length);
   CHECK_CONTAINS(bytes, "<RectilinearGrid WholeExtent=\"0 1 0 0 0 2\">");
   CHECK_CONTAINS(bytes, "Name=\"zz\" format=\"appended\" offset=\"0\"");
@@ -186,7 +182,7 @@ static void test_fields(void) {
   char message[256] = "", *bytes, *values;
   size_t length;
   double back[2];
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, origin, 2, names, fields, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_write_fields(NAME, 2, 1, spacing, origin, 2, names, fields, message, sizeof message));
   bytes = read_file(&length);
   CHECK_CONTAINS(bytes, "WholeExtent=\"0 2 0 1 0 0\"");
   CHECK_CONTAINS(bytes, "Origin=\" 9.75");
@@ -195,11 +191,10 @@ static void test_fields(void) {
   CHECK(values != NULL);
   if (values != NULL) {
     memcpy(back, values + 2 + 8 + 16 + 8, sizeof back);
-    CHECK_NEAR(back[0], 0.5, 0.0);
-    CHECK_NEAR(back[1], -3.0, 0.0);
+    CHECK_VALUES(back, 0.0, 0.5, -3.0);
   }
   free(bytes);
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 1, names, fields, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_write_fields(NAME, 2, 1, spacing, NULL, 1, names, fields, NULL, 0));
   CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, same, fields, message, sizeof message), FUGE_ERR_OPTION);
   CHECK_CONTAINS(message, "fields 0 and 1");
   CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, none, fields, message, sizeof message), FUGE_ERR_POINTER);
@@ -251,13 +246,12 @@ static void test_data(const char *folder) {
     snprintf(path, sizeof path, "%s/%s", folder, names[k]);
     CHECK_SAYS(fuge_read_surface(path, FUGE_FILE_ANY, 0, 0, NULL, &nx, &ny, NULL, NULL, NULL, message, sizeof message),
                FUGE_ERR_FILE, message, "not measured");
-    CHECK_STATUS(fuge_read_surface(path, FUGE_FILE_ANY, 1, NX * NY, heights[k], &nx, &ny, spacing, NULL, &filled,
-                                   message, sizeof message), FUGE_DONE);
+    CHECK_DONE(fuge_read_surface(path, FUGE_FILE_ANY, 1, NX * NY, heights[k], &nx, &ny, spacing, NULL, &filled, message,
+                                 sizeof message));
     CHECK_INT(nx, NX);
     CHECK_INT(ny, NY);
     CHECK_INT(filled, 9);
-    CHECK_NEAR(spacing[0], 2.0e-6, 0.0);
-    CHECK_NEAR(spacing[1], 2.5e-6, 0.0);
+    CHECK_VALUES(spacing, 0.0, 2.0e-6, 2.5e-6);
   }
   for (int k = 0; k < NX * NY; k++) difference = fmax(difference, fabs(from_sdf[k] - from_grid[k]));
   CHECK_NEAR(from_sdf[1], 7.259e-7, 1e-21);
