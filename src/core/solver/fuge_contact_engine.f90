@@ -1,5 +1,5 @@
-!> What the solver asks of an engine: one solve after the other, each from what is left of the last one, and derivatives
-!> of the last solution.
+!> The interface of an engine for the solver: one solve after the other, each from what is kept of the last one, and
+!> derivatives of the last solution.
 module fuge_contact_engine
   use fuge_canonical_problem, only: canonical_problem
   use fuge_history_type, only: fuge_history
