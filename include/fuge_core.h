@@ -56,7 +56,8 @@ enum {
   FUGE_ERR_GAP = -20,              /* an upper stop lies below the lower one: gap_upper < 0 */
   FUGE_ERR_MODES = -21,            /* rigid modes depend on each other, or one moves no point */
   FUGE_ERR_DOF = -22,              /* a degree of freedom is out of range or named twice */
-  FUGE_ERR_MESH = -23              /* faces have no area, look the wrong way or not at each other */
+  FUGE_ERR_MESH = -23,             /* faces have no area, look the wrong way or not at each other */
+  FUGE_ERR_LAW = -24               /* a compliance, a limit of a force or a stiffness is negative */
 };
 
 /* Meaning of a status, as in the comments above; a constant string, never NULL. */
@@ -104,7 +105,9 @@ typedef struct fuge_info {
   double force_error;           /* estimate of the largest error of a force relative to the
                                    largest force, for the data as stored; 1: no digit is
                                    known, as where the forces are not unique; 0 without forces */
-  double reserved[6];
+  double energy;                /* elastic energy, half the sum of f (alpha + D) f and q S q; force
+                                   times length */
+  double reserved[5];
 } fuge_info;
 
 /* Set *opt to the defaults; zeros are not the defaults. */
@@ -404,13 +407,15 @@ int fuge_reset(fuge_solver *s);
 
 /* ---- problem ------------------------------------------------------------ */
 
-/* Three parts, each set on its own and in any order; the others stay:
+/* Parts that are set each on its own and in any order; the others stay:
  *     gaps        fuge_set_gap
  *     exclusions  fuge_set_excluded; none at first
+ *     compliances fuge_set_compliance; none at first
+ *     limits      fuge_set_limits; none at first
  *     motions     fuge_set_load, fuge_set_approach or fuge_set_modes, each of which
- *                 replaces all motions; then fuge_set_motion and fuge_set_resultant
- *                 change one.  At first there is one translation, with neither load nor
- *                 approach set
+ *                 replaces all motions and takes away their springs; then fuge_set_motion,
+ *                 fuge_set_resultant and fuge_set_motion_stiffness change one.  At first there
+ *                 is one translation, with neither load nor approach set
  * All arrays are copied.  Success makes earlier results unavailable; an error changes
  * nothing.  Each part is checked when it is set; whether the parts fit together, and modes
  * are independent, is checked by fuge_solve. */
@@ -424,6 +429,25 @@ int fuge_set_gap(fuge_solver *s, const double *gap, const double *gap_upper);
 /* Points that carry no force, where excluded (n) is not zero; NULL for none.  Their gaps
  * are computed nevertheless, and may be negative. */
 int fuge_set_excluded(fuge_solver *s, const int *excluded);
+
+/* A spring between the bodies at each point, such as a gasket, a bed or a member: the force f
+ * closes its gap by compliance*f more, c = g + (alpha + D) f - R q with D = diag(compliance).
+ *   compliance  in  n, >= 0; length per force.  NULL: none
+ * Compliances, limits and springs on motions need a dense operator, and the active set or the
+ * tableau: FUGE_ERR_UNSUPPORTED from fuge_solve with another engine, and from
+ * fuge_follow_path.  FUGE_ERR_LAW for a negative one, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
+int fuge_set_compliance(fuge_solver *s, const double *compliance);
+
+/* Limits of the forces, such as hardness times area, the yield force of a support or the force
+ * at which a clamp slips.  A point whose force has reached its limit gives way: its gap may be
+ * negative then, at the upper stop greater than the play.
+ *   limit        in  n, >= 0, of the force at the lower stop; force.  HUGE_VAL: none, 0: the
+ *                    point does not push.  NULL: none everywhere
+ *   limit_upper  in  n, >= 0, of the size of the force at the upper stop, for a tied point of a
+ *                    pulling force; likewise
+ * Resultants beyond the limits are FUGE_ERR_NO_EQUILIBRIUM of fuge_solve.  FUGE_ERR_LAW for a
+ * negative one, FUGE_ERR_NOT_FINITE for NaN; engines as for fuge_set_compliance. */
+int fuge_set_limits(fuge_solver *s, const double *limit, const double *limit_upper);
 
 /* One translation, free under the load F_0 >= 0; force.  With fuge_set_gap(s, gap, NULL)
  * and fuge_set_excluded(s, NULL) this is the paper's problem again.  For a load that pulls
@@ -449,6 +473,13 @@ int fuge_set_motion(fuge_solver *s, int mode, double motion);
  * resultant. */
 int fuge_set_resultant(fuge_solver *s, int mode, double resultant);
 
+/* A spring on the motion of a mode, such as an elastic bearing: of the resultant w it carries
+ * S q, R^T f = w - S q with S = diag(stiffness); none where the motion is prescribed.
+ *   stiffness  in  >= 0; resultant per unit of the motion.  0: none
+ * FUGE_ERR_SIZE for another mode than 0 .. m-1, FUGE_ERR_LAW if negative, FUGE_ERR_NOT_FINITE,
+ * FUGE_ERR_OVERFLOW; engines as for fuge_set_compliance. */
+int fuge_set_motion_stiffness(fuge_solver *s, int mode, double stiffness);
+
 /* Number m of modes of the problem, free and prescribed; at any time. */
 int fuge_get_mode_count(const fuge_solver *s, int *m);
 
@@ -457,7 +488,9 @@ int fuge_get_mode_count(const fuge_solver *s, int *m);
 enum {                          /* state of a contact point */
   FUGE_AT_LOWER_STOP = 1,       /* gap 0, force >= 0; of either sign if tied */
   FUGE_OPEN = 0,                /* between the stops, no force */
-  FUGE_AT_UPPER_STOP = -1       /* gap = play, force <= 0 */
+  FUGE_AT_UPPER_STOP = -1,      /* gap = play, force <= 0 */
+  FUGE_LIMITED_LOWER = 2,       /* force at the limit of the lower stop, gap <= 0 */
+  FUGE_LIMITED_UPPER = -2       /* force at the limit of the upper stop, gap >= play */
 };
 
 /* The exact course of the contact as the load of one translation grows from 0 to load,
@@ -489,7 +522,7 @@ int fuge_load_path(const fuge_operator *op, const double *gap, double load, int 
  *   motion     out  m for each entry: q there, entry k at motion + k*m; after the jump if
  *                   q jumps, as it may if no contact resists it
  *   rate       out  m for each entry: dq/d(parameter) from there to the next one
- *   state      out  any of the three states
+ *   state      out  any state but the limited ones
  *   contacts   out  points at a stop from there on
  * The other arguments are as above.  FUGE_ERR_NO_EQUILIBRIUM if equilibrium ends on the
  * path: the message has the parameter; choose an end before it.  FUGE_ERR_CALL_ORDER and
@@ -504,6 +537,7 @@ int fuge_follow_path(const fuge_solver *s, const double *finish, int capacity, d
  * problem.  m is that of fuge_get_mode_count: 1 without fuge_set_modes. */
 int fuge_get_force(const fuge_solver *s, double *force);          /* n; force */
 int fuge_get_gap(const fuge_solver *s, double *gap);              /* n; length */
+int fuge_get_states(const fuge_solver *s, int *state);            /* n; FUGE_OPEN .. as above */
 int fuge_get_motion(const fuge_solver *s, double *motion);        /* m: q; one translation: v_0 */
 int fuge_get_resultant(const fuge_solver *s, double *resultant);  /* m: R^T f; one translation:
                                                                      the sum of the forces */

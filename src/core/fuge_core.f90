@@ -3,7 +3,8 @@ module fuge_core
   use fuge_cell_grading, only: fuge_graded_cells, FUGE_END_CORNER, FUGE_END_EDGE, FUGE_END_PLAIN
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_contact_path, only: fuge_follow_path, fuge_load_path
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
+    FUGE_OPEN
   use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval, FUGE_EDGE_REFINED, FUGE_EDGE_FEW_CELLS, &
     FUGE_EDGE_SINGULAR, FUGE_EDGE_GRID_END
   use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
@@ -26,7 +27,8 @@ module fuge_core
     FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, &
     FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK, &
-    FUGE_ERR_CANCELLED, FUGE_ERR_FILE, FUGE_ERR_GAP, FUGE_ERR_MODES, FUGE_ERR_DOF, FUGE_ERR_MESH
+    FUGE_ERR_CANCELLED, FUGE_ERR_FILE, FUGE_ERR_GAP, FUGE_ERR_MODES, FUGE_ERR_DOF, FUGE_ERR_MESH, &
+    FUGE_ERR_LAW
   use fuge_version_number, only: FUGE_VERSION
   implicit none
   public

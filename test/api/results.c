@@ -41,7 +41,8 @@ static void test_info(void) {
   CHECK(info.residual >= 0.0 && info.residual <= 1e-15);
   for (int k = 0; k < 3; k++) CHECK_INT(info.reserved_int[k], 0);
   CHECK(info.force_error > 0.0 && info.force_error <= 1e-15);
-  for (int k = 0; k < 6; k++) CHECK_NEAR(info.reserved[k], 0.0, 0.0);
+  CHECK_NEAR(info.energy, 0.5 * TABLE1_FORCE[0] * TABLE1_ALPHA[0] * TABLE1_FORCE[0], EXACT);
+  for (int k = 0; k < 5; k++) CHECK_NEAR(info.reserved[k], 0.0, 0.0);
   free_both(&solver, &op);
 }
 

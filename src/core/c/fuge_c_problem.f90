@@ -10,6 +10,7 @@ module fuge_c_problem
   use fuge_c_types, only: report_failure, report_to_handle, require_count, require_pointer
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
+  use fuge_law_checks, only: check_limits, check_stiffnesses
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: check_load, check_play
   use fuge_point_space, only: point_space
@@ -63,6 +64,56 @@ contains
     end if
     status = report_to_handle(info, handle)
   end function c_set_excluded
+
+  function c_set_compliance(solver, compliance) bind(c, name='fuge_set_compliance') result(status)
+    type(c_ptr), intent(in), value :: solver, compliance
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(dp), allocatable :: copy(:)
+    type(fuge_info) :: info
+
+    call find_solver(solver, handle, info)
+    if (.not. info%failed() .and. c_associated(compliance)) then
+      call copy_array(compliance, points_of(handle), 'compliance', copy, info)
+      if (.not. info%failed()) call check_stiffnesses(copy, points_of(handle), 'compliance', info)
+    end if
+    if (.not. info%failed()) then
+      call move_alloc(copy, handle%problem%compliance)
+      handle%solved = .false.
+    end if
+    status = report_to_handle(info, handle)
+  end function c_set_compliance
+
+  function c_set_limits(solver, limit, limit_upper) bind(c, name='fuge_set_limits') result(status)
+    type(c_ptr), intent(in), value :: solver, limit, limit_upper
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(dp), allocatable :: lower(:), upper(:)
+    type(fuge_info) :: info
+
+    call find_solver(solver, handle, info)
+    if (.not. info%failed()) call copy_limits(limit, points_of(handle), 'limit', lower, info)
+    if (.not. info%failed()) call copy_limits(limit_upper, points_of(handle), 'limit_upper', upper, info)
+    if (.not. info%failed()) then
+      call move_alloc(lower, handle%problem%limit)
+      call move_alloc(upper, handle%problem%limit_upper)
+      handle%solved = .false.
+    end if
+    status = report_to_handle(info, handle)
+  end function c_set_limits
+
+  !> A copy of limits of C; none for NULL.
+  subroutine copy_limits(source, n, name, copy, info)
+    type(c_ptr), intent(in) :: source
+    integer, intent(in) :: n
+    character(len=*), intent(in) :: name
+    real(dp), allocatable, intent(out) :: copy(:)
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. c_associated(source)) return
+    call copy_array(source, n, name, copy, info)
+    if (.not. info%failed()) call check_limits(copy, n, name, info)
+  end subroutine copy_limits
 
   !> One free translation.
   function c_set_load(solver, load) bind(c, name='fuge_set_load') result(status)
@@ -176,6 +227,38 @@ contains
     status = report_to_handle(info, handle)
   end function c_set_resultant
 
+  !> Put one motion on a spring, or take its spring away; with no spring left, the problem is as if there had been none.
+  function c_set_motion_stiffness(solver, mode, stiffness) bind(c, name='fuge_set_motion_stiffness') result(status)
+    type(c_ptr), intent(in), value :: solver
+    integer(c_int), intent(in), value :: mode
+    real(c_double), intent(in), value :: stiffness
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    real(dp), allocatable :: springs(:)
+    type(fuge_info) :: info
+    integer :: m, stat
+
+    call find_solver(solver, handle, info)
+    if (.not. info%failed()) call check_mode(handle, int(mode), stiffness, 'stiffness', info)
+    if (.not. info%failed()) then
+      m = handle%problem%mode_count()
+      allocate (springs(m), stat=stat)
+      call require_memory(stat, 'the stiffnesses of the motions', info)
+    end if
+    if (.not. info%failed()) then
+      springs = 0.0_dp
+      if (allocated(handle%problem%motion_stiffness)) springs = handle%problem%motion_stiffness
+      springs(mode + 1) = stiffness
+      call check_stiffnesses(springs, m, 'motion_stiffness', info)
+    end if
+    if (.not. info%failed()) then
+      if (.not. any(springs > 0.0_dp)) deallocate (springs)
+      call move_alloc(springs, handle%problem%motion_stiffness)
+      handle%solved = .false.
+    end if
+    status = report_to_handle(info, handle)
+  end function c_set_motion_stiffness
+
   function c_get_mode_count(solver, destination) bind(c, name='fuge_get_mode_count') result(status)
     type(c_ptr), intent(in), value :: solver, destination
     integer(c_int) :: status
@@ -215,6 +298,7 @@ contains
       if (allocated(problem%resultant)) deallocate (problem%resultant)
       if (allocated(problem%prescribed)) deallocate (problem%prescribed)
       if (allocated(problem%motion)) deallocate (problem%motion)
+      if (allocated(problem%motion_stiffness)) deallocate (problem%motion_stiffness)
     end associate
     handle%solved = .false.
   end subroutine reset_motions

@@ -36,6 +36,15 @@ contains
     if (status == FUGE_DONE) call give(handle%solution%gap, gap)
   end function c_get_gap
 
+  function c_get_states(solver, state) bind(c, name='fuge_get_states') result(status)
+    type(c_ptr), intent(in), value :: solver, state
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+
+    status = find_solution(solver, state, 'state', handle)
+    if (status == FUGE_DONE) call give(handle%solution%state, state)
+  end function c_get_states
+
   function c_get_motion(solver, motion) bind(c, name='fuge_get_motion') result(status)
     type(c_ptr), intent(in), value :: solver, motion
     integer(c_int) :: status

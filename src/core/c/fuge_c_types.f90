@@ -25,8 +25,8 @@ module fuge_c_types
   type, bind(c) :: c_info
     integer(c_int) :: status, iterations, contacts, products, preconditionings
     integer(c_int) :: reserved_int(3)
-    real(c_double) :: residual, force_error
-    real(c_double) :: reserved(6)
+    real(c_double) :: residual, force_error, energy
+    real(c_double) :: reserved(5)
   end type c_info
 
   !> A handle of C that keeps a message. Handles are allocated and freed by their own types, because the address of a
@@ -81,6 +81,7 @@ contains
     copy%preconditionings = int(info%preconditionings, c_int)
     copy%residual = info%residual
     copy%force_error = info%force_error
+    copy%energy = info%energy
     copy%reserved_int = 0
     copy%reserved = 0.0_c_double
   end subroutine give_info

@@ -76,11 +76,14 @@ module fuge_problem_type
   type, public :: fuge_solution
     !> Contact forces f, (n), force; negative only at the upper stop and at tied points.
     real(dp), allocatable :: force(:)
-    !> Gaps c under load, (n), length; negative only where excluded.
+    !> Gaps c under load, (n), length; negative only where excluded, and where the force has reached its limit.
     real(dp), allocatable :: gap(:)
     !> Motions q in the rigid modes, (m), prescribed ones included; for one translation the
     !> approach v_0, length.
     real(dp), allocatable :: motion(:)
+    !> State of each point, (n): FUGE_AT_LOWER_STOP, FUGE_OPEN, FUGE_AT_UPPER_STOP, or where its force has reached the
+    !> limit FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER. Only a solve sets it, not a derivative.
+    integer, allocatable :: state(:)
   end type fuge_solution
 
 contains
@@ -337,6 +340,7 @@ contains
     call move_alloc(source%force, solution%force)
     call move_alloc(source%gap, solution%gap)
     call move_alloc(source%motion, solution%motion)
+    call move_alloc(source%state, solution%state)
   end subroutine move_solution
 
 end module fuge_problem_type

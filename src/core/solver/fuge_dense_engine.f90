@@ -153,7 +153,8 @@ contains
     if (info%failed()) return
     call move_alloc(reduced%force, solution%force)
     call move_alloc(reduced%gap, solution%gap)
-    call move_alloc(reduced%state, self%state)
+    call move_alloc(reduced%state, solution%state)
+    self%state = solution%state
   end subroutine solve_with_matrix
 
   !> The motions in the given modes, and the gaps of excluded points.

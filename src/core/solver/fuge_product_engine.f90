@@ -13,7 +13,7 @@ module fuge_product_engine
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
   use fuge_point_space, only: point_space
   use fuge_set_derivative, only: find_derivative_by_products
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_ITERATION_LIMIT, &
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_UNSUPPORTED
   use fuge_warm_start, only: load_history
   implicit none
@@ -50,6 +50,7 @@ contains
     type(fuge_history), intent(inout) :: history
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
+    type(point_space) :: space
 
     history = fuge_history()
     if (options%keep_history) then
@@ -76,7 +77,23 @@ contains
       call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, &
                               info)
     end if
+    if (.not. info%failed()) call give_states(self%last, solution, info)
+    space = operator%ranks()
+    call space%agree(info)
   end subroutine solve
+
+  !> A copy of the states for the caller, because derivatives need them too. Error: FUGE_ERR_MEMORY.
+  subroutine give_states(set, solution, info)
+    type(iterated_set), intent(in) :: set
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    if (allocated(solution%state)) deallocate (solution%state)
+    allocate (solution%state(size(set%state)), stat=stat)
+    call require_memory(stat, 'the states of', size(set%state), 'points', info)
+    if (stat == 0) solution%state = set%state
+  end subroutine give_states
 
   !> As for `contact_engine`.
   subroutine judge(self, operator, problem, tolerance, info)

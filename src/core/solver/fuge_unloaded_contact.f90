@@ -1,5 +1,6 @@
 !> Contact without a load: the bodies just touch.
 module fuge_unloaded_contact
+  use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_point_space, only: point_space
@@ -28,13 +29,15 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    allocate (solution%force(problem%points()), solution%gap(problem%points()), solution%motion(1), stat=stat)
+    allocate (solution%force(problem%points()), solution%gap(problem%points()), solution%motion(1), &
+              solution%state(problem%points()), stat=stat)
     call require_memory(stat, 'the forces and gaps of', problem%points(), 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     solution%force = 0.0_dp
     solution%motion = space%least(minval(problem%gap))
     solution%gap = problem%gap - solution%motion(1)
+    solution%state = FUGE_OPEN
   end subroutine solve_without_load
 
 end module fuge_unloaded_contact

@@ -96,7 +96,7 @@ contains
     end select
   end subroutine fuge_follow_path
 
-  !> Refuse an operator that is not set, or a problem that does not fit it.
+  !> Refuse an operator that is not set, a problem that does not fit it, and one whose points have laws of their own.
   subroutine check_start(operator, problem, info)
     class(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -106,6 +106,10 @@ contains
       call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before')
     else
       call check_problem(problem, operator%points(), info)
+      if (problem%has_law() .and. .not. info%failed()) then
+        call report(info, FUGE_ERR_UNSUPPORTED, 'a load path knows no compliance, limits or springs on motions: solve ' &
+                    //'for one load after the other')
+      end if
     end if
   end subroutine check_start
 

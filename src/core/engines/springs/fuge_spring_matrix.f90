@@ -230,6 +230,7 @@ contains
     if (size(solution%force) == n) return
     solution%force = solution%force(:n)
     solution%gap = solution%gap(:n)
+    if (allocated(solution%state)) solution%state = solution%state(:n)
   end subroutine strip_solution
 
 end module fuge_spring_matrix
