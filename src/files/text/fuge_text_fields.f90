@@ -1,12 +1,14 @@
 !> Fields of a line of text, and the numbers in them.
 !>
 !> Numbers are converted here, because formatted reads would take most of the time for a long
-!> file.
+!> file. So would C's strtod, which takes two to three times as long for 17 digits: it rounds only those few numbers
+!> that lie too near to half-way between two doubles, or have large exponents.
 module fuge_text_fields
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_decimal_rounding, only: round_decimal, MOST_DIGITS
-  use fuge_exact_rounding, only: round_exactly, DECISIVE_DIGITS
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   implicit none
   private
 
@@ -22,6 +24,10 @@ module fuge_text_fields
   !> first. Numbers with a smaller decimal exponent than the least double, 4.9e-324, are 0.
   integer, parameter :: LARGEST_PLACES = 309, LEAST_PLACES = -323
   integer(int64), parameter :: LARGEST_DIGITS = 179769313486231570_int64
+  !> Digits that can decide: a point half-way between two doubles has at most 768.
+  integer, parameter :: DECISIVE_DIGITS = 800
+  !> Room for an exponent after them: e-1123 and a null character.
+  integer, parameter :: EXPONENT_LENGTH = 8
   !> Larger exponents are cut to this one, which overflows or vanishes in any case.
   integer, parameter :: EXPONENT_LIMIT = 100000
   integer, parameter :: BLANK = iachar(' '), MINUS = iachar('-'), PLUS = iachar('+'), POINT = iachar('.')
@@ -38,6 +44,17 @@ module fuge_text_fields
     !> `digits` has all digits of the number.
     logical :: complete = .true.
   end type decimal
+
+  interface
+    !> The double nearest to the number that `number` begins with, which ends with a null character; with a null pointer
+    !> C does not say where that number ends.
+    pure function strtod(number, no_end) bind(c, name='strtod') result(value)
+      import :: c_char, c_double, c_ptr
+      character(kind=c_char), intent(in) :: number(*)
+      type(c_ptr), intent(in), value :: no_end
+      real(c_double) :: value
+    end function strtod
+  end interface
 
 contains
 
@@ -158,11 +175,13 @@ contains
   end subroutine round_first_digits
 
   !> Round a number with all its digits: 0.d1d2d3.. * 10**`places`, where d1 is the first digit that is not 0.
+  !>
+  !> C reads it as a whole number with an exponent, since in some locales the decimal point is a comma.
   pure subroutine round_all_digits(field, places, value)
     character(len=*), intent(in) :: field
     integer, intent(in) :: places
     real(dp), intent(out) :: value
-    character(len=DECISIVE_DIGITS) :: digits
+    character(len=DECISIVE_DIGITS + EXPONENT_LENGTH) :: whole
     integer :: k, used
 
     used = 0
@@ -172,13 +191,14 @@ contains
       if (field(k:k) < '0' .or. field(k:k) > '9') exit
       if (used < DECISIVE_DIGITS) then
         used = used + 1
-        digits(used:used) = field(k:k)
+        whole(used:used) = field(k:k)
       else if (field(k:k) /= '0') then
         ! No point half-way between two doubles has as many digits: the number is above it.
-        digits(used:used) = '1'
+        whole(used:used) = '1'
       end if
     end do
-    value = round_exactly(digits(:used), places)
+    whole(used + 1:) = 'e'//text(places - used)//c_null_char
+    value = strtod(whole, c_null_ptr)
   end subroutine round_all_digits
 
   !> Is the number larger than the largest double?
