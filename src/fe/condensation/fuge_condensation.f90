@@ -28,7 +28,7 @@ module fuge_condensation
   use fuge_rigid_body_modes, only: check_rigid_modes, choose_pins, find_pin_loads, find_rigid_modes
   use fuge_smallest_eigenvalue, only: find_smallest_eigenvalue, unscale
   use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, &
-    FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
   private
@@ -187,7 +187,7 @@ contains
       self%load_displacement = field(:, 1)
       call apply_load(self, info)
     else
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements due to the load')
+      call require_memory(stat, 'the displacements due to the load', info)
     end if
     if (.not. info%failed()) return
     call move_alloc(previous, self%body%load)
@@ -423,7 +423,7 @@ contains
     ! Rigid modes computed with the factor are as accurate as the factor.
     if (self%body%floats) self%mode_error = max(self%mode_error, epsilon(quotient)/max(quotient, epsilon(quotient)))
     if (status /= FUGE_DONE) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the factor of the stiffness matrix')
+      call require_memory(status, 'the factor of the stiffness matrix', info)
     else if (.not. quotient > epsilon(quotient)) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive definite: ' &
                   //trim(what_holds(self, pins))//', and degree of freedom '//index_text(weakest) &
@@ -539,7 +539,7 @@ contains
                                           displacement_scale(self%body, self%scale), self%mode_error, resisted, &
                                           self%unresisted_modes, stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid modes of the contact points')
+      call require_memory(stat, 'the rigid modes of the contact points', info)
     else if (.not. all(resisted)) then
       columns = pack([(j, j=1, size(resisted))], resisted)
       remaining = self%modes(:, columns)

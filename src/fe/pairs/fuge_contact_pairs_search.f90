@@ -15,7 +15,7 @@ module fuge_contact_pairs_search
   use fuge_opposite_faces, only: opposite_faces, prepare_opposite
   use fuge_pair_draft_type, only: pair_draft, start_draft
   use fuge_smooth_normals, only: find_smooth_normals, mean_of_faces
-  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE
   use fuge_surface_checks, only: check_radii, check_surface
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_weight_rows, only: copy_row, row_length
@@ -70,11 +70,8 @@ contains
     end if
     call move_surface(contact, way, near_contact, stat)
     if (stat == 0) call move_surface(opposite, way, near_opposite, stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for copies of the surfaces')
-    else
-      call find_near_pairs(near_contact, near_opposite, options, pairs, info)
-    end if
+    call require_memory(stat, 'copies of the surfaces', info)
+    if (stat == 0) call find_near_pairs(near_contact, near_opposite, options, pairs, info)
   end subroutine fuge_find_pairs
 
   !> The same for surfaces near the origin, checked.

@@ -8,7 +8,7 @@ module fuge_opposite_faces
   implicit none
   private
 
-  public :: face_box, face_radius, prepare_opposite, surface_box
+  public :: face_radius, prepare_opposite
 
   !> Two faces look against each other if the cosine between their normals is below this.
   real(dp), parameter, public :: FACING = -0.1_dp

@@ -8,7 +8,7 @@ module fuge_mesh_draft
   use fuge_name_table, only: name_table
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
-  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_FILE
   implicit none
   private
 
@@ -93,7 +93,7 @@ contains
         call finish_surface(draft, k, mesh, info, status)
       end do
     end if
-    if (status /= 0 .and. .not. info%failed()) call report(info, FUGE_ERR_MEMORY, 'no memory for the mesh')
+    if (.not. info%failed()) call require_memory(status, 'the mesh', info)
   end subroutine finish_mesh
 
   pure subroutine finish_nodes(draft, mesh, status)

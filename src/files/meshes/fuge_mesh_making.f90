@@ -7,7 +7,7 @@ module fuge_mesh_making
   use fuge_mesh_checks, only: check_mesh
   use fuge_mesh_type, only: fuge_mesh, move_mesh
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_ERR_ELEMENT, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -80,11 +80,8 @@ contains
     allocate (mesh%node(nodes), mesh%position(3, nodes), mesh%element(elements), mesh%element_type(elements), &
               mesh%first(elements + 1), mesh%connection(connections), mesh%node_set(0), mesh%element_set(0), &
               mesh%surface(0), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a mesh of '//text(nodes)//' nodes and '//text(elements) &
-                  //' elements')
-      return
-    end if
+    call require_memory(stat, 'a mesh of '//text(nodes)//' nodes and', elements, 'elements', info)
+    if (stat /= 0) return
     mesh%node = 0
     mesh%element = 0
   end subroutine allocate_mesh

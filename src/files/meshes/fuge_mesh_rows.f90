@@ -3,13 +3,12 @@
 module fuge_mesh_rows
   use fuge_element_faces, only: split_type, FAMILY_PLANE, FAMILY_SOLID
   use fuge_input_deck, only: upper_case
-  use fuge_kinds, only: dp
   use fuge_mesh_sets, only: fuge_mesh_faces, fuge_mesh_node_set
   use fuge_mesh_type, only: fuge_mesh
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, &
-    FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, &
+    FUGE_ERR_SIZE
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_text_fields, only: quoted
   implicit none
@@ -59,10 +58,8 @@ contains
       return
     end if
     allocate (found%node(dimensions, size(mesh%node)), found%dof(dimensions, size(mesh%node)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the nodes of surface '//quoted(name))
-      return
-    end if
+    call require_memory(stat, 'the nodes of surface '//quoted(name), info)
+    if (stat /= 0) return
     found%node = mesh%position(:dimensions, :)
     found%dof = rows(:dimensions, :)
     call move_alloc(found%node, surface%node)

@@ -5,7 +5,7 @@ module fuge_mesh_sets
   use fuge_kinds, only: dp
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_OPTION
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ELEMENT, FUGE_ERR_MESH, FUGE_ERR_OPTION
   use fuge_text_fields, only: quoted
   implicit none
   private
@@ -94,10 +94,8 @@ contains
     end if
     if (info%failed()) return
     allocate (copy(size(sets(k)%member)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the '//what//' '//quoted(trim(name)))
-      return
-    end if
+    call require_memory(stat, 'the '//what//' '//quoted(trim(name)), info)
+    if (stat /= 0) return
     copy = sets(k)%member
     call move_alloc(copy, member)
   end subroutine copy_set
@@ -126,10 +124,8 @@ contains
     end if
     if (info%failed()) return
     allocate (found(MOST_FACE_NODES, size(mesh%surface(surface)%element)), stat=status)
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the faces of '//quoted(name))
-      return
-    end if
+    call require_memory(status, 'the faces of '//quoted(name), info)
+    if (status /= 0) return
     found = 0
     do k = 1, size(found, 2)
       element = mesh%surface(surface)%element(k)

@@ -11,7 +11,7 @@ module fuge_entry_fields
   public :: is_comment, read_label, read_value, split_line
 
   !> Columns of a line that are looked at.
-  integer, parameter, public :: MOST_FIELDS = 6
+  integer, parameter :: MOST_FIELDS = 6
 
   !> Where the columns are: column k is line(first(k):last(k)). `count` is MOST_FIELDS if there are as many or more.
   type, public :: line_fields

@@ -6,7 +6,7 @@
 module fuge_slab_exchange
   use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t
   use fuge_rank_communicator, only: rank_communicator
-  use mpi_f08, only: MPI_Comm, MPI_Irecv, MPI_Isend, MPI_Request, MPI_Testall, MPI_Waitall, MPI_DOUBLE_PRECISION, &
+  use mpi_f08, only: MPI_Irecv, MPI_Isend, MPI_Request, MPI_Testall, MPI_Waitall, MPI_DOUBLE_PRECISION, &
     MPI_STATUSES_IGNORE
   implicit none
   private

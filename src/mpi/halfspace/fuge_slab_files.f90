@@ -11,7 +11,7 @@ module fuge_slab_files
   use fuge_shared_operator, only: shared_operator
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_FILE, FUGE_ERR_SIZE
   use mpi_f08, only: MPI_Bcast, MPI_File, MPI_File_close, MPI_File_open, MPI_File_read_at, MPI_File_read_at_all, &
-    MPI_File_set_size, MPI_File_set_view, MPI_File_write_at, MPI_File_write_at_all, MPI_Get_count, MPI_Status, &
+    MPI_File_set_size, MPI_File_write_at, MPI_File_write_at_all, MPI_Get_count, MPI_Status, &
     MPI_CHARACTER, MPI_DOUBLE_PRECISION, MPI_INFO_NULL, MPI_INTEGER, MPI_MODE_CREATE, MPI_MODE_RDONLY, &
     MPI_MODE_WRONLY, MPI_OFFSET_KIND, MPI_STATUS_IGNORE, MPI_SUCCESS
   implicit none

@@ -7,7 +7,7 @@ module fuge_slab_plan
   use fuge_rank_communicator, only: rank_communicator
   use fuge_slab_exchange, only: slab_exchange
   use fuge_slab_rows, only: block_of_pairs, block_of_waves
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -71,8 +71,7 @@ contains
     call allocate_line(most(2), self%memory(2), self%by_columns, status(2))
     call allocate_values(2*max(maxval(length), 2*self%all_pairs) + 2, COLUMNS + 2, self%memory(3), self%lines, &
                          status(3))
-    if (any(status /= 0)) call report(info, FUGE_ERR_MEMORY, 'no memory for transforms of '//text(length(1))//' by ' &
-                                      //text(length(2))//' values')
+    call require_memory(maxval(abs(status)), 'transforms of '//text(length(1))//' by', length(2), 'values', info)
   end subroutine set
 
   !> The exchange of a product whose circle along x is `padded` or not.
