@@ -2,6 +2,7 @@
 module fuge_mesh_draft
   use fuge_draft_sets, only: draft_set, draft_sets, labels_in_range, GENERATED
   use fuge_element_faces, only: is_shell
+  use fuge_growing_arrays, only: make_room
   use fuge_integer_list, only: integer_list
   use fuge_kinds, only: dp
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set
@@ -16,6 +17,7 @@ module fuge_mesh_draft
 
   !> In place of a number of a face: SNEG and SPOS of shells; the numbers 1 and 2 in the mesh.
   integer, parameter, public :: FACE_SNEG = -1, FACE_SPOS = -2
+
   !> A mesh in labels.
   type, public :: mesh_draft
     type(row_table) :: nodes, elements
@@ -41,21 +43,14 @@ contains
     integer, intent(in) :: label
     real(dp), intent(in) :: position(3)
     logical, intent(out) :: is_new
-    real(dp), allocatable :: longer(:, :)
     integer :: number, nodes
 
     nodes = self%nodes%count
     call self%nodes%number_of(label, 0, number, self%status)
     is_new = number > nodes
     if (self%status /= 0 .or. .not. is_new) return
-    if (.not. allocated(self%position)) then
-      allocate (self%position(3, 1024), stat=self%status)
-    else if (nodes == size(self%position, 2)) then
-      allocate (longer(3, 2*nodes), stat=self%status)
-      if (self%status /= 0) return
-      longer(:, :nodes) = self%position
-      call move_alloc(longer, self%position)
-    end if
+    if (.not. allocated(self%position)) allocate (self%position(3, 0), stat=self%status)
+    call make_room(self%position, nodes, self%status)
     if (self%status == 0) self%position(:, number) = position
   end subroutine add_node
 

@@ -5,6 +5,7 @@
 module fuge_stiffness_entries
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_compressed_columns, only: compressed_columns, matrix_triplets, order_triplets
+  use fuge_growing_arrays, only: make_room
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
@@ -14,9 +15,6 @@ module fuge_stiffness_entries
   private
 
   public :: make_columns, no_memory
-
-  !> Number of entries at first.
-  integer, parameter :: FIRST_ENTRIES = 4096
 
   !> Entries in the order of the file.
   type, public :: stiffness_entries
@@ -33,7 +31,6 @@ module fuge_stiffness_entries
     logical :: whole = .false.
   contains
     procedure :: append
-    procedure, private :: grow
   end type stiffness_entries
 
 contains
@@ -44,12 +41,12 @@ contains
     integer, intent(in) :: row, column, line
     real(dp), intent(in) :: value
     integer, intent(out) :: status
-    logical :: full
 
     status = 0
-    full = .not. allocated(self%row)
-    if (.not. full) full = self%count == size(self%row)
-    if (full) call self%grow(status)
+    call make_room(self%row, self%count, status)
+    call make_room(self%column, self%count, status)
+    call make_room(self%value, self%count, status)
+    call make_room(self%line, self%count, status)
     if (status /= 0) return
     self%count = self%count + 1
     self%row(self%count) = row
@@ -57,33 +54,6 @@ contains
     self%value(self%count) = value
     self%line(self%count) = line
   end subroutine append
-
-  !> Double the memory.
-  pure subroutine grow(self, status)
-    class(stiffness_entries), intent(inout) :: self
-    integer, intent(out) :: status
-    integer, allocatable :: row(:), column(:), line(:)
-    real(dp), allocatable :: value(:)
-    integer :: n, room
-
-    n = self%count
-    room = FIRST_ENTRIES
-    status = 1
-    if (n > shiftr(huge(1), 1)) return
-    if (n > 0) room = 2*n
-    allocate (row(room), column(room), value(room), line(room), stat=status)
-    if (status /= 0) return
-    if (n > 0) then
-      row(:n) = self%row(:n)
-      column(:n) = self%column(:n)
-      value(:n) = self%value(:n)
-      line(:n) = self%line(:n)
-    end if
-    call move_alloc(row, self%row)
-    call move_alloc(column, self%column)
-    call move_alloc(value, self%value)
-    call move_alloc(line, self%line)
-  end subroutine grow
 
   !> Report that there is no memory for the entries of a file (FUGE_ERR_MEMORY).
   pure subroutine no_memory(file, info)

@@ -1,6 +1,7 @@
 !> Rows of a stiffness matrix that a file names by node and direction: from a name to its number, and in order.
 module fuge_row_table
   use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_growing_arrays, only: resize
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
   implicit none
@@ -105,7 +106,7 @@ contains
   pure subroutine grow(self, status)
     class(row_table), intent(inout) :: self
     integer, intent(out) :: status
-    integer, allocatable :: node(:), direction(:), slot(:)
+    integer, allocatable :: slot(:)
     integer :: k, slots
 
     slots = FIRST_SLOTS
@@ -114,15 +115,11 @@ contains
       if (size(self%slot) >= shiftr(huge(1), 1)) return
       slots = 2*size(self%slot)
     end if
-    allocate (node(slots/2), direction(slots/2), slot(slots), stat=status)
+    allocate (slot(slots), stat=status)
+    call resize(self%node, slots/2, status)
+    call resize(self%direction, slots/2, status)
     if (status /= 0) return
     slot = 0
-    if (self%count > 0) then
-      node(:self%count) = self%node(:self%count)
-      direction(:self%count) = self%direction(:self%count)
-    end if
-    call move_alloc(node, self%node)
-    call move_alloc(direction, self%direction)
     call move_alloc(slot, self%slot)
     do k = 1, self%count
       self%slot(self%slot_of(self%node(k), self%direction(k))) = k
