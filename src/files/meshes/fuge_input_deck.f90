@@ -3,7 +3,8 @@ module fuge_input_deck
   use fuge_mesh_type, only: NAME_LENGTH
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info
-  use fuge_text_fields, only: after_blanks, quoted
+  use fuge_text_columns, only: after_blanks
+  use fuge_text_numbers, only: quoted
   use fuge_text_reader, only: text_file
   implicit none
   private

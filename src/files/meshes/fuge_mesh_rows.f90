@@ -10,7 +10,7 @@ module fuge_mesh_rows
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, &
     FUGE_ERR_SIZE
   use fuge_surface_mesh_type, only: fuge_surface_mesh
-  use fuge_text_fields, only: quoted
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 

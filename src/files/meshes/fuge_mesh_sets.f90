@@ -6,7 +6,7 @@ module fuge_mesh_sets
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ELEMENT, FUGE_ERR_MESH, FUGE_ERR_OPTION
-  use fuge_text_fields, only: quoted
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 

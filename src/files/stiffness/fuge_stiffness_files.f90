@@ -12,7 +12,7 @@ module fuge_stiffness_files
   use fuge_stiffness_entries, only: make_columns, stiffness_entries
   use fuge_stiffness_formats, only: is_binary_op4, recognise_format, FUGE_STIFFNESS_ANY, &
     FUGE_STIFFNESS_CALCULIX, FUGE_STIFFNESS_DMIG, FUGE_STIFFNESS_MATRIX_MARKET, FUGE_STIFFNESS_OP4
-  use fuge_text_fields, only: lower_case
+  use fuge_text_numbers, only: lower_case
   use fuge_text_reader, only: quoted_path, text_file
   implicit none
   private

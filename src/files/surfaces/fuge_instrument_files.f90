@@ -2,7 +2,7 @@
 module fuge_instrument_files
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE
-  use fuge_text_fields, only: lower_case
+  use fuge_text_numbers, only: lower_case
   use fuge_text_reader, only: text_file
   implicit none
   private

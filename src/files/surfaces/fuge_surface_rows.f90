@@ -6,7 +6,7 @@ module fuge_surface_rows
   use fuge_status, only: fuge_info
   use fuge_surface_heights, only: read_height, NOT_MEASURED
   use fuge_text_columns, only: begin_columns, next_column, separator_name, SEPARATOR_BLANK, SEPARATOR_NONE
-  use fuge_text_fields, only: read_number, FIELD_WORD
+  use fuge_text_numbers, only: read_number, KIND_WORD
   use fuge_text_reader, only: text_file
   implicit none
   private
@@ -115,7 +115,7 @@ contains
       form%columns = form%columns + 1
       if (form%columns == 1) form%separator = separator
       call read_number(line(first:last), kind, value)
-      words = words .and. kind == FIELD_WORD
+      words = words .and. kind == KIND_WORD
       if (words) call read_height(line(first:last), value, reason)
       words = words .and. allocated(reason)
       if (allocated(reason)) deallocate (reason)
