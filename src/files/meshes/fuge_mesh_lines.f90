@@ -245,7 +245,7 @@ contains
     end associate
     do k = 1, elements%count
       if (draft%status /= 0) return
-      number = draft%elements%place_of(elements%item(k), 0)
+      number = draft%elements%find(elements%item(k), 0)
       if (number == 0) then
         reason = 'element '//text(elements%item(k))//' of the set '//quoted(name)//' is not defined above'
         return

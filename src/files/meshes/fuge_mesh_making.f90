@@ -190,7 +190,7 @@ contains
     sizes = [size(mesh%position, 2, kind=int64), size(mesh%element_type, kind=int64), size(mesh%connection, kind=int64)]
   end function sizes_of
 
-  !> Copy a mesh into one that has used so much of its arrays: nodes, elements, nodes of all elements.
+  !> Copy a mesh behind the entries of another one that are `used`: nodes, elements, nodes of all elements.
   pure subroutine copy_mesh(mesh, used, joined)
     type(fuge_mesh), intent(in) :: mesh
     integer, intent(in) :: used(3)

@@ -138,7 +138,7 @@ contains
     integer, allocatable, intent(out) :: rows(:, :)
     integer, intent(out) :: strange
     type(fuge_info), intent(inout) :: info
-    type(row_table) :: places
+    type(row_table) :: known_nodes
     integer :: i, k, number, stat
 
     strange = 0
@@ -153,14 +153,14 @@ contains
     end if
     allocate (rows(DIRECTIONS, size(mesh%node)), stat=stat)
     do i = 1, size(mesh%node)
-      if (stat == 0) call places%number_of(mesh%node(i), 0, number, stat)
+      if (stat == 0) call known_nodes%number_of(mesh%node(i), 0, number, stat)
     end do
     call require_memory(stat, 'the rows of', size(mesh%node), 'nodes', info)
     if (stat /= 0) return
     rows = 0
     do k = 1, size(node)
       if (direction(k) < 1 .or. direction(k) > DIRECTIONS) cycle
-      i = places%place_of(node(k), 0)
+      i = known_nodes%find(node(k), 0)
       if (i == 0 .and. strange == 0) strange = k
       if (i == 0) cycle
       if (rows(direction(k), i) /= 0) then
@@ -172,7 +172,7 @@ contains
     end do
   end subroutine find_rows
 
-  !> Refuse a matrix that is not of this mesh, by the `nodes` that are asked for: places in mesh%node.
+  !> Refuse a matrix that is not of this mesh, by the `nodes` that are asked for: indices in mesh%node.
   pure subroutine check_nodes(mesh, name, nodes, node, rows, strange, info)
     type(fuge_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: name

@@ -129,13 +129,13 @@ contains
   pure subroutine subtract_slope(x, z)
     real(dp), intent(in) :: x(:)
     real(dp), intent(inout) :: z(:)
-    real(dp) :: place(size(x)), weight(size(x))
+    real(dp) :: abscissa(size(x)), weight(size(x))
 
     ! Dimensionless, so that no square overflows.
-    place = (x - x(1))/(x(size(x)) - x(1))
+    abscissa = (x - x(1))/(x(size(x)) - x(1))
     weight = weights(x)
-    place = place - dot_product(weight, place)
-    z = z - place*(dot_product(weight, place*z)/dot_product(weight, place**2))
+    abscissa = abscissa - dot_product(weight, abscissa)
+    z = z - abscissa*(dot_product(weight, abscissa*z)/dot_product(weight, abscissa**2))
   end subroutine subtract_slope
 
   !> Refuse a profile with fewer than two points, values that are not finite or out of range, or x

@@ -129,7 +129,7 @@ contains
     type(stiffness_entries), intent(inout) :: entries
     integer, intent(inout) :: status
     character(len=:), allocatable, intent(inout) :: reason
-    integer :: node(2), direction(2), place(2)
+    integer :: node(2), direction(2), number_of_name(2)
     integer :: k
     real(dp) :: value
 
@@ -143,9 +143,9 @@ contains
     call read_value(line(found%first(5):found%last(5)), value, reason)
     if (allocated(reason)) return
     do k = 1, 2
-      if (status == 0) call entries%names%number_of(node(k), direction(k), place(k), status)
+      if (status == 0) call entries%names%number_of(node(k), direction(k), number_of_name(k), status)
     end do
-    if (status == 0) call entries%append(place(1), place(2), value, number, status)
+    if (status == 0) call entries%append(number_of_name(1), number_of_name(2), value, number, status)
   end subroutine read_named
 
 end module fuge_column_entries

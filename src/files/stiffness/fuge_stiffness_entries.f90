@@ -1,6 +1,6 @@
 !> The entries of a stiffness matrix as they come from a file, and the compressed columns that are made from them.
 !>
-!> A file may hold one triangle, or entries on both sides of the diagonal so that each pair of places has one, or the
+!> A file may hold one triangle, or entries on both sides of the diagonal so that each pair of positions has one, or the
 !> whole matrix. The matrix that is returned has both triangles.
 module fuge_stiffness_entries
   use, intrinsic :: iso_fortran_env, only: int64
@@ -65,7 +65,7 @@ contains
 
   !> Sort the entries into compressed columns of both triangles, rows ascending, and find the node and the direction of
   !> each row, 0 where no name is known. `entries` is used up.
-  !> Errors: FUGE_ERR_FILE with the line of a place that is given twice, or if there are fewer entries than rows;
+  !> Errors: FUGE_ERR_FILE with the line of a position that is given twice, or if there are fewer entries than rows;
   !> FUGE_ERR_MEMORY.
   pure subroutine make_columns(file, entries, matrix, node, direction, info)
     type(text_file), intent(inout) :: file
@@ -103,7 +103,7 @@ contains
     integer, intent(out) :: rows
     integer, allocatable, intent(inout) :: node(:), direction(:)
     type(fuge_info), intent(inout) :: info
-    integer, allocatable :: place(:)
+    integer, allocatable :: new_row(:)
     integer :: n, status
 
     n = entries%count
@@ -113,10 +113,10 @@ contains
       call report(info, FUGE_ERR_FILE, file%name//' has no entry of a matrix')
     else if (entries%names%count > 0) then
       rows = entries%names%count
-      call entries%names%sort(place, node, direction, status)
+      call entries%names%sort(new_row, node, direction, status)
       if (status == 0) then
-        entries%row(:n) = place(entries%row(:n))
-        entries%column(:n) = place(entries%column(:n))
+        entries%row(:n) = new_row(entries%row(:n))
+        entries%column(:n) = new_row(entries%column(:n))
       end if
     else if (rows == 0) then
       rows = max(maxval(entries%row(:n)), maxval(entries%column(:n)))
@@ -158,7 +158,7 @@ contains
     end do
   end subroutine fold
 
-  !> Are two folded entries of one pair of places, or of one place of the diagonal?
+  !> Are two folded entries of one pair of positions, or of one position of the diagonal?
   pure function same_pair(lower, a, b) result(same)
     type(matrix_triplets), intent(in) :: lower
     integer, intent(in) :: a, b
@@ -168,7 +168,7 @@ contains
     if (same) same = lower%column(a) == lower%column(b)
   end function same_pair
 
-  !> The first entry in the file whose place another one had before; 0 if there is none.
+  !> The first entry in the file whose position another one had before; 0 if there is none.
   pure subroutine find_repeated(lower, above, order, line, repeated)
     type(matrix_triplets), intent(in) :: lower
     logical, intent(in) :: above(:)
@@ -199,7 +199,7 @@ contains
     if (node(k) /= 0) name = 'node '//text(node(k))//', direction '//text(direction(k))
   end function row_name
 
-  !> Why an entry is refused whose place another one had before.
+  !> Why an entry is refused whose position another one had before.
   pure function repetition(i, j, node, direction) result(reason)
     integer, intent(in) :: i, j, node(:), direction(:)
     character(len=200) :: reason
@@ -208,7 +208,7 @@ contains
       //': the file was written twice, or into another one'
   end function repetition
 
-  !> Compressed columns of both triangles from the sorted lower one, in which a pair of places has one entry or two
+  !> Compressed columns of both triangles from the sorted lower one, in which a pair of positions has one entry or two
   !> neighbours. An entry that is missing is its partner's value, unless the file has some pair of two, and so the whole
   !> matrix, or is `given_whole`.
   pure subroutine unfold(lower, above, order, begin, given_whole, matrix, status)
@@ -235,7 +235,7 @@ contains
     if (status /= 0) return
     call count_columns(lower, above, whole, matrix%column)
     next = matrix%column
-    ! Columns before j have filled the part of column j above the diagonal, rows ascending.
+    ! Columns before j have filled column j above the diagonal, rows ascending.
     do j = 1, size(begin) - 1
       do k = begin(j), begin(j + 1) - 1
         i = lower%row(order(k))
@@ -246,7 +246,7 @@ contains
     end do
   end subroutine unfold
 
-  !> Set an entry at place `next`, which moves on.
+  !> Set an entry at position `next`, which moves on.
   pure subroutine put(matrix, next, row, value)
     type(compressed_columns), intent(inout) :: matrix
     integer, intent(inout) :: next

@@ -25,8 +25,8 @@ contains
   !> of its rows. Ten arguments: the file, three arrays of the matrix, two of names, the report, and three options.
   !>
   !> `column`, `row`, `value`: both triangles, rows ascending, as fuge_read_sparse returns them and
-  !> fuge_sparse_stiffness takes them, in the unit of the file; if it has one triangle, or one of each two places, the
-  !> other is its mirror image. `node`, `direction` (rows): the node of each row and its direction, 1 to 3 for
+  !> fuge_sparse_stiffness takes them, in the unit of the file; if it has one triangle, or one of each two positions,
+  !> the other is its mirror image. `node`, `direction` (rows): the node of each row and its direction, 1 to 3 for
   !> displacements along x, y, z and 4 to 6 for rotations; 0 where no name is known. All five are allocated afresh.
   !>
   !> `format` (default FUGE_STIFFNESS_ANY: by the content):

@@ -11,8 +11,8 @@ module fuge_slab_exchange
   implicit none
   private
 
-  !> A message has about so many numbers at most: few enough that some travel while the next rows are computed, so many
-  !> that its latency does not matter.
+  !> Numbers of a message, at most and about: few enough that some messages travel while the next rows are computed,
+  !> and enough that their latency does not matter.
   integer, parameter :: MESSAGE = 131072
 
   !> Describe it, set it, then exchange any number of times: `begin_rows`, `send_row` for each row in turn, `finish`;

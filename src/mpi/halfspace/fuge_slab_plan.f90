@@ -28,7 +28,7 @@ module fuge_slab_plan
     !> The ranks that have rows.
     type(rank_communicator) :: group
     !> Pairs of rows of all ranks, in a block, and of this rank; its rows.
-    integer :: all_pairs = 0, block = 0, pairs = 0, rows = 0
+    integer :: all_pairs = 0, block = 0, pairs = 0, owned_rows = 0
     !> Transforms of the pairs of rows of this rank, for the other ranks, and of all pairs, the waves of this rank.
     real(c_double), pointer, contiguous :: by_rows(:) => null(), by_columns(:) => null()
     !> Columns, and two lines for work.
@@ -60,7 +60,7 @@ contains
     self%all_pairs = (cells(2) + 1)/2
     self%block = block_of_pairs(cells, ranks)
     self%pairs = max(min(self%block, self%all_pairs - group%number()*self%block), 0)
-    self%rows = min(2*self%pairs, cells(2) - 2*group%number()*self%block)
+    self%owned_rows = min(2*self%pairs, cells(2) - 2*group%number()*self%block)
     most = 1
     do k = 1, 2
       ! Those of a product, and those of the preconditioner.
