@@ -1,7 +1,7 @@
 !> One factorisation for a body that floats: its rigid modes, its pins and its factor with them.
 !>
 !> K + D is factorised, where D stiffens the degrees of freedom that are eliminated last: those that contact touches and
-!> some scattered over the body, so many that without them no rigid motion is left. D changes the Schur complement S of
+!> some scattered over the body, enough to resist every rigid motion. D changes the Schur complement S of
 !> those alone, by D itself. The null space of S is that of K at these degrees of freedom, and pins among them only
 !> change the factor of S.
 module fuge_floating_factor

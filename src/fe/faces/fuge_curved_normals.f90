@@ -29,7 +29,7 @@ module fuge_curved_normals
 
   !> Stages in which normals at the border are found: from inside, along the border, at its corners.
   integer, parameter :: INSIDE = 1, BORDER = 2, AT_CORNERS = 3
-  !> Most sides that are taken into account there.
+  !> Most sides from which a normal at the border is found.
   integer, parameter :: MOST_SIDES = 32
 
   !> The faces around each node: those of node i, and its place in them, are entries begin(i) to begin(i + 1) - 1.

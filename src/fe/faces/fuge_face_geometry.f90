@@ -22,7 +22,7 @@ module fuge_face_geometry
     !> How far the normals at the ends of each side lean along it to the same end, times its length; zero on an arc of a
     !> circle. Of an edge of three nodes the sum of both halves.
     real(dp) :: lean(4) = 0.0_dp
-    !> Is that surface another one than the face itself?
+    !> Does that surface differ from the face itself?
     logical :: bent = .false.
     !> Is it the section of a ring, with the radius along the first axis?
     logical :: revolution = .false.

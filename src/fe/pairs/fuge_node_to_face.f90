@@ -44,7 +44,7 @@ contains
         if (draft%weight(i) < 0.0_dp .or. draft%weight(i) > 0.0_dp) cycle
         call pair_node(contact, opposite, faces, f, i, normal(:, i), along_face, near, draft, stat)
         if (stat /= 0) return
-        ! Negative: looked for in vain.
+        ! Negative: a search has found no face.
         if (draft%face(i) == 0) draft%weight(i) = -1.0_dp
       end do
     end do

@@ -9,7 +9,7 @@ module fuge_weight_rows
 
   public :: add_weight, copy_row, row_length, start_rows
 
-  !> Entries of a row, the newest ones, among which a column is looked for.
+  !> A column is looked for among this many entries of a row, the newest ones.
   integer, parameter :: LOOKED_AT = 256
 
   type, public :: weight_rows

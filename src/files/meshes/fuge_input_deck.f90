@@ -11,7 +11,8 @@ module fuge_input_deck
 
   public :: upper_case
 
-  !> Files that include each other, and inclusions in all: files that include others twice double them.
+  !> Most files that include each other in turn, and most inclusions in all: files that include others twice double
+  !> them.
   integer, parameter :: MOST_FILES = 16, MOST_INCLUDED = 10000
   !> Most parameters of a keyword line that are looked at.
   integer, parameter :: MOST_PARAMETERS = 24

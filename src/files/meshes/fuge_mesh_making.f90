@@ -20,8 +20,8 @@ contains
   !> `position` (2 or 3, nodes). `element` (most, elements): the nodes of each element, in the order of Abaqus and
   !> CalculiX; 0 in unused places, at the end. `element_type` (elements), or (1) for all: such as C3D8 or CPE4, in upper
   !> or lower case. Nodes and elements are numbered from 1; there are no sets and no surfaces.
-  !> Errors, `mesh` unchanged: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE; FUGE_ERR_ELEMENT for an element that has not as many
-  !> nodes as its type; FUGE_ERR_MEMORY.
+  !> Errors, `mesh` unchanged: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE; FUGE_ERR_ELEMENT for an element with another
+  !> number of nodes than its type has; FUGE_ERR_MEMORY.
   subroutine fuge_make_mesh(position, element, element_type, mesh, info)
     real(dp), intent(in) :: position(:, :)
     integer, intent(in) :: element(:, :)
@@ -115,7 +115,8 @@ contains
     end do
   end subroutine fill_elements
 
-  !> Refuse elements that have not as many nodes as their type (FUGE_ERR_ELEMENT); other types are taken as they are.
+  !> Refuse elements with another number of nodes than their type has (FUGE_ERR_ELEMENT); unknown types are taken as
+  !> they are.
   pure subroutine check_nodes(mesh, info)
     type(fuge_mesh), intent(in) :: mesh
     type(fuge_info), intent(inout) :: info

@@ -19,7 +19,7 @@ module fuge_profile_sampling
   !> Value of `form`: subtract the least-squares line.
   integer, parameter, public :: FUGE_LEVEL_LINE = 1
 
-  !> A point that is outside by less than this fraction of the profile's length counts as its end.
+  !> A point outside the profile by less than this fraction of its length counts as its end.
   real(dp), parameter :: END_TOLERANCE = 1.0e-12_dp
 
 contains

@@ -149,7 +149,7 @@ contains
     end do
   end subroutine check_depths
 
-  !> Refuse numbers of cells, sizes of cells and an origin that cannot be.
+  !> Refuse impossible numbers and sizes of cells, and an origin that is not finite or out of range.
   pure subroutine check_grid(nx, ny, spacing, origin, info)
     integer, intent(in) :: nx, ny
     real(dp), intent(in) :: spacing(2), origin(2)

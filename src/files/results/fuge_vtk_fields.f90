@@ -157,7 +157,7 @@ contains
     call unlock(LOCK_FILES)
   end function number_pair
 
-  !> A whole number, beyond the default integers perhaps.
+  !> A whole number, which may be beyond the default integers.
   function whole(number) result(string)
     integer(int64), intent(in) :: number
     character(len=20) :: string
@@ -167,7 +167,7 @@ contains
     call unlock(LOCK_FILES)
   end function whole
 
-  !> Refuse fields that have not `points` values, `shape_text` in words (FUGE_ERR_SIZE), NaN and infinity
+  !> Refuse fields of another number of values than `points`, `shape_text` in words (FUGE_ERR_SIZE), NaN and infinity
   !> (FUGE_ERR_NOT_FINITE), and names that are blank, repeated, too long or not printable (FUGE_ERR_OPTION).
   pure subroutine check_fields(points, shape_text, names, fields, info)
     integer(int64), intent(in) :: points

@@ -18,7 +18,7 @@ module fuge_sdf_header
   !> Length of the version, which a binary header begins with, and of the whole header.
   integer, parameter :: VERSION_LENGTH = 8
   integer(int64), parameter, public :: BINARY_HEADER_LENGTH = 81_int64
-  !> As many characters of a name as tell it from others.
+  !> First characters of a name, enough to tell it from others.
   integer, parameter :: NAME_LENGTH = 12
   !> Types of the heights.
   integer, parameter, public :: SDF_INT16 = 5, SDF_INT32 = 6, SDF_DOUBLE = 7
@@ -197,7 +197,7 @@ contains
     call check_header(file, header, info)
   end subroutine read_binary_header
 
-  !> Refuse numbers of points and scales that cannot be, and compressed heights (FUGE_ERR_FILE).
+  !> Refuse impossible numbers of points and scales, and compressed heights (FUGE_ERR_FILE).
   pure subroutine check_header(file, header, info)
     type(text_file), intent(in) :: file
     type(sdf_header), intent(in) :: header

@@ -21,7 +21,7 @@ module fuge_slab_files
 
   !> Bytes of the header that is written.
   integer, parameter :: HEADER = 128
-  !> Bytes of a header that is read, at most.
+  !> Most bytes of a header that is read.
   integer, parameter :: LONGEST_HEADER = 1024
   !> The first bytes of a file: 147 and the name, then the version and the length of the text.
   integer, parameter :: FIRST_BYTE = 147

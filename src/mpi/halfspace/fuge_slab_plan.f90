@@ -13,8 +13,7 @@ module fuge_slab_plan
 
   public :: COLUMNS, NUMBERS
 
-  !> Columns that are convolved one after the other, so that each visit to a row of them reads some cache lines as a
-  !> whole.
+  !> Columns that are convolved together, so that a row of them fills whole lines of the cache.
   integer, parameter :: COLUMNS = 8
   !> Real numbers of an element of an exchange: one wave of both rows of a pair.
   integer, parameter :: NUMBERS = 4

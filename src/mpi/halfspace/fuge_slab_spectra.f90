@@ -1,5 +1,5 @@
 !> The spectra of the influence operator of a grid whose rows ranks share, and of its preconditioner: as by
-!> fuge_halfspace_spectra, but a rank computes only a part of the table, and keeps only its waves.
+!> fuge_halfspace_spectra, but a rank computes only some rows of the table, and keeps only its waves.
 module fuge_slab_spectra
   use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t
   use fuge_halfplane_fft, only: FUGE_FREE
