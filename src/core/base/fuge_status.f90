@@ -237,10 +237,10 @@ contains
   end function end_of_part
 
   !> An index that counts from 1, as text, counted from `first`.
-  pure function renumbered(number, first) result(field)
+  pure function renumbered(number, first) result(string)
     character(len=*), intent(in) :: number
     integer, intent(in) :: first
-    character(len=12) :: field
+    character(len=12) :: string
     integer :: k, value
 
     value = 0
@@ -248,7 +248,7 @@ contains
       if (number(k:k) /= '-') value = 10*value - (iachar(number(k:k)) - iachar('0'))
     end do
     if (scan(number, '-') < 1) value = -value
-    field = text(value + (first - 1))
+    string = text(value + (first - 1))
   end function renumbered
 
   !> Append a part to the first `written` characters; what does not fit is cut.

@@ -15,12 +15,12 @@ module fuge_sensitivity
 
   public :: find_derivative
 
-  !> Changes of the gaps that differ from a rigid motion by this fraction of their terms are one.
+  !> Changes of the gaps that differ from a rigid motion by at most this fraction of their terms count as one.
   real(dp), parameter :: RIGID_TOLERANCE = 1.0e-13_dp
-  !> Gaps that stay open on the contact, relative to their terms: more of it is no rounding, but a factor of another
-  !> matrix.
+  !> Gaps on the contact that stay open by more than this fraction of their terms show a factor of another matrix, not
+  !> rounding.
   real(dp), parameter :: CLOSED_TOLERANCE = 1.0e-8_dp
-  !> Units in the last place by which a large datum may round.
+  !> A large datum may be rounded by this many units in its last place.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
 contains
@@ -47,7 +47,8 @@ contains
     call require_memory(stat, 'the derivatives of', size(state), 'points', info)
     if (stat /= 0) return
     datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
-    call canonical%transform_change(gap_change, load_change, reduced_gap, load)
+    call canonical%transform_change(gap_change, load_change, reduced_gap, load, info)
+    if (info%failed()) return
     call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
     call refuse_unresisted(load, unresisted, info)
     if (info%failed()) return

@@ -1,16 +1,16 @@
 !> Static condensation: from the stiffness matrix of a body to the influence matrix of its contact
 !> points, and back from contact forces to the displacements of all degrees of freedom.
 !>
-!> With N the normals of the contact points (n columns), p the external load and G the inverse of
+!> With H the normals of the contact points (n columns), p the external load and G the inverse of
 !> K with supports and pins constrained,
 !>
-!>     alpha = N^T G N,    b = N^T u_p,    u_p = G p (plus the displacements of the supports),
-!>     u = u_p + G N f + Z q.
+!>     alpha = H^T G H,    b = H^T u_p,    u_p = G p (plus the displacements of the supports),
+!>     u = u_p + G H f + Z q.
 !>
 !> alpha is the inverse of the Schur complement of K in the contact points. Z are the rigid modes
 !> of a floating body. One degree of freedom is pinned for each; its reaction is zero when the
 !> forces are in equilibrium, so that no result depends on the choice. The gaps are then
-!> g + b + alpha f - R q with R = -N^T Z, and equilibrium is R^T f = w with w = Z^T p: the general
+!> g + b + alpha f - R q with R = -H^T Z, and equilibrium is R^T f = w with w = Z^T p: the general
 !> problem. A rigid mode that moves no contact point, such as sliding along a flat one, is left
 !> out; the load must not drive it.
 module fuge_condensation
@@ -525,7 +525,7 @@ contains
     if (allocated(self%body%displacement)) u(self%body%fixed) = u(self%body%fixed) + self%body%displacement
   end subroutine add_supports
 
-  !> R = -N^T Z; keep the modes that the contact points resist.
+  !> R = -H^T Z; keep the modes that the contact points resist.
   subroutine keep_resisted_modes(self, info)
     type(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info

@@ -1,7 +1,7 @@
-!> The influence matrix alpha = N^T G N of the contact points of a body, G the inverse of the stiffness matrix K without
+!> The influence matrix alpha = H^T G H of the contact points of a body, G the inverse of the stiffness matrix K without
 !> the constrained degrees of freedom.
 !>
-!> If the factor of K ends with the degrees of freedom that N touches, the last rows of N, C, and the factor L of their
+!> If the factor of K ends with the degrees of freedom that H touches, the last rows of H, C, and the factor L of their
 !> Schur complement are all that alpha needs: with X = L^-1 C, alpha = X^T X. Otherwise each point costs a solve.
 module fuge_condensed_influence
   use fuge_body_type, only: fuge_body

@@ -62,7 +62,7 @@ contains
     if (.not. residual <= huge(residual)) residual = huge(residual)
   end subroutine certify_round
 
-  !> The profile above its axis at `r`, by the inverse transform of g: approach less displacement.
+  !> The profile above its axis at `r`, by the inverse transform of chi: approach less displacement.
   pure function recovered_heights(transform, r) result(height)
     type(abel_transform), intent(in) :: transform
     real(dp), intent(in) :: r(:)

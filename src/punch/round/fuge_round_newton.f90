@@ -1,7 +1,7 @@
 !> The radius of a round contact under a given load or approach: Newton's method between two bounds.
 !>
 !> Logarithms are compared, so that a power of the radius takes one step. The derivatives are exact: with the radius a,
-!> d load = 2 E* a g'(a) da and d approach = g'(a) da.
+!> d load = 2 E* a chi'(a) da and d approach = chi'(a) da.
 module fuge_round_newton
   use fuge_abel_transform, only: abel_transform, expand_transform
   use fuge_kinds, only: dp

@@ -1,9 +1,9 @@
 !> Signs of a round contact: pressure in it and gaps beside it are not negative.
 !>
 !> The answer of the contact problem is unique, so a disc that meets both conditions is the answer, however it
-!> was found. Where g' is not negative the pressure cannot be; otherwise the pressure over its root is expanded in
+!> was found. Where chi' is not negative the pressure cannot be; otherwise the pressure over its root is expanded in
 !> Chebyshev series on panels, which are halved until they decide. Beside the contact, r = cosh(xi) times
-!> the radius, the gap is examined by `fuge_smooth_exterior`, unless (r f')' is nowhere negative: then no gap can be.
+!> the radius, the gap is examined by `fuge_smooth_exterior`, unless (r g')' is nowhere negative: then no gap can be.
 module fuge_round_signs
   use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points
   use fuge_abel_transform, only: abel_transform, expand_transform
@@ -80,7 +80,7 @@ contains
     violation%undecided = max(violation%undecided, exterior%undecided)
   end subroutine check_signs
 
-  !> Is g' nowhere negative in the contact?
+  !> Is chi' nowhere negative in the contact?
   pure function slopes_are_positive(transform) result(positive)
     type(abel_transform), intent(in) :: transform
     logical :: positive
@@ -92,7 +92,7 @@ contains
     positive = least >= -RESOLUTION*transform%thrust()
   end function slopes_are_positive
 
-  !> Is (r f')' known to be nowhere negative on the whole profile? Then g grows everywhere.
+  !> Is (r g')' known to be nowhere negative on the whole profile? Then chi grows everywhere.
   subroutine rises_everywhere(profile, transform, rises, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(abel_transform), intent(in) :: transform
@@ -122,7 +122,7 @@ contains
     rises = least >= -allowed .and. 4.0_dp*epsilon(allowed)*real(n, dp)*maxval(abs(q)) <= allowed
   end subroutine rises_everywhere
 
-  !> Coefficients of ((1 + x) sum_k a_k T_k)', the derivative of r f'.
+  !> Coefficients of ((1 + x) sum_k a_k T_k)', the derivative of r g'.
   pure function derivative_of_product(a) result(derivative)
     real(dp), intent(in) :: a(0:)
     real(dp) :: derivative(0:size(a) - 1)

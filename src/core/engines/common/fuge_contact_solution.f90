@@ -46,7 +46,7 @@ contains
     solution%state = FUGE_OPEN
   end subroutine allocate_solution
 
-  !> Move an array of the right `length` to another place.
+  !> Move the array `spare` to `values` if it has the right `length`.
   pure subroutine take_over(spare, length, values)
     real(dp), allocatable, intent(inout) :: spare(:), values(:)
     integer, intent(in) :: length

@@ -10,11 +10,11 @@ module fuge_shared_equilibrium
 
   public :: find_shared_equilibrium, move_to_edge
 
-  !> A load may miss the edge of what the contact can carry by so many units in its last place.
+  !> A load may miss the edge of what the contact can carry by this many units in its last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
   !> A force below this fraction of the largest may be due to such rounding.
   real(dp), parameter :: NO_FORCE = 1.0e-10_dp
-  !> Points that are offered, at most: some for each mode, and some more.
+  !> At most OFFERS_PER_MODE points are offered for each mode, and MORE_OFFERS in addition.
   integer, parameter :: OFFERS_PER_MODE = 20, MORE_OFFERS = 200
 
   !> The points that have been offered, with their rows of the modes, (m, :), on all ranks.
@@ -28,7 +28,7 @@ module fuge_shared_equilibrium
 
 contains
 
-  !> As find_equilibrium, with the arguments of the points of this rank; all `space` call it.
+  !> As find_equilibrium, with the arguments of the points of this rank; all ranks of `space` call it.
   subroutine find_shared_equilibrium(space, modes, resultant, pushes, pulls, force, remainder, rounding)
     type(point_space), intent(in) :: space
     real(dp), intent(in) :: modes(:, :), resultant(:), rounding(:)
@@ -56,7 +56,7 @@ contains
     allocate (offered%rows(size(resultant), most), offered%force(most), offered%pushes(most), offered%pulls(most), &
               offered%own(most))
     do iteration = 1, most
-      call judge(offered, resultant, rounding, remainder, terms, balanced)
+      call judge_balance(offered, resultant, rounding, remainder, terms, balanced)
       if (balanced) exit
       rest = rounding + epsilon(rest)*terms
       call offer(space, modes, remainder, rest, pushes, pulls, offered, found)
@@ -75,7 +75,7 @@ contains
   end subroutine find_shared_equilibrium
 
   !> Are the forces at the offered points in equilibrium? `terms` (m) sum their sizes in each resultant.
-  subroutine judge(offered, resultant, rounding, remainder, terms, balanced)
+  subroutine judge_balance(offered, resultant, rounding, remainder, terms, balanced)
     type(offered_points), intent(in) :: offered
     real(dp), intent(in) :: resultant(:), rounding(:), remainder(:)
     real(dp), intent(out) :: terms(:)
@@ -88,7 +88,7 @@ contains
     end do
     balanced = is_in_equilibrium(transpose(offered%rows(:, :offered%count)), resultant, rounding, &
                                  offered%force(:offered%count), remainder)
-  end subroutine judge
+  end subroutine judge_balance
 
   !> Offer the point of all ranks that closes most along the remainder, unless it has been offered; `found` if there is
   !> one.

@@ -20,7 +20,7 @@ module fuge_unresisted_motions
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
   !> A force below this fraction of the loads that it may carry is rounding.
   real(dp), parameter :: NO_FORCE = 1.0e-14_dp
-  !> A resultant in an unresisted motion below this fraction of its terms is none.
+  !> A resultant in an unresisted motion below this fraction of its terms counts as zero.
   real(dp), parameter :: NO_LOAD = 1.0e-10_dp
 
 contains
@@ -147,7 +147,7 @@ contains
     end do
   end subroutine pack_rows
 
-  !> The motion (m) less its part in the `basis` of the unresisted ones.
+  !> The motion (m) less its component in the `basis` of the unresisted ones.
   pure function without_unresisted(motion, basis) result(rest)
     real(dp), intent(in) :: motion(:), basis(:, :)
     real(dp) :: rest(size(motion))

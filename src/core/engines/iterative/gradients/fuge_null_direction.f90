@@ -15,11 +15,11 @@ module fuge_null_direction
 
   public :: find_softness, largest_energy, leave_null_direction, softness_so_far, stores_no_energy
 
-  !> So many units in the last place of the terms of an energy are none.
+  !> An energy below this many units in the last place of its terms counts as zero.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
-  !> Forces of a direction below this fraction of its largest one are what it has of others.
+  !> Forces of a direction below this fraction of its largest one come from other directions.
   real(dp), parameter :: NO_FORCE = 1.0e-4_dp
-  !> A step along the direction goes this fraction of the forces beyond the first zero.
+  !> A step along the direction goes beyond the first zero of a force by this fraction of the largest force.
   real(dp), parameter :: BEYOND = 1.0e-3_dp
 
 contains
@@ -140,7 +140,7 @@ contains
     if (energy <= (tolerance*length_of(scene, iterate) + iterate%rounding)*total_force(iterate)) return
     iterate%unbounded = .true.
     stays = .false.
-    ! On the way here they have grown.
+    ! The forces have grown on the way to this direction.
     if (allocated(iterate%start)) iterate%force = iterate%start
     least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
     step_length = huge(step_length)

@@ -1,4 +1,4 @@
-!> What conjugate gradients tell of the system that they solve.
+!> The extreme eigenvalue of a system, from the conjugate gradients that solve it.
 !>
 !> Their coefficients are the factors L D L^T of the matrix of Lanczos: its eigenvalues approach those of the
 !> preconditioned system (G. H. Golub, C. F. Van Loan, Matrix Computations, 4th edition, 2013, section 11.3).
@@ -9,7 +9,7 @@ module fuge_lanczos_values
   implicit none
   private
 
-  !> So many inverse iterations find the smallest value well enough for an estimate.
+  !> This many inverse iterations find the smallest value well enough for an estimate.
   integer, parameter :: INVERSE_ITERATIONS = 6
   !> A pivot below this fraction of the largest one may be rounding.
   real(dp), parameter :: SUSPECT = 1.0e-8_dp

@@ -1,6 +1,6 @@
 !> Gaps and forces carried between nested grids, as by fuge_grid_transfer, where ranks may share the rows.
 module fuge_shared_transfer
-  use fuge_grid_transfer, only: coarser_cells, open_cells, interpolate_columns, interpolate_rows, prolong, restrict
+  use fuge_grid_transfer, only: open_cells, interpolate_columns, interpolate_rows, prolong, restrict
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_shared_rows, only: rows_of, shared_rows
