@@ -19,7 +19,7 @@ module fuge_halfspace_influence
 
   public :: fuge_halfspace_matrix
 
-  !> Rectangles, and what their coefficients depend on.
+  !> Rectangles, and the data on which their coefficients depend.
   type :: rectangles
     real(dp), allocatable :: x(:), y(:), width_x(:), width_y(:)
     !> One side and the other one of x = 0 and of y = 0: 1 or 2 images.
@@ -111,8 +111,8 @@ contains
 
   !> The place 0, 1, .. of each cell in its line, if they are cells of one width side by side, up to rounding.
   !>
-  !> `mirror`: with two images, the mirror image of a cell in place 0 is that many places away from it; 0 with one
-  !> image; -1 if they are no such cells.
+  !> `mirror`: with two images, the distance of a cell in place 0 from its mirror image, in places; 0 with one image; -1
+  !> if they are no such cells.
   pure subroutine find_places(x, width, images, place, mirror)
     real(dp), intent(in) :: x(:), width(:)
     integer, intent(in) :: images

@@ -1,7 +1,7 @@
 !> Arrays that grow: lists whose length is known only at their end.
 !>
-!> The owner counts the entries in use; the array may be longer. Each call does nothing unless `stat` is zero, so several
-!> can follow each other. Without memory `stat` is not zero, and the array is as before.
+!> The owner counts the entries in use; the array may be longer. Each call does nothing unless `stat` is zero, so that
+!> several can follow each other. Without memory `stat` is not zero, and the array is as before.
 module fuge_growing_arrays
   use fuge_kinds, only: dp
   implicit none
@@ -21,8 +21,8 @@ module fuge_growing_arrays
     module procedure make_room_for_real_column
   end interface make_room
 
-  !> Change the length of an array, and keep the entries that fit. A matrix, which has to be allocated, keeps its rows and
-  !> changes the number of its columns.
+  !> Change the length of an array, and keep the entries that fit. A matrix, which has to be allocated, keeps its rows
+  !> and changes the number of its columns.
   interface resize
     module procedure resize_integers
     module procedure resize_reals

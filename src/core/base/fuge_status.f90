@@ -147,7 +147,8 @@ module fuge_status
     procedure :: failed
   end type fuge_info
 
-  !> Report FUGE_ERR_MEMORY unless `stat` of an allocation is 0.
+  !> Report FUGE_ERR_MEMORY unless `stat` of an allocation is 0. It is passed by value, so that the compiler knows that it
+  !> stays what it is.
   interface require_memory
     module procedure require_memory_for
     module procedure require_memory_for_count
@@ -176,7 +177,7 @@ contains
 
   !> `what` completes the message 'no memory for ..'.
   pure subroutine require_memory_for(stat, what, info)
-    integer, intent(in) :: stat
+    integer, value :: stat
     character(len=*), intent(in) :: what
     type(fuge_info), intent(inout) :: info
 
@@ -186,7 +187,8 @@ contains
   !> The same for a count of things: 'no memory for the gaps of 12 points' has what = 'the gaps of', unit = 'points'.
   !> The text is composed only where it is needed.
   pure subroutine require_memory_for_count(stat, what, count, unit, info)
-    integer, intent(in) :: stat, count
+    integer, value :: stat
+    integer, intent(in) :: count
     character(len=*), intent(in) :: what, unit
     type(fuge_info), intent(inout) :: info
 

@@ -175,7 +175,7 @@ contains
     derivative = chebyshev_derivative(g)
   end function transformed
 
-  !> The least power of two that is not below the degree of a series with so many terms.
+  !> The least power of two that is not below the degree of a series of `terms` terms.
   pure function degree_for(terms) result(n)
     integer, intent(in) :: terms
     integer :: n
@@ -186,18 +186,18 @@ contains
     end do
   end function degree_for
 
-  !> chi' without the edges at `part` (m), 0 to 1, times the radius; no unit.
-  pure function slopes(self, part) result(values)
+  !> chi' without the edges at the `fraction` (m), 0 to 1, of the radius; no unit.
+  pure function slopes(self, fraction) result(values)
     class(abel_transform), intent(in) :: self
-    real(dp), intent(in) :: part(:)
-    real(dp) :: values(size(part))
+    real(dp), intent(in) :: fraction(:)
+    real(dp) :: values(size(fraction))
     integer :: k
 
     values = 0.0_dp
-    if (size(self%coefficients) > 0) values = chebyshev_sum(self%coefficients, 2.0_dp*part - 1.0_dp)
+    if (size(self%coefficients) > 0) values = chebyshev_sum(self%coefficients, 2.0_dp*fraction - 1.0_dp)
     do k = 1, size(self%powers)
       if (self%powers(k) > 1.0_dp) then
-        values = values + self%factors(k)*part**(self%powers(k) - 1.0_dp)
+        values = values + self%factors(k)*fraction**(self%powers(k) - 1.0_dp)
       else
         values = values + self%factors(k)
       end if

@@ -138,7 +138,7 @@ contains
     type(abel_transform), intent(in) :: transform
     real(dp), intent(in) :: r, node(:), weight(:)
     real(dp) :: integral
-    real(dp) :: ratio, length, upper, lower, part(size(node))
+    real(dp) :: ratio, length, upper, lower, fraction(size(node))
     integer :: k
 
     integral = 0.0_dp
@@ -152,8 +152,8 @@ contains
     do while (upper > 0.0_dp)
       if (length - upper > LAST_PANEL .and. .not. size(transform%powers) > 0) exit
       lower = max(0.0_dp, upper - PANEL)
-      part = min(1.0_dp, ratio*cosh(lower + (upper - lower)*node))
-      integral = integral + (upper - lower)*dot_product(weight, transform%slopes(part))
+      fraction = min(1.0_dp, ratio*cosh(lower + (upper - lower)*node))
+      integral = integral + (upper - lower)*dot_product(weight, transform%slopes(fraction))
       upper = lower
     end do
     integral = integral + max(0.0_dp, upper)*transform%tip
@@ -212,17 +212,17 @@ contains
     type(abel_transform), intent(in) :: transform
     real(dp), intent(in) :: r, node(:), weight(:)
     real(dp) :: displacement
-    real(dp), dimension(size(node)) :: angle, part
+    real(dp), dimension(size(node)) :: angle, fraction
     real(dp) :: ratio, rim_angle
 
     ratio = r/transform%radius
     rim_angle = atan2(1.0_dp, sqrt(((r - transform%radius)/transform%radius)*(ratio + 1.0_dp)))
     angle = rim_angle*node
-    part = min(1.0_dp, ratio*sin(angle))
-    displacement = 2.0_dp/PI*r*rim_angle*dot_product(weight, transform%slopes(part)*angle*cos(angle))
+    fraction = min(1.0_dp, ratio*sin(angle))
+    displacement = 2.0_dp/PI*r*rim_angle*dot_product(weight, transform%slopes(fraction)*angle*cos(angle))
   end function displacement_integral
 
-  !> What the edges add to it; length.
+  !> The displacement that the edges add; length.
   pure function edges_displacement(transform, r) result(displacement)
     type(abel_transform), intent(in) :: transform
     real(dp), intent(in) :: r

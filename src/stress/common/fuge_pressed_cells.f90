@@ -30,7 +30,7 @@ module fuge_pressed_cells
     procedure :: least_depth
   end type pressed_cells
 
-  !> Below cells of uniform pressure the search begins at this part of a width.
+  !> The least depth of the search below a cell of uniform pressure, in widths of the cell.
   real(dp), parameter :: RESOLVED_DEPTH = 0.25_dp
 
 contains

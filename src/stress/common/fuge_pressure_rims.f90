@@ -18,13 +18,13 @@ module fuge_pressure_rims
   integer, parameter :: MOST_FITTED = 7, FITTED_WHOLE = 4, FITTED_AREA = 5, FITTED_PIECE = 7
   !> A shorter run of cells side by side has too few for any fit.
   integer, parameter :: SHORTEST_RUN = 2*(FITTED_WHOLE - 1)
-  !> On an area so many neighbouring rows have such a rim.
+  !> On an area at least this number of neighbouring rows has such a rim.
   integer, parameter :: ROWS = 3
-  !> The first cell over any other one, at least: 2.4 for K alone and the second cell. With 1.5 a square root with the
-  !> same K and L would end three cells beyond the rim.
+  !> The least ratio of the pressure of the first cell to that of any other one: 2.4 for K alone and the second cell.
+  !> With 1.5 a square root with the same K and L would end three cells beyond the rim.
   real(dp), parameter :: LEAST_DROP = 1.5_dp
-  !> The fit is good if its errors are below this part of the largest pressure in it, and if the first cell, where the
-  !> discrete forces differ from the means of the pressure by up to 16 %, is in this range of what it foretells.
+  !> The fit is good if its errors are below FIT_ERROR of the largest pressure in it, and if the first cell, where the
+  !> discrete forces differ from the means of the pressure by up to 16 %, is in this range of the value foretold.
   real(dp), parameter :: FIT_ERROR = 0.09_dp, FIRST_RANGE(2) = [0.65_dp, 1.4_dp]
   !> Relative tolerance for cells side by side.
   real(dp), parameter :: PLACE_TOLERANCE = 1.0e-3_dp

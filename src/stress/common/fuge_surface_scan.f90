@@ -20,14 +20,14 @@ module fuge_surface_scan
   integer, parameter :: PORTION = 2**12
   !> Places beside a cell, at most.
   integer, parameter :: NEIGHBOURS = 8
-  !> A place lies beside a cell if it is farther from it than this part of the cell's lesser width.
+  !> A place lies beside a cell if its distance from it exceeds this fraction of the lesser width of the cell.
   real(dp), parameter :: BESIDE = 0.499_dp
 
   !> A place of the surface, its value, -1 for none, and the length of the cell there. A search may go on from it if the
-  !> pressure is `smooth` there.
+  !> pressure is `continuous` there.
   type, public :: surface_place
     real(dp) :: place(3) = 0.0_dp, value = -1.0_dp, length = 0.0_dp
-    logical :: smooth = .false.
+    logical :: continuous = .false.
   end type surface_place
 
 contains
@@ -82,7 +82,7 @@ contains
     do k = 1, size(which)
       if (is_image(cells, cells%centre(:, which(k)))) cycle
       number = number + 1
-      places(number) = surface_place(smooth=cells%continuous, length=cells%size_of(which(k)))
+      places(number) = surface_place(continuous=cells%continuous, length=cells%size_of(which(k)))
       places(number)%place(:cells%axes) = cells%centre(:, which(k))
     end do
   end subroutine list_middles

@@ -135,12 +135,12 @@ contains
     class(cell_clusters), intent(inout) :: self
     real(dp), intent(in) :: centre(:), width(:), pressure(:)
     logical, intent(in) :: hats
-    real(dp) :: place(2*FULL, 2), weight(2*FULL, 2)
+    real(dp) :: node(2*FULL, 2), weight(2*FULL, 2)
     real(dp) :: points(max(2*FULL*LEAF_CELLS, 2*ORDER)), shares(max(2*FULL*LEAF_CELLS, 2*ORDER)), scaled_width
     integer :: child, j, k, n, number, rule
 
-    call cell_quadrature(hats, place(:2*SHORT, 1), weight(:2*SHORT, 1))
-    call cell_quadrature(hats, place(:, 2), weight(:, 2))
+    call cell_quadrature(hats, node(:2*SHORT, 1), weight(:2*SHORT, 1))
+    call cell_quadrature(hats, node(:, 2), weight(:, 2))
     do k = self%number, 1, -1
       n = 0
       if (self%child(k) == 0) then
@@ -149,7 +149,7 @@ contains
           rule = merge(1, 2, scaled_width < NARROW)
           number = merge(2*SHORT, 2*FULL, scaled_width < NARROW)
           points(n + 1:n + number) = (centre(j) - self%middle(k))/self%half_length(k) &
-                                     + scaled_width*place(:number, rule)
+                                     + scaled_width*node(:number, rule)
           shares(n + 1:n + number) = pressure(j)*width(j)*weight(:number, rule)
           n = n + number
         end do
@@ -166,21 +166,21 @@ contains
     end do
   end subroutine fill
 
-  !> Places, in widths from the centre, and weights of a quadrature over the pressure of a cell with a unit force.
-  pure subroutine cell_quadrature(hat, place, weight)
+  !> Nodes, in widths from the centre, and weights of a quadrature over the pressure of a cell with a unit force.
+  pure subroutine cell_quadrature(hat, node, weight)
     logical, intent(in) :: hat
-    real(dp), intent(out) :: place(:), weight(:)
+    real(dp), intent(out) :: node(:), weight(:)
     integer :: half
 
-    half = size(place)/2
-    call gauss_rule(place(half + 1:), weight(half + 1:))
+    half = size(node)/2
+    call gauss_rule(node(half + 1:), weight(half + 1:))
     if (hat) then
-      weight(half + 1:) = weight(half + 1:)*(1.0_dp - place(half + 1:))
+      weight(half + 1:) = weight(half + 1:)*(1.0_dp - node(half + 1:))
     else
       weight(half + 1:) = 0.5_dp*weight(half + 1:)
-      place(half + 1:) = 0.5_dp*place(half + 1:)
+      node(half + 1:) = 0.5_dp*node(half + 1:)
     end if
-    place(:half) = -place(half + 1:)
+    node(:half) = -node(half + 1:)
     weight(:half) = weight(half + 1:)
   end subroutine cell_quadrature
 

@@ -22,7 +22,7 @@ module fuge_halfplane_depths
   !> Kinds of kernels.
   logical, parameter :: EVEN(2) = .false., ODD(2) = [.true., .false.]
 
-  !> What all depths share.
+  !> Data that all depths share.
   type :: grid_work
     type(grid_waves) :: waves
     !> Distances of the cells from the first one and depth of the points, in units of the spacing.

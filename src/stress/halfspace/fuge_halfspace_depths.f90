@@ -32,7 +32,7 @@ module fuge_halfspace_depths
   logical, parameter :: STRESS_KINDS(2, 6) = reshape([EVEN, EVEN, EVEN, ODD_Y, ODD_X, ODD], [2, 6]), &
     DISPLACEMENT_KINDS(2, 3) = reshape([ODD_X, ODD_Y, EVEN], [2, 3])
 
-  !> What all depths share.
+  !> Data that all depths share.
   type :: grid_work
     type(halfspace_grid) :: grid
     real(dp) :: poisson = 0.0_dp
