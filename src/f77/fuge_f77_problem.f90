@@ -8,8 +8,7 @@ module fuge_f77_problem
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
   use fuge_solver_type, only: fuge_solver
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, &
-    FUGE_ERR_OPTION
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_MODES, FUGE_ERR_OPTION
   implicit none
   private
 
@@ -132,12 +131,10 @@ contains
     integer :: stat
 
     allocate (problem%prescribed(size(marks)), problem%motion(size(marks)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the prescribed motions')
-    else
-      problem%prescribed = marks /= 0
-      problem%motion = motion
-    end if
+    call require_memory(stat, 'the prescribed motions', info)
+    if (stat /= 0) return
+    problem%prescribed = marks /= 0
+    problem%motion = motion
   end subroutine prescribe_motions
 
   !> Solve for the matrix `alpha`, (n, n) or (lda, n), which is not copied. Errors as `set` of

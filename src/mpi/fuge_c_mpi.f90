@@ -1,9 +1,9 @@
 !> C bindings of the component for MPI; fuge_mpi_comm.c passes communicators on.
 module fuge_c_mpi
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_ptr, c_size_t
-  use fuge_c_operator, only: new_operator
-  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, operator_handle, report_to_c, require_path, &
-    require_pointer
+  use fuge_c_arrays, only: give
+  use fuge_c_operator, only: find_operator, new_operator, operator_handle
+  use fuge_c_types, only: from_c_string, report_to_c, require_path, require_pointer
   use fuge_kinds, only: dp
   use fuge_line_halfplane, only: fuge_mpi_halfplane_operator
   use fuge_operator_type, only: fuge_operator
@@ -37,7 +37,7 @@ contains
     if (.not. info%failed()) call surface%set(int(nx), int(ny), spacing_x, spacing_y, e_star, communicator, info, &
                                               int(element), int(boundary))
     call move_alloc(surface, operator)
-    if (.not. info%failed()) call new_operator(operator, destination, info)
+    call new_operator(operator, destination, info)
     status = report_to_c(info, message, length)
   end function c_operator_halfspace_mpi
 
@@ -60,7 +60,7 @@ contains
     call require_pointer(destination, 'op', info)
     if (.not. info%failed()) call line%set(int(n), spacing, e_star, communicator, info, int(element), int(boundary))
     call move_alloc(line, operator)
-    if (.not. info%failed()) call new_operator(operator, destination, info)
+    call new_operator(operator, destination, info)
     status = report_to_c(info, message, length)
   end function c_operator_halfplane_mpi
 
@@ -77,8 +77,8 @@ contains
     call require_pointer(rows, 'rows', info)
     if (.not. info%failed()) then
       range = surface%own_rows()
-      call copy_integers([range(1) - 1], first)
-      call copy_integers([range(2) - range(1) + 1], rows)
+      call give(range(1) - 1, first)
+      call give(range(2) - range(1) + 1, rows)
     end if
     status = report_to_c(info, message, length)
   end function c_operator_rows
@@ -95,7 +95,7 @@ contains
     call require_path(path, info)
     call require_pointer(values, 'values', info)
     if (.not. info%failed()) call fuge_mpi_read_rows(from_c_string(path), surface, rows, info)
-    if (.not. info%failed()) call copy_reals(rows, values)
+    if (.not. info%failed()) call give(rows, values)
     status = report_to_c(info, message, length)
   end function c_read_rows
 
@@ -125,9 +125,8 @@ contains
     type(operator_handle), pointer :: handle
 
     nullify (surface)
-    call require_pointer(operator, 'op', info)
+    call find_operator(operator, 'op', handle, info)
     if (info%failed()) return
-    call c_f_pointer(operator, handle)
     select type (found => handle%operator)
     class is (shared_operator)
       surface => found

@@ -1,6 +1,7 @@
 !> C bindings, sections "condensation" and "elastic bodies", of the sparse component.
 module fuge_c_sparse
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use fuge_c_arrays, only: find_array
   use fuge_c_bodies_contact, only: solve_bodies
   use fuge_c_body, only: new_body, stiffness_source
   use fuge_c_types, only: from_zero, report_to_c, require_columns, require_count, require_pointer
@@ -33,19 +34,17 @@ contains
     allocate (sparse)
     call require_count(degrees, 1, 'degrees', 'degrees of freedom', info)
     call require_columns(degrees, 'degrees', info)
-    call require_pointer(column, 'column', info)
+    if (.not. info%failed()) call find_array(degrees + 1_c_int, column, 'column', sparse%column, info)
     call require_pointer(row, 'row', info)
     call require_pointer(value, 'value', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(column, sparse%column, [degrees + 1])
+    if (.not. info%failed()) &
       call require_count(sparse%column(degrees + 1), 1, 'column('//text(int(degrees))//')', 'entries', info)
-    end if
     if (.not. info%failed()) then
       call c_f_pointer(row, sparse%row, [sparse%column(degrees + 1)])
       call c_f_pointer(value, sparse%value, [sparse%column(degrees + 1)])
-      call move_alloc(sparse, source)
-      call new_body(int(degrees), source, destination, info)
     end if
+    call move_alloc(sparse, source)
+    call new_body(int(degrees), source, destination, info)
     status = report_to_c(info, message, length)
   end function c_body_sparse
 

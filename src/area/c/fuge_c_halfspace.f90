@@ -51,7 +51,7 @@ contains
     if (.not. info%failed()) call surface%set(int(nx), int(ny), spacing_x, spacing_y, e_star, info, int(element), &
                                               int(boundary))
     call move_alloc(surface, operator)
-    if (.not. info%failed()) call new_operator(operator, destination, info)
+    call new_operator(operator, destination, info)
     status = report_to_c(info, message, length)
   end function c_operator_halfspace
 

@@ -1,7 +1,8 @@
 !> C bindings, section "Hertz": the elliptic contact in closed form.
 module fuge_c_hertz
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
-  use fuge_c_types, only: copy_reals, report_to_c
+  use fuge_c_arrays, only: give
+  use fuge_c_types, only: report_to_c
   use fuge_hertz_theory, only: fuge_hertz_contact, fuge_hertz_ellipse
   use fuge_status, only: fuge_info
   implicit none
@@ -21,10 +22,10 @@ contains
 
     call fuge_hertz_ellipse(radius_x, radius_y, e_star, load, contact, info)
     if (.not. info%failed()) then
-      call copy_reals([contact%semi_axis_x], semi_axis_x)
-      call copy_reals([contact%semi_axis_y], semi_axis_y)
-      call copy_reals([contact%approach], approach)
-      call copy_reals([contact%peak_pressure], peak_pressure)
+      call give(contact%semi_axis_x, semi_axis_x)
+      call give(contact%semi_axis_y, semi_axis_y)
+      call give(contact%approach, approach)
+      call give(contact%peak_pressure, peak_pressure)
     end if
     status = report_to_c(info, message, length)
   end function c_hertz_ellipse

@@ -1,8 +1,9 @@
 !> C bindings, section "rings": round bodies on the half-space with the dense engines.
 module fuge_c_rings
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array, give
   use fuge_c_operator, only: find_matrix
-  use fuge_c_types, only: copy_reals, report_to_c, require_count, require_pointer
+  use fuge_c_types, only: report_to_c, require_count, require_pointer
   use fuge_ring_influence, only: fuge_ring_displacement, fuge_ring_matrix
   use fuge_status, only: fuge_info, require_memory
   implicit none
@@ -21,11 +22,8 @@ contains
     type(fuge_info) :: info
 
     call find_matrix(n, alpha, lda, matrix, info)
-    call require_pointer(radius, 'radius', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(radius, radii, [int(n) + 1])
-      call fuge_ring_matrix(radii, e_star, int(element), matrix, info)
-    end if
+    if (.not. info%failed()) call find_array(n + 1_c_int, radius, 'radius', radii, info)
+    if (.not. info%failed()) call fuge_ring_matrix(radii, e_star, int(element), matrix, info)
     status = report_to_c(info, message, length)
   end function c_ring_matrix
 
@@ -44,21 +42,16 @@ contains
 
     call require_count(n, 1, 'n', 'rings', info)
     call require_count(number, 0, 'count', 'places', info)
-    call require_pointer(radius, 'radius', info)
-    call require_pointer(force, 'force', info)
-    call require_pointer(place, 'place', info)
+    if (.not. info%failed()) call find_array(n + 1_c_int, radius, 'radius', radii, info)
+    call find_array(n, force, 'force', forces, info)
+    call find_array(number, place, 'place', places, info)
     call require_pointer(displacement, 'displacement', info)
     if (.not. info%failed()) then
       allocate (found(number), stat=stat)
       call require_memory(stat, 'the displacements', info)
     end if
-    if (.not. info%failed()) then
-      call c_f_pointer(radius, radii, [int(n) + 1])
-      call c_f_pointer(force, forces, [n])
-      call c_f_pointer(place, places, [number])
-      call fuge_ring_displacement(radii, forces, e_star, places, found, info)
-    end if
-    if (.not. info%failed()) call copy_reals(found, displacement)
+    if (.not. info%failed()) call fuge_ring_displacement(radii, forces, e_star, places, found, info)
+    if (.not. info%failed()) call give(found, displacement)
     status = report_to_c(info, message, length)
   end function c_ring_displacement
 

@@ -1,7 +1,8 @@
 !> C bindings, section "two bodies": their elasticity.
 module fuge_c_bodies
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
-  use fuge_c_types, only: report_to_c, require_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
+  use fuge_c_types, only: report_to_c
   use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares
   use fuge_status, only: fuge_info
   implicit none
@@ -19,11 +20,8 @@ contains
     real(c_double), pointer :: value
     type(fuge_info) :: info
 
-    call require_pointer(modulus, 'modulus', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(modulus, value)
-      call fuge_plane_modulus(young, poisson, int(plane_state), value, info)
-    end if
+    call find_array(modulus, 'modulus', value, info)
+    if (.not. info%failed()) call fuge_plane_modulus(young, poisson, int(plane_state), value, info)
     status = report_to_c(info, message, length)
   end function c_plane_modulus
 
@@ -36,11 +34,8 @@ contains
     real(c_double), pointer :: value
     type(fuge_info) :: info
 
-    call require_pointer(e_star, 'e_star', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(e_star, value)
-      call fuge_combined_modulus(e1, e2, value, info)
-    end if
+    call find_array(e_star, 'e_star', value, info)
+    if (.not. info%failed()) call fuge_combined_modulus(e1, e2, value, info)
     status = report_to_c(info, message, length)
   end function c_combined_modulus
 
@@ -53,13 +48,9 @@ contains
     real(c_double), pointer :: first, second
     type(fuge_info) :: info
 
-    call require_pointer(share1, 'share1', info)
-    call require_pointer(share2, 'share2', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(share1, first)
-      call c_f_pointer(share2, second)
-      call fuge_displacement_shares(e1, e2, first, second, info)
-    end if
+    call find_array(share1, 'share1', first, info)
+    call find_array(share2, 'share2', second, info)
+    if (.not. info%failed()) call fuge_displacement_shares(e1, e2, first, second, info)
     status = report_to_c(info, message, length)
   end function c_displacement_shares
 

@@ -2,10 +2,11 @@
 !> operator beside its products, a grid above all, is set by `fuge_c_callback_grid`.
 module fuge_c_callback
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_funptr, c_size_t, c_f_pointer, &
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_funptr, c_size_t, &
     c_f_procpointer
-  use fuge_c_operator, only: new_operator
-  use fuge_c_types, only: operator_handle, report_to_c, require_count, require_pointer
+  use fuge_c_arrays, only: find_array
+  use fuge_c_operator, only: find_operator, new_operator, operator_handle
+  use fuge_c_types, only: report_to_c, require_count, require_pointer
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
@@ -114,9 +115,8 @@ contains
     integer :: stat
 
     call find_callback(operator, 'a preconditioner', callback, info)
-    call require_pointer(diagonal, 'diagonal', info)
+    if (.not. info%failed()) call find_array(callback%n, diagonal, 'diagonal', values, info)
     if (.not. info%failed()) then
-      call c_f_pointer(diagonal, values, [callback%n])
       allocate (copy, source=values, stat=stat)
       call require_memory(stat, 'a copy of the diagonal', info)
     end if
@@ -153,9 +153,8 @@ contains
     type(operator_handle), pointer :: handle
 
     nullify (callback)
-    call require_pointer(operator, 'op', info)
+    call find_operator(operator, 'op', handle, info)
     if (info%failed()) return
-    call c_f_pointer(operator, handle)
     select type (known => handle%operator)
     type is (callback_operator)
       callback => known

@@ -3,9 +3,10 @@
 !> show.
 module fuge_c_callback_grid
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
   use fuge_c_callback, only: callback_operator, find_callback
-  use fuge_c_types, only: operator_handle, report_to_c, require_count, require_pointer
+  use fuge_c_operator, only: find_operator, operator_handle
+  use fuge_c_types, only: report_to_c, require_count
   use fuge_grid_operator_type, only: grid_operator
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
@@ -58,12 +59,9 @@ contains
     type(fuge_info) :: info
 
     call find_callback(operator, 'a coarser one', callback, info)
-    call require_pointer(coarse, 'coarse', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(coarse, handle)
-      call check_coarser(callback%cells, handle%operator%grid(), info)
-      if (.not. info%failed()) callback%coarser => handle
-    end if
+    call find_operator(coarse, 'coarse', handle, info)
+    if (.not. info%failed()) call check_coarser(callback%cells, handle%operator%grid(), info)
+    if (.not. info%failed()) callback%coarser => handle
     status = report_to_c(info, message, length)
   end function c_set_coarser
 
@@ -106,13 +104,9 @@ contains
     type(operator_handle), pointer :: handle
     type(fuge_info) :: info
 
-    nullify (handle)
     call find_callback(operator, 'an auxiliary one', callback, info)
-    call require_pointer(auxiliary, 'auxiliary', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(auxiliary, handle)
-      call check_auxiliary(callback, handle, info)
-    end if
+    call find_operator(auxiliary, 'auxiliary', handle, info)
+    if (.not. info%failed()) call check_auxiliary(callback, handle, info)
     if (.not. info%failed()) then
       callback%cells = handle%operator%grid()
       callback%auxiliary => handle

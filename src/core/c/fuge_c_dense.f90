@@ -1,8 +1,9 @@
 !> C bindings, section "one call".
 module fuge_c_dense
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array, give
   use fuge_c_operator, only: find_matrix
-  use fuge_c_types, only: copy_reals, report_to_c, require_pointer
+  use fuge_c_types, only: report_to_c, require_pointer
   use fuge_solver_type, only: fuge_solve_dense
   use fuge_status, only: fuge_info, require_memory
   implicit none
@@ -25,12 +26,11 @@ contains
     integer :: stat
 
     call find_matrix(n, alpha, lda, matrix, info)
-    call require_pointer(gap, 'gap', info)
+    call find_array(n, gap, 'gap', initial, info)
     call require_pointer(force, 'force', info)
     call require_pointer(gap_out, 'gap_out', info)
     call require_pointer(approach, 'approach', info)
     if (.not. info%failed()) then
-      call c_f_pointer(gap, initial, [n])
       ! Arrays of the caller may overlap.
       allocate (f(n), c(n), stat=stat)
       call require_memory(stat, 'the forces and gaps', info)
@@ -38,9 +38,9 @@ contains
     if (.not. info%failed()) call fuge_solve_dense(matrix, initial, load, f, c, v, info)
     status = report_to_c(info, message, length)
     if (info%failed()) return
-    call copy_reals(f, force)
-    call copy_reals(c, gap_out)
-    call copy_reals([v], approach)
+    call give(f, force)
+    call give(c, gap_out)
+    call give(v, approach)
   end function c_solve_dense
 
 end module fuge_c_dense

@@ -1,7 +1,8 @@
 !> C bindings, section "edges of contact".
 module fuge_c_edges
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
-  use fuge_c_types, only: copy_integers, copy_reals, report_to_c, require_count, require_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array, give
+  use fuge_c_types, only: report_to_c, require_count, require_pointer
   use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval
   use fuge_status, only: fuge_info
   implicit none
@@ -9,7 +10,7 @@ module fuge_c_edges
 
 contains
 
-  !> Sixteen arguments, as in the header: cells and forces, an array for each part of an interval, the message.
+  !> Sixteen arguments, as in the header: cells and forces, an array for each component of an interval, the message.
   function c_contact_edges(n, x, width, force, element, symmetric, capacity, left, right, left_error, right_error, &
                            left_kind, right_kind, number, message, length) &
     bind(c, name='fuge_contact_edges') result(status)
@@ -25,26 +26,22 @@ contains
 
     call require_count(n, 1, 'n', 'cells', info)
     call require_count(capacity, 0, 'capacity', 'elements of each array', info)
-    call require_pointer(x, 'x', info)
-    call require_pointer(width, 'width', info)
-    call require_pointer(force, 'force', info)
+    call find_array(n, x, 'x', centre, info)
+    call find_array(n, width, 'width', breadth, info)
+    call find_array(n, force, 'force', forces, info)
     call require_pointer(number, 'count', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(x, centre, [n])
-      call c_f_pointer(width, breadth, [n])
-      call c_f_pointer(force, forces, [n])
+    if (.not. info%failed()) &
       call fuge_contact_edges(centre, breadth, forces, int(element), intervals, info, symmetric /= 0)
-    end if
     status = report_to_c(info, message, length)
     if (info%failed()) return
     count = min(size(intervals), int(capacity))
-    call copy_reals(intervals(:count)%left, left)
-    call copy_reals(intervals(:count)%right, right)
-    call copy_reals(intervals(:count)%left_error, left_error)
-    call copy_reals(intervals(:count)%right_error, right_error)
-    call copy_integers(intervals(:count)%left_kind, left_kind)
-    call copy_integers(intervals(:count)%right_kind, right_kind)
-    call copy_integers([size(intervals)], number)
+    call give(intervals(:count)%left, left)
+    call give(intervals(:count)%right, right)
+    call give(intervals(:count)%left_error, left_error)
+    call give(intervals(:count)%right_error, right_error)
+    call give(intervals(:count)%left_kind, left_kind)
+    call give(intervals(:count)%right_kind, right_kind)
+    call give(size(intervals), number)
   end function c_contact_edges
 
 end module fuge_c_edges

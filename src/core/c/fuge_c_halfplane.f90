@@ -1,8 +1,9 @@
 !> C bindings, section "half-plane": analytic influence matrices, and cells for them.
 module fuge_c_halfplane
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
   use fuge_c_operator, only: find_matrix
-  use fuge_c_types, only: report_to_c, require_pointer
+  use fuge_c_types, only: report_to_c
   use fuge_cell_grading, only: fuge_graded_cells
   use fuge_halfplane_influence, only: fuge_halfplane_matrix
   use fuge_number_text, only: text
@@ -24,13 +25,10 @@ contains
     type(fuge_info) :: info
 
     call find_matrix(n, alpha, lda, matrix, info)
-    call require_pointer(x, 'x', info)
-    call require_pointer(width, 'width', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(x, centre, [n])
-      call c_f_pointer(width, breadth, [n])
+    call find_array(n, x, 'x', centre, info)
+    call find_array(n, width, 'width', breadth, info)
+    if (.not. info%failed()) &
       call fuge_halfplane_matrix(centre, breadth, e_star, int(element), matrix, info, symmetric /= 0)
-    end if
     status = report_to_c(info, message, length)
   end function c_halfplane_matrix
 
@@ -46,14 +44,10 @@ contains
     real(c_double), pointer :: centre(:), breadth(:)
 
     if (n < 1) call report(info, FUGE_ERR_SIZE, 'n = '//text(int(n))//': at least one cell is needed')
-    call require_pointer(x, 'x', info)
-    call require_pointer(width, 'width', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(x, centre, [n])
-      call c_f_pointer(width, breadth, [n])
-      call fuge_graded_cells(left, right, int([left_end, right_end]), int([left_beyond, right_beyond]), centre, &
-                             breadth, info)
-    end if
+    call find_array(n, x, 'x', centre, info)
+    call find_array(n, width, 'width', breadth, info)
+    if (.not. info%failed()) call fuge_graded_cells(left, right, int([left_end, right_end]), &
+                                                    int([left_beyond, right_beyond]), centre, breadth, info)
     status = report_to_c(info, message, length)
   end function c_graded_cells
 

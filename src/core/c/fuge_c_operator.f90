@@ -2,7 +2,7 @@
 module fuge_c_operator
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_loc, c_associated, c_f_pointer
   use fuge_c_arrays, only: find_array
-  use fuge_c_types, only: operator_handle, report_to_c, require_count, require_pointer, set_handle, take_handle
+  use fuge_c_types, only: report_to_c, require_count, require_pointer, set_handle, take_handle
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_grid_operator_type, only: grid_operator
   use fuge_halfplane_fft, only: fuge_halfplane_operator
@@ -17,7 +17,12 @@ module fuge_c_operator
   implicit none
   private
 
-  public :: find_matrix, new_operator
+  public :: find_matrix, find_operator, new_operator
+
+  !> Behind struct fuge_operator.
+  type, public :: operator_handle
+    class(fuge_operator), allocatable :: operator
+  end type operator_handle
 
 contains
 
@@ -37,7 +42,7 @@ contains
     call require_pointer(destination, 'op', info)
     if (.not. info%failed()) call dense%set(matrix, info)
     call move_alloc(dense, operator)
-    if (.not. info%failed()) call new_operator(operator, destination, info)
+    call new_operator(operator, destination, info)
     status = report_to_c(info, message, length)
   end function c_operator_dense
 
@@ -56,7 +61,7 @@ contains
     call require_pointer(destination, 'op', info)
     if (.not. info%failed()) call surface%set(int(n), spacing, e_star, info, int(element), int(boundary))
     call move_alloc(surface, operator)
-    if (.not. info%failed()) call new_operator(operator, destination, info)
+    call new_operator(operator, destination, info)
     status = report_to_c(info, message, length)
   end function c_operator_halfplane
 
@@ -69,9 +74,8 @@ contains
     type(operator_handle), pointer :: handle
     type(fuge_info) :: info
 
-    call require_pointer(operator, 'op', info)
+    call find_operator(operator, 'op', handle, info)
     if (.not. info%failed()) then
-      call c_f_pointer(operator, handle)
       select type (surface => handle%operator)
       class is (grid_operator)
         call surface%set_threads(int(threads), info)
@@ -96,10 +100,8 @@ contains
     type(point_space) :: space
     type(fuge_info) :: info
 
-    nullify (handle)
-    call require_pointer(operator, 'op', info)
+    call find_operator(operator, 'op', handle, info)
     if (.not. info%failed()) then
-      call c_f_pointer(operator, handle)
       if (n /= handle%operator%points()) call report(info, FUGE_ERR_SIZE, 'n = '//text(int(n))//', but op has ' &
                                                      //text(handle%operator%points())//' points')
     end if
@@ -167,7 +169,7 @@ contains
     end select
   end function is_of_library
 
-  !> Put `operator` behind a handle at `destination`; FUGE_ERR_MEMORY.
+  !> Put `operator` behind a handle at `destination`, unless an error is known already; FUGE_ERR_MEMORY.
   subroutine new_operator(operator, destination, info)
     class(fuge_operator), allocatable, intent(inout) :: operator
     type(c_ptr), intent(in) :: destination
@@ -175,6 +177,7 @@ contains
     type(operator_handle), pointer :: handle
     integer :: stat
 
+    if (info%failed()) return
     allocate (handle, stat=stat)
     call require_memory(stat, 'the operator', info)
     if (stat /= 0) return
@@ -183,6 +186,18 @@ contains
     call set_handle(c_loc(handle), destination)
   end subroutine new_operator
 
+  !> The operator behind a handle, the argument `name`; unless an error is known already, NULL is one.
+  subroutine find_operator(address, name, handle, info)
+    type(c_ptr), intent(in) :: address
+    character(len=*), intent(in) :: name
+    type(operator_handle), pointer, intent(out) :: handle
+    type(fuge_info), intent(inout) :: info
+
+    nullify (handle)
+    call require_pointer(address, name, info)
+    if (.not. info%failed()) call c_f_pointer(address, handle)
+  end subroutine find_operator
+
   !> The matrix at `alpha`, all lda rows of its n columns; FUGE_ERR_SIZE, FUGE_ERR_POINTER.
   subroutine find_matrix(n, alpha, lda, matrix, info)
     integer(c_int), intent(in) :: n, lda
@@ -190,12 +205,10 @@ contains
     real(c_double), pointer, intent(out) :: matrix(:, :)
     type(fuge_info), intent(inout) :: info
 
-    nullify (matrix)
     call require_count(n, 1, 'n', 'contact points', info)
     if (.not. info%failed() .and. lda < n) call report(info, FUGE_ERR_SIZE, 'lda = '//text(int(lda)) &
       //' is less than n = '//text(int(n))//': it is the distance between columns, in doubles')
-    call require_pointer(alpha, 'alpha', info)
-    if (.not. info%failed()) call c_f_pointer(alpha, matrix, [lda, n])
+    call find_array(int(lda), n, alpha, 'alpha', matrix, info)
   end subroutine find_matrix
 
   subroutine c_operator_free(source) bind(c, name='fuge_operator_free')

@@ -1,18 +1,19 @@
 !> C bindings, section "problem": the data of a solve beside the operator.
 !>
 !> Each setter checks what it gets, so that the call with the error says so and changes nothing.
-!> `solve` checks all parts again, because a Fortran caller fills them without setters; beside a
+!> `solve` checks everything again, because a Fortran caller fills the problem without setters; compared with a
 !> solve that costs nothing.
 module fuge_c_problem
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_associated, c_f_pointer
-  use fuge_c_solver, only: find_solver, report_to_solver
-  use fuge_c_types, only: solver_handle, copy_integers, require_count, require_pointer
+  use fuge_c_arrays, only: give
+  use fuge_c_solver, only: find_solver, solver_handle
+  use fuge_c_types, only: report_failure, report_to_handle, require_count, require_pointer
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: check_load, check_play
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MODES, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -37,7 +38,7 @@ contains
       call move_alloc(play, handle%problem%gap_upper)
       handle%solved = .false.
     end if
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_set_gap
 
   function c_set_excluded(solver, excluded) bind(c, name='fuge_set_excluded') result(status)
@@ -53,17 +54,14 @@ contains
     if (.not. info%failed() .and. c_associated(excluded)) then
       call c_f_pointer(excluded, flags, [points_of(handle)])
       allocate (copy(size(flags)), stat=stat)
-      if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of excluded')
-      else
-        copy = flags /= 0
-      end if
+      call require_memory(stat, 'a copy of excluded', info)
+      if (stat == 0) copy = flags /= 0
     end if
     if (.not. info%failed()) then
       call move_alloc(copy, handle%problem%excluded)
       handle%solved = .false.
     end if
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_set_excluded
 
   !> One free translation.
@@ -82,7 +80,7 @@ contains
       call reset_motions(handle)
       call move_alloc(resultant, handle%problem%resultant)
     end if
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_set_load
 
   function c_set_approach(solver, approach) bind(c, name='fuge_set_approach') result(status)
@@ -108,7 +106,7 @@ contains
       call move_alloc(motion, handle%problem%motion)
       call move_alloc(prescribed, handle%problem%prescribed)
     end if
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_set_approach
 
   function c_set_modes(solver, m, modes, resultant) bind(c, name='fuge_set_modes') result(status)
@@ -129,7 +127,7 @@ contains
       call move_alloc(r, handle%problem%modes)
       call move_alloc(w, handle%problem%resultant)
     end if
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_set_modes
 
   !> Prescribe one motion.
@@ -149,7 +147,7 @@ contains
       handle%problem%motion(mode + 1) = motion
       handle%solved = .false.
     end if
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_set_motion
 
   !> Let one motion be free, under its resultant.
@@ -175,7 +173,7 @@ contains
       call free_mode(handle, mode + 1)
       handle%solved = .false.
     end if
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_set_resultant
 
   function c_get_mode_count(solver, destination) bind(c, name='fuge_get_mode_count') result(status)
@@ -186,12 +184,8 @@ contains
 
     call find_solver(solver, handle, info)
     call require_pointer(destination, 'm', info)
-    if (info%failed()) then
-      status = report_to_solver(info, handle)
-    else
-      call copy_integers([handle%problem%mode_count()], destination)
-      status = FUGE_DONE
-    end if
+    if (.not. info%failed()) call give(handle%problem%mode_count(), destination)
+    status = report_failure(info, handle)
   end function c_get_mode_count
 
   pure function points_of(handle) result(n)
@@ -294,11 +288,8 @@ contains
     integer :: stat
 
     allocate (array(1), stat=stat)
-    if (stat == 0) then
-      array = value
-    else
-      call report(info, FUGE_ERR_MEMORY, 'no memory for one number')
-    end if
+    call require_memory(stat, 'one number', info)
+    if (stat == 0) array = value
   end subroutine array_of_one
 
   !> A copy of an array of C; NULL is refused unless it has no elements.
@@ -314,7 +305,7 @@ contains
     if (length > 0) call require_pointer(source, name, info)
     if (info%failed()) return
     allocate (copy(length), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of '//name)
+    call require_memory(stat, 'a copy of '//name, info)
     if (stat /= 0 .or. length < 1) return
     call c_f_pointer(source, values, [length])
     copy = values

@@ -4,13 +4,15 @@
 !> the solve, which may be a warning.
 module fuge_c_results
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
-  use fuge_c_solver, only: find_solver, report_to_solver
-  use fuge_c_types, only: c_info, solver_handle, to_c, copy_integers, copy_reals, copy_string, require_pointer
+  use fuge_c_arrays, only: give
+  use fuge_c_solver, only: find_solver, solver_handle
+  use fuge_c_types, only: give_info, give_message, report_failure, require_pointer
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_kinds, only: dp
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, &
+    FUGE_ERR_SIZE
   implicit none
   private
 
@@ -22,7 +24,7 @@ contains
     type(solver_handle), pointer :: handle
 
     status = find_solution(solver, force, 'force', handle)
-    if (status == FUGE_DONE) call copy_reals(handle%solution%force, force)
+    if (status == FUGE_DONE) call give(handle%solution%force, force)
   end function c_get_force
 
   function c_get_gap(solver, gap) bind(c, name='fuge_get_gap') result(status)
@@ -31,7 +33,7 @@ contains
     type(solver_handle), pointer :: handle
 
     status = find_solution(solver, gap, 'gap', handle)
-    if (status == FUGE_DONE) call copy_reals(handle%solution%gap, gap)
+    if (status == FUGE_DONE) call give(handle%solution%gap, gap)
   end function c_get_gap
 
   function c_get_motion(solver, motion) bind(c, name='fuge_get_motion') result(status)
@@ -40,7 +42,7 @@ contains
     type(solver_handle), pointer :: handle
 
     status = find_solution(solver, motion, 'motion', handle)
-    if (status == FUGE_DONE) call copy_reals(handle%solution%motion, motion)
+    if (status == FUGE_DONE) call give(handle%solution%motion, motion)
   end function c_get_motion
 
   !> Resultants of the contact forces found in all motions: equal to the loads up to
@@ -65,7 +67,7 @@ contains
       end if
     end associate
     call space%add(sums)
-    call copy_reals(sums, resultant)
+    call give(sums, resultant)
   end function c_get_resultant
 
   !> First-order changes of the last solution with the gaps and one load, see `derivative` of `fuge_solver`.
@@ -113,9 +115,8 @@ contains
     integer :: stat
 
     allocate (direction(handle%operator%operator%points()), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the change of the gaps')
-    else
+    call require_memory(stat, 'the change of the gaps', info)
+    if (stat == 0) then
       direction = 0.0_c_double
       if (c_associated(gap_change)) then
         call c_f_pointer(gap_change, values, [size(direction)])
@@ -123,34 +124,24 @@ contains
       end if
       call handle%solver%derivative(handle%operator%operator, direction, load_change, change, info)
     end if
-    ! As of any getter, a success leaves the message as it is.
-    status = FUGE_DONE
-    if (info%failed()) then
-      status = report_to_solver(info, handle)
-      return
-    end if
-    call copy_reals(change%force, force)
-    call copy_reals(change%gap, gap)
-    call copy_reals(change%motion, motion)
+    status = report_failure(info, handle)
+    if (info%failed()) return
+    call give(change%force, force)
+    call give(change%gap, gap)
+    call give(change%motion, motion)
   end function differentiate
 
   function c_get_info(solver, destination) bind(c, name='fuge_get_info') result(status)
     type(c_ptr), intent(in), value :: solver, destination
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
-    type(c_info), pointer :: info_of_c
     type(fuge_info) :: info
 
     call find_solver(solver, handle, info)
     call require_pointer(destination, 'info', info)
     if (.not. info%failed()) call require_solve(handle, info)
-    if (info%failed()) then
-      status = report_to_solver(info, handle)
-    else
-      call c_f_pointer(destination, info_of_c)
-      info_of_c = to_c(handle%info)
-      status = FUGE_DONE
-    end if
+    if (.not. info%failed()) call give_info(handle%info, destination)
+    status = report_failure(info, handle)
   end function c_get_info
 
   function c_get_history(solver, first, number, basis, z, available) &
@@ -167,13 +158,10 @@ contains
     if (number > 0) call require_pointer(z, 'z', info)
     if (.not. info%failed()) call require_solve(handle, info)
     if (.not. info%failed()) call check_steps(handle%solver%history%recorded(), int(first), int(number), info)
-    if (info%failed()) then
-      status = report_to_solver(info, handle)
-    else
-      call copy_integers([handle%solver%history%recorded()], available)
-      if (number > 0) call copy_steps(handle, int(first), int(number), basis, z)
-      status = FUGE_DONE
-    end if
+    status = report_failure(info, handle)
+    if (info%failed()) return
+    call give(handle%solver%history%recorded(), available)
+    if (number > 0) call give_steps(handle, int(first), int(number), basis, z)
   end function c_get_history
 
   !> FUGE_ERR_SIZE unless `recorded` steps include the range.
@@ -196,7 +184,7 @@ contains
     if (.not. handle%tried) call report(info, FUGE_ERR_CALL_ORDER, 'there has been no solve: call fuge_solve first')
   end subroutine require_solve
 
-  subroutine copy_steps(handle, first, number, basis, z)
+  subroutine give_steps(handle, first, number, basis, z)
     type(solver_handle), intent(in) :: handle
     integer, intent(in) :: first, number
     type(c_ptr), intent(in) :: basis, z
@@ -212,7 +200,7 @@ contains
         sums(k) = history%z(first + k - 1)
       end do
     end associate
-  end subroutine copy_steps
+  end subroutine give_steps
 
   function c_solver_message(solver, buffer, length) bind(c, name='fuge_solver_message') result(status)
     type(c_ptr), intent(in), value :: solver, buffer
@@ -222,9 +210,7 @@ contains
     type(fuge_info) :: info
 
     call find_solver(solver, handle, info)
-    call require_pointer(buffer, 'message', info)
-    if (.not. info%failed()) call copy_string(handle%message, buffer, length)
-    status = int(info%status, c_int)
+    status = give_message(info, handle, buffer, length)
   end function c_solver_message
 
   !> The solver with a solution to copy to `destination`. Otherwise its message says why there is none
@@ -242,8 +228,7 @@ contains
       if (.not. handle%solved) call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution of the present problem: ' &
                                            //'call fuge_solve and look at its status')
     end if
-    status = FUGE_DONE
-    if (info%failed()) status = report_to_solver(info, handle)
+    status = report_failure(info, handle)
   end function find_solution
 
 end module fuge_c_results

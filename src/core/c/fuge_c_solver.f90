@@ -1,15 +1,35 @@
 !> C bindings, section "solver": life cycle, solve.
 module fuge_c_solver
   use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_funptr, c_loc, c_size_t, c_associated, c_f_pointer
-  use fuge_c_types, only: c_options, solver_handle, from_c, message_for_c, report_to_c, require_pointer, set_handle, &
+  use fuge_c_monitor, only: c_monitor
+  use fuge_c_operator, only: find_operator, operator_handle
+  use fuge_c_types, only: reporting_handle, options_at, report_to_c, report_to_handle, require_pointer, set_handle, &
     take_handle
   use fuge_options_type, only: fuge_options, check_options
   use fuge_point_space, only: point_space
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER
   implicit none
   private
 
-  public :: find_solver, report_to_solver, require_problem
+  public :: find_solver, require_problem
+
+  !> Behind struct fuge_solver.
+  type, extends(reporting_handle), public :: solver_handle
+    type(operator_handle), pointer :: operator => null()
+    type(fuge_options) :: options
+    type(fuge_problem) :: problem
+    type(fuge_solver) :: solver
+    type(fuge_solution) :: solution
+    type(c_monitor) :: monitor
+    !> Report of the last solve.
+    type(fuge_info) :: info
+    !> The solution belongs to the present problem.
+    logical :: solved = .false.
+    !> A solve has been tried, so that `info` means something.
+    logical :: tried = .false.
+  end type solver_handle
 
 contains
 
@@ -19,27 +39,25 @@ contains
     type(c_ptr), intent(in), value :: operator, options, destination, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(c_options), pointer :: options_of_c
-    type(fuge_options) :: options_of_solver
+    type(operator_handle), pointer :: handle
+    type(fuge_options) :: chosen
     type(fuge_info) :: info
 
-    call require_pointer(operator, 'op', info)
+    call find_operator(operator, 'op', handle, info)
     call require_pointer(destination, 's', info)
     if (.not. info%failed()) then
-      if (c_associated(options)) then
-        call c_f_pointer(options, options_of_c)
-        options_of_solver = from_c(options_of_c)
-      end if
-      call check_options(options_of_solver, info)
+      chosen = options_at(options)
+      call check_options(chosen, info)
     end if
-    if (.not. info%failed()) call new_solver(operator, options_of_solver, destination, info)
+    if (.not. info%failed()) call new_solver(handle, chosen, destination, info)
     status = report_to_c(info, message, length)
   end function c_solver_new
 
   !> Put a solver behind a handle at `destination`; FUGE_ERR_MEMORY.
   subroutine new_solver(operator, options, destination, info)
-    type(c_ptr), intent(in) :: operator, destination
+    type(operator_handle), pointer, intent(in) :: operator
     type(fuge_options), intent(in) :: options
+    type(c_ptr), intent(in) :: destination
     type(fuge_info), intent(inout) :: info
     type(solver_handle), pointer :: handle
     integer :: stat
@@ -48,7 +66,7 @@ contains
     call require_memory(stat, 'the solver', info)
     if (stat /= 0) return
     handle%options = options
-    call c_f_pointer(operator, handle%operator)
+    handle%operator => operator
     call set_handle(c_loc(handle), destination)
   end subroutine new_solver
 
@@ -72,7 +90,7 @@ contains
 
     call find_solver(solver, handle, info)
     if (.not. info%failed()) call handle%monitor%set(progress, user)
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_set_progress
 
   function c_solve(solver) bind(c, name='fuge_solve') result(status)
@@ -97,7 +115,7 @@ contains
       handle%info = info
       handle%tried = .true.
     end if
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_solve
 
   !> FUGE_ERR_CALL_ORDER unless gaps and motions are set.
@@ -127,7 +145,7 @@ contains
       handle%tried = .false.
       call handle%solver%reset()
     end if
-    status = report_to_solver(info, handle)
+    status = report_to_handle(info, handle)
   end function c_reset
 
   !> The solver behind a handle; FUGE_ERR_POINTER for NULL.
@@ -140,15 +158,5 @@ contains
     call require_pointer(solver, 's', info)
     if (.not. info%failed()) call c_f_pointer(solver, handle)
   end subroutine find_solver
-
-  !> Leave the message in the solver. The result is the status to return.
-  function report_to_solver(info, handle) result(status)
-    type(fuge_info), intent(in) :: info
-    type(solver_handle), pointer, intent(in) :: handle
-    integer(c_int) :: status
-
-    if (associated(handle)) handle%message = message_for_c(info)
-    status = int(info%status, c_int)
-  end function report_to_solver
 
 end module fuge_c_solver

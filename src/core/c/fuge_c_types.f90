@@ -1,21 +1,17 @@
-!> What all C bindings share: structs, handles, strings, arrays, and the messages.
+!> What all C bindings share: structs, handles, strings, and the messages.
 module fuge_c_types
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_funptr, c_null_char, c_null_ptr, c_ptr, c_size_t, &
     c_associated, c_f_pointer
-  use fuge_c_monitor, only: c_monitor
   use fuge_number_text, only: text
-  use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
-  use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_solver_type, only: fuge_solver
-  use fuge_status, only: fuge_info, message_counting_from, report, FUGE_ERR_FILE, FUGE_ERR_POINTER, &
-    FUGE_ERR_SIZE, FUGE_MESSAGE_LENGTH
+  use fuge_status, only: fuge_info, message_counting_from, report, FUGE_DONE, FUGE_ERR_FILE, &
+    FUGE_ERR_POINTER, FUGE_ERR_SIZE, FUGE_MESSAGE_LENGTH
   implicit none
   private
 
-  public :: from_c, to_c, copy_string, copy_reals, copy_integers, from_c_string, from_zero
-  public :: message_for_c, report_to_c, require_columns, require_count, require_path, require_pointer, set_handle, &
-    take_handle
+  public :: copy_string, from_c_string, from_zero, give_info, options_at
+  public :: give_message, report_failure, report_to_c, report_to_handle, set_handle, take_handle
+  public :: require_columns, require_count, require_path, require_pointer
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
@@ -26,35 +22,19 @@ module fuge_c_types
   end type c_options
 
   !> struct fuge_info.
-  type, bind(c), public :: c_info
+  type, bind(c) :: c_info
     integer(c_int) :: status, iterations, contacts, products, preconditionings
     integer(c_int) :: reserved_int(3)
     real(c_double) :: residual, force_error
     real(c_double) :: reserved(6)
   end type c_info
 
-  !> Behind struct fuge_operator.
-  type, public :: operator_handle
-    class(fuge_operator), allocatable :: operator
-  end type operator_handle
-
-  !> Behind struct fuge_solver.
-  type, public :: solver_handle
-    type(operator_handle), pointer :: operator => null()
-    type(fuge_options) :: options
-    type(fuge_problem) :: problem
-    type(fuge_solver) :: solver
-    type(fuge_solution) :: solution
-    type(c_monitor) :: monitor
-    !> Report of the last solve.
-    type(fuge_info) :: info
-    !> Message of the last call that set, solved or failed.
+  !> A handle of C that keeps a message. Handles are allocated and freed by their own types, because the address of a
+  !> polymorphic object has no meaning in C.
+  type, abstract, public :: reporting_handle
+    !> Message of the last call that set data, did the work, or failed.
     character(len=FUGE_MESSAGE_LENGTH) :: message = ''
-    !> The solution belongs to the present problem.
-    logical :: solved = .false.
-    !> A solve has been tried, so that `info` means something.
-    logical :: tried = .false.
-  end type solver_handle
+  end type reporting_handle
 
   !> Refuse NULL (FUGE_ERR_POINTER), unless an error is known already.
   interface require_pointer
@@ -72,31 +52,38 @@ module fuge_c_types
 
 contains
 
-  pure function from_c(source) result(options)
-    type(c_options), intent(in) :: source
+  !> The options in a struct of C, the defaults if there is none.
+  function options_at(address) result(options)
+    type(c_ptr), intent(in) :: address
     type(fuge_options) :: options
+    type(c_options), pointer :: source
 
+    if (.not. c_associated(address)) return
+    call c_f_pointer(address, source)
     options%method = int(source%method)
     options%pivot_rule = int(source%pivot_rule)
     options%max_iterations = int(source%max_iterations)
     options%keep_history = source%keep_history /= 0
     options%tolerance = source%tolerance
-  end function from_c
+  end function options_at
 
-  pure function to_c(source) result(info)
-    type(fuge_info), intent(in) :: source
-    type(c_info) :: info
+  !> Fill the struct of C behind `destination`, which is not NULL.
+  subroutine give_info(info, destination)
+    type(fuge_info), intent(in) :: info
+    type(c_ptr), intent(in) :: destination
+    type(c_info), pointer :: copy
 
-    info%status = int(source%status, c_int)
-    info%iterations = int(source%iterations, c_int)
-    info%contacts = int(source%contacts, c_int)
-    info%products = int(source%products, c_int)
-    info%preconditionings = int(source%preconditionings, c_int)
-    info%residual = source%residual
-    info%force_error = source%force_error
-    info%reserved_int = 0
-    info%reserved = 0.0_c_double
-  end function to_c
+    call c_f_pointer(destination, copy)
+    copy%status = int(info%status, c_int)
+    copy%iterations = int(info%iterations, c_int)
+    copy%contacts = int(info%contacts, c_int)
+    copy%products = int(info%products, c_int)
+    copy%preconditionings = int(info%preconditionings, c_int)
+    copy%residual = info%residual
+    copy%force_error = info%force_error
+    copy%reserved_int = 0
+    copy%reserved = 0.0_c_double
+  end subroutine give_info
 
   !> The message as C counts: indices from 0.
   pure function message_for_c(info) result(message)
@@ -116,6 +103,40 @@ contains
     call copy_string(message_for_c(info), buffer, length)
     status = int(info%status, c_int)
   end function report_to_c
+
+  !> Keep the message in the handle, unless that is a null pointer and so absent; the status to return.
+  function report_to_handle(info, handle) result(status)
+    type(fuge_info), intent(in) :: info
+    class(reporting_handle), intent(inout), optional :: handle
+    integer(c_int) :: status
+
+    if (present(handle)) handle%message = message_for_c(info)
+    status = int(info%status, c_int)
+  end function report_to_handle
+
+  !> As `report_to_handle` for a getter: one that succeeds leaves the message as it is, which may be a warning.
+  function report_failure(info, handle) result(status)
+    type(fuge_info), intent(in) :: info
+    class(reporting_handle), intent(inout), optional :: handle
+    integer(c_int) :: status
+
+    status = FUGE_DONE
+    if (info%failed()) status = report_to_handle(info, handle)
+  end function report_failure
+
+  !> Copy the message of a handle, absent after an error, to the buffer of a caller, which may not be NULL; the status
+  !> to return.
+  function give_message(info, handle, buffer, length) result(status)
+    type(fuge_info), intent(inout) :: info
+    class(reporting_handle), intent(in), optional :: handle
+    type(c_ptr), intent(in) :: buffer
+    integer(c_size_t), intent(in) :: length
+    integer(c_int) :: status
+
+    call require_pointer(buffer, 'message', info)
+    if (.not. info%failed()) call copy_string(handle%message, buffer, length)
+    status = int(info%status, c_int)
+  end function give_message
 
   pure subroutine require_address(address, name, info)
     type(c_ptr), intent(in) :: address
@@ -201,28 +222,6 @@ contains
     end do
     bytes(last + 1) = c_null_char
   end subroutine copy_string
-
-  !> Fill an array of C; NULL is left alone.
-  subroutine copy_reals(values, destination)
-    real(c_double), intent(in) :: values(:)
-    type(c_ptr), intent(in) :: destination
-    real(c_double), pointer :: array(:)
-
-    if (.not. c_associated(destination)) return
-    call c_f_pointer(destination, array, [size(values)])
-    array = values
-  end subroutine copy_reals
-
-  !> Copy to a C array of int; NULL is left alone.
-  subroutine copy_integers(values, destination)
-    integer, intent(in) :: values(:)
-    type(c_ptr), intent(in) :: destination
-    integer(c_int), pointer :: array(:)
-
-    if (.not. c_associated(destination)) return
-    call c_f_pointer(destination, array, [size(values)])
-    array = int(values, c_int)
-  end subroutine copy_integers
 
   !> Refuse NULL and a path that ends in a blank, which Fortran would take for another file.
   subroutine require_path(path, info)

@@ -15,15 +15,12 @@ module fuge_contact_engine
   type, abstract, public :: contact_engine
     !> The last problem, where the engine needs its canonical form.
     type(canonical_problem) :: canonical
-    !> The state that the engine keeps belongs to a solution that was accepted.
-    logical :: has_solution = .false.
   contains
     procedure(solve_problem), deferred :: solve
     procedure(judge_level), deferred :: judge
     procedure(is_doubtful), deferred :: was_misled
     procedure(forget), deferred :: distrust_start
     procedure(forget), deferred :: forget_start
-    procedure(forget), deferred :: forget_solution
     procedure(count_of_last), deferred :: last_points
     procedure(count_of_last), deferred :: last_modes
     procedure(differentiate), deferred :: derivative
@@ -64,7 +61,6 @@ module fuge_contact_engine
     end function is_doubtful
 
     !> `distrust_start`: what is kept has misled a solve. `forget_start`: the next solve starts from scratch.
-    !> `forget_solution`: it was not accepted, so derivatives must not use it.
     subroutine forget(self)
       import :: contact_engine
       class(contact_engine), intent(inout) :: self

@@ -47,7 +47,6 @@ module fuge_dense_engine
     procedure :: was_misled
     procedure :: distrust_start
     procedure :: forget_start
-    procedure :: forget_solution
     procedure :: last_points
     procedure :: last_modes
     procedure :: derivative
@@ -155,7 +154,6 @@ contains
     call move_alloc(reduced%force, solution%force)
     call move_alloc(reduced%gap, solution%gap)
     call move_alloc(reduced%state, self%state)
-    self%has_solution = .true.
   end subroutine solve_with_matrix
 
   !> The motions in the given modes, and the gaps of excluded points.
@@ -227,15 +225,9 @@ contains
   subroutine forget_start(self)
     class(dense_engine), intent(inout) :: self
 
+    self%factor = kkt_factor()
     if (allocated(self%state)) deallocate (self%state)
   end subroutine forget_start
-
-  subroutine forget_solution(self)
-    class(dense_engine), intent(inout) :: self
-
-    self%factor = kkt_factor()
-    self%has_solution = .false.
-  end subroutine forget_solution
 
   pure function last_points(self) result(number)
     class(dense_engine), intent(in) :: self

@@ -32,7 +32,6 @@ module fuge_product_engine
     procedure :: was_misled
     procedure :: distrust_start => forget_start
     procedure :: forget_start
-    procedure :: forget_solution
     procedure :: last_points
     procedure :: last_modes
     procedure :: derivative
@@ -77,7 +76,6 @@ contains
       call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, &
                               info)
     end if
-    if (.not. info%failed()) self%has_solution = .true.
   end subroutine solve
 
   !> As for `contact_engine`.
@@ -107,12 +105,6 @@ contains
 
     call self%steps%forget()
   end subroutine forget_start
-
-  subroutine forget_solution(self)
-    class(product_engine), intent(inout) :: self
-
-    self%has_solution = .false.
-  end subroutine forget_solution
 
   pure function last_points(self) result(number)
     class(product_engine), intent(in) :: self

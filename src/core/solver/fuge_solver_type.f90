@@ -33,6 +33,8 @@ module fuge_solver_type
     type(product_engine), private :: by_products
     !> The last solve was by the iteration.
     logical, private :: solved_by_products = .false.
+    !> The last solve was accepted, and had a load: only then are there derivatives.
+    logical, private :: has_solution = .false.
     !> The report of the last solution, for its derivatives.
     type(fuge_info), private :: last_report
   contains
@@ -74,8 +76,7 @@ contains
     if (present(options)) chosen = options
     if (present(monitor)) relay%listener => monitor
     self%history = fuge_history()
-    self%by_matrix%has_solution = .false.
-    self%by_products%has_solution = .false.
+    self%has_solution = .false.
     self%last_report = fuge_info()
     space = operator%ranks()
     call check_options(chosen, info)
@@ -102,10 +103,11 @@ contains
       end if
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
                                                          //text(relay%reported)//' by the progress monitor')
+      self%has_solution = .not. info%failed()
     end if
     if (info%failed()) then
-      call self%by_matrix%forget_solution()
-      call self%by_products%forget_solution()
+      ! A factor from which no accepted solution came is no start for the next solve.
+      call self%by_matrix%distrust_start()
     else
       self%last_report = info
       if (.not. self%solved_by_products) call self%by_matrix%take_arrays(solution)
@@ -129,7 +131,8 @@ contains
     end select
   end function takes_products
 
-  !> Solve, and once more if what the engine has kept of an earlier solve has misled it.
+  !> Solve, and once more if what the engine has kept of an earlier solve has misled it. What the other engine keeps
+  !> has no share in that, and stays.
   subroutine solve_again_if_misled(engine, operator, problem, options, monitor, history, solution, info)
     class(contact_engine), intent(inout) :: engine
     class(fuge_operator), intent(in) :: operator
@@ -175,9 +178,8 @@ contains
     class(fuge_solver), intent(inout) :: self
 
     self%history = fuge_history()
+    self%has_solution = .false.
     self%last_report = fuge_info()
-    call self%by_matrix%forget_solution()
-    call self%by_products%forget_solution()
     call self%by_matrix%forget_start()
     call self%by_products%forget_start()
   end subroutine reset
@@ -214,7 +216,9 @@ contains
     type(fuge_info), intent(out) :: info
 
     info = self%last_report
-    if (self%solved_by_products) then
+    if (.not. self%has_solution) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
+    else if (self%solved_by_products) then
       call differentiate(self%by_products, operator, gap_change, load_change, change, info)
     else
       call differentiate(self%by_matrix, operator, gap_change, load_change, change, info)
@@ -231,7 +235,7 @@ contains
     type(point_space) :: space
 
     space = operator%ranks()
-    call check_changes(engine, space, operator%points(), gap_change, load_change, info)
+    call check_changes(engine, operator%points(), gap_change, load_change, info)
     call space%agree(info)
     if (info%failed()) return
     if (differ(load_change, space)) then
@@ -242,19 +246,15 @@ contains
   end subroutine differentiate
 
   !> Refuse changes that fit no solution of n points.
-  subroutine check_changes(engine, space, n, gap_change, load_change, info)
+  pure subroutine check_changes(engine, n, gap_change, load_change, info)
     class(contact_engine), intent(in) :: engine
-    type(point_space), intent(in) :: space
     integer, intent(in) :: n
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_info), intent(inout) :: info
-    integer :: all_points, points
+    integer :: points
 
     points = engine%last_points()
-    all_points = space%total_count(points)
-    if (.not. engine%has_solution .or. all_points < 1) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
-    else if (size(gap_change) /= n .or. points /= n) then
+    if (size(gap_change) /= n .or. points /= n) then
       call report(info, FUGE_ERR_SIZE, 'gap_change has '//text(size(gap_change))//' value(s), the operator ' &
                   //text(n)//' points and the last solution '//text(points))
     else if (size(load_change) /= engine%last_modes()) then

@@ -2,26 +2,25 @@
 module fuge_c_body
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_loc, c_associated, c_f_pointer
   use fuge_body_type, only: fuge_body
-  use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_zero, message_for_c, report_to_c, &
-    require_count, &
-    require_pointer, set_handle, take_handle
+  use fuge_c_arrays, only: find_array, give
+  use fuge_c_types, only: reporting_handle, from_zero, give_message, report_failure, report_to_c, report_to_handle, &
+    require_count, require_pointer, set_handle, take_handle
   use fuge_condensation, only: fuge_condense, fuge_condensed
   use fuge_input_checks, only: check_finite, is_finite_everywhere
   use fuge_nodal_modes, only: fuge_rigid_modes
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MODES, &
-    FUGE_ERR_SIZE, FUGE_MESSAGE_LENGTH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_MODES, FUGE_ERR_SIZE
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
   implicit none
   private
 
-  public :: new_body
+  public :: copy_supports, new_body
 
-  !> Where a stiffness matrix of C lies. It is read by fuge_body_condense, when all is known that
-  !> the matrix is checked against.
+  !> A stiffness matrix in the caller's memory. fuge_body_condense reads it, when everything is known that it is
+  !> checked against.
   type, abstract, public :: stiffness_source
   contains
     procedure(read_stiffness), deferred :: read
@@ -51,15 +50,13 @@ module fuge_c_body
   end type band_source
 
   !> Behind struct fuge_body.
-  type :: body_handle
+  type, extends(reporting_handle) :: body_handle
     class(stiffness_source), allocatable :: source
     integer :: degrees = 0
     type(fuge_body) :: body
     type(fuge_condensed) :: condensed
     !> `condensed` belongs to the present data.
     logical :: done = .false.
-    !> Message of the last call that set, condensed or failed.
-    character(len=FUGE_MESSAGE_LENGTH) :: message = ''
   end type body_handle
 
 contains
@@ -76,13 +73,10 @@ contains
     call require_count(degrees, 1, 'degrees', 'degrees of freedom', info)
     if (.not. info%failed() .and. ldk < degrees) call report(info, FUGE_ERR_SIZE, 'ldk = '//text(int(ldk)) &
       //' is less than degrees = '//text(int(degrees))//': it is the distance between columns, in doubles')
-    call require_pointer(k, 'k', info)
-    if (.not. info%failed()) then
-      allocate (dense)
-      call c_f_pointer(k, dense%matrix, [ldk, degrees])
-      call move_alloc(dense, source)
-      call new_body(int(degrees), source, destination, info)
-    end if
+    allocate (dense)
+    call find_array(int(ldk), degrees, k, 'k', dense%matrix, info)
+    call move_alloc(dense, source)
+    call new_body(int(degrees), source, destination, info)
     status = report_to_c(info, message, length)
   end function c_body_dense
 
@@ -100,15 +94,12 @@ contains
     call require_count(kd, 0, 'kd', 'diagonals beside the main one', info)
     if (.not. info%failed() .and. ldab <= kd) call report(info, FUGE_ERR_SIZE, 'ldab = '//text(int(ldab)) &
       //' is not above kd = '//text(int(kd))//': it is the distance between columns, in doubles')
-    call require_pointer(ab, 'ab', info)
-    if (.not. info%failed()) then
-      allocate (band)
-      call c_f_pointer(ab, band%band, [ldab, degrees])
-      band%width = int(kd)
-      band%upper = upper /= 0
-      call move_alloc(band, source)
-      call new_body(int(degrees), source, destination, info)
-    end if
+    allocate (band)
+    call find_array(int(ldab), degrees, ab, 'ab', band%band, info)
+    band%width = int(kd)
+    band%upper = upper /= 0
+    call move_alloc(band, source)
+    call new_body(int(degrees), source, destination, info)
     status = report_to_c(info, message, length)
   end function c_body_band
 
@@ -134,7 +125,7 @@ contains
     call move_alloc(band, stiffness)
   end subroutine read_band
 
-  !> Put a body behind a handle at `destination`; FUGE_ERR_POINTER, FUGE_ERR_MEMORY.
+  !> Put a body behind a handle at `destination`, unless an error is known already; FUGE_ERR_POINTER, FUGE_ERR_MEMORY.
   subroutine new_body(degrees, source, destination, info)
     integer, intent(in) :: degrees
     class(stiffness_source), allocatable, intent(inout) :: source
@@ -175,29 +166,34 @@ contains
     type(fuge_info) :: info
 
     call find_body(body, handle, info)
-    call require_count(count, 0, 'count', 'fixed degrees of freedom', info)
-    if (count > 0) call require_pointer(dof, 'dof', info)
-    if (.not. info%failed()) call set_supports(handle%body, int(count), dof, displacement)
+    if (.not. info%failed()) call copy_supports(count, dof, displacement, handle%body%fixed, &
+                                                handle%body%displacement, info)
     status = report_data(info, handle)
   end function c_body_fix
 
-  !> Replace the fixed degrees of freedom and their displacements.
-  subroutine set_supports(body, count, dof, displacement)
-    type(fuge_body), intent(inout) :: body
-    integer, intent(in) :: count
+  !> Replace the `fixed` degrees of freedom and their `lengths` of displacement, which are 0 if `displacement` is NULL;
+  !> FUGE_ERR_SIZE, FUGE_ERR_POINTER.
+  subroutine copy_supports(count, dof, displacement, fixed, lengths, info)
+    integer(c_int), intent(in) :: count
     type(c_ptr), intent(in) :: dof, displacement
+    integer, allocatable, intent(inout) :: fixed(:)
+    real(c_double), allocatable, intent(inout) :: lengths(:)
+    type(fuge_info), intent(inout) :: info
     integer(c_int), pointer :: numbers(:)
-    real(c_double), pointer :: lengths(:)
+    real(c_double), pointer :: values(:)
 
-    if (allocated(body%fixed)) deallocate (body%fixed)
-    if (allocated(body%displacement)) deallocate (body%displacement)
+    call require_count(count, 0, 'count', 'fixed degrees of freedom', info)
+    if (count > 0) call require_pointer(dof, 'dof', info)
+    if (info%failed()) return
+    if (allocated(fixed)) deallocate (fixed)
+    if (allocated(lengths)) deallocate (lengths)
     if (count == 0) return
     call c_f_pointer(dof, numbers, [count])
-    body%fixed = from_zero(numbers)
+    fixed = from_zero(numbers)
     if (.not. c_associated(displacement)) return
-    call c_f_pointer(displacement, lengths, [count])
-    body%displacement = lengths
-  end subroutine set_supports
+    call c_f_pointer(displacement, values, [count])
+    lengths = values
+  end subroutine copy_supports
 
   !> After fuge_body_condense only the displacements by the load are found anew.
   function c_body_set_load(body, load) bind(c, name='fuge_body_set_load') result(status)
@@ -208,13 +204,12 @@ contains
     type(fuge_info) :: info
 
     call find_body(body, handle, info)
-    call require_pointer(load, 'load', info)
+    if (.not. info%failed()) call find_array(handle%degrees, load, 'load', forces, info)
     if (.not. info%failed()) then
-      call c_f_pointer(load, forces, [handle%degrees])
       if (handle%done) call handle%condensed%set_load(forces, info)
       if (.not. info%failed()) handle%body%load = forces
     end if
-    status = report_to_body(info, handle)
+    status = report_to_handle(info, handle)
   end function c_body_set_load
 
   function c_body_set_rigid_modes(body, m, rigid_modes) bind(c, name='fuge_body_set_rigid_modes') result(status)
@@ -353,7 +348,7 @@ contains
     if (.not. info%failed()) call handle%source%read(stiffness, info)
     if (.not. info%failed()) call fuge_condense(stiffness, handle%body, handle%condensed, info)
     if (.not. info%failed()) handle%done = .true.
-    status = report_to_body(info, handle)
+    status = report_to_handle(info, handle)
   end function c_body_condense
 
   function c_body_get_influence(body, alpha, lda) bind(c, name='fuge_body_get_influence') result(status)
@@ -371,7 +366,7 @@ contains
     if (.not. info%failed()) n = size(handle%condensed%alpha, 2)
     if (.not. info%failed() .and. lda < n) call report(info, FUGE_ERR_SIZE, 'lda = '//text(int(lda)) &
       //' is less than n = '//text(n)//' contact points: it is the distance between columns, in doubles')
-    status = report_getter(info, handle)
+    status = report_failure(info, handle)
     if (info%failed()) return
     call c_f_pointer(alpha, matrix, [int(lda), n])
     matrix(:n, :) = handle%condensed%alpha
@@ -385,8 +380,8 @@ contains
 
     call find_condensed(body, handle, info)
     call require_pointer(displacement, 'displacement', info)
-    if (.not. info%failed()) call copy_reals(handle%condensed%displacement, displacement)
-    status = report_getter(info, handle)
+    if (.not. info%failed()) call give(handle%condensed%displacement, displacement)
+    status = report_failure(info, handle)
   end function c_body_get_displacement
 
   function c_body_get_mode_count(body, m) bind(c, name='fuge_body_get_mode_count') result(status)
@@ -397,8 +392,8 @@ contains
 
     call find_condensed(body, handle, info)
     call require_pointer(m, 'm', info)
-    if (.not. info%failed()) call copy_integers([size(handle%condensed%resultant)], m)
-    status = report_getter(info, handle)
+    if (.not. info%failed()) call give(size(handle%condensed%resultant), m)
+    status = report_failure(info, handle)
   end function c_body_get_mode_count
 
   !> Either array may be NULL.
@@ -410,17 +405,17 @@ contains
 
     call find_condensed(body, handle, info)
     if (.not. info%failed()) then
-      call copy_reals([handle%condensed%modes], modes)
-      call copy_reals(handle%condensed%resultant, resultant)
+      call give(handle%condensed%modes, modes)
+      call give(handle%condensed%resultant, resultant)
     end if
-    status = report_getter(info, handle)
+    status = report_failure(info, handle)
   end function c_body_get_modes
 
   function c_body_recover(body, force, motion, displacement) bind(c, name='fuge_body_recover') result(status)
     type(c_ptr), intent(in), value :: body, force, motion, displacement
     integer(c_int) :: status
     type(body_handle), pointer :: handle
-    real(c_double), pointer :: values(:), field(:)
+    real(c_double), pointer :: values(:), displacements(:)
     type(fuge_solution) :: solution
     type(fuge_info) :: info
     integer :: m
@@ -439,10 +434,10 @@ contains
         call c_f_pointer(motion, values, [m])
         solution%motion = values
       end if
-      call c_f_pointer(displacement, field, [handle%degrees])
-      call handle%condensed%recover(solution, field, info)
+      call c_f_pointer(displacement, displacements, [handle%degrees])
+      call handle%condensed%recover(solution, displacements, info)
     end if
-    status = report_to_body(info, handle)
+    status = report_to_handle(info, handle)
   end function c_body_recover
 
   function c_body_message(body, buffer, length) bind(c, name='fuge_body_message') result(status)
@@ -453,9 +448,7 @@ contains
     type(fuge_info) :: info
 
     call find_body(body, handle, info)
-    call require_pointer(buffer, 'message', info)
-    if (.not. info%failed()) call copy_string(handle%message, buffer, length)
-    status = int(info%status, c_int)
+    status = give_message(info, handle, buffer, length)
   end function c_body_message
 
   !> The body behind a handle; FUGE_ERR_POINTER for NULL.
@@ -481,34 +474,14 @@ contains
                                        //'were set: call fuge_body_condense first')
   end subroutine find_condensed
 
-  !> Leave the message in the body. The result is the status to return.
-  function report_to_body(info, handle) result(status)
-    type(fuge_info), intent(in) :: info
-    type(body_handle), pointer, intent(in) :: handle
-    integer(c_int) :: status
-
-    if (associated(handle)) handle%message = message_for_c(info)
-    status = int(info%status, c_int)
-  end function report_to_body
-
-  !> `report_to_body` after a call that sets data: if it succeeds, the body has to be condensed anew.
+  !> `report_to_handle` after a call that sets data: if it succeeds, the body has to be condensed anew.
   function report_data(info, handle) result(status)
     type(fuge_info), intent(in) :: info
     type(body_handle), pointer, intent(in) :: handle
     integer(c_int) :: status
 
-    status = report_to_body(info, handle)
+    status = report_to_handle(info, handle)
     if (.not. info%failed()) handle%done = .false.
   end function report_data
-
-  !> `report_to_body` for a getter: one that succeeds leaves the message as it is, which may be a warning.
-  function report_getter(info, handle) result(status)
-    type(fuge_info), intent(in) :: info
-    type(body_handle), pointer, intent(in) :: handle
-    integer(c_int) :: status
-
-    status = FUGE_DONE
-    if (info%failed()) status = report_to_body(info, handle)
-  end function report_getter
 
 end module fuge_c_body

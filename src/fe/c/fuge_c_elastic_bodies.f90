@@ -3,21 +3,22 @@ module fuge_c_elastic_bodies
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
   use fuge_bodies_solution, only: fuge_bodies_contact
   use fuge_body_joining, only: fuge_joined_bodies
-  use fuge_c_pairs, only: check_sizes, copy_surface, take_options
-  use fuge_c_types, only: from_zero, message_for_c, report_to_c, require_columns, require_count, require_pointer, &
-    set_handle, take_handle
+  use fuge_c_arrays, only: find_array, give
+  use fuge_c_body, only: copy_supports
+  use fuge_c_pairs, only: copy_surface, take_options
+  use fuge_c_types, only: reporting_handle, from_zero, report_to_c, report_to_handle, require_columns, require_count, &
+    require_pointer, set_handle, take_handle
   use fuge_contact_pairs_type, only: fuge_pair_options, FUGE_NORMALS_GIVEN
   use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, &
-    FUGE_MESSAGE_LENGTH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
   implicit none
   private
 
-  public :: find_bodies, report_to_bodies
+  public :: find_bodies
 
   !> Behind struct fuge_bodies.
-  type, public :: bodies_handle
+  type, extends(reporting_handle), public :: bodies_handle
     type(fuge_elastic_body), allocatable :: body(:)
     type(fuge_surface_pair), allocatable :: pair(:)
     !> The surfaces of the next pair.
@@ -30,8 +31,6 @@ module fuge_c_elastic_bodies
     type(fuge_bodies_contact), allocatable :: contact
     type(fuge_info) :: info
     logical :: tried = .false.
-    !> Message of the last call that set, solved or failed.
-    character(len=FUGE_MESSAGE_LENGTH) :: message = ''
   end type bodies_handle
 
 contains
@@ -47,11 +46,10 @@ contains
     call require_pointer(destination, 'bodies', info)
     if (.not. info%failed()) then
       allocate (handle, stat=stat)
+      call require_memory(stat, 'the bodies', info)
       if (stat == 0) then
         allocate (handle%body(0), handle%pair(0))
         call set_handle(c_loc(handle), destination)
-      else
-        call report(info, FUGE_ERR_MEMORY, 'no memory for the bodies')
       end if
     end if
     status = report_to_c(info, message, length)
@@ -73,25 +71,19 @@ contains
     integer(c_int), intent(in), value :: degrees
     integer(c_int) :: status
     type(bodies_handle), pointer :: handle
-    integer(c_int), pointer :: columns(:), number
+    integer(c_int), pointer :: columns(:)
     type(fuge_info) :: info
 
-    nullify (columns)
     call find_bodies(bodies, handle, info)
     call require_count(degrees, 1, 'degrees', 'degrees of freedom', info)
     call require_columns(degrees, 'degrees', info)
-    call require_pointer(column, 'column', info)
+    if (.not. info%failed()) call find_array(degrees + 1_c_int, column, 'column', columns, info)
     call require_pointer(row, 'row', info)
     call require_pointer(value, 'value', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(column, columns, [degrees + 1])
+    if (.not. info%failed()) &
       call require_count(columns(degrees + 1), 1, 'column('//text(int(degrees))//')', 'entries', info)
-    end if
     if (.not. info%failed()) call append_body(handle, columns, row, value, info)
-    if (c_associated(body) .and. .not. info%failed()) then
-      call c_f_pointer(body, number)
-      number = size(handle%body, kind=c_int) - 1_c_int
-    end if
+    if (.not. info%failed()) call give(size(handle%body) - 1, body)
     status = report_change(info, handle)
   end function c_bodies_add
 
@@ -143,27 +135,11 @@ contains
     integer(c_int), intent(in), value :: body, number
     integer(c_int) :: status
     type(bodies_handle), pointer :: handle
-    integer(c_int), pointer :: degrees(:)
-    real(c_double), pointer :: values(:)
     type(fuge_info) :: info
 
     call find_body(bodies, body, handle, info)
-    call require_count(number, 0, 'count', 'fixed degrees of freedom', info)
-    if (number > 0) call require_pointer(dof, 'dof', info)
-    if (.not. info%failed()) then
-      associate (own => handle%body(body + 1))
-        if (allocated(own%fixed)) deallocate (own%fixed)
-        if (allocated(own%displacement)) deallocate (own%displacement)
-        if (number > 0) then
-          call c_f_pointer(dof, degrees, [number])
-          own%fixed = from_zero(degrees)
-          if (c_associated(displacement)) then
-            call c_f_pointer(displacement, values, [number])
-            own%displacement = values
-          end if
-        end if
-      end associate
-    end if
+    if (.not. info%failed()) call copy_supports(number, dof, displacement, handle%body(body + 1)%fixed, &
+                                                handle%body(body + 1)%displacement, info)
     status = report_change(info, handle)
   end function c_bodies_fix
 
@@ -218,11 +194,10 @@ contains
     type(fuge_info) :: info
 
     call find_bodies(bodies, handle, info)
-    call check_sizes([dimensions, nodes, most, faces], node, face, info)
-    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, handle%next%contact, &
-                                               info)
+    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, &
+                                               handle%next%contact, info)
     if (.not. info%failed()) handle%next%contact_body = from_zero(body)
-    status = report_to_bodies(info, handle)
+    status = report_to_handle(info, handle)
   end function c_bodies_set_contact
 
   !> The arguments are nine, as in the header: the handle, the body, its surface.
@@ -235,11 +210,10 @@ contains
     type(fuge_info) :: info
 
     call find_bodies(bodies, handle, info)
-    call check_sizes([dimensions, nodes, most, faces], node, face, info)
     if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, &
                                                handle%next%opposite, info)
     if (.not. info%failed()) handle%next%opposite_body = from_zero(body)
-    status = report_to_bodies(info, handle)
+    status = report_to_handle(info, handle)
   end function c_bodies_set_opposite
 
   function c_bodies_set_geometry(bodies, crease, revolution) bind(c, name='fuge_bodies_set_geometry') result(status)
@@ -255,7 +229,7 @@ contains
       handle%options%crease = crease
       handle%options%revolution = revolution /= 0
     end if
-    status = report_to_bodies(info, handle)
+    status = report_to_handle(info, handle)
   end function c_bodies_set_geometry
 
   function c_bodies_add_pair(bodies, method, normals, normal, reach, play, tied, smooth) &
@@ -284,9 +258,8 @@ contains
     if (.not. info%failed()) then
       n = size(handle%pair)
       allocate (more(n + 1), stat=stat)
-      if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for a pair of surfaces')
-      else
+      call require_memory(stat, 'a pair of surfaces', info)
+      if (stat == 0) then
         more(:n) = handle%pair
         more(n + 1) = handle%next
         more(n + 1)%options = options
@@ -321,23 +294,13 @@ contains
       //' is not one of the '//text(size(handle%body))//' bodies: call fuge_bodies_add first')
   end subroutine find_body
 
-  !> Keep the message; the status to return.
-  function report_to_bodies(info, handle) result(status)
-    type(fuge_info), intent(in) :: info
-    type(bodies_handle), pointer, intent(in) :: handle
-    integer(c_int) :: status
-
-    if (associated(handle)) handle%message = message_for_c(info)
-    status = int(info%status, c_int)
-  end function report_to_bodies
-
-  !> The same for a call that changes data: what was joined is out of date.
+  !> As `report_to_handle` for a call that changes data: what was joined is out of date.
   function report_change(info, handle) result(status)
     type(fuge_info), intent(in) :: info
     type(bodies_handle), pointer, intent(in) :: handle
     integer(c_int) :: status
 
-    status = report_to_bodies(info, handle)
+    status = report_to_handle(info, handle)
     if (info%failed()) return
     if (allocated(handle%joined)) deallocate (handle%joined)
   end function report_change

@@ -1,27 +1,25 @@
 !> C bindings, section "pairs of surfaces".
 module fuge_c_pairs
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
-  use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_zero, message_for_c, report_to_c, &
+  use fuge_c_arrays, only: give
+  use fuge_c_types, only: reporting_handle, from_zero, give_message, report_failure, report_to_c, report_to_handle, &
     require_count, require_pointer, set_handle, take_handle
   use fuge_contact_pairs_search, only: fuge_find_pairs
   use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options, FUGE_NORMALS_GIVEN
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, &
-    FUGE_MESSAGE_LENGTH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   implicit none
   private
 
-  public :: check_sizes, copy_surface, take_options
+  public :: copy_surface, take_options
 
   !> Behind struct fuge_pairs.
-  type :: pairs_handle
+  type, extends(reporting_handle) :: pairs_handle
     type(fuge_surface_mesh) :: contact, opposite
     type(fuge_contact_pairs) :: pairs
     !> Options that hold until they are set again.
     type(fuge_pair_options) :: options
-    !> Message of the last call that set, found or failed.
-    character(len=FUGE_MESSAGE_LENGTH) :: message = ''
   end type pairs_handle
 
 contains
@@ -37,11 +35,8 @@ contains
     call require_pointer(destination, 'pairs', info)
     if (.not. info%failed()) then
       allocate (handle, stat=stat)
-      if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for the pairs')
-      else
-        call set_handle(c_loc(handle), destination)
-      end if
+      call require_memory(stat, 'the pairs', info)
+      if (stat == 0) call set_handle(c_loc(handle), destination)
     end if
     status = report_to_c(info, message, length)
   end function c_pairs_create
@@ -62,8 +57,12 @@ contains
     type(c_ptr), intent(in), value :: pairs, node, face, dof
     integer(c_int), intent(in), value :: dimensions, nodes, most, faces
     integer(c_int) :: status
+    type(pairs_handle), pointer :: handle
+    type(fuge_info) :: info
 
-    status = set_surface(pairs, .true., [dimensions, nodes, most, faces], node, face, dof)
+    call find_pairs(pairs, handle, info)
+    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, handle%contact, info)
+    status = report_to_handle(info, handle)
   end function c_pairs_set_contact
 
   function c_pairs_set_opposite(pairs, dimensions, nodes, node, most, faces, face, dof) &
@@ -71,32 +70,13 @@ contains
     type(c_ptr), intent(in), value :: pairs, node, face, dof
     integer(c_int), intent(in), value :: dimensions, nodes, most, faces
     integer(c_int) :: status
-
-    status = set_surface(pairs, .false., [dimensions, nodes, most, faces], node, face, dof)
-  end function c_pairs_set_opposite
-
-  !> Replace the contact surface or the opposite one; `sizes`: dimensions, nodes, most nodes of a face, faces.
-  function set_surface(pairs, of_contact, sizes, node, face, dof) result(status)
-    type(c_ptr), intent(in) :: pairs, node, face, dof
-    logical, intent(in) :: of_contact
-    integer(c_int), intent(in) :: sizes(4)
-    integer(c_int) :: status
     type(pairs_handle), pointer :: handle
     type(fuge_info) :: info
 
     call find_pairs(pairs, handle, info)
-    call check_sizes(sizes, node, face, info)
-    if (info%failed()) then
-      status = report_to_pairs(info, handle)
-      return
-    end if
-    if (of_contact) then
-      call copy_surface(sizes, node, face, dof, handle%contact, info)
-    else
-      call copy_surface(sizes, node, face, dof, handle%opposite, info)
-    end if
-    status = report_to_pairs(info, handle)
-  end function set_surface
+    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, handle%opposite, info)
+    status = report_to_handle(info, handle)
+  end function c_pairs_set_opposite
 
   !> Refuse sizes (dimensions, nodes, most nodes of a face, faces) that no arrays have, and NULL.
   subroutine check_sizes(sizes, node, face, info)
@@ -114,7 +94,8 @@ contains
     call require_pointer(face, 'face', info)
   end subroutine check_sizes
 
-  !> Replace a surface.
+  !> Replace a surface; `sizes`: dimensions, nodes, most nodes of a face, faces. Errors: those of `check_sizes`,
+  !> FUGE_ERR_MEMORY.
   subroutine copy_surface(sizes, node, face, dof, surface, info)
     integer(c_int), intent(in) :: sizes(4)
     type(c_ptr), intent(in) :: node, face, dof
@@ -125,6 +106,8 @@ contains
     integer(c_int), pointer :: numbers(:, :)
     integer :: stat
 
+    call check_sizes(sizes, node, face, info)
+    if (info%failed()) return
     allocate (copy%node(sizes(1), sizes(2)), copy%face(sizes(3), sizes(4)), stat=stat)
     if (stat == 0 .and. c_associated(dof)) allocate (copy%dof(sizes(1), sizes(2)), stat=stat)
     call require_memory(stat, 'a surface of', int(sizes(4)), 'faces', info)
@@ -153,7 +136,7 @@ contains
       handle%options%crease = crease
       handle%options%revolution = revolution /= 0
     end if
-    status = report_to_pairs(info, handle)
+    status = report_to_handle(info, handle)
   end function c_pairs_set_geometry
 
   function c_pairs_find(pairs, method, normals, normal, reach, play, tied, smooth) &
@@ -179,7 +162,7 @@ contains
     if (.not. info%failed()) then
       call fuge_find_pairs(handle%contact, handle%opposite, options, handle%pairs, info)
     end if
-    status = report_to_pairs(info, handle)
+    status = report_to_handle(info, handle)
   end function c_pairs_find
 
   !> What the arguments say of a pair: method, normals, tied and smooth; `normal` at the nodes of the contact surface if
@@ -210,44 +193,35 @@ contains
     type(c_ptr), intent(in), value :: pairs, n, width, unpaired
     integer(c_int) :: status
     type(pairs_handle), pointer :: handle
-    type(fuge_info) :: info
 
-    call find_found(pairs, handle, info)
-    if (.not. info%failed()) then
-      call copy_integers([handle%pairs%points()], n)
-      call copy_integers([size(handle%pairs%dof, 1)], width)
-      call copy_integers([size(handle%pairs%unpaired_node)], unpaired)
-    end if
-    status = report_getter(info, handle)
+    status = find_found(pairs, handle)
+    if (status /= FUGE_DONE) return
+    call give(handle%pairs%points(), n)
+    call give(size(handle%pairs%dof, 1), width)
+    call give(size(handle%pairs%unpaired_node), unpaired)
   end function c_pairs_get_sizes
 
   function c_pairs_get_contact(pairs, dof, normal) bind(c, name='fuge_pairs_get_contact') result(status)
     type(c_ptr), intent(in), value :: pairs, dof, normal
     integer(c_int) :: status
     type(pairs_handle), pointer :: handle
-    type(fuge_info) :: info
 
-    call find_found(pairs, handle, info)
-    if (.not. info%failed()) then
-      call copy_integers([handle%pairs%dof - 1], dof)
-      call copy_reals([handle%pairs%normal], normal)
-    end if
-    status = report_getter(info, handle)
+    status = find_found(pairs, handle)
+    if (status /= FUGE_DONE) return
+    call give(handle%pairs%dof - 1, dof)
+    call give(handle%pairs%normal, normal)
   end function c_pairs_get_contact
 
   function c_pairs_get_gaps(pairs, gap, gap_upper, area) bind(c, name='fuge_pairs_get_gaps') result(status)
     type(c_ptr), intent(in), value :: pairs, gap, gap_upper, area
     integer(c_int) :: status
     type(pairs_handle), pointer :: handle
-    type(fuge_info) :: info
 
-    call find_found(pairs, handle, info)
-    if (.not. info%failed()) then
-      call copy_reals(handle%pairs%gap, gap)
-      call copy_reals(handle%pairs%gap_upper, gap_upper)
-      call copy_reals(handle%pairs%area, area)
-    end if
-    status = report_getter(info, handle)
+    status = find_found(pairs, handle)
+    if (status /= FUGE_DONE) return
+    call give(handle%pairs%gap, gap)
+    call give(handle%pairs%gap_upper, gap_upper)
+    call give(handle%pairs%area, area)
   end function c_pairs_get_gaps
 
   function c_pairs_get_points(pairs, pair, node, face, place, direction) bind(c, name='fuge_pairs_get_points') &
@@ -255,31 +229,25 @@ contains
     type(c_ptr), intent(in), value :: pairs, pair, node, face, place, direction
     integer(c_int) :: status
     type(pairs_handle), pointer :: handle
-    type(fuge_info) :: info
 
-    call find_found(pairs, handle, info)
-    if (.not. info%failed()) then
-      call copy_integers(handle%pairs%pair - 1, pair)
-      call copy_integers(handle%pairs%node - 1, node)
-      call copy_integers(handle%pairs%face - 1, face)
-      call copy_reals([handle%pairs%place], place)
-      call copy_reals([handle%pairs%direction], direction)
-    end if
-    status = report_getter(info, handle)
+    status = find_found(pairs, handle)
+    if (status /= FUGE_DONE) return
+    call give(handle%pairs%pair - 1, pair)
+    call give(handle%pairs%node - 1, node)
+    call give(handle%pairs%face - 1, face)
+    call give(handle%pairs%place, place)
+    call give(handle%pairs%direction, direction)
   end function c_pairs_get_points
 
   function c_pairs_get_unpaired(pairs, pair, node) bind(c, name='fuge_pairs_get_unpaired') result(status)
     type(c_ptr), intent(in), value :: pairs, pair, node
     integer(c_int) :: status
     type(pairs_handle), pointer :: handle
-    type(fuge_info) :: info
 
-    call find_found(pairs, handle, info)
-    if (.not. info%failed()) then
-      call copy_integers(handle%pairs%unpaired_pair - 1, pair)
-      call copy_integers(handle%pairs%unpaired_node - 1, node)
-    end if
-    status = report_getter(info, handle)
+    status = find_found(pairs, handle)
+    if (status /= FUGE_DONE) return
+    call give(handle%pairs%unpaired_pair - 1, pair)
+    call give(handle%pairs%unpaired_node - 1, node)
   end function c_pairs_get_unpaired
 
   function c_pairs_message(pairs, message, length) bind(c, name='fuge_pairs_message') result(status)
@@ -290,9 +258,7 @@ contains
     type(fuge_info) :: info
 
     call find_pairs(pairs, handle, info)
-    call require_pointer(message, 'message', info)
-    if (.not. info%failed()) call copy_string(handle%message, message, length)
-    status = int(info%status, c_int)
+    status = give_message(info, handle, message, length)
   end function c_pairs_message
 
   !> The pairs behind a handle; NULL is FUGE_ERR_POINTER.
@@ -306,36 +272,19 @@ contains
     if (.not. info%failed()) call c_f_pointer(address, handle)
   end subroutine find_pairs
 
-  !> The same, refused before any are found.
-  subroutine find_found(address, handle, info)
+  !> The same for a getter, refused before any are found (FUGE_ERR_CALL_ORDER). The result is the status to return.
+  function find_found(address, handle) result(status)
     type(c_ptr), intent(in) :: address
     type(pairs_handle), pointer, intent(out) :: handle
-    type(fuge_info), intent(inout) :: info
+    integer(c_int) :: status
+    type(fuge_info) :: info
 
     call find_pairs(address, handle, info)
-    if (info%failed()) return
-    if (handle%pairs%pairs == 0) call report(info, FUGE_ERR_CALL_ORDER, &
-        'there are no pairs: call fuge_pairs_find first')
-  end subroutine find_found
-
-  !> Keep the message; the status to return.
-  function report_to_pairs(info, handle) result(status)
-    type(fuge_info), intent(in) :: info
-    type(pairs_handle), pointer, intent(in) :: handle
-    integer(c_int) :: status
-
-    if (associated(handle)) handle%message = message_for_c(info)
-    status = int(info%status, c_int)
-  end function report_to_pairs
-
-  !> The same for a getter, which leaves the message alone on success.
-  function report_getter(info, handle) result(status)
-    type(fuge_info), intent(in) :: info
-    type(pairs_handle), pointer, intent(in) :: handle
-    integer(c_int) :: status
-
-    if (info%failed() .and. associated(handle)) handle%message = message_for_c(info)
-    status = int(info%status, c_int)
-  end function report_getter
+    if (.not. info%failed()) then
+      if (handle%pairs%pairs == 0) call report(info, FUGE_ERR_CALL_ORDER, &
+          'there are no pairs: call fuge_pairs_find first')
+    end if
+    status = report_failure(info, handle)
+  end function find_found
 
 end module fuge_c_pairs

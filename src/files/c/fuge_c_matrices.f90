@@ -1,8 +1,9 @@
 !> C bindings, section "matrix files".
 module fuge_c_matrices
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
-  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, from_zero, report_to_c, require_columns, &
-    require_count, require_path, require_pointer
+  use fuge_c_arrays, only: find_array, give
+  use fuge_c_types, only: from_c_string, from_zero, report_to_c, require_columns, require_count, require_path, &
+    require_pointer
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
   use fuge_number_text, only: text
@@ -36,8 +37,8 @@ contains
       call c_f_pointer(matrix, destination, [lda, capacity])
       destination(:shown(1), :shown(2)) = whole(:shown(1), :shown(2))
     end if
-    call copy_integers([size(whole, 1)], rows)
-    call copy_integers([size(whole, 2)], columns)
+    call give(size(whole, 1), rows)
+    call give(size(whole, 2), columns)
   end function c_read_matrix
 
   !> Eleven arguments, as in the header: the file, three arrays with their sizes, the message.
@@ -62,13 +63,13 @@ contains
     if (.not. info%failed()) call fuge_read_sparse(from_c_string(path), height, begin, i, entry, info)
     status = report_to_c(info, message, length)
     if (info%failed()) return
-    call copy_integers(begin(:min(size(begin) - 1, int(column_capacity)) + 1) - 1, column)
+    call give(begin(:min(size(begin) - 1, int(column_capacity)) + 1) - 1, column)
     shown = min(size(i), int(entry_capacity))
-    call copy_integers(i(:shown) - 1, row)
-    call copy_reals(entry(:shown), value)
-    call copy_integers([height], rows)
-    call copy_integers([size(begin) - 1], columns)
-    call copy_integers([size(i)], entries)
+    call give(i(:shown) - 1, row)
+    call give(entry(:shown), value)
+    call give(height, rows)
+    call give(size(begin) - 1, columns)
+    call give(size(i), entries)
   end function c_read_sparse
 
   function c_write_matrix(path, rows, columns, matrix, lda, symmetric, message, length) &
@@ -81,14 +82,12 @@ contains
     type(fuge_info) :: info
 
     call require_path(path, info)
-    call require_pointer(matrix, 'matrix', info)
+    call find_array(int(lda), columns, matrix, 'matrix', whole, info)
     call require_count(rows, 0, 'rows', 'rows', info)
     call require_count(columns, 0, 'columns', 'columns', info)
     call require_count(lda, int(rows), 'lda', 'doubles from column to column', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(matrix, whole, [lda, columns])
+    if (.not. info%failed()) &
       call fuge_write_matrix(from_c_string(path), whole(:rows, :), info, symmetric=symmetric /= 0)
-    end if
     status = report_to_c(info, message, length)
   end function c_write_matrix
 

@@ -1,15 +1,18 @@
 !> C bindings, section "mesh files".
 module fuge_c_mesh_files
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
-  use fuge_c_types, only: copy_integers, copy_reals, copy_string, from_c_string, report_to_c, require_count, &
-    require_path, require_pointer, set_handle, take_handle
+  use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
+  use fuge_c_arrays, only: give
+  use fuge_c_types, only: copy_string, from_c_string, report_to_c, require_count, require_path, require_pointer, &
+    set_handle, take_handle
   use fuge_mesh_files, only: fuge_read_mesh
   use fuge_mesh_sets, only: fuge_mesh_element_set, fuge_mesh_faces, fuge_mesh_node_set
-  use fuge_mesh_type, only: fuge_mesh
+  use fuge_mesh_type, only: fuge_mesh, move_mesh
   use fuge_number_text, only: index_text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   implicit none
   private
+
+  public :: find_mesh, give_mesh
 
   !> Sets of nodes, sets of elements, and surfaces.
   integer, parameter :: OF_NODES = 1, OF_ELEMENTS = 2, OF_FACES = 3
@@ -20,27 +23,31 @@ contains
     type(c_ptr), intent(in), value :: path, destination, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_mesh), pointer :: mesh
+    type(fuge_mesh) :: mesh
     type(fuge_info) :: info
-    integer :: failure
 
     call require_path(path, info)
     call require_pointer(destination, 'mesh', info)
-    if (.not. info%failed()) then
-      allocate (mesh, stat=failure)
-      if (failure /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for a mesh')
-      else
-        call fuge_read_mesh(from_c_string(path), mesh, info)
-        if (info%failed()) then
-          deallocate (mesh)
-        else
-          call set_handle(c_loc(mesh), destination)
-        end if
-      end if
-    end if
+    if (.not. info%failed()) call fuge_read_mesh(from_c_string(path), mesh, info)
+    call give_mesh(mesh, destination, info)
     status = report_to_c(info, message, length)
   end function c_read_mesh
+
+  !> Give a mesh to the caller as a handle, unless an error is known already; FUGE_ERR_MEMORY.
+  subroutine give_mesh(mesh, destination, info)
+    type(fuge_mesh), intent(inout) :: mesh
+    type(c_ptr), intent(in) :: destination
+    type(fuge_info), intent(inout) :: info
+    type(fuge_mesh), pointer :: handle
+    integer :: stat
+
+    if (info%failed()) return
+    allocate (handle, stat=stat)
+    call require_memory(stat, 'a mesh', info)
+    if (stat /= 0) return
+    call move_mesh(mesh, handle)
+    call set_handle(c_loc(handle), destination)
+  end subroutine give_mesh
 
   subroutine c_mesh_free(source) bind(c, name='fuge_mesh_free')
     type(c_ptr), intent(in), value :: source
@@ -53,14 +60,15 @@ contains
     deallocate (mesh)
   end subroutine c_mesh_free
 
-  !> The mesh behind a handle; unless an error is known already, NULL is one.
-  subroutine find_mesh(handle, mesh, info)
+  !> The mesh behind a handle, the argument `name`; unless an error is known already, NULL is one.
+  subroutine find_mesh(handle, name, mesh, info)
     type(c_ptr), intent(in) :: handle
+    character(len=*), intent(in) :: name
     type(fuge_mesh), pointer, intent(out) :: mesh
     type(fuge_info), intent(inout) :: info
 
     nullify (mesh)
-    call require_pointer(handle, 'mesh', info)
+    call require_pointer(handle, name, info)
     if (.not. info%failed()) call c_f_pointer(handle, mesh)
   end subroutine find_mesh
 
@@ -70,28 +78,25 @@ contains
     type(fuge_mesh), pointer :: mesh
     type(fuge_info) :: info
 
-    call find_mesh(handle, mesh, info)
+    call find_mesh(handle, 'mesh', mesh, info)
     status = info%status
     if (info%failed()) return
-    call copy_integers([size(mesh%node)], nodes)
-    call copy_integers([size(mesh%element)], elements)
-    call copy_integers([size(mesh%connection)], connections)
+    call give(size(mesh%node), nodes)
+    call give(size(mesh%element), elements)
+    call give(size(mesh%connection), connections)
   end function c_mesh_get_sizes
 
   function c_mesh_get_nodes(handle, node, position) bind(c, name='fuge_mesh_get_nodes') result(status)
     type(c_ptr), intent(in), value :: handle, node, position
     integer(c_int) :: status
     type(fuge_mesh), pointer :: mesh
-    real(c_double), pointer :: positions(:, :)
     type(fuge_info) :: info
 
-    call find_mesh(handle, mesh, info)
+    call find_mesh(handle, 'mesh', mesh, info)
     status = info%status
     if (info%failed()) return
-    call copy_integers(mesh%node, node)
-    if (.not. c_associated(position)) return
-    call c_f_pointer(position, positions, [3, size(mesh%node)])
-    positions = mesh%position
+    call give(mesh%node, node)
+    call give(mesh%position, position)
   end function c_mesh_get_nodes
 
   function c_mesh_get_elements(handle, element, first, connection) bind(c, name='fuge_mesh_get_elements') result(status)
@@ -100,12 +105,12 @@ contains
     type(fuge_mesh), pointer :: mesh
     type(fuge_info) :: info
 
-    call find_mesh(handle, mesh, info)
+    call find_mesh(handle, 'mesh', mesh, info)
     status = info%status
     if (info%failed()) return
-    call copy_integers(mesh%element, element)
-    call copy_integers(mesh%first - 1, first)
-    call copy_integers(mesh%connection - 1, connection)
+    call give(mesh%element, element)
+    call give(mesh%first - 1, first)
+    call give(mesh%connection - 1, connection)
   end function c_mesh_get_elements
 
   function c_mesh_get_type(handle, k, element_type, length) bind(c, name='fuge_mesh_get_type') result(status)
@@ -116,7 +121,7 @@ contains
     type(fuge_mesh), pointer :: mesh
     type(fuge_info) :: info
 
-    call find_mesh(handle, mesh, info)
+    call find_mesh(handle, 'mesh', mesh, info)
     if (.not. info%failed()) then
       if (k < 0 .or. k >= size(mesh%element)) call report(info, FUGE_ERR_SIZE, 'the mesh has no element ' &
                                                           //index_text(int(k) + 1))
@@ -166,8 +171,8 @@ contains
       call fuge_mesh_element_set(mesh, from_c_string(name), found, info)
     end if
     if (info%failed()) return
-    call copy_integers(found(:min(int(capacity), size(found))) - 1, member)
-    call copy_integers([size(found)], count)
+    call give(found(:min(int(capacity), size(found))) - 1, member)
+    call give(size(found), count)
   end subroutine get_set
 
   subroutine check_arguments(handle, name, capacity, count, array, mesh, info)
@@ -177,7 +182,7 @@ contains
     type(fuge_mesh), pointer, intent(out) :: mesh
     type(fuge_info), intent(inout) :: info
 
-    call find_mesh(handle, mesh, info)
+    call find_mesh(handle, 'mesh', mesh, info)
     call require_pointer(name, 'name', info)
     call require_pointer(count, 'count', info)
     call require_count(capacity, 0, 'capacity', 'elements that fit into '//array, info)
@@ -190,12 +195,12 @@ contains
     type(fuge_mesh), pointer :: mesh
     type(fuge_info) :: info
 
-    call find_mesh(handle, mesh, info)
+    call find_mesh(handle, 'mesh', mesh, info)
     status = info%status
     if (info%failed()) return
-    call copy_integers([size(mesh%node_set)], node_sets)
-    call copy_integers([size(mesh%element_set)], element_sets)
-    call copy_integers([size(mesh%surface)], surfaces)
+    call give(size(mesh%node_set), node_sets)
+    call give(size(mesh%element_set), element_sets)
+    call give(size(mesh%surface), surfaces)
   end function c_mesh_get_set_counts
 
   function c_mesh_get_node_set_name(handle, k, name, length) bind(c, name='fuge_mesh_get_node_set_name') result(status)
@@ -237,7 +242,7 @@ contains
     type(fuge_info) :: info
     integer :: counts(3)
 
-    call find_mesh(handle, mesh, info)
+    call find_mesh(handle, 'mesh', mesh, info)
     if (.not. info%failed()) then
       counts = [size(mesh%node_set), size(mesh%element_set), size(mesh%surface)]
       if (k < 0 .or. k >= counts(kind)) call report(info, FUGE_ERR_SIZE, 'there is no name '//index_text(int(k) + 1))
@@ -262,20 +267,14 @@ contains
     integer(c_int) :: status
     type(fuge_mesh), pointer :: mesh
     integer, allocatable :: found(:, :)
-    integer(c_int), pointer :: destination(:, :)
     type(fuge_info) :: info
-    integer :: shown
 
     call check_arguments(handle, name, capacity, count, 'faces', mesh, info)
     if (.not. info%failed()) call fuge_mesh_faces(mesh, from_c_string(name), found, info)
     status = report_to_c(info, message, length)
     if (info%failed()) return
-    if (c_associated(faces)) then
-      shown = min(size(found, 2), int(capacity))
-      call c_f_pointer(faces, destination, [size(found, 1), shown])
-      destination = found(:, :shown) - 1
-    end if
-    call copy_integers([size(found, 2)], count)
+    call give(found(:, :min(int(capacity), size(found, 2))) - 1, faces)
+    call give(size(found, 2), count)
   end function c_mesh_get_faces
 
 end module fuge_c_mesh_files

@@ -1,7 +1,9 @@
 !> C bindings, section "meshes with their matrices".
 module fuge_c_mesh_rows
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int, c_ptr, c_size_t
-  use fuge_c_types, only: copy_integers, from_c_string, report_to_c, require_count, require_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array, give
+  use fuge_c_mesh_files, only: find_mesh
+  use fuge_c_types, only: from_c_string, report_to_c, require_count, require_pointer
   use fuge_mesh_rows, only: fuge_mesh_contact_surface, fuge_mesh_degrees
   use fuge_mesh_type, only: fuge_mesh
   use fuge_status, only: fuge_info
@@ -27,7 +29,7 @@ contains
     call require_pointer(dof, 'dof', info)
     if (.not. info%failed()) call fuge_mesh_contact_surface(mesh, from_c_string(name), int(dimensions), int(nodes), &
                                                             int(directions), surface, info)
-    if (.not. info%failed()) call copy_integers([surface%dof - 1], dof)
+    if (.not. info%failed()) call give(surface%dof - 1, dof)
     status = report_to_c(info, message, length)
   end function c_mesh_get_surface_dof
 
@@ -49,8 +51,8 @@ contains
     if (.not. info%failed()) call fuge_mesh_degrees(mesh, from_c_string(name), int(along), int(nodes), &
                                                     int(directions), found, info)
     if (.not. info%failed()) then
-      call copy_integers(found(:min(int(capacity), size(found))) - 1, dof)
-      call copy_integers([size(found)], number)
+      call give(found(:min(int(capacity), size(found))) - 1, dof)
+      call give(size(found), number)
     end if
     status = report_to_c(info, message, length)
   end function c_mesh_get_set_dof
@@ -63,16 +65,11 @@ contains
     integer(c_int), pointer, intent(out) :: nodes(:), directions(:)
     type(fuge_info), intent(inout) :: info
 
-    nullify (mesh, nodes, directions)
-    call require_pointer(handle, 'mesh', info)
+    call find_mesh(handle, 'mesh', mesh, info)
     call require_pointer(name, 'name', info)
     call require_count(rows, 1, 'rows', 'rows of the matrix', info)
-    call require_pointer(node, 'node', info)
-    call require_pointer(direction, 'direction', info)
-    if (info%failed()) return
-    call c_f_pointer(handle, mesh)
-    call c_f_pointer(node, nodes, [rows])
-    call c_f_pointer(direction, directions, [rows])
+    call find_array(rows, node, 'node', nodes, info)
+    call find_array(rows, direction, 'direction', directions, info)
   end subroutine find_arguments
 
 end module fuge_c_mesh_rows

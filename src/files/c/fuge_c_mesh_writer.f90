@@ -1,14 +1,15 @@
 !> C bindings, section "mesh files": meshes made of arrays, joined, and written.
 module fuge_c_mesh_writer
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
-  use fuge_c_types, only: from_c_string, from_zero, report_to_c, require_count, require_path, require_pointer, &
-    set_handle
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
+  use fuge_c_mesh_files, only: find_mesh, give_mesh
+  use fuge_c_types, only: from_c_string, from_zero, report_to_c, require_count, require_path, require_pointer
   use fuge_mesh_making, only: append_mesh, fuge_make_mesh
-  use fuge_mesh_type, only: fuge_mesh, fuge_mesh_field, move_mesh, TYPE_LENGTH
+  use fuge_mesh_type, only: fuge_mesh, fuge_mesh_field, TYPE_LENGTH
   use fuge_mesh_writer, only: fuge_write_mesh
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_SIZE
-  use fuge_text_fields, only: quoted
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 
@@ -34,8 +35,8 @@ contains
     call require_count(most, 1, 'most', 'nodes of each element', info)
     call require_count(elements, 0, 'elements', 'elements', info)
     call require_count(types, 1, 'types', 'types', info)
-    call require_pointer(position, 'position', info)
-    call require_pointer(element, 'element', info)
+    call find_array(int(dimensions), nodes, position, 'position', positions, info)
+    call find_array(int(most), elements, element, 'element', numbers, info)
     call require_pointer(destination, 'mesh', info)
     if (.not. info%failed()) call copy_types(int(types), element_type, all_types, info)
     if (.not. info%failed()) then
@@ -43,12 +44,10 @@ contains
       call require_memory(stat, '', int(elements), 'elements', info)
     end if
     if (.not. info%failed()) then
-      call c_f_pointer(position, positions, [dimensions, nodes])
-      call c_f_pointer(element, numbers, [most, elements])
       connection = from_zero(numbers)
       call fuge_make_mesh(positions, connection, all_types, mesh, info)
     end if
-    call hand_over(mesh, destination, info)
+    call give_mesh(mesh, destination, info)
     status = report_to_c(info, message, length)
   end function c_mesh_create
 
@@ -88,22 +87,6 @@ contains
       //quoted(from_c_string(address))//', has more than '//text(len(name))//' characters')
   end subroutine copy_name
 
-  !> Give a mesh to the caller as a handle, unless an error is known already.
-  subroutine hand_over(mesh, destination, info)
-    type(fuge_mesh), intent(inout) :: mesh
-    type(c_ptr), intent(in) :: destination
-    type(fuge_info), intent(inout) :: info
-    type(fuge_mesh), pointer :: handle
-    integer :: stat
-
-    if (info%failed()) return
-    allocate (handle, stat=stat)
-    call require_memory(stat, 'a mesh', info)
-    if (stat /= 0) return
-    call move_mesh(mesh, handle)
-    call set_handle(c_loc(handle), destination)
-  end subroutine hand_over
-
   function c_mesh_join(count, meshes, destination, message, length) bind(c, name='fuge_mesh_join') result(status)
     integer(c_int), intent(in), value :: count
     type(c_ptr), intent(in), value :: meshes, destination, message
@@ -121,13 +104,12 @@ contains
     if (.not. info%failed()) then
       call c_f_pointer(meshes, handle, [count])
       do k = 1, int(count)
-        call require_pointer(handle(k), 'mesh['//index_text(k)//']', info)
+        call find_mesh(handle(k), 'mesh['//index_text(k)//']', mesh, info)
         if (info%failed()) exit
-        call c_f_pointer(handle(k), mesh)
         call append_mesh(mesh, k, joined, info)
       end do
     end if
-    call hand_over(joined, destination, info)
+    call give_mesh(joined, destination, info)
     status = report_to_c(info, message, length)
   end function c_mesh_join
 
@@ -144,10 +126,9 @@ contains
     integer :: stat
 
     call require_path(path, info)
-    call require_pointer(source, 'mesh', info)
+    call find_mesh(source, 'mesh', mesh, info)
     call require_count(count, 0, 'count', 'fields', info)
     if (.not. info%failed()) then
-      call c_f_pointer(source, mesh)
       allocate (fields(count), stat=stat)
       call require_memory(stat, '', int(count), 'fields', info)
       if (.not. info%failed()) call copy_fields(mesh, names, components, elements, values, fields, info)
@@ -163,7 +144,7 @@ contains
     type(fuge_mesh_field), intent(inout) :: fields(:)
     type(fuge_info), intent(inout) :: info
     type(c_ptr), pointer :: name(:), value(:)
-    integer(c_int), pointer :: rows(:), of_elements(:)
+    integer(c_int), pointer :: counts(:), of_elements(:)
     integer :: k
 
     if (size(fields) == 0) return
@@ -172,7 +153,7 @@ contains
     call require_pointer(values, 'field', info)
     if (info%failed()) return
     call c_f_pointer(names, name, [size(fields)])
-    call c_f_pointer(components, rows, [size(fields)])
+    call c_f_pointer(components, counts, [size(fields)])
     call c_f_pointer(values, value, [size(fields)])
     if (c_associated(elements)) then
       call c_f_pointer(elements, of_elements, [size(fields)])
@@ -181,15 +162,15 @@ contains
     do k = 1, size(fields)
       call copy_name(name(k), 'name', k, fields(k)%name, info)
       call require_pointer(value(k), 'field['//index_text(k)//']', info)
-      if (.not. info%failed()) call copy_values(mesh, int(rows(k)), value(k), fields(k), k, info)
+      if (.not. info%failed()) call copy_values(mesh, int(counts(k)), value(k), fields(k), k, info)
       if (info%failed()) return
     end do
   end subroutine copy_fields
 
-  !> Copy the values of field k.
-  subroutine copy_values(mesh, rows, address, field, k, info)
+  !> Copy the values of field k, which has 1 to 3 `components`; FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
+  subroutine copy_values(mesh, components, address, field, k, info)
     type(fuge_mesh), intent(in) :: mesh
-    integer, intent(in) :: rows, k
+    integer, intent(in) :: components, k
     type(c_ptr), intent(in) :: address
     type(fuge_mesh_field), intent(inout) :: field
     type(fuge_info), intent(inout) :: info
@@ -197,17 +178,15 @@ contains
     integer :: columns, stat
 
     columns = merge(size(mesh%element_type), size(mesh%position, 2), field%of_elements)
-    if (rows < 1 .or. rows > 3) then
-      call report(info, FUGE_ERR_SIZE, 'components['//index_text(k)//'] = '//text(rows)//': a field has 1, 2 or 3')
+    if (components < 1 .or. components > 3) then
+      call report(info, FUGE_ERR_SIZE, 'components['//index_text(k)//'] = '//text(components) &
+                  //': a field has 1, 2 or 3')
       return
     end if
-    call c_f_pointer(address, values, [rows, columns])
-    allocate (field%value(rows, columns), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of field '//index_text(k))
-      return
-    end if
-    field%value = values
+    call c_f_pointer(address, values, [components, columns])
+    allocate (field%value(components, columns), stat=stat)
+    call require_memory(stat, 'a copy of field '//index_text(k), info)
+    if (stat == 0) field%value = values
   end subroutine copy_values
 
 end module fuge_c_mesh_writer

@@ -1,8 +1,8 @@
 !> C bindings, section "profiles".
 module fuge_c_profiles
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
-  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, report_to_c, require_count, require_path, &
-    require_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array, give
+  use fuge_c_types, only: from_c_string, report_to_c, require_count, require_path, require_pointer
   use fuge_profile_files, only: fuge_read_profile
   use fuge_profile_sampling, only: fuge_level_profile, fuge_sample_profile
   use fuge_status, only: fuge_info
@@ -28,9 +28,9 @@ contains
     status = report_to_c(info, message, length)
     if (info%failed()) return
     written = min(size(all_x), int(capacity))
-    call copy_reals(all_x(:written), x)
-    call copy_reals(all_z(:written), z)
-    call copy_integers([size(all_x)], count)
+    call give(all_x(:written), x)
+    call give(all_z(:written), z)
+    call give(size(all_x), count)
   end function c_read_profile
 
   function c_sample_profile(n, x, z, points, centre, height, message, length) &
@@ -42,19 +42,13 @@ contains
     real(c_double), pointer :: places(:), heights(:), centres(:), sampled(:)
     type(fuge_info) :: info
 
-    call require_pointer(x, 'x', info)
-    call require_pointer(z, 'z', info)
-    call require_pointer(centre, 'centre', info)
-    call require_pointer(height, 'height', info)
+    call find_array(n, x, 'x', places, info)
+    call find_array(n, z, 'z', heights, info)
+    call find_array(points, centre, 'centre', centres, info)
+    call find_array(points, height, 'height', sampled, info)
     call require_count(n, 2, 'n', 'points of the profile', info)
     call require_count(points, 0, 'points', 'elements of centre and height', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(x, places, [n])
-      call c_f_pointer(z, heights, [n])
-      call c_f_pointer(centre, centres, [points])
-      call c_f_pointer(height, sampled, [points])
-      call fuge_sample_profile(places, heights, centres, sampled, info)
-    end if
+    if (.not. info%failed()) call fuge_sample_profile(places, heights, centres, sampled, info)
     status = report_to_c(info, message, length)
   end function c_sample_profile
 
@@ -66,14 +60,10 @@ contains
     real(c_double), pointer :: places(:), heights(:)
     type(fuge_info) :: info
 
-    call require_pointer(x, 'x', info)
-    call require_pointer(z, 'z', info)
+    call find_array(n, x, 'x', places, info)
+    call find_array(n, z, 'z', heights, info)
     call require_count(n, 2, 'n', 'points of the profile', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(x, places, [n])
-      call c_f_pointer(z, heights, [n])
-      call fuge_level_profile(places, heights, int(form), info)
-    end if
+    if (.not. info%failed()) call fuge_level_profile(places, heights, int(form), info)
     status = report_to_c(info, message, length)
   end function c_level_profile
 

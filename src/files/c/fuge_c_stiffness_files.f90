@@ -1,8 +1,8 @@
 !> C bindings, section "stiffness files".
 module fuge_c_stiffness_files
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int, c_ptr, c_size_t
-  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, report_to_c, require_count, require_path, &
-    require_pointer
+  use fuge_c_arrays, only: give
+  use fuge_c_types, only: from_c_string, report_to_c, require_count, require_path, require_pointer
   use fuge_status, only: fuge_info
   use fuge_stiffness_files, only: fuge_read_stiffness
   implicit none
@@ -38,14 +38,14 @@ contains
     status = report_to_c(info, message, length)
     if (info%failed()) return
     shown = min(size(matrix%node), int(row_capacity))
-    call copy_integers(matrix%column(:shown + 1) - 1, column)
-    call copy_integers(matrix%node(:shown), node)
-    call copy_integers(matrix%direction(:shown), direction)
+    call give(matrix%column(:shown + 1) - 1, column)
+    call give(matrix%node(:shown), node)
+    call give(matrix%direction(:shown), direction)
     shown = min(size(matrix%row), int(entry_capacity))
-    call copy_integers(matrix%row(:shown) - 1, row)
-    call copy_reals(matrix%value(:shown), value)
-    call copy_integers([size(matrix%node)], rows)
-    call copy_integers([size(matrix%row)], entries)
+    call give(matrix%row(:shown) - 1, row)
+    call give(matrix%value(:shown), value)
+    call give(size(matrix%node), rows)
+    call give(size(matrix%row), entries)
   end function c_read_stiffness
 
   !> Read the file; names that are NULL are blank.

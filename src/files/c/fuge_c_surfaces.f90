@@ -1,11 +1,11 @@
 !> C bindings, section "surfaces".
 module fuge_c_surfaces
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-  use fuge_c_types, only: copy_integers, copy_reals, from_c_string, report_to_c, require_count, require_path, &
-    require_pointer
+  use fuge_c_arrays, only: find_array, give
+  use fuge_c_types, only: from_c_string, report_to_c, require_count, require_path, require_pointer
   use fuge_field_files, only: fuge_write_fields, fuge_write_volume
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
   use fuge_surface_filling, only: fuge_fill_surface
   use fuge_surface_levelling, only: fuge_level_surface
@@ -36,11 +36,11 @@ contains
     status = report_to_c(info, message, length)
     if (info%failed()) return
     call copy_heights(surface%height, int(capacity), height)
-    call copy_integers([size(surface%height, 1)], nx)
-    call copy_integers([size(surface%height, 2)], ny)
-    call copy_reals([surface%spacing_x, surface%spacing_y], spacing)
-    call copy_reals([surface%origin_x, surface%origin_y], origin)
-    call copy_integers([surface%filled], filled)
+    call give(size(surface%height, 1), nx)
+    call give(size(surface%height, 2), ny)
+    call give([surface%spacing_x, surface%spacing_y], spacing)
+    call give([surface%origin_x, surface%origin_y], origin)
+    call give(surface%filled, filled)
   end function c_read_surface
 
   !> Copy the first `capacity` heights, or all of them if they are fewer.
@@ -99,7 +99,7 @@ contains
 
     call find_heights(nx, ny, height, heights, info)
     if (.not. info%failed()) call fuge_fill_surface(heights, info, holes)
-    if (.not. info%failed()) call copy_integers([holes], filled)
+    if (.not. info%failed()) call give(holes, filled)
     status = report_to_c(info, message, length)
   end function c_fill_surface
 
@@ -155,17 +155,14 @@ contains
     integer :: points
 
     call require_path(path, info)
-    call require_pointer(spacing, 'spacing', info)
+    call find_array(2_c_int, spacing, 'spacing', spacings, info)
     call require_sizes(nx, ny, info)
     call require_count(count, 1, 'count', 'fields', info)
     points = 0
     if (.not. info%failed()) points = int(nx)*int(ny)
     call copy_fields(points, int(count), names, fields, all_names, all_fields, info)
-    if (.not. info%failed()) then
-      call c_f_pointer(spacing, spacings, [2])
-      call fuge_write_fields(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), all_names, all_fields, &
-                             info, first_centre(origin))
-    end if
+    if (.not. info%failed()) call fuge_write_fields(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), &
+                                                    all_names, all_fields, info, first_centre(origin))
     status = report_to_c(info, message, length)
   end function c_write_fields
 
@@ -183,20 +180,16 @@ contains
     integer :: points
 
     call require_path(path, info)
-    call require_pointer(spacing, 'spacing', info)
-    call require_pointer(depth, 'depth', info)
+    call find_array(2_c_int, spacing, 'spacing', spacings, info)
+    call find_array(depths, depth, 'depth', levels, info)
     call require_sizes(nx, ny, info)
     call require_count(depths, 1, 'depths', 'elements of depth', info)
     call require_count(count, 1, 'count', 'fields', info)
     points = 0
     if (.not. info%failed()) call find_points([nx, ny, depths], points, info)
     call copy_fields(points, int(count), names, fields, all_names, all_fields, info)
-    if (.not. info%failed()) then
-      call c_f_pointer(spacing, spacings, [2])
-      call c_f_pointer(depth, levels, [depths])
-      call fuge_write_volume(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), levels, all_names, &
-                             all_fields, info, first_centre(origin))
-    end if
+    if (.not. info%failed()) call fuge_write_volume(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), &
+                                                    levels, all_names, all_fields, info, first_centre(origin))
     status = report_to_c(info, message, length)
   end function c_write_volume
 
@@ -242,10 +235,8 @@ contains
     call require_pointer(fields, 'fields', info)
     if (info%failed()) return
     allocate (all_names(count), all_fields(n, count), stat=status)
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of '//text(count)//' fields of '//text(n)//' values')
-      return
-    end if
+    call require_memory(status, 'a copy of '//text(count)//' fields of', n, 'values', info)
+    if (status /= 0) return
     call c_f_pointer(names, name, [count])
     call c_f_pointer(fields, field, [count])
     do k = 1, count

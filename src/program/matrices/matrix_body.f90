@@ -143,14 +143,14 @@ contains
   end subroutine pose
 
   !> Displacements of all degrees of freedom.
-  subroutine recover(self, solution, field, info)
+  subroutine recover(self, solution, displacement, info)
     class(elastic_body), intent(in) :: self
     type(fuge_solution), intent(in) :: solution
-    real(dp), allocatable, intent(inout) :: field(:)
+    real(dp), allocatable, intent(inout) :: displacement(:)
     type(fuge_info), intent(out) :: info
 
-    allocate (field(self%degrees))
-    call self%condensed%recover(solution, field, info)
+    allocate (displacement(self%degrees))
+    call self%condensed%recover(solution, displacement, info)
   end subroutine recover
 
 end module matrix_body

@@ -3,7 +3,7 @@
 module matrix_problem
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use command_line, only: arguments, refuse
-  use contact_table, only: write_contact, write_field
+  use contact_table, only: write_contact, write_displacements
   use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, FUGE_ERR_MODES
   use matrix_body, only: elastic_body
   use matrix_files, only: read_square, read_vector, read_modes
@@ -43,11 +43,11 @@ contains
     type(elastic_body), target :: body
     type(fuge_problem) :: problem
     type(fuge_solution) :: solution
-    type(fuge_info) :: of_body, of_field
-    real(dp), allocatable :: field(:)
+    type(fuge_info) :: condensation, recovery
+    real(dp), allocatable :: displacement(:)
 
-    call body%read(given, log, of_body)
-    info = of_body
+    call body%read(given, log, condensation)
+    info = condensation
     if (info%failed()) return
     call read_vector(given%file('gap'), body%points(), problem%gap, info)
     call take_points(given, problem, info)
@@ -55,15 +55,15 @@ contains
     if (.not. info%failed()) call solve(body%condensed%alpha, problem, solution, log, info)
     if (size(body%condensed%resultant) > 0) call explain_motions(info)
     if (info%failed()) return
-    call take_warning(of_body, info)
+    call take_warning(condensation, info)
     if (given%has('field')) then
-      call body%recover(solution, field, of_field)
-      if (.not. of_field%failed()) call write_field(given%file('field'), field, of_field)
-      if (of_field%failed()) then
-        info = of_field
+      call body%recover(solution, displacement, recovery)
+      if (.not. recovery%failed()) call write_displacements(given%file('field'), displacement, recovery)
+      if (recovery%failed()) then
+        info = recovery
         return
       end if
-      call take_warning(of_field, info)
+      call take_warning(recovery, info)
     end if
     call write_contact(given%file('output'), problem, solution, info)
   end subroutine solve_body
@@ -117,14 +117,14 @@ contains
     if (k == 0) return
     allocate (problem%excluded(size(problem%gap)), source=.false.)
     do while (k > 0 .and. .not. info%failed())
-      call exclude(given%settings(k)%value, given%settings(k)%place, problem%excluded, info)
+      call exclude(given%settings(k)%value, given%settings(k)%source, problem%excluded, info)
       k = given%position('exclude', k)
     end do
   end subroutine take_excluded
 
   !> Exclude points of a list such as 3,7-9.
-  subroutine exclude(list, place, excluded, info)
-    character(len=*), intent(in) :: list, place
+  subroutine exclude(list, source, excluded, info)
+    character(len=*), intent(in) :: list, source
     logical, intent(inout) :: excluded(:)
     type(fuge_info), intent(inout) :: info
     integer :: first, hyphen, last, begin, length
@@ -144,9 +144,9 @@ contains
           last = first
         end if
         if (.not. valid) then
-          call refuse(place//': "'//item//'" is no number of a point and no range such as 7-9', info)
+          call refuse(source//': "'//item//'" is no number of a point and no range such as 7-9', info)
         else if (first < 1 .or. last > size(excluded)) then
-          call refuse(place//': "'//item//'" is not within 1 to '//number_text(size(excluded)), info)
+          call refuse(source//': "'//item//'" is not within 1 to '//number_text(size(excluded)), info)
         end if
       end associate
       if (info%failed()) return
@@ -192,17 +192,17 @@ contains
     allocate (problem%prescribed(size(problem%modes, 2)), source=.false.)
     allocate (problem%motion(size(problem%modes, 2)), source=0.0_dp)
     do while (k > 0 .and. .not. info%failed())
-      associate (word => given%settings(k)%value, place => given%settings(k)%place)
+      associate (word => given%settings(k)%value, source => given%settings(k)%source)
         split = index(word//'=', '=')
         call read_integer(word(:split - 1), mode, valid)
         call read_real(word(min(split, len(word)) + 1:), value, valid_value)
         if (.not. (valid .and. valid_value)) then
-          call refuse(place//': the number of a motion and its value are needed, like 2=0.1', info)
+          call refuse(source//': the number of a motion and its value are needed, like 2=0.1', info)
         else if (mode < 1 .or. mode > size(problem%prescribed)) then
-          call refuse(place//': "'//given%file('modes')//'" has '//number_text(size(problem%prescribed))//' motions', &
+          call refuse(source//': "'//given%file('modes')//'" has '//number_text(size(problem%prescribed))//' motions', &
                       info)
         else if (problem%prescribed(mode)) then
-          call refuse(place//': motion '//number_text(mode)//' is given twice', info)
+          call refuse(source//': motion '//number_text(mode)//' is given twice', info)
         else
           problem%prescribed(mode) = .true.
           problem%motion(mode) = value

@@ -10,7 +10,7 @@ module face_pressures
   real(dp), parameter :: POINTS(3) = sqrt(0.6_dp)*[-1.0_dp, 0.0_dp, 1.0_dp]
   real(dp), parameter :: WEIGHTS(3) = [5.0_dp, 8.0_dp, 5.0_dp]/9.0_dp
 
-  !> Shape functions of a face at one place.
+  !> Shape functions of a face at one point.
   type :: face_shapes
     real(dp) :: value(8) = 0.0_dp
     !> Derivatives along xi and eta.
@@ -29,14 +29,14 @@ contains
     real(dp), intent(inout) :: force(:, :)
     real(dp), parameter :: PI = acos(-1.0_dp)
     type(face_shapes) :: at
-    real(dp) :: normal(3), place(2), weight
+    real(dp) :: normal(3), point(2), weight
     integer :: k, n, p, q
 
     n = size(x, 2)
     do q = 1, merge(1, 3, size(x, 1) == 2)
       do p = 1, 3
-        call find_place(size(x, 1), n, p, q, place, weight)
-        call find_shapes(size(x, 1), n, place, at)
+        call find_point(size(x, 1), n, p, q, point, weight)
+        call find_shapes(size(x, 1), n, point, at)
         normal = area_vector(x, at)
         if (on_ring) weight = weight*2.0_dp*PI*dot_product(x(1, :), at%value(:n))
         do k = 1, n
@@ -61,34 +61,34 @@ contains
   end function area_vector
 
   !> One point of the rule: on a triangle the square with one side drawn together to a corner.
-  pure subroutine find_place(dimensions, nodes, p, q, place, weight)
+  pure subroutine find_point(dimensions, nodes, p, q, point, weight)
     integer, intent(in) :: dimensions, nodes, p, q
-    real(dp), intent(out) :: place(2), weight
+    real(dp), intent(out) :: point(2), weight
     real(dp) :: u, v
 
-    place = [POINTS(p), 0.0_dp]
+    point = [POINTS(p), 0.0_dp]
     weight = WEIGHTS(p)
     if (dimensions == 2) return
-    place(2) = POINTS(q)
+    point(2) = POINTS(q)
     weight = WEIGHTS(p)*WEIGHTS(q)
     if (modulo(nodes, 3) /= 0) return
     u = 0.5_dp*(1.0_dp + POINTS(p))
     v = 0.5_dp*(1.0_dp + POINTS(q))
-    place = [u*(1.0_dp - v), v]
+    point = [u*(1.0_dp - v), v]
     weight = 0.25_dp*weight*(1.0_dp - v)
-  end subroutine find_place
+  end subroutine find_point
 
-  pure subroutine find_shapes(dimensions, nodes, place, at)
+  pure subroutine find_shapes(dimensions, nodes, point, at)
     integer, intent(in) :: dimensions, nodes
-    real(dp), intent(in) :: place(2)
+    real(dp), intent(in) :: point(2)
     type(face_shapes), intent(out) :: at
 
     if (dimensions == 2) then
-      call find_edge(nodes, place(1), at)
+      call find_edge(nodes, point(1), at)
     else if (modulo(nodes, 3) == 0) then
-      call find_triangle(nodes, place, at)
+      call find_triangle(nodes, point, at)
     else
-      call find_quadrangle(nodes, place, at)
+      call find_quadrangle(nodes, point, at)
     end if
   end subroutine find_shapes
 
@@ -106,15 +106,15 @@ contains
   end subroutine find_edge
 
   !> A triangle of three or six nodes, by its barycentric coordinates l.
-  pure subroutine find_triangle(nodes, place, at)
+  pure subroutine find_triangle(nodes, point, at)
     integer, intent(in) :: nodes
-    real(dp), intent(in) :: place(2)
+    real(dp), intent(in) :: point(2)
     type(face_shapes), intent(inout) :: at
     real(dp), parameter :: SLOPES(3, 2) = reshape([-1.0_dp, 1.0_dp, 0.0_dp, -1.0_dp, 0.0_dp, 1.0_dp], [3, 2])
     real(dp) :: l(3)
     integer :: i, j
 
-    l = [1.0_dp - place(1) - place(2), place(1), place(2)]
+    l = [1.0_dp - point(1) - point(2), point(1), point(2)]
     at%value(:3) = l
     at%slope(:3, :) = SLOPES
     if (nodes < 6) return
@@ -128,15 +128,15 @@ contains
   end subroutine find_triangle
 
   !> A quadrangle of four nodes, or of eight, the serendipity family.
-  pure subroutine find_quadrangle(nodes, place, at)
+  pure subroutine find_quadrangle(nodes, point, at)
     integer, intent(in) :: nodes
-    real(dp), intent(in) :: place(2)
+    real(dp), intent(in) :: point(2)
     type(face_shapes), intent(inout) :: at
     real(dp), parameter :: X(8) = [-1.0_dp, 1.0_dp, 1.0_dp, -1.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, -1.0_dp]
     real(dp), parameter :: Y(8) = [-1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp, -1.0_dp, 0.0_dp, 1.0_dp, 0.0_dp]
     integer :: k
 
-    associate (xi => place(1), eta => place(2))
+    associate (xi => point(1), eta => point(2))
       do k = 1, 4
         at%value(k) = 0.25_dp*(1.0_dp + X(k)*xi)*(1.0_dp + Y(k)*eta)
         at%slope(k, :) = 0.25_dp*[X(k)*(1.0_dp + Y(k)*eta), Y(k)*(1.0_dp + X(k)*xi)]

@@ -34,19 +34,19 @@ module mesh_body
     !> Where --mesh, --stiffness, --rows and --matrix are among the options; 0: nowhere.
     integer, private :: mesh_option = 0, stiffness_option = 0, rows_option = 0, matrix_option = 0
   contains
-    procedure :: rows
+    procedure :: degrees
   end type model_body
 
 contains
 
   !> Number of degrees of freedom.
-  pure function rows(self)
+  pure function degrees(self)
     class(model_body), intent(in) :: self
-    integer :: rows
+    integer :: degrees
 
-    rows = 0
-    if (allocated(self%node_of_row)) rows = size(self%node_of_row)
-  end function rows
+    degrees = 0
+    if (allocated(self%node_of_row)) degrees = size(self%node_of_row)
+  end function degrees
 
   !> Read the files of all bodies.
   subroutine read_bodies(given, bodies, log, info)
@@ -89,7 +89,7 @@ contains
                  .or. (name == 'stiffness' .and. bodies(count)%stiffness_option > 0)) then
           count = count + 1
         end if
-        call take_option(given%settings(k)%place, name, k, bodies(count), info)
+        call take_option(given%settings(k)%source, name, k, bodies(count), info)
         if (name == 'body') bodies(count)%name = given%settings(k)%value
       end associate
       if (info%failed()) return
@@ -97,8 +97,8 @@ contains
   end subroutine split_options
 
   !> Note where an option of a body is.
-  subroutine take_option(place, name, k, body, info)
-    character(len=*), intent(in) :: place, name
+  subroutine take_option(source, name, k, body, info)
+    character(len=*), intent(in) :: source, name
     integer, intent(in) :: k
     type(model_body), intent(inout) :: body
     type(fuge_info), intent(inout) :: info
@@ -117,7 +117,7 @@ contains
       before = body%matrix_option
       body%matrix_option = k
     end select
-    if (before > 0) call refuse(place//': its body has one already', info)
+    if (before > 0) call refuse(source//': its body has one already', info)
   end subroutine take_option
 
   subroutine keep_bodies(count, bodies)
@@ -149,7 +149,7 @@ contains
         if (allocated(bodies(k)%name)) then
           call refuse('body "'//bodies(k)%name//'" has no --mesh', info)
         else
-          call refuse(given%settings(bodies(k)%stiffness_option)%place//': its body has no --mesh', info)
+          call refuse(given%settings(bodies(k)%stiffness_option)%source//': its body has no --mesh', info)
         end if
         return
       end if
@@ -240,10 +240,10 @@ contains
     call fuge_read_stiffness(path, body%matrix%column, body%matrix%row, body%matrix%value, body%node_of_row, &
                              body%direction_of_row, info, names_path=rows_path, name=name)
     if (info%failed()) return
-    call log%say('stiffness of '//body%name//': '//number_text(body%rows())//' rows, ' &
+    call log%say('stiffness of '//body%name//': '//number_text(body%degrees())//' rows, ' &
                  //number_text(size(body%matrix%row))//' entries')
     found = 0
-    do k = 1, body%rows()
+    do k = 1, body%degrees()
       node = 0
       if (body%direction_of_row(k) >= 1 .and. body%direction_of_row(k) <= DIRECTIONS) &
         node = body%nodes%find(body%node_of_row(k))

@@ -16,8 +16,8 @@ module mesh_conditions
   character(len=*), parameter :: AXIS_NAMES(DIRECTIONS) = [character(len=7) :: 'x', 'y', 'z', 'about x', 'about y', &
     'about z']
 
-  !> Longest name in a table.
-  integer, parameter :: FIELD_LENGTH = 120
+  !> Longest column of a table.
+  integer, parameter :: COLUMN_LENGTH = 120
 
   !> Supports of the degrees of freedom of a body, while they are collected.
   type :: support_list
@@ -27,7 +27,7 @@ module mesh_conditions
 
   !> One line: nodes, axes and a value.
   type :: condition
-    character(len=:), allocatable :: nodes, place
+    character(len=:), allocatable :: nodes, source
     logical :: axes(DIRECTIONS) = .false.
     logical :: is_load = .false.
     logical :: has_value = .false.
@@ -46,9 +46,9 @@ contains
 
     allocate (supports(size(bodies)))
     do k = 1, size(bodies)
-      allocate (supports(k)%held(bodies(k)%rows()), source=.false.)
-      allocate (supports(k)%displacement(bodies(k)%rows()), source=0.0_dp)
-      allocate (bodies(k)%matrix%load(bodies(k)%rows()), source=0.0_dp)
+      allocate (supports(k)%held(bodies(k)%degrees()), source=.false.)
+      allocate (supports(k)%displacement(bodies(k)%degrees()), source=0.0_dp)
+      allocate (bodies(k)%matrix%load(bodies(k)%degrees()), source=0.0_dp)
     end do
     do k = 1, given%count
       select case (given%settings(k)%name)
@@ -62,23 +62,23 @@ contains
       if (info%failed()) return
     end do
     do k = 1, size(bodies)
-      bodies(k)%matrix%fixed = held_places(supports(k)%held)
+      bodies(k)%matrix%fixed = held_rows(supports(k)%held)
       bodies(k)%matrix%displacement = pack(supports(k)%displacement, supports(k)%held)
     end do
   end subroutine take_conditions
 
-  pure function held_places(held) result(places)
+  pure function held_rows(held) result(rows)
     logical, intent(in) :: held(:)
-    integer :: places(count(held))
+    integer :: rows(count(held))
     integer :: k, n
 
     n = 0
     do k = 1, size(held)
       if (.not. held(k)) cycle
       n = n + 1
-      places(n) = k
+      rows(n) = k
     end do
-  end function held_places
+  end function held_rows
 
   !> NODES:AXES or NODES:AXES=VALUE.
   subroutine take_word(option, bodies, supports, info)
@@ -90,19 +90,19 @@ contains
     integer :: colon, equals
 
     one%is_load = option%name == 'load'
-    one%place = option%place
+    one%source = option%source
     associate (word => option%value)
       colon = index(word, ':', back=.true.)
       equals = max(colon, 0) + index(word(colon + 1:)//'=', '=')
       if (colon < 2) then
-        call refuse(one%place//': nodes and an axis are needed, like '//example(one%is_load), info)
+        call refuse(one%source//': nodes and an axis are needed, like '//example(one%is_load), info)
         return
       end if
       one%nodes = word(:colon - 1)
       call read_axes(word(colon + 1:equals - 1), one, info)
       if (equals <= len(word) .and. .not. info%failed()) call read_value(word(equals + 1:), one, info)
       if (one%is_load .and. .not. one%has_value .and. .not. info%failed()) &
-        call refuse(one%place//': a force is needed, like '//example(one%is_load), info)
+        call refuse(one%source//': a force is needed, like '//example(one%is_load), info)
     end associate
     if (.not. info%failed()) call apply(one, bodies, supports, info)
   end subroutine take_word
@@ -123,7 +123,7 @@ contains
     integer :: axis, k
 
     if (len(word) == 0 .or. verify(word, AXES) > 0) then
-      call refuse(one%place//': "'//word//'" is no axis: x, y, z, or 1 to 6', info)
+      call refuse(one%source//': "'//word//'" is no axis: x, y, z, or 1 to 6', info)
       return
     end if
     do k = 1, len(word)
@@ -143,7 +143,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     call read_real(word, one%value, one%has_value)
-    if (.not. one%has_value) call refuse(one%place//': a number is needed, not "'//word//'"', info)
+    if (.not. one%has_value) call refuse(one%source//': a number is needed, not "'//word//'"', info)
   end subroutine read_value
 
   !> Lines of a table, NODES, AXES and VALUE, or those under *BOUNDARY or *CLOAD of an input file.
@@ -174,7 +174,7 @@ contains
       else if (keyword /= '' .and. keyword /= trim(merge('CLOAD   ', 'BOUNDARY', is_load))) then
         cycle
       end if
-      call take_line(file%line, file%place(), body, is_load, keyword /= '', taken == 0, bodies, supports, info)
+      call take_line(file%line, file%source(), body, is_load, keyword /= '', taken == 0, bodies, supports, info)
       taken = taken + 1
     end do
     call file%close()
@@ -205,38 +205,38 @@ contains
   !> One line of a table: nodes, axes and a value. Nodes are of `body`, if it is not empty. `of_deck`: from an input
   !> file, where supports have a first and a last direction. The first line of a table may be a heading. The arguments
   !> are nine, because tables of options and of input files share it.
-  subroutine take_line(line, place, body, is_load, of_deck, is_first, bodies, supports, info)
-    character(len=*), intent(in) :: line, place, body
+  subroutine take_line(line, source, body, is_load, of_deck, is_first, bodies, supports, info)
+    character(len=*), intent(in) :: line, source, body
     logical, intent(in) :: is_load, of_deck, is_first
     type(model_body), intent(inout) :: bodies(:)
     type(support_list), intent(inout) :: supports(:)
     type(fuge_info), intent(inout) :: info
     type(condition) :: one
-    character(len=FIELD_LENGTH) :: fields(4)
+    character(len=COLUMN_LENGTH) :: columns(4)
     integer :: n
 
-    one%place = place
+    one%source = source
     one%is_load = is_load
-    call split_line(line, fields, n)
+    call split_line(line, columns, n)
     if (n < 2 .or. n > merge(4, 3, of_deck .and. .not. is_load) &
         .or. (is_load .and. n < 3)) then
       if (is_load) then
-        call refuse(place//': nodes, an axis and a force are needed, like 17,z,-100', info)
+        call refuse(source//': nodes, an axis and a force are needed, like 17,z,-100', info)
       else
-        call refuse(place//': nodes, an axis and perhaps a displacement are needed, like 17,z,0.1', info)
+        call refuse(source//': nodes, an axis and perhaps a displacement are needed, like 17,z,0.1', info)
       end if
       return
     end if
-    if (is_first .and. .not. of_deck .and. index(upper_case(fields(1)), 'NODE') == 1) return
-    one%nodes = body//trim(fields(1))
-    call read_axes(trim(fields(2)), one, info)
+    if (is_first .and. .not. of_deck .and. index(upper_case(columns(1)), 'NODE') == 1) return
+    one%nodes = body//trim(columns(1))
+    call read_axes(trim(columns(2)), one, info)
     if (of_deck .and. .not. is_load) then
       if (n > 2 .and. .not. info%failed()) then
-        if (fields(3) /= '') call read_last_axis(trim(fields(3)), one, info)
+        if (columns(3) /= '') call read_last_axis(trim(columns(3)), one, info)
       end if
-      if (n > 3 .and. .not. info%failed()) call read_value(trim(fields(4)), one, info)
+      if (n > 3 .and. .not. info%failed()) call read_value(trim(columns(4)), one, info)
     else if (n > 2 .and. .not. info%failed()) then
-      call read_value(trim(fields(3)), one, info)
+      call read_value(trim(columns(3)), one, info)
     end if
     if (.not. info%failed()) call apply(one, bodies, supports, info)
   end subroutine take_line
@@ -249,20 +249,20 @@ contains
     type(condition) :: last
     integer :: first_axis, last_axis
 
-    last%place = one%place
+    last%source = one%source
     call read_axes(word, last, info)
     if (info%failed()) return
     first_axis = findloc(one%axes, .true., dim=1)
     last_axis = findloc(last%axes, .true., dim=1)
-    if (last_axis < first_axis) call refuse(one%place//': the last direction is less than the first one', info)
+    if (last_axis < first_axis) call refuse(one%source//': the last direction is less than the first one', info)
     one%axes(first_axis:last_axis) = .true.
   end subroutine read_last_axis
 
-  !> The fields of a line between commas or semicolons, or else blanks, and how many they are; an empty last one does
-  !> not count.
-  pure subroutine split_line(line, fields, count)
+  !> The columns of a line, separated by commas or semicolons, or else by blanks, and their number; an empty last one
+  !> does not count.
+  pure subroutine split_line(line, columns, count)
     character(len=*), intent(in) :: line
-    character(len=*), intent(out) :: fields(:)
+    character(len=*), intent(out) :: columns(:)
     integer, intent(out) :: count
     character(len=len(line)) :: rest
     character :: separator
@@ -271,13 +271,13 @@ contains
     separator = ' '
     if (index(line, ';') > 0) separator = ';'
     if (index(line, ',') > 0) separator = ','
-    fields = ''
+    columns = ''
     count = 0
     rest = adjustl(line)
     do while (len_trim(rest) > 0)
       length = index(rest//separator, separator) - 1
       count = count + 1
-      if (count <= size(fields)) fields(count) = adjustl(rest(:length))
+      if (count <= size(columns)) columns(count) = adjustl(rest(:length))
       rest = adjustl(rest(min(length + 2, len(rest) + 1):))
     end do
   end subroutine split_line
@@ -291,10 +291,10 @@ contains
     integer, allocatable :: nodes(:)
     integer :: axis, body, found, k, row
 
-    call find_nodes(one%nodes, one%place, bodies, body, nodes, info)
+    call find_nodes(one%nodes, one%source, bodies, body, nodes, info)
     if (info%failed()) return
     if (bodies(body)%elastic == 0) then
-      call refuse(one%place//': body '//bodies(body)%name//' has no --stiffness: it is rigid and stands still', info)
+      call refuse(one%source//': body '//bodies(body)%name//' has no --stiffness: it is rigid and stands still', info)
       return
     end if
     do axis = 1, DIRECTIONS
@@ -307,16 +307,16 @@ contains
           if (one%is_load) then
             bodies(body)%matrix%load(row) = bodies(body)%matrix%load(row) + one%value
           else
-            call hold(one, row, place_name(bodies(body), nodes(k), axis), supports(body), info)
+            call hold(one, row, degree_name(bodies(body), nodes(k), axis), supports(body), info)
           end if
         else if (one%is_load .or. abs(one%value) > 0.0_dp) then
-          call refuse(one%place//': '//place_name(bodies(body), nodes(k), axis)//' has no row in the stiffness: ' &
+          call refuse(one%source//': '//degree_name(bodies(body), nodes(k), axis)//' has no row in the stiffness: ' &
                       //'its program has held it, or it does not move that way', info)
         end if
         if (info%failed()) return
       end do
       if (found > 0) cycle
-      call refuse(one%place//': no node there has a row along '//trim(AXIS_NAMES(axis))//' in the stiffness: its ' &
+      call refuse(one%source//': no node there has a row along '//trim(AXIS_NAMES(axis))//' in the stiffness: its ' &
                   //'program has held them, or the axis is wrong', info)
       return
     end do
@@ -331,7 +331,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (supports%held(row) .and. abs(supports%displacement(row) - one%value) > 0.0_dp) then
-      call refuse(one%place//': '//name//' is displaced by another value already', info)
+      call refuse(one%source//': '//name//' is displaced by another value already', info)
       return
     end if
     supports%held(row) = .true.
@@ -339,12 +339,12 @@ contains
   end subroutine hold
 
   !> A node and an axis, for messages.
-  pure function place_name(body, node, axis) result(name)
+  pure function degree_name(body, node, axis) result(name)
     type(model_body), intent(in) :: body
     integer, intent(in) :: node, axis
     character(len=:), allocatable :: name
 
     name = 'node '//body%name//'.'//number_text(body%mesh%node(node))//' along '//trim(AXIS_NAMES(axis))
-  end function place_name
+  end function degree_name
 
 end module mesh_conditions

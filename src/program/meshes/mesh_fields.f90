@@ -136,7 +136,7 @@ contains
     if (info%failed()) return
     call csv%put('body,node,direction,displacement')
     do k = 1, size(bodies)
-      do j = 1, bodies(k)%rows()
+      do j = 1, bodies(k)%degrees()
         write (value, '(es24.16e3)') displacement(joined%first(bodies(k)%elastic) + j)
         call csv%put(bodies(k)%name//','//number_text(bodies(k)%node_of_row(j))//',' &
                      //number_text(bodies(k)%direction_of_row(j))//','//value)

@@ -10,7 +10,7 @@ module mesh_messages
 
   character(len=*), parameter :: DOF_WORDS = 'degree of freedom ', BODY_WORDS = 'body ', MOTION_WORDS = 'motion '
   character(len=*), parameter :: AXES = 'xyz'
-  !> Differences of displacements below this part of the largest are rounding.
+  !> Differences of displacements below this fraction of the largest one count as zero.
   real(dp), parameter :: ROUNDING = 1.0e-6_dp
 
 contains
@@ -26,11 +26,11 @@ contains
     if (info%status == 0) return
     body = 0
     call find_number(info%message, BODY_WORDS, at, length, elastic)
-    if (at > 0) body = elastic_place(bodies, elastic)
+    if (at > 0) body = body_number(bodies, elastic)
     call find_number(info%message, DOF_WORDS, k, length, dof)
     if (k > 0) then
       if (size(first) > 0) then
-        body = elastic_place(bodies, count(first < dof))
+        body = body_number(bodies, count(first < dof))
         dof = dof - first(max(count(first < dof), 1))
       end if
       if (body > 0) call name_node(bodies(body), dof, k, length, info%message)
@@ -38,7 +38,7 @@ contains
     if (size(first) == 0) call name_bodies(bodies, info%message)
   end subroutine explain
 
-  !> Say in place of the number of a motion without equilibrium which body moves how.
+  !> Say, instead of the number of a motion without equilibrium, which body moves how.
   subroutine explain_motion(bodies, joined, condensed, info)
     type(model_body), intent(in) :: bodies(:)
     type(fuge_joined_bodies), intent(in) :: joined
@@ -53,7 +53,7 @@ contains
     call find_displacement(joined, condensed, motion, moved)
     if (.not. allocated(moved)) return
     elastic = count(joined%first < maxloc(abs(moved), dim=1))
-    body = elastic_place(bodies, elastic)
+    body = body_number(bodies, elastic)
     if (body == 0) return
     info%message = 'body '//bodies(body)%name//', ' &
       //motion_text(bodies(body), moved(joined%first(elastic) + 1:joined%first(elastic + 1))) &
@@ -130,7 +130,7 @@ contains
       call find_number(message(begin:), BODY_WORDS, at, length, elastic)
       if (at == 0) exit
       begin = begin + at + len(BODY_WORDS) - 1
-      body = elastic_place(bodies, elastic)
+      body = body_number(bodies, elastic)
       if (body > 0) message = message(:begin - 1)//bodies(body)%name//message(begin + length - len(BODY_WORDS):)
     end do
   end subroutine name_bodies
@@ -152,15 +152,15 @@ contains
     length = len(words) + digits
   end subroutine find_number
 
-  !> The place of an elastic body among all; 0 if there is none.
-  pure function elastic_place(bodies, elastic) result(place)
+  !> The number among all bodies of the body with this number among the elastic ones; 0 if there is none.
+  pure function body_number(bodies, elastic) result(number)
     type(model_body), intent(in) :: bodies(:)
     integer, intent(in) :: elastic
-    integer :: place
+    integer :: number
 
-    place = 0
-    if (elastic > 0) place = findloc(bodies%elastic, elastic, dim=1)
-  end function elastic_place
+    number = 0
+    if (elastic > 0) number = findloc(bodies%elastic, elastic, dim=1)
+  end function body_number
 
   pure subroutine name_node(body, dof, at, length, message)
     type(model_body), intent(in) :: body
@@ -168,7 +168,7 @@ contains
     character(len=*), intent(inout) :: message
     character(len=:), allocatable :: axis
 
-    if (dof < 1 .or. dof > body%rows()) return
+    if (dof < 1 .or. dof > body%degrees()) return
     associate (direction => body%direction_of_row(dof))
       axis = number_text(direction)
       if (direction >= 1 .and. direction <= len(AXES)) axis = AXES(direction:direction)

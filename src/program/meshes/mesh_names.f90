@@ -14,25 +14,25 @@ module mesh_names
 
 contains
 
-  !> The body and the surface of body.SURFACE, or of SURFACE where one body only has it. `surface` is its place in
+  !> The body and the surface of body.SURFACE, or of SURFACE where one body only has it. `surface` is its index in
   !> mesh%surface.
-  subroutine find_surface(word, place, bodies, body, surface, info)
-    character(len=*), intent(in) :: word, place
+  subroutine find_surface(word, source, bodies, body, surface, info)
+    character(len=*), intent(in) :: word, source
     type(model_body), intent(in) :: bodies(:)
     integer, intent(out) :: body, surface
     type(fuge_info), intent(inout) :: info
     character(len=:), allocatable :: name
     integer :: kind
 
-    call find_body(word, place, bodies, [A_SURFACE], 'surface', body, name, info)
+    call find_body(word, source, bodies, [A_SURFACE], 'surface', body, name, info)
     surface = 0
     if (.not. info%failed()) call find_in_mesh(bodies(body), name, [A_SURFACE], kind, surface)
   end subroutine find_surface
 
-  !> The body of body.NODES, or of NODES where one body only has them, and the places of the nodes: a set, a surface or
-  !> the number of a node.
-  subroutine find_nodes(word, place, bodies, body, nodes, info)
-    character(len=*), intent(in) :: word, place
+  !> The body of body.NODES, or of NODES where one body only has them, and the indices of the nodes in its mesh: those of
+  !> a set or a surface, or that of the node with this number.
+  subroutine find_nodes(word, source, bodies, body, nodes, info)
+    character(len=*), intent(in) :: word, source
     type(model_body), intent(in) :: bodies(:)
     integer, intent(out) :: body
     integer, allocatable, intent(out) :: nodes(:)
@@ -40,7 +40,7 @@ contains
     character(len=:), allocatable :: name
     integer :: at, kind
 
-    call find_body(word, place, bodies, [A_NODE_SET, A_SURFACE, A_NODE], 'set of nodes', body, name, info)
+    call find_body(word, source, bodies, [A_NODE_SET, A_SURFACE, A_NODE], 'set of nodes', body, name, info)
     if (info%failed()) return
     call find_in_mesh(bodies(body), name, [A_NODE_SET, A_SURFACE, A_NODE], kind, at)
     select case (kind)
@@ -52,7 +52,7 @@ contains
       nodes = [at]
     end select
     if (info%failed()) return
-    if (size(nodes) == 0) call refuse(place//': "'//word//'" is empty', info)
+    if (size(nodes) == 0) call refuse(source//': "'//word//'" is empty', info)
   end subroutine find_nodes
 
   !> The nodes of a surface, each once.
@@ -75,8 +75,8 @@ contains
   end subroutine surface_nodes
 
   !> The one body that has what `word` names, and the name without the body.
-  subroutine find_body(word, place, bodies, kinds, what, body, name, info)
-    character(len=*), intent(in) :: word, place, what
+  subroutine find_body(word, source, bodies, kinds, what, body, name, info)
+    character(len=*), intent(in) :: word, source, what
     type(model_body), intent(in) :: bodies(:)
     integer, intent(in) :: kinds(:)
     integer, intent(out) :: body
@@ -94,9 +94,9 @@ contains
       name = word(point + 1:)
       call find_in_mesh(bodies(body), name, kinds, kind, at)
       if (kind == NOTHING .and. is_number(name)) then
-        call refuse(place//': body '//bodies(body)%name//' has no node '//name, info)
+        call refuse(source//': body '//bodies(body)%name//' has no node '//name, info)
       else if (kind == NOTHING) then
-        call refuse_name(place//': body '//bodies(body)%name//' has no '//what//' "'//name//'"', bodies(body:body), &
+        call refuse_name(source//': body '//bodies(body)%name//' has no '//what//' "'//name//'"', bodies(body:body), &
                          what, info)
       end if
       return
@@ -110,12 +110,12 @@ contains
       if (other > 0) exit
     end do
     if (other > 0) then
-      call refuse(place//': bodies '//bodies(other)%name//' and '//bodies(body)%name//' both have "'//name &
+      call refuse(source//': bodies '//bodies(other)%name//' and '//bodies(body)%name//' both have "'//name &
                   //'": write '//bodies(body)%name//'.'//name//' or '//bodies(other)%name//'.'//name, info)
     else if (body == 0 .and. is_number(name)) then
-      call refuse(place//': there is no node '//name, info)
+      call refuse(source//': there is no node '//name, info)
     else if (body == 0) then
-      call refuse_name(place//': there is no '//what//' "'//name//'"', bodies, what, info)
+      call refuse_name(source//': there is no '//what//' "'//name//'"', bodies, what, info)
     end if
   end subroutine find_body
 

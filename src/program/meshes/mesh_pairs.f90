@@ -19,7 +19,7 @@ module mesh_pairs
   type, public :: model_pair
     !> Contact and opposite surface as the option names them.
     character(len=:), allocatable :: name
-    !> Their bodies, rigid ones too, and their places in the meshes.
+    !> Their bodies, rigid ones too, and their indices in the meshes.
     integer :: body(2) = 0, surface(2) = 0
     type(fuge_pair_options) :: options
     !> One normal for all nodes, if the options give it.
@@ -61,7 +61,7 @@ contains
         pairs(count)%normal = common%normal
         pairs(count)%components = common%components
         pairs(count)%clearance = common%clearance
-        call name_pair(given%settings(k)%value, given%settings(k)%place, bodies, pairs(count), info)
+        call name_pair(given%settings(k)%value, given%settings(k)%source, bodies, pairs(count), info)
       else if (count == 0) then
         call take_option(given, k, common, info)
       else
@@ -76,8 +76,8 @@ contains
   end subroutine find_pairs
 
   !> CONTACT:OPPOSITE.
-  subroutine name_pair(word, place, bodies, pair, info)
-    character(len=*), intent(in) :: word, place
+  subroutine name_pair(word, source, bodies, pair, info)
+    character(len=*), intent(in) :: word, source
     type(model_body), intent(in) :: bodies(:)
     type(model_pair), intent(inout) :: pair
     type(fuge_info), intent(inout) :: info
@@ -85,14 +85,14 @@ contains
 
     colon = index(word, ':')
     if (colon < 2 .or. colon == len(word)) then
-      call refuse(place//': two surfaces are needed, like shaft.OUTER:hub.BORE', info)
+      call refuse(source//': two surfaces are needed, like shaft.OUTER:hub.BORE', info)
       return
     end if
     pair%name = word
-    call find_surface(word(:colon - 1), place, bodies, pair%body(1), pair%surface(1), info)
-    if (.not. info%failed()) call find_surface(word(colon + 1:), place, bodies, pair%body(2), pair%surface(2), info)
+    call find_surface(word(:colon - 1), source, bodies, pair%body(1), pair%surface(1), info)
+    if (.not. info%failed()) call find_surface(word(colon + 1:), source, bodies, pair%body(2), pair%surface(2), info)
     if (info%failed()) return
-    if (all(bodies(pair%body)%elastic == 0)) call refuse(place//': both bodies are rigid: --stiffness is needed', info)
+    if (all(bodies(pair%body)%elastic == 0)) call refuse(source//': both bodies are rigid: --stiffness is needed', info)
   end subroutine name_pair
 
   !> An option of a pair; others are skipped.
@@ -103,7 +103,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (is_repeated(given, k)) then
-      call refuse(given%settings(k)%place//': the pair has one already', info)
+      call refuse(given%settings(k)%source//': the pair has one already', info)
       return
     end if
     select case (given%settings(k)%name)
@@ -115,19 +115,19 @@ contains
       pair%options%method = FUGE_NODE_TO_FACE
     case ('play')
       call given%number(k, pair%options%play, info)
-      if (pair%options%play < 0.0_dp) call refuse(given%settings(k)%place//': a play is not negative', info)
+      if (pair%options%play < 0.0_dp) call refuse(given%settings(k)%source//': a play is not negative', info)
     case ('reach')
       call given%number(k, pair%options%reach, info)
       if (.not. pair%options%reach > 0.0_dp .and. .not. info%failed()) &
-        call refuse(given%settings(k)%place//': a length above 0 is needed', info)
+        call refuse(given%settings(k)%source//': a length above 0 is needed', info)
     case ('clearance')
       call given%number(k, pair%clearance, info)
     case ('crease')
       call given%number(k, pair%options%crease, info)
       if (pair%options%crease < 0.0_dp .or. pair%options%crease > 90.0_dp) &
-        call refuse(given%settings(k)%place//': an angle from 0 to 90 degrees is needed', info)
+        call refuse(given%settings(k)%source//': an angle from 0 to 90 degrees is needed', info)
     case ('normals')
-      call take_normals(given%settings(k)%value, given%settings(k)%place, pair, info)
+      call take_normals(given%settings(k)%value, given%settings(k)%source, pair, info)
     end select
   end subroutine take_option
 
@@ -147,8 +147,8 @@ contains
   end function is_repeated
 
   !> averaged, opposite, or a direction of two or three numbers.
-  subroutine take_normals(word, place, pair, info)
-    character(len=*), intent(in) :: word, place
+  subroutine take_normals(word, source, pair, info)
+    character(len=*), intent(in) :: word, source
     type(model_pair), intent(inout) :: pair
     type(fuge_info), intent(inout) :: info
     integer :: begin, k, length
@@ -171,7 +171,7 @@ contains
         begin = begin + length + 1
       end do
       if (.not. valid .or. begin <= len(word) .or. .not. any(abs(pair%normal) > 0.0_dp)) &
-        call refuse(place//': averaged, opposite, or a direction like 0,0,1 is needed', info)
+        call refuse(source//': averaged, opposite, or a direction like 0,0,1 is needed', info)
     end if
   end subroutine take_normals
 
@@ -292,7 +292,7 @@ contains
       do k = 1, size(surface%face, 2)
         do i = 1, size(surface%face, 1)
           if (surface%face(i, k) == 0) exit
-          at = surface_place(body, surface%face(i, k))
+          at = surface_index(body, surface%face(i, k))
           surface%node(:, at) = mesh%position(:dimensions, surface%face(i, k))
           if (body%elastic > 0) surface%dof(:, at) = body%row(:dimensions, surface%face(i, k))
           surface%face(i, k) = at
@@ -305,23 +305,23 @@ contains
   end subroutine make_surface
 
   !> Where a node of the mesh is in the arrays of a surface: at its number, so that messages name it as the file does.
-  pure function surface_place(body, node) result(place)
+  pure function surface_index(body, node) result(at)
     type(model_body), intent(in) :: body
     integer, intent(in) :: node
-    integer :: place
+    integer :: at
 
-    place = node
-    if (body%keeps_numbers) place = body%mesh%node(node)
-  end function surface_place
+    at = node
+    if (body%keeps_numbers) at = body%mesh%node(node)
+  end function surface_index
 
-  !> The node of the mesh at a place in the arrays of a surface.
-  pure function mesh_node(body, place) result(node)
+  !> The node of the mesh at an index of the arrays of a surface.
+  pure function mesh_node(body, at) result(node)
     type(model_body), intent(in) :: body
-    integer, intent(in) :: place
+    integer, intent(in) :: at
     integer :: node
 
-    node = place
-    if (body%keeps_numbers) node = body%nodes%find(place)
+    node = at
+    if (body%keeps_numbers) node = body%nodes%find(at)
   end function mesh_node
 
 end module mesh_pairs

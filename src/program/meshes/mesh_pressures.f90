@@ -27,23 +27,24 @@ contains
     valid = equals > 1
     if (valid) call read_real(option%value(equals + 1:), pressure, valid)
     if (.not. valid) then
-      call refuse(option%place//': a surface and a pressure are needed, like hub.TOP=2.5', info)
+      call refuse(option%source//': a surface and a pressure are needed, like hub.TOP=2.5', info)
       return
     end if
-    call find_surface(option%value(:equals - 1), option%place, bodies, body, surface, info)
+    call find_surface(option%value(:equals - 1), option%source, bodies, body, surface, info)
     if (info%failed()) return
     if (bodies(body)%elastic == 0) then
-      call refuse(option%place//': body '//bodies(body)%name//' has no --stiffness: it is rigid and stands still', info)
+      call refuse(option%source//': body '//bodies(body)%name//' has no --stiffness: it is rigid and stands still', &
+                  info)
     else
-      call add_pressure(pressure, surface, bodies(body), option%place, info)
+      call add_pressure(pressure, surface, bodies(body), option%source, info)
     end if
   end subroutine take_pressure
 
-  subroutine add_pressure(pressure, surface, body, place, info)
+  subroutine add_pressure(pressure, surface, body, source, info)
     real(dp), intent(in) :: pressure
     integer, intent(in) :: surface
     type(model_body), intent(inout) :: body
-    character(len=*), intent(in) :: place
+    character(len=*), intent(in) :: source
     type(fuge_info), intent(inout) :: info
     integer, allocatable :: faces(:, :)
     real(dp) :: force(3, 8)
@@ -70,7 +71,7 @@ contains
         end associate
       end do
     end associate
-    if (found == 0) call refuse(place//': no node there has a row in the stiffness', info)
+    if (found == 0) call refuse(source//': no node there has a row in the stiffness', info)
   end subroutine add_pressure
 
 end module mesh_pressures

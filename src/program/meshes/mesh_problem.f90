@@ -151,7 +151,7 @@ contains
     if (k == 0) return
     allocate (problem%excluded(joined%pairs%points()), source=.false.)
     do while (k > 0)
-      call find_nodes(given%settings(k)%value, given%settings(k)%place, bodies, body, nodes, info)
+      call find_nodes(given%settings(k)%value, given%settings(k)%source, bodies, body, nodes, info)
       if (info%failed()) return
       allocate (named(size(bodies(body)%mesh%node)), source=.false.)
       named(nodes) = .true.
@@ -162,7 +162,7 @@ contains
         problem%excluded(i) = .true.
         found = found + 1
       end do
-      if (found == 0) call refuse(given%settings(k)%place//': no node there is a contact point, a node of the first ' &
+      if (found == 0) call refuse(given%settings(k)%source//': no node there is a contact point, a node of the first ' &
                                   //'surface of a pair', info)
       if (info%failed()) return
       deallocate (named)

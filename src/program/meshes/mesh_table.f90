@@ -75,13 +75,13 @@ contains
     if (listed > 0) call csv%put('# pair '//number_text(k)//', nodes without an opposite:'//list)
   end subroutine put_pair
 
-  !> The number in the file of the node at a place in the arrays of a surface.
-  pure function node_number(body, place) result(number)
+  !> The number in the file of the node at an index of the arrays of a surface.
+  pure function node_number(body, at) result(number)
     type(model_body), intent(in) :: body
-    integer, intent(in) :: place
+    integer, intent(in) :: at
     integer :: number
 
-    number = body%mesh%node(mesh_node(body, place))
+    number = body%mesh%node(mesh_node(body, at))
   end function node_number
 
   subroutine put_point(csv, i, bodies, pairs, joined, problem, solution)

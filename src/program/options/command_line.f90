@@ -1,6 +1,6 @@
 !> The command line of the program `fuge`, and job files: options in their order.
 module command_line
-  use fuge, only: dp => fuge_dp, fuge_info, FUGE_ERR_FILE, FUGE_ERR_OPTION
+  use fuge, only: dp => fuge_dp, fuge_info, FUGE_ERR_OPTION
   use number_words, only: read_real
   use option_table, only: may_repeat, option_number, takes_value, INPUTS, OPTION_NAMES
   use similar_words, only: similar_word
@@ -16,7 +16,7 @@ module command_line
     character(len=len(OPTION_NAMES)) :: name = ''
     character(len=:), allocatable :: value
     !> What messages call it: the option with its value, or the line of a job file.
-    character(len=:), allocatable :: place
+    character(len=:), allocatable :: source
     !> Where paths begin: the folder of the job file with its slash, or empty.
     character(len=:), allocatable :: folder
   end type setting
@@ -123,8 +123,8 @@ contains
       name = file%line(:split - 1)
       value = trim(adjustl(file%line(min(split + 1, len(file%line) + 1):)))
       if (index(name, '--') /= 1) name = '--'//name
-      call check_line(name, value, path(:index(path, '/', back=.true.)), file%place(), info)
-      if (.not. info%failed()) call self%add(name, value, file%place(), path(:index(path, '/', back=.true.)), info)
+      call check_line(name, value, path(:index(path, '/', back=.true.)), file%source(), info)
+      if (.not. info%failed()) call self%add(name, value, file%source(), path(:index(path, '/', back=.true.)), info)
     end do
     call file%close()
     if (self%count == before .and. .not. info%failed()) &
@@ -133,20 +133,20 @@ contains
 
   !> Refuse an option with no value, or with one too many, on a line of a job file, and a second option. Paths begin at
   !> `folder`.
-  subroutine check_line(name, value, folder, place, info)
-    character(len=*), intent(in) :: name, value, folder, place
+  subroutine check_line(name, value, folder, source, info)
+    character(len=*), intent(in) :: name, value, folder, source
     type(fuge_info), intent(inout) :: info
     character(len=:), allocatable :: second
 
     if (number_of(name) == 0) return
     if (takes_value(number_of(name)) .and. len(value) == 0) then
-      call refuse(place//': '//name//' needs a value', info)
+      call refuse(source//': '//name//' needs a value', info)
     else if (.not. takes_value(number_of(name)) .and. len(value) > 0) then
-      call refuse(place//': '//name//' has no value', info)
+      call refuse(source//': '//name//' has no value', info)
     else
       second = inner_option(number_of(name), value, folder)
       if (len(second) > 0) &
-        call refuse(place//': "'//second//'" begins a second option, but there is one on each line', info)
+        call refuse(source//': "'//second//'" begins a second option, but there is one on each line', info)
     end if
   end subroutine check_line
 
@@ -188,20 +188,20 @@ contains
     end if
   end function is_file
 
-  !> Add an option. `place` is empty on the command line.
-  subroutine add(self, word, value, place, folder, info)
+  !> Add an option. `source` is empty on the command line.
+  subroutine add(self, word, value, source, folder, info)
     class(arguments), intent(inout) :: self
-    character(len=*), intent(in) :: word, value, place, folder
+    character(len=*), intent(in) :: word, value, source, folder
     type(fuge_info), intent(inout) :: info
     type(setting), allocatable :: more(:)
     integer :: k, which
 
     which = number_of(word)
     if (which == 0) then
-      call refuse(prefix(place)//'unknown option "'//word//'"'//suggestion(word), info)
+      call refuse(prefix(source)//'unknown option "'//word//'"'//suggestion(word), info)
       return
     else if (self%has(trim(OPTION_NAMES(which))) .and. .not. may_repeat(which)) then
-      call refuse(prefix(place)//word//' is given twice', info)
+      call refuse(prefix(source)//word//' is given twice', info)
       return
     end if
     if (self%count == size(self%settings)) then
@@ -216,9 +216,9 @@ contains
       new%name = OPTION_NAMES(which)
       new%value = value
       new%folder = folder
-      new%place = word
-      if (len(value) > 0) new%place = word//' '//value
-      if (len(place) > 0) new%place = place//': '//new%place
+      new%source = word
+      if (len(value) > 0) new%source = word//' '//value
+      if (len(source) > 0) new%source = source//': '//new%source
     end associate
   end subroutine add
 
@@ -240,16 +240,16 @@ contains
 
     to%name = from%name
     to%value = from%value
-    to%place = from%place
+    to%source = from%source
     to%folder = from%folder
   end subroutine copy_setting
 
-  pure function prefix(place)
-    character(len=*), intent(in) :: place
-    character(len=len(place) + merge(2, 0, len(place) > 0)) :: prefix
+  pure function prefix(source)
+    character(len=*), intent(in) :: source
+    character(len=len(source) + merge(2, 0, len(source) > 0)) :: prefix
 
-    prefix = place
-    if (len(place) > 0) prefix(len(place) + 1:) = ': '
+    prefix = source
+    if (len(source) > 0) prefix(len(source) + 1:) = ': '
   end function prefix
 
   pure subroutine refuse(reason, info)
@@ -268,7 +268,7 @@ contains
     has = self%position(name) > 0
   end function has
 
-  !> The place of the first option of this name after `after`; 0 if there is none.
+  !> The number of the first option of this name after option `after`; 0 if there is none.
   pure function position(self, name, after) result(k)
     class(arguments), intent(in) :: self
     character(len=*), intent(in) :: name
@@ -315,7 +315,7 @@ contains
     logical :: valid
 
     call read_real(self%settings(k)%value, value, valid)
-    if (.not. valid) call refuse(self%settings(k)%place//': a number is needed, not "'//self%settings(k)%value//'"', &
+    if (.not. valid) call refuse(self%settings(k)%source//': a number is needed, not "'//self%settings(k)%value//'"', &
                                  info)
   end subroutine number
 
@@ -336,7 +336,7 @@ contains
       do i = 1, size(values)
         length = index(list(begin:)//',', ',') - 1
         call read_real(trim(adjustl(list(begin:begin + length - 1))), values(i), valid)
-        if (.not. valid) call refuse(self%settings(k)%place//': numbers with commas between them are needed, not "' &
+        if (.not. valid) call refuse(self%settings(k)%source//': numbers with commas between them are needed, not "' &
                                      //list//'"', info)
         if (info%failed()) return
         begin = begin + length + 1

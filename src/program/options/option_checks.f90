@@ -115,8 +115,8 @@ contains
   end subroutine check_meshes
 
   !> Refuse results that would overwrite an input, or each other. A result that does not exist is made for a moment,
-  !> because only then its names can be compared. Errors: FUGE_ERR_OPTION; FUGE_ERR_FILE for a place where nothing can
-  !> be written.
+  !> because only then its names can be compared. Errors: FUGE_ERR_OPTION; FUGE_ERR_FILE where nothing can be
+  !> written.
   subroutine check_results(given, info)
     type(arguments), intent(in) :: given
     type(fuge_info), intent(inout) :: info
@@ -173,11 +173,11 @@ contains
       at = given%position(RESULTS(k))
       result = given%file(RESULTS(k))
       if (at > 0 .and. len_trim(result) == 0) then
-        call refuse(given%settings(at)%place//' needs a path', info)
+        call refuse(given%settings(at)%source//' needs a path', info)
       else if (at > 0) then
         is_same = same_file(result, path)
         if (result == path .and. index(path, '/dev/') /= 1) is_same = .true.
-        if (is_same) call refuse(given%settings(at)%place//': '//reason, info)
+        if (is_same) call refuse(given%settings(at)%source//': '//reason, info)
       else if (RESULTS(k) == 'output') then
         if (same_file('', path)) call refuse('standard output: '//reason//', use --output', info)
       end if

@@ -5,7 +5,7 @@ module similar_words
 
   public :: similar_word
 
-  !> So many letters for each error that a word may have.
+  !> A word may have one typing error for this many letters.
   integer, parameter :: LETTERS = 3
 
 contains

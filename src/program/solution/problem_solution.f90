@@ -28,15 +28,15 @@ contains
     call warn(info)
   end subroutine solve
 
-  !> A warning of one step is a warning of the solve.
-  subroutine take_warning(part, info)
-    type(fuge_info), intent(in) :: part
+  !> A warning of one step is a warning of the solve, unless that has one already.
+  subroutine take_warning(step, info)
+    type(fuge_info), intent(in) :: step
     type(fuge_info), intent(inout) :: info
 
-    call warn(part)
-    if (info%status /= 0 .or. part%status == 0) return
-    info%status = part%status
-    info%message = part%message
+    call warn(step)
+    if (info%status /= 0 .or. step%status == 0) return
+    info%status = step%status
+    info%message = step%message
   end subroutine take_warning
 
   subroutine warn(info)

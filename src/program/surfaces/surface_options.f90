@@ -23,7 +23,7 @@ module surface_options
   type, public :: surface_settings
     !> Combined modulus of both bodies; force per length squared.
     real(dp) :: e_star = 0.0_dp
-    !> Constants of the library, and their places among the names above.
+    !> Constants of the library, and their indices among the names above.
     integer :: boundary = BOUNDARIES(1), element = ELEMENTS(1), level = LEVELS(1)
     integer :: boundary_name = 1, element_name = 1, level_name = 1
     !> Points that were not measured are filled.
@@ -82,7 +82,7 @@ contains
     do k = 2, size(names)
       list = list//', '//trim(names(k))
     end do
-    call refuse(given%settings(at)%place//': one of '//list//' is needed', info)
+    call refuse(given%settings(at)%source//': one of '//list//' is needed', info)
   end subroutine take_choice
 
   !> Spacings, and the factors that bring the unit of the file to that of the user.
@@ -98,7 +98,7 @@ contains
     call take_positive(given, 'spacing', settings%spacing, info)
     if (info%failed()) return
     if (size(settings%spacing) == 1) settings%spacing = spread(settings%spacing(1), 1, 2)
-    if (size(settings%spacing) > 2) call refuse(given%settings(given%position('spacing'))%place &
+    if (size(settings%spacing) > 2) call refuse(given%settings(given%position('spacing'))%source &
       //': one or two lengths are needed, along x and along y', info)
   end subroutine take_lengths
 
@@ -113,7 +113,7 @@ contains
     call take_positive(given, option, values, info)
     if (info%failed()) return
     factor = values(1)
-    if (size(values) > 1) call refuse(given%settings(given%position(option))%place//': one number is needed', info)
+    if (size(values) > 1) call refuse(given%settings(given%position(option))%source//': one number is needed', info)
   end subroutine take_factor
 
   !> The combined modulus, by --modulus or by --young and --poisson of one elastic body or of both.
@@ -155,7 +155,7 @@ contains
     at = given%position(option)
     call given%numbers(at, values, info)
     if (info%failed()) return
-    if (.not. all(values > 0.0_dp)) call refuse(given%settings(at)%place//': it has to be > 0', info)
+    if (.not. all(values > 0.0_dp)) call refuse(given%settings(at)%source//': it has to be > 0', info)
   end subroutine take_positive
 
 end module surface_options

@@ -5,7 +5,7 @@ module contact_table
   implicit none
   private
 
-  public :: put_outcome, put_status, write_contact, write_field
+  public :: put_outcome, put_status, write_contact, write_displacements
 
 contains
 
@@ -74,9 +74,9 @@ contains
   end function resultant
 
   !> Displacements of the whole body.
-  subroutine write_field(path, field, info)
+  subroutine write_displacements(path, displacement, info)
     character(len=*), intent(in) :: path
-    real(dp), intent(in) :: field(:)
+    real(dp), intent(in) :: displacement(:)
     type(fuge_info), intent(inout) :: info
     type(table) :: csv
     character(len=40) :: line
@@ -85,11 +85,11 @@ contains
     call csv%create(path, info)
     if (info%failed()) return
     call csv%put('degree of freedom,displacement')
-    do k = 1, size(field)
-      write (line, '(i0,'','',es24.16e3)') k, field(k)
+    do k = 1, size(displacement)
+      write (line, '(i0,'','',es24.16e3)') k, displacement(k)
       call csv%put(line)
     end do
     call csv%finish(info)
-  end subroutine write_field
+  end subroutine write_displacements
 
 end module contact_table

@@ -1,10 +1,10 @@
-!> Where the numbers of nodes are: from the numbers in files to places in arrays.
+!> Finds nodes by their numbers: from the numbers in files to indices of arrays.
 module number_index
   implicit none
   private
 
   type, public :: index_of_numbers
-    integer, allocatable, private :: number(:), place(:)
+    integer, allocatable, private :: number(:), position(:)
   contains
     procedure :: set
     procedure :: find
@@ -31,7 +31,7 @@ contains
       width = 2*width
     end do
     self%number = numbers(order)
-    call move_alloc(order, self%place)
+    call move_alloc(order, self%position)
   end subroutine set
 
   pure function ascends(numbers, order)
@@ -68,20 +68,20 @@ contains
     end do
   end subroutine merge_runs
 
-  !> The place of a number; 0 if it is not there.
-  pure function find(self, number) result(place)
+  !> The index of a number among those given to `set`; 0 if it is not there.
+  pure function find(self, number) result(position)
     class(index_of_numbers), intent(in) :: self
     integer, intent(in) :: number
-    integer :: place
+    integer :: position
     integer :: high, low, middle
 
-    place = 0
+    position = 0
     low = 1
     high = size(self%number)
     do while (low <= high)
       middle = low + (high - low)/2
       if (self%number(middle) == number) then
-        place = self%place(middle)
+        position = self%position(middle)
         return
       else if (self%number(middle) < number) then
         low = middle + 1

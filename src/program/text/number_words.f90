@@ -44,20 +44,20 @@ contains
   pure function number_text(value) result(text)
     integer, intent(in) :: value
     character(len=:), allocatable :: text
-    character(len=12) :: field
+    character(len=12) :: digits
 
-    write (field, '(i0)') value
-    text = trim(field)
+    write (digits, '(i0)') value
+    text = trim(digits)
   end function number_text
 
   !> A number as text, to six digits.
   pure function short_text(value) result(text)
     real(dp), intent(in) :: value
     character(len=:), allocatable :: text
-    character(len=16) :: field
+    character(len=16) :: digits
 
-    write (field, '(es13.5e3)') value
-    text = trim(adjustl(field))
+    write (digits, '(es13.5e3)') value
+    text = trim(adjustl(digits))
   end function short_text
 
 end module number_words

@@ -18,7 +18,7 @@ module text_lines
   contains
     procedure :: open => open_lines
     procedure :: next
-    procedure :: place
+    procedure :: source
     procedure :: close => close_lines
   end type line_reader
 
@@ -62,7 +62,7 @@ contains
       if (status < 0) return
       if (status > 0) then
         info%status = FUGE_ERR_FILE
-        info%message = self%place()//' cannot be read: '//trim(reason)
+        info%message = self%source()//' cannot be read: '//trim(reason)
         return
       end if
       if (self%number == 1 .and. index(self%line, BYTE_ORDER_MARK) == 1) &
@@ -77,15 +77,15 @@ contains
     class(line_reader), intent(inout) :: self
     integer, intent(out) :: status
     character(len=*), intent(inout) :: reason
-    character(len=256) :: part
+    character(len=256) :: piece
     integer :: length
 
     self%line = ''
     self%number = self%number + 1
     do
-      read (self%unit, '(a)', advance='no', size=length, iostat=status, iomsg=reason) part
+      read (self%unit, '(a)', advance='no', size=length, iostat=status, iomsg=reason) piece
       if (status > 0 .or. is_iostat_end(status)) exit
-      self%line = self%line//part(:length)
+      self%line = self%line//piece(:length)
       if (is_iostat_eor(status)) exit
     end do
     if (is_iostat_eor(status) .or. (is_iostat_end(status) .and. len(self%line) > 0)) status = 0
@@ -107,12 +107,12 @@ contains
   end subroutine clean
 
   !> The file and the number of the present line, for messages.
-  pure function place(self)
+  pure function source(self)
     class(line_reader), intent(in) :: self
-    character(len=:), allocatable :: place
+    character(len=:), allocatable :: source
 
-    place = '"'//self%path//'", line '//number_text(self%number)
-  end function place
+    source = '"'//self%path//'", line '//number_text(self%number)
+  end function source
 
   subroutine close_lines(self)
     class(line_reader), intent(inout) :: self

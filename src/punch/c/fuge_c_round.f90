@@ -1,8 +1,9 @@
 !> C bindings, section "round punches".
 module fuge_c_round
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_funptr, c_loc, c_associated, c_f_pointer
+  use fuge_c_arrays, only: find_array, give
   use fuge_c_smooth, only: callback_profile, procedure_at
-  use fuge_c_types, only: copy_reals, report_to_c, require_count, require_pointer, set_handle, take_handle
+  use fuge_c_types, only: report_to_c, require_count, require_pointer, set_handle, take_handle
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_power_profile_type, only: fuge_power_profile
@@ -61,21 +62,19 @@ contains
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(fuge_power_profile) :: punch
-    real(c_double), pointer :: values(:)
+    real(c_double), pointer :: factors(:), exponents(:), values(:)
     type(fuge_info) :: info
 
     call require_count(terms, 1, 'terms', 'powers', info)
-    call require_pointer(coefficients, 'coefficients', info)
-    call require_pointer(powers, 'powers', info)
+    call find_array(terms, coefficients, 'coefficients', factors, info)
+    call find_array(terms, powers, 'powers', exponents, info)
     if (.not. info%failed()) then
       punch%upper = reach
-      call c_f_pointer(coefficients, values, [terms])
-      allocate (punch%coefficients, source=values)
-      call c_f_pointer(powers, values, [terms])
-      allocate (punch%powers, source=values)
+      punch%coefficients = factors
+      punch%powers = exponents
       if (c_associated(starts)) then
         call c_f_pointer(starts, values, [terms])
-        allocate (punch%starts, source=values)
+        punch%starts = values
       end if
       call solve(punch, e_star, load, approach, radius, destination, info)
     end if
@@ -167,13 +166,10 @@ contains
 
     call find_contact(source, handle, info)
     call require_count(number, 0, 'count', 'places', info)
-    call require_pointer(r, 'r', info)
+    call find_array(number, r, 'r', places, info)
     call require_pointer(pressure, 'pressure', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(r, places, [number])
-      call check_finite(places, 'r', info)
-    end if
-    if (.not. info%failed()) call copy_reals(handle%contact%pressure(places), pressure)
+    if (.not. info%failed()) call check_finite(places, 'r', info)
+    if (.not. info%failed()) call give(handle%contact%pressure(places), pressure)
     status = report_to_c(info, message, length)
   end function c_get_pressure
 
@@ -189,16 +185,12 @@ contains
 
     call find_contact(source, handle, info)
     call require_count(number, 0, 'count', 'places', info)
-    call require_pointer(r, 'r', info)
-    call require_pointer(initial_gap, 'initial_gap', info)
+    call find_array(number, r, 'r', places, info)
+    call find_array(number, initial_gap, 'initial_gap', initial, info)
     call require_pointer(gap, 'gap', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(r, places, [number])
-      call c_f_pointer(initial_gap, initial, [number])
-      call check_finite(places, 'r', info)
-    end if
+    if (.not. info%failed()) call check_finite(places, 'r', info)
     if (.not. info%failed()) call check_finite(initial, 'initial_gap', info)
-    if (.not. info%failed()) call copy_reals(handle%contact%gap(places, initial), gap)
+    if (.not. info%failed()) call give(handle%contact%gap(places, initial), gap)
     status = report_to_c(info, message, length)
   end function c_get_gap
 

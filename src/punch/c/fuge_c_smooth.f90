@@ -3,7 +3,8 @@ module fuge_c_smooth
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_null_ptr, c_funptr, c_loc, c_associated, &
     c_f_pointer, c_f_procpointer
-  use fuge_c_types, only: copy_reals, report_to_c, require_count, require_pointer, set_handle, take_handle
+  use fuge_c_arrays, only: find_array, give
+  use fuge_c_types, only: report_to_c, require_count, require_pointer, set_handle, take_handle
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_smooth_contact_type, only: fuge_smooth_contact
@@ -77,21 +78,17 @@ contains
       punch%upper = upper
       punch%user = user
       punch%profile => procedure_at(profile)
-      if (c_associated(moment)) then
-        call c_f_pointer(moment, prescribed)
-        call fuge_solve_smooth_punch(punch, e_star, force, handle%contact, info, prescribed)
+      ! An actual argument that is a null pointer is an absent one.
+      if (c_associated(moment)) call c_f_pointer(moment, prescribed)
+      call fuge_solve_smooth_punch(punch, e_star, force, handle%contact, info, prescribed)
+      if (info%failed()) then
+        deallocate (handle)
       else
-        call fuge_solve_smooth_punch(punch, e_star, force, handle%contact, info)
+        handle%info = info
+        call set_handle(c_loc(handle), destination)
       end if
     end if
     status = report_to_c(info, message, length)
-    if (.not. associated(handle)) return
-    if (info%failed()) then
-      deallocate (handle)
-    else
-      handle%info = info
-      call set_handle(c_loc(handle), destination)
-    end if
   end function c_solve_smooth_punch
 
   function procedure_at(address) result(found)
@@ -187,13 +184,10 @@ contains
 
     call find_contact(source, handle, info)
     call require_count(number, 0, 'count', 'places', info)
-    call require_pointer(x, 'x', info)
+    call find_array(number, x, 'x', places, info)
     call require_pointer(pressure, 'pressure', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(x, places, [number])
-      call check_finite(places, 'x', info)
-    end if
-    if (.not. info%failed()) call copy_reals(handle%contact%pressure(places), pressure)
+    if (.not. info%failed()) call check_finite(places, 'x', info)
+    if (.not. info%failed()) call give(handle%contact%pressure(places), pressure)
     status = report_to_c(info, message, length)
   end function c_get_pressure
 
@@ -209,16 +203,12 @@ contains
 
     call find_contact(source, handle, info)
     call require_count(number, 0, 'count', 'places', info)
-    call require_pointer(x, 'x', info)
-    call require_pointer(initial_gap, 'initial_gap', info)
+    call find_array(number, x, 'x', places, info)
+    call find_array(number, initial_gap, 'initial_gap', initial, info)
     call require_pointer(gap, 'gap', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(x, places, [number])
-      call c_f_pointer(initial_gap, initial, [number])
-      call check_finite(places, 'x', info)
-    end if
+    if (.not. info%failed()) call check_finite(places, 'x', info)
     if (.not. info%failed()) call check_finite(initial, 'initial_gap', info)
-    if (.not. info%failed()) call copy_reals(handle%contact%gap(places, initial), gap)
+    if (.not. info%failed()) call give(handle%contact%gap(places, initial), gap)
     status = report_to_c(info, message, length)
   end function c_get_gap
 
@@ -237,7 +227,7 @@ contains
     status = report_to_c(info, message, length)
     if (info%failed()) return
     if (.not. allocated(handle%contact%coefficients)) return
-    call copy_reals(handle%contact%coefficients(:min(int(capacity), size(handle%contact%coefficients))), coefficients)
+    call give(handle%contact%coefficients(:min(int(capacity), size(handle%contact%coefficients))), coefficients)
   end function c_get_coefficients
 
   !> The contact behind a handle; FUGE_ERR_POINTER for NULL.

@@ -12,7 +12,7 @@ module fuge_c_stress_grid
 
   !> Forces of the cells, depths, and a result (component, cell, depth).
   type :: grid_arrays
-    real(c_double), pointer :: force(:) => null(), depth(:) => null(), field(:, :, :) => null()
+    real(c_double), pointer :: force(:) => null(), depth(:) => null(), found(:, :, :) => null()
   end type grid_arrays
 
 contains
@@ -31,7 +31,7 @@ contains
     call require_count(n, 1, 'n', 'cells', info)
     call find_arrays(int(n), force, depths, depth, stress, 'stress', 3, arrays, info)
     if (.not. info%failed()) call fuge_halfplane_stress_grid(spacing, arrays%force, int(element), int(boundary), &
-                                                             arrays%depth, arrays%field, info)
+                                                             arrays%depth, arrays%found, info)
     status = report_to_c(info, message, length)
   end function c_halfplane_stress_grid
 
@@ -51,7 +51,7 @@ contains
     call find_arrays(int(n), force, depths, depth, displacement, 'displacement', 2, arrays, info)
     if (.not. info%failed()) call fuge_halfplane_displacement_grid(spacing, arrays%force, int(element), int(boundary), &
                                                                    young, poisson, int(plane_state), arrays%depth, &
-                                                                   arrays%field, info)
+                                                                   arrays%found, info)
     status = report_to_c(info, message, length)
   end function c_halfplane_displacement_grid
 
@@ -70,7 +70,7 @@ contains
     call require_grid(nx, ny, info)
     call find_arrays(cells_of(nx, ny, info), force, depths, depth, stress, 'stress', 6, arrays, info)
     if (.not. info%failed()) call fuge_halfspace_stress_grid(int(nx), int(ny), spacing_x, spacing_y, arrays%force, &
-                                                             int(boundary), poisson, arrays%depth, arrays%field, info)
+                                                             int(boundary), poisson, arrays%depth, arrays%found, info)
     status = report_to_c(info, message, length)
   end function c_halfspace_stress_grid
 
@@ -90,7 +90,7 @@ contains
     call find_arrays(cells_of(nx, ny, info), force, depths, depth, displacement, 'displacement', 3, arrays, info)
     if (.not. info%failed()) call fuge_halfspace_displacement_grid(int(nx), int(ny), spacing_x, spacing_y, &
                                                                    arrays%force, int(boundary), young, poisson, &
-                                                                   arrays%depth, arrays%field, info)
+                                                                   arrays%depth, arrays%found, info)
     status = report_to_c(info, message, length)
   end function c_halfspace_displacement_grid
 
@@ -118,10 +118,10 @@ contains
 
   !> The arrays behind pointers, none of which may be NULL; `cells` is valid unless an error is known already. The
   !> arguments are nine, because each pointer has an array that it stands for.
-  subroutine find_arrays(cells, force, depths, depth, field, name, components, arrays, info)
+  subroutine find_arrays(cells, force, depths, depth, destination, name, components, arrays, info)
     integer, intent(in) :: cells, components
     integer(c_int), intent(in) :: depths
-    type(c_ptr), intent(in) :: force, depth, field
+    type(c_ptr), intent(in) :: force, depth, destination
     character(len=*), intent(in) :: name
     type(grid_arrays), intent(inout) :: arrays
     type(fuge_info), intent(inout) :: info
@@ -129,8 +129,8 @@ contains
     call require_count(depths, 0, 'depths', 'depths', info)
     call find_array(int(cells, c_int), force, 'force', arrays%force, info)
     call find_array(depths, depth, 'depth', arrays%depth, info)
-    call require_pointer(field, name, info)
-    if (.not. info%failed()) call c_f_pointer(field, arrays%field, [components, cells, int(depths)])
+    call require_pointer(destination, name, info)
+    if (.not. info%failed()) call c_f_pointer(destination, arrays%found, [components, cells, int(depths)])
   end subroutine find_arrays
 
 end module fuge_c_stress_grid
