@@ -30,5 +30,5 @@ expect_offence(${list} "fuge_planted: gone\n" "untested.txt names fuge_planted, 
 expect_offence(${list} "fuge_c_dense: again\n" "untested.txt names fuge_c_dense twice\n")
 expect_offence(${list} "fuge_planted:\n" "untested.txt gives no reason for fuge_planted\n")
 expect_offence(${list} "fuge_planted\n" "untested.txt: not `module: reason`: fuge_planted\n")
-expect_offence(${list} "fuge_planted: test/api/dense.c and test/api/planted.c\n"
+expect_offence(${list} "fuge_planted: test/api/core/dense.c and test/api/planted.c\n"
   "untested.txt names test/api/planted.c for fuge_planted, which does not exist\n")
