@@ -350,8 +350,7 @@ static void test_warm_start(void) {
     gap[k] = x[k] * x[k];
   }
   CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, 0, alpha, N, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_dense(N, alpha, N, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_new(op, NULL, &solver, NULL, 0), FUGE_DONE);
+  solver = new_solver(alpha, N, NULL, &op);
   CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
   CHECK_STATUS(fuge_set_load(solver, 0.5), FUGE_DONE);
   CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
