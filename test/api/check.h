@@ -18,9 +18,25 @@ static const double SENTINEL = -12345.75;
 #define CHECK_INT(actual, expected) check_int(__FILE__, __LINE__, #actual, (actual), (expected))
 #define CHECK_NEAR(actual, expected, tolerance) \
   check_near(__FILE__, __LINE__, #actual, (actual), (expected), (tolerance))
+/* The first values of an array, each within `tolerance`. */
+#define CHECK_VALUES(array, tolerance, ...) \
+  check_values(__FILE__, __LINE__, #array, (array), (const double[]){__VA_ARGS__}, \
+               (int)(sizeof((const double[]){__VA_ARGS__}) / sizeof(double)), (tolerance))
 #define CHECK_STRING(actual, expected) check_string(__FILE__, __LINE__, #actual, (actual), (expected))
 #define CHECK_CONTAINS(text, part) check_contains(__FILE__, __LINE__, #text, (text), (part))
+#define CHECK_DONE(call) check_status(__FILE__, __LINE__, #call, (call), FUGE_DONE)
 #define CHECK_STATUS(call, expected) check_status(__FILE__, __LINE__, #call, (call), (expected))
+/* Status and message of one call: a part of the message, or all of it. */
+#define CHECK_SAYS(call, expected, message, part) \
+  do { \
+    check_status(__FILE__, __LINE__, #call, (call), (expected)); \
+    CHECK_CONTAINS(message, part); \
+  } while (0)
+#define CHECK_MESSAGE(call, expected, message, whole) \
+  do { \
+    check_status(__FILE__, __LINE__, #call, (call), (expected)); \
+    CHECK_STRING(message, whole); \
+  } while (0)
 #define CHECK_UNTOUCHED(array, n) check_untouched(__FILE__, __LINE__, #array, (array), (n))
 
 static inline int check_count(const char *file, int line, int passed) {
@@ -44,6 +60,13 @@ static inline void check_near(const char *file, int line, const char *what, doub
                               double tolerance) {
   if (!check_count(file, line, fabs(actual - expected) <= tolerance))
     printf("%s is %.17g, expected %.17g within %g\n", what, actual, expected, tolerance);
+}
+
+static inline void check_values(const char *file, int line, const char *what, const double *actual,
+                                const double *expected, int n, double tolerance) {
+  for (int k = 0; k < n; k++)
+    if (!check_count(file, line, fabs(actual[k] - expected[k]) <= tolerance))
+      printf("%s[%d] is %.17g, expected %.17g within %g\n", what, k, actual[k], expected[k], tolerance);
 }
 
 static inline void check_string(const char *file, int line, const char *what, const char *actual,

@@ -5,7 +5,7 @@ module rank_checks
   implicit none
   private
 
-  public :: begin_checks, check_solution, end_checks, expect, gather, my_rank
+  public :: begin_checks, check_solution, check_solves, end_checks, expect, gather, my_rank
 
   type :: counters
     integer :: failures = 0, rank = 0
@@ -74,6 +74,38 @@ contains
     write (*, '(a,t36,4i6,es10.2,2x,a)') name, info%iterations, info%products, info%preconditionings, info%contacts, &
       maxval(abs(force - expected%force))/max(maxval(abs(expected%force)), tiny(1.0_dp)), trim(info%message)
   end subroutine check_solution
+
+  ! The load of `problem`, more of it from the first solution, and a prescribed approach: the first `solves` of them.
+  ! `whole` and `whole_problem`, those of one process, matter on rank 0; accuracy and counts as in `check_solution`.
+  subroutine check_solves(name, accuracy, counts, solves, shared, whole, problem, whole_problem)
+    character(len=*), intent(in) :: name
+    real(dp), intent(in) :: accuracy
+    integer, intent(in) :: counts, solves
+    class(fuge_operator), intent(in) :: shared, whole
+    type(fuge_problem), intent(inout) :: problem, whole_problem
+    type(fuge_solution) :: solution, expected
+    type(fuge_solver) :: solver, whole_solver
+    type(fuge_info) :: info, whole_info
+    real(dp) :: load
+    integer :: k
+
+    load = problem%resultant(1)
+    do k = 1, solves
+      call solver%solve(shared, problem, solution, info)
+      call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
+      if (info%failed()) return
+      if (now%rank == 0) call whole_solver%solve(whole, whole_problem, expected, whole_info)
+      call check_solution(name, accuracy, counts, info, solution, whole_info, expected)
+      problem%resultant = [1.1_dp*load]
+      whole_problem%resultant = problem%resultant
+      if (k == 2) then
+        problem%prescribed = [.true.]
+        problem%motion = 0.7_dp*solution%motion
+        whole_problem%prescribed = problem%prescribed
+        whole_problem%motion = problem%motion
+      end if
+    end do
+  end subroutine check_solves
 
   ! `all_values` on rank 0: those of all ranks.
   subroutine gather(values, all_values)

@@ -2,11 +2,12 @@
 !> given, and how far their stresses are from uniform.
 module pressed_blocks
   use fuge, only: dp => fuge_dp, fuge_elastic_body, fuge_surface_mesh, fuge_surface_pair
+  use expectations, only: relative_difference
   use mesh_blocks, only: block_stiffness, block_stress, elastic_block, face_nodes_of, make_block, stress_forces
   implicit none
   private
 
-  public :: linear_field, make_pressed, rotation, stress_error, surface_dof, take_block, uniaxial, unturned
+  public :: linear_field, make_pressed, rotation, scene_stress_error, stress_error, surface_dof, take_block, uniaxial, unturned
 
   real(dp), parameter, public :: PRESSURE = 0.37_dp
   !> The blocks are 1.3 by 1.1 wide and 0.5 and 0.4 high.
@@ -140,6 +141,18 @@ contains
     dof = reshape(surface%dof(:, nodes), [size(surface%dof, 1)*size(nodes)])
   end function surface_dof
 
+  !> The larger error of the stresses in both blocks; `u` has the displacements of the lower one first.
+  function scene_stress_error(scene, u) result(error)
+    type(pressed), intent(in) :: scene
+    real(dp), intent(in) :: u(:)
+    real(dp) :: error
+    integer :: first
+
+    first = size(scene%block(1)%x)
+    error = max(stress_error(scene%block(1), u(:first), scene%stress), &
+                stress_error(scene%block(2), u(first + 1:), scene%stress))
+  end function scene_stress_error
+
   !> Largest difference of the stresses from the uniform one, relative to its largest component.
   function stress_error(block, u, stress) result(error)
     type(elastic_block), intent(in) :: block
@@ -151,7 +164,7 @@ contains
     call block_stress(block, u, found)
     error = 0.0_dp
     do k = 1, size(found, 2)
-      error = max(error, maxval(abs(found(:, k) - stress))/maxval(abs(stress)))
+      error = max(error, relative_difference(found(:, k), stress))
     end do
   end function stress_error
 

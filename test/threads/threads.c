@@ -223,12 +223,11 @@ static void make_ground(void) {
     x[k] = k;
     width[k] = 1.0;
   }
-  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_MEAN, 0, shared.alpha, N, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_dense(N, shared.alpha, N, &shared.dense, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_halfplane(CELLS, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &shared.cells, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_halfspace(SIDE, SIDE, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &shared.area, NULL, 0),
-               FUGE_DONE);
-  CHECK_STATUS(fuge_operator_callback(N, spring, &flexibility, &shared.springs, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_MEAN, 0, shared.alpha, N, NULL, 0));
+  CHECK_DONE(fuge_operator_dense(N, shared.alpha, N, &shared.dense, NULL, 0));
+  CHECK_DONE(fuge_operator_halfplane(CELLS, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &shared.cells, NULL, 0));
+  CHECK_DONE(fuge_operator_halfspace(SIDE, SIDE, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &shared.area, NULL, 0));
+  CHECK_DONE(fuge_operator_callback(N, spring, &flexibility, &shared.springs, NULL, 0));
   snprintf(shared.path, sizeof shared.path, "threads_profile.txt");
   file = fopen(shared.path, "w");
   CHECK(file != NULL);

@@ -19,9 +19,9 @@ static int matrix(int n, const double *x, int element, double *alpha, int lda, c
 static void test_one_square(void) {
   const double pi = acos(-1.0), root = sqrt(2.0);
   double alpha;
-  CHECK_STATUS(matrix(1, X, FUGE_CENTRE, &alpha, 1, NULL, 0), FUGE_DONE);
+  CHECK_DONE(matrix(1, X, FUGE_CENTRE, &alpha, 1, NULL, 0));
   CHECK_NEAR(alpha, 4.0 * log(1.0 + root) / (pi * E_STAR), 2.0 * TOLERANCE);
-  CHECK_STATUS(matrix(1, X, FUGE_MEAN, &alpha, 1, NULL, 0), FUGE_DONE);
+  CHECK_DONE(matrix(1, X, FUGE_MEAN, &alpha, 1, NULL, 0));
   CHECK_NEAR(alpha, 4.0 * (log(1.0 + root) + (1.0 - root) / 3.0) / (pi * E_STAR), 2.0 * TOLERANCE);
 }
 
@@ -30,8 +30,7 @@ static void test_four_squares(int element) {
   double alpha[LDA * N];
   char message[256] = "old";
   fill(alpha, LDA * N);
-  CHECK_STATUS(matrix(N, X, element, alpha, LDA, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(matrix(N, X, element, alpha, LDA, message, sizeof message), FUGE_DONE, message, "");
   for (int k = 0; k < N; k++) {
     CHECK_NEAR(alpha[k + LDA * k], alpha[0], 0.0);
     CHECK_NEAR(alpha[k + LDA * (k ^ 1)], alpha[1], 0.0);
@@ -51,11 +50,9 @@ static void test_folded(void) {
     width_x[k] = QUARTER_WIDTH_X[k % 3];
     width_y[k] = QUARTER_WIDTH_Y[k % 3];
   }
-  CHECK_STATUS(fuge_halfspace_matrix(12, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 0, 0, whole, 12, NULL, 0),
-               FUGE_DONE);
-  CHECK_STATUS(fuge_halfspace_matrix(3, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 1, quarter, 3, NULL, 0),
-               FUGE_DONE);
-  CHECK_STATUS(fuge_halfspace_matrix(6, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 0, half, 6, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_halfspace_matrix(12, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 0, 0, whole, 12, NULL, 0));
+  CHECK_DONE(fuge_halfspace_matrix(3, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 1, quarter, 3, NULL, 0));
+  CHECK_DONE(fuge_halfspace_matrix(6, x, y, width_x, width_y, E_STAR, FUGE_MEAN, 1, 0, half, 6, NULL, 0));
   for (int j = 0; j < 3; j++)
     for (int i = 0; i < 3; i++) {
       double sum = 0.0;
@@ -73,32 +70,27 @@ static void test_refusals(void) {
   fill(alpha, N * N);
   CHECK_STATUS(matrix(0, X, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STATUS(matrix(N, X, FUGE_MEAN, alpha, N - 1, message, sizeof message), FUGE_ERR_SIZE);
-  CHECK_STATUS(matrix(N, NULL, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "x is NULL");
+  CHECK_MESSAGE(matrix(N, NULL, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_POINTER, message, "x is NULL");
   CHECK_STATUS(matrix(N, X, FUGE_MEAN, NULL, N, message, sizeof message), FUGE_ERR_POINTER);
   CHECK_STATUS(matrix(N, X, FUGE_HAT, alpha, N, message, sizeof message), FUGE_ERR_ELEMENT);
-  CHECK_STATUS(matrix(N, nan, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_NOT_FINITE);
-  CHECK_CONTAINS(message, "x(3) = NaN");
-  CHECK_STATUS(fuge_halfspace_matrix(N, X, X, ONES, ONES, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
-               FUGE_ERR_WIDTH);
-  CHECK_CONTAINS(message, "rectangles 0 and 2 overlap");
-  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, zero, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
-               FUGE_ERR_WIDTH);
-  CHECK_CONTAINS(message, "width_y(2) = 0.");
+  CHECK_SAYS(matrix(N, nan, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_NOT_FINITE, message, "x(3) = NaN");
+  CHECK_SAYS(fuge_halfspace_matrix(N, X, X, ONES, ONES, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
+             FUGE_ERR_WIDTH, message, "rectangles 0 and 2 overlap");
+  CHECK_SAYS(fuge_halfspace_matrix(N, X, Y, ONES, zero, E_STAR, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
+             FUGE_ERR_WIDTH, message, "width_y(2) = 0.");
   CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, 0.0, FUGE_MEAN, 0, 0, alpha, N, message, sizeof message),
                FUGE_ERR_MODULUS);
-  CHECK_STATUS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, E_STAR, FUGE_MEAN, 0, 1, alpha, N, message, sizeof message),
-               FUGE_ERR_WIDTH);
-  CHECK_CONTAINS(message, "y(0) = -0.5");
+  CHECK_SAYS(fuge_halfspace_matrix(N, X, Y, ONES, ONES, E_STAR, FUGE_MEAN, 0, 1, alpha, N, message, sizeof message),
+             FUGE_ERR_WIDTH, message, "y(0) = -0.5");
   CHECK_UNTOUCHED(alpha, N * N);
 }
 
 static fuge_solver *ball_on_grid(fuge_operator *op, const double *gap) {
   fuge_solver *solver = NULL;
-  CHECK_STATUS(fuge_solver_new(op, NULL, &solver, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_DONE(fuge_solver_new(op, NULL, &solver, NULL, 0));
+  CHECK_DONE(fuge_set_gap(solver, gap, NULL));
+  CHECK_DONE(fuge_set_load(solver, 2.0));
+  CHECK_DONE(fuge_solve(solver));
   return solver;
 }
 
@@ -118,22 +110,20 @@ static void test_grid(int element) {
     width_y[k] = 0.75;
     gap[k] = 0.3 * (x[k] * x[k] + y[k] * y[k]);
   }
-  CHECK_STATUS(fuge_operator_halfspace(NX, NY, 0.5, 0.75, E_STAR, element, FUGE_FREE, &op, message, sizeof message),
-               FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_operator_halfspace(NX, NY, 0.5, 0.75, E_STAR, element, FUGE_FREE, &op, message, sizeof message),
+                FUGE_DONE, message, "");
   solver = ball_on_grid(op, gap);
-  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_threads(op, 3, message, sizeof message), FUGE_DONE);
-  CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
+  CHECK_DONE(fuge_get_force(solver, force));
+  CHECK_DONE(fuge_operator_set_threads(op, 3, message, sizeof message));
+  CHECK_DONE(fuge_reset(solver));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_force(solver, again));
   fuge_solver_free(&solver);
   fuge_operator_free(&op);
-  CHECK_STATUS(fuge_halfspace_matrix(CELLS, x, y, width_x, width_y, E_STAR, element, 0, 0, alpha, CELLS, NULL, 0),
-               FUGE_DONE);
-  CHECK_STATUS(fuge_operator_dense(CELLS, alpha, CELLS, &dense, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_halfspace_matrix(CELLS, x, y, width_x, width_y, E_STAR, element, 0, 0, alpha, CELLS, NULL, 0));
+  CHECK_DONE(fuge_operator_dense(CELLS, alpha, CELLS, &dense, NULL, 0));
   solver = ball_on_grid(dense, gap);
-  CHECK_STATUS(fuge_get_force(solver, right), FUGE_DONE);
+  CHECK_DONE(fuge_get_force(solver, right));
   fuge_solver_free(&solver);
   fuge_operator_free(&dense);
   for (int k = 0; k < CELLS; k++) {
@@ -147,7 +137,7 @@ static void test_boundaries(void) {
   for (int boundary = FUGE_FREE; boundary <= FUGE_PERIODIC_Y; boundary++)
     for (int ny = 1; ny <= 5; ny += 4) {
       fuge_operator *op = NULL;
-      CHECK_STATUS(fuge_operator_halfspace(6, ny, 1.0, 2.0, E_STAR, FUGE_MEAN, boundary, &op, NULL, 0), FUGE_DONE);
+      CHECK_DONE(fuge_operator_halfspace(6, ny, 1.0, 2.0, E_STAR, FUGE_MEAN, boundary, &op, NULL, 0));
       CHECK(op != NULL);
       fuge_operator_free(&op);
       CHECK(op == NULL);
@@ -206,40 +196,39 @@ static void test_grid_problems(void) {
     bad[k] = k == NX + 2 ? NAN : gap[k];
     derivative[k] = SENTINEL;
   }
-  CHECK_STATUS(fuge_operator_halfspace(NX, NY, 0.5, 0.75, E_STAR, FUGE_MEAN, FUGE_PERIODIC, &op, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_operator_halfspace(NX, NY, 0.5, 0.75, E_STAR, FUGE_MEAN, FUGE_PERIODIC, &op, NULL, 0));
   solver = ball_on_grid(op, gap);
-  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
-  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
+  CHECK_DONE(fuge_get_force(solver, force));
+  CHECK_DONE(fuge_get_motion(solver, &approach));
   CHECK_STATUS(fuge_set_gap(solver, NULL, NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_set_gap(solver, bad, NULL), FUGE_ERR_NOT_FINITE);
   CHECK_STATUS(fuge_set_load(solver, -2.0), FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_STATUS(fuge_set_load(solver, NAN), FUGE_ERR_NOT_FINITE);
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, derivative, NULL, NULL), FUGE_DONE);
+  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, derivative, NULL, NULL));
   for (int k = 0; k < CELLS; k++) {
     CHECK(force[k] > 0.0 ? derivative[k] > 0.0 : derivative[k] == 0.0);
     sum += derivative[k];
   }
   CHECK_NEAR(sum, 1.0, 1e-12);
-  CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
+  CHECK_DONE(fuge_get_force(solver, again));
   for (int k = 0; k < CELLS; k++) CHECK_NEAR(again[k], force[k], 0.0);
-  CHECK_STATUS(fuge_set_approach(solver, approach), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_resultant(solver, &load), FUGE_DONE);
+  CHECK_DONE(fuge_set_approach(solver, approach));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_resultant(solver, &load));
   CHECK_NEAR(load, 2.0, 1e-7);
   /* The mean gap is less than 1: nothing holds a periodic surface there. */
-  CHECK_STATUS(fuge_set_approach(solver, 2.0), FUGE_DONE);
+  CHECK_DONE(fuge_set_approach(solver, 2.0));
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_NO_EQUILIBRIUM);
-  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-  CHECK_CONTAINS(message, "periodic surface");
+  CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "periodic surface");
   CHECK_STATUS(fuge_get_force(solver, again), FUGE_ERR_CALL_ORDER);
-  CHECK_STATUS(fuge_set_load(solver, 2.0), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
+  CHECK_DONE(fuge_set_load(solver, 2.0));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_force(solver, again));
   for (int k = 0; k < CELLS; k++) CHECK_NEAR(again[k], force[k], 1e-8);
   /* No point can open by more than the ball has before it is pressed. */
-  CHECK_STATUS(fuge_set_gap(solver, gap, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_gap(solver, again), FUGE_DONE);
+  CHECK_DONE(fuge_set_gap(solver, gap, gap));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_gap(solver, again));
   for (int k = 0; k < CELLS; k++) CHECK(again[k] >= 0.0 && again[k] <= gap[k]);
   fuge_solver_free(&solver);
   fuge_operator_free(&op);

@@ -5,9 +5,8 @@ static void test_sphere(void) {
   const double radius = 10.0, e_star = 1.1e5, load = 40.0, a = cbrt(0.75 * load * radius / e_star);
   double axis_x, axis_y, approach, peak;
   char message[256] = "old";
-  CHECK_STATUS(fuge_hertz_ellipse(radius, radius, e_star, load, &axis_x, &axis_y, &approach, &peak, message,
-                                  sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_hertz_ellipse(radius, radius, e_star, load, &axis_x, &axis_y, &approach, &peak, message,
+                                   sizeof message), FUGE_DONE, message, "");
   CHECK_NEAR(axis_x, a, 1e-14 * a);
   CHECK_NEAR(axis_y, axis_x, 0.0);
   CHECK_NEAR(approach, a * a / radius, 1e-14 * a * a / radius);
@@ -17,11 +16,11 @@ static void test_sphere(void) {
 /* The longer axis lies in the direction of the greater radius. */
 static void test_ellipse(void) {
   double axis_x, axis_y, peak;
-  CHECK_STATUS(fuge_hertz_ellipse(10.0, 1.0, 1.0, 1.0, &axis_x, &axis_y, NULL, &peak, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_hertz_ellipse(10.0, 1.0, 1.0, 1.0, &axis_x, &axis_y, NULL, &peak, NULL, 0));
   CHECK_NEAR(axis_x, 2.6508501071522376, 1e-14);
   CHECK_NEAR(axis_y, 0.58915016190837923, 1e-14);
   CHECK_NEAR(peak, 0.30572447918727691, 1e-14);
-  CHECK_STATUS(fuge_hertz_ellipse(1.0, 10.0, 1.0, 1.0, NULL, &axis_y, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_hertz_ellipse(1.0, 10.0, 1.0, 1.0, NULL, &axis_y, NULL, NULL, NULL, 0));
   CHECK_NEAR(axis_y, axis_x, 0.0);
 }
 
@@ -29,9 +28,8 @@ static void check_refused(double radius_y, double e_star, double load, int statu
   double values[4];
   char message[256];
   fill(values, 4);
-  CHECK_STATUS(fuge_hertz_ellipse(1.0, radius_y, e_star, load, values, values + 1, values + 2, values + 3, message,
-                                  sizeof message), status);
-  CHECK_CONTAINS(message, part);
+  CHECK_SAYS(fuge_hertz_ellipse(1.0, radius_y, e_star, load, values, values + 1, values + 2, values + 3, message,
+                                sizeof message), status, message, part);
   CHECK_UNTOUCHED(values, 4);
 }
 

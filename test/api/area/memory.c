@@ -20,9 +20,9 @@ static fuge_solver *new_solver(const fuge_operator *op) {
     modes[POINTS + k] = x + 7.0;
     modes[2 * POINTS + k] = y + 3.0;
   }
-  CHECK_STATUS(fuge_solver_new(op, NULL, &solver, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_set_modes(solver, 3, modes, resultant), FUGE_DONE);
+  CHECK_DONE(fuge_solver_new(op, NULL, &solver, NULL, 0));
+  CHECK_DONE(fuge_set_gap(solver, gap, NULL));
+  CHECK_DONE(fuge_set_modes(solver, 3, modes, resultant));
   free(gap);
   free(modes);
   return solver;
@@ -49,8 +49,7 @@ static int solve_within(fuge_solver *solver, long megabytes) {
 int main(void) {
   fuge_operator *op = NULL;
   fuge_solver *solver;
-  CHECK_STATUS(fuge_operator_halfspace(SIDE, SIDE, 1.0 / SIDE, 1.0 / SIDE, 1.0, FUGE_MEAN, FUGE_FREE, &op, NULL, 0),
-               FUGE_DONE);
+  CHECK_DONE(fuge_operator_halfspace(SIDE, SIDE, 1.0 / SIDE, 1.0 / SIDE, 1.0, FUGE_MEAN, FUGE_FREE, &op, NULL, 0));
   solver = new_solver(op);
   for (long megabytes = 7; megabytes < 32; megabytes += 4) CHECK_INT(solve_within(solver, megabytes), FUGE_ERR_MEMORY);
   CHECK_INT(solve_within(solver, 1000), FUGE_DONE);

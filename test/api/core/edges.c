@@ -14,8 +14,8 @@ static void press(double *x, double *width, double *force) {
     width[k] = H;
     gap[k] = pow(x[k] - 0.013, 2);
   }
-  CHECK_STATUS(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, 0, alpha, N, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_solve_dense(N, alpha, N, gap, acos(-1.0) / 2.0, force, open, &approach, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, 0, alpha, N, NULL, 0));
+  CHECK_DONE(fuge_solve_dense(N, alpha, N, gap, acos(-1.0) / 2.0, force, open, &approach, NULL, 0));
 }
 
 static void test_cylinder(void) {
@@ -27,8 +27,8 @@ static void test_cylinder(void) {
   fill(right, MOST);
   fill(left_error, MOST);
   fill(right_error, MOST);
-  CHECK_STATUS(fuge_contact_edges(N, x, width, force, FUGE_CENTRE, 0, MOST, left, right, left_error, right_error,
-                                  left_kind, right_kind, &count, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_contact_edges(N, x, width, force, FUGE_CENTRE, 0, MOST, left, right, left_error, right_error,
+                                left_kind, right_kind, &count, message, sizeof message));
   CHECK_INT(count, 1);
   CHECK_STRING(message, "");
   CHECK_NEAR(left[0], 0.013 - 1.0, 1e-3 * H);
@@ -51,8 +51,8 @@ static void test_kinds(void) {
   static const double force[6] = {1, 0, 2, 2, 0, 1};
   double left[MOST], right[MOST], left_error[MOST], right_error[MOST];
   int left_kind[MOST], right_kind[MOST], count = -1;
-  CHECK_STATUS(fuge_contact_edges(6, x, width, force, FUGE_HAT, 1, MOST, left, right, left_error, right_error,
-                                  left_kind, right_kind, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_contact_edges(6, x, width, force, FUGE_HAT, 1, MOST, left, right, left_error, right_error, left_kind,
+                                right_kind, &count, NULL, 0));
   CHECK_INT(count, 3);
   CHECK_NEAR(left[0], -1.0, 0.0);
   CHECK_NEAR(right[0], 1.0, 0.0);
@@ -64,8 +64,8 @@ static void test_kinds(void) {
   CHECK_INT(left_kind[0], FUGE_EDGE_FEW_CELLS);
   CHECK_INT(left_kind[2], FUGE_EDGE_FEW_CELLS);
   CHECK_INT(right_kind[2], FUGE_EDGE_GRID_END);
-  CHECK_STATUS(fuge_contact_edges(6, x, width, force, FUGE_HAT, 0, MOST, left, right, left_error, right_error,
-                                  left_kind, right_kind, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_contact_edges(6, x, width, force, FUGE_HAT, 0, MOST, left, right, left_error, right_error, left_kind,
+                                right_kind, &count, NULL, 0));
   CHECK_NEAR(left[0], 0.0, 0.0);
   CHECK_INT(left_kind[0], FUGE_EDGE_GRID_END);
 }
@@ -79,8 +79,8 @@ static void test_singular(void) {
     width[k] = 1.0;
     force[k] = k % 8 ? pow(k - 4, 2) + 1.0 : 0.0;
   }
-  CHECK_STATUS(fuge_contact_edges(9, x, width, force, FUGE_CENTRE, 0, 1, &left, &right, NULL, NULL, &left_kind, NULL,
-                                  &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_contact_edges(9, x, width, force, FUGE_CENTRE, 0, 1, &left, &right, NULL, NULL, &left_kind, NULL,
+                                &count, NULL, 0));
   CHECK_INT(left_kind, FUGE_EDGE_SINGULAR);
   CHECK_NEAR(left, 0.5, 0.0);
   CHECK_NEAR(right, 7.5, 0.0);
@@ -99,11 +99,11 @@ static void test_capacity(void) {
   double left[MOST];
   int count = -1;
   fill(left, MOST);
-  CHECK_STATUS(left_edges(5, x, width, force, FUGE_MEAN, 2, left, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(left_edges(5, x, width, force, FUGE_MEAN, 2, left, &count, NULL, 0));
   CHECK_INT(count, 3);
   CHECK_NEAR(left[1], 1.5, 0.0);
   CHECK_UNTOUCHED(left + 2, 1);
-  CHECK_STATUS(left_edges(5, x, width, force, FUGE_MEAN, 0, NULL, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(left_edges(5, x, width, force, FUGE_MEAN, 0, NULL, &count, NULL, 0));
   CHECK_INT(count, 3);
 }
 

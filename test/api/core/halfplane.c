@@ -27,7 +27,7 @@ static double mean_of_cell(double d, double h, double datum) {
 
 static void test_coefficients(int element, double (*expected)(double, double, double)) {
   double alpha[N * N];
-  CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, element, 0, alpha, N, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, element, 0, alpha, N, NULL, 0));
   for (int i = 0; i < N; i++)
     for (int k = 0; k < N; k++) {
       CHECK_NEAR(alpha[i + k * N], expected(X[i] - X[k], H, 2.0 * N * H), TOLERANCE);
@@ -39,7 +39,7 @@ static void test_coefficients(int element, double (*expected)(double, double, do
 static void test_one_cell(void) {
   const double x = 7.0, width = 1.0;
   double alpha;
-  CHECK_STATUS(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, 0, &alpha, 1, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, 0, &alpha, 1, NULL, 0));
   CHECK_NEAR(alpha, 2.0 / acos(-1.0) * (1.0 + 2.0 * log(2.0)) / E_STAR, TOLERANCE);
 }
 
@@ -47,14 +47,14 @@ static void test_one_cell(void) {
 static void test_narrow_cell_far_away(void) {
   const double x = 1e9, width = 1e-9;
   double alpha;
-  CHECK_STATUS(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, 0, &alpha, 1, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_halfplane_matrix(1, &x, &width, E_STAR, FUGE_CENTRE, 0, &alpha, 1, NULL, 0));
   CHECK_NEAR(alpha, 2.0 / acos(-1.0) * (1.0 + 2.0 * log(2.0)) / E_STAR, TOLERANCE);
 }
 
 static void test_unequal_cells_are_symmetric(void) {
   for (int folded = 0; folded < 2; folded++) {
     double alpha[N * N];
-    CHECK_STATUS(fuge_halfplane_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, folded, alpha, N, NULL, 0), FUGE_DONE);
+    CHECK_DONE(fuge_halfplane_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, folded, alpha, N, NULL, 0));
     for (int i = 0; i < N; i++)
       for (int k = 0; k < i; k++) CHECK_NEAR(alpha[i + k * N], alpha[k + i * N], 0.0);
   }
@@ -68,8 +68,8 @@ static void test_folding(void) {
     x[N + k] = UNEQUAL_X[k];
     width[N - 1 - k] = width[N + k] = UNEQUAL[k];
   }
-  CHECK_STATUS(fuge_halfplane_matrix(2 * N, x, width, E_STAR, FUGE_MEAN, 0, whole, 2 * N, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_halfplane_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, 1, folded, N, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_halfplane_matrix(2 * N, x, width, E_STAR, FUGE_MEAN, 0, whole, 2 * N, NULL, 0));
+  CHECK_DONE(fuge_halfplane_matrix(N, UNEQUAL_X, UNEQUAL, E_STAR, FUGE_MEAN, 1, folded, N, NULL, 0));
   for (int i = 0; i < N; i++)
     for (int k = 0; k < N; k++) {
       double cell = whole[N + i + (N + k) * 2 * N], image = whole[N + i + (N - 1 - k) * 2 * N];
@@ -81,9 +81,8 @@ static void test_folding(void) {
 static void test_cell_on_axis(void) {
   const double x[2] = {0.0, 0.5}, width[2] = {0.5, 0.5};
   double alpha[4];
-  CHECK_STATUS(fuge_halfplane_matrix(2, x, width, E_STAR, FUGE_CENTRE, 1, alpha, 2, NULL, 0), FUGE_DONE);
-  CHECK_NEAR(alpha[0], at_centre(0.0, 0.5, 3.0), TOLERANCE);
-  CHECK_NEAR(alpha[1], at_centre(0.5, 0.5, 3.0), TOLERANCE);
+  CHECK_DONE(fuge_halfplane_matrix(2, x, width, E_STAR, FUGE_CENTRE, 1, alpha, 2, NULL, 0));
+  CHECK_VALUES(alpha, TOLERANCE, at_centre(0.0, 0.5, 3.0), at_centre(0.5, 0.5, 3.0));
   CHECK_NEAR(alpha[3], 0.5 * (at_centre(0.0, 0.5, 3.0) + at_centre(1.0, 0.5, 3.0)), TOLERANCE);
 }
 
@@ -92,8 +91,8 @@ static void test_padding(void) {
   for (int folded = 0; folded < 2; folded++) {
     double tight[N * N], wide[LDA * N];
     fill(wide, LDA * N);
-    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_HAT, folded, tight, N, NULL, 0), FUGE_DONE);
-    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_HAT, folded, wide, LDA, NULL, 0), FUGE_DONE);
+    CHECK_DONE(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_HAT, folded, tight, N, NULL, 0));
+    CHECK_DONE(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_HAT, folded, wide, LDA, NULL, 0));
     for (int k = 0; k < N; k++) {
       for (int i = 0; i < N; i++) CHECK_NEAR(wide[i + k * LDA], tight[i + k * N], 0.0);
       CHECK_UNTOUCHED(&wide[N + k * LDA], LDA - N);
@@ -163,9 +162,8 @@ static void test_leading_dimension(void) {
     double alpha[N * N];
     char message[256] = "";
     fill(alpha, N * N);
-    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N - 1, message, sizeof message),
-                 FUGE_ERR_SIZE);
-    CHECK_CONTAINS(message, "lda = 4");
+    CHECK_SAYS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N - 1, message, sizeof message),
+               FUGE_ERR_SIZE, message, "lda = 4");
     CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, -N, NULL, 0), FUGE_ERR_SIZE);
     CHECK_UNTOUCHED(alpha, N * N);
   }
@@ -176,15 +174,12 @@ static void test_null_pointers(void) {
     double alpha[N * N];
     char message[256] = "";
     fill(alpha, N * N);
-    CHECK_STATUS(fuge_halfplane_matrix(N, NULL, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
-                 FUGE_ERR_POINTER);
-    CHECK_STRING(message, "x is NULL");
-    CHECK_STATUS(fuge_halfplane_matrix(N, X, NULL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
-                 FUGE_ERR_POINTER);
-    CHECK_STRING(message, "width is NULL");
-    CHECK_STATUS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, NULL, N, message, sizeof message),
-                 FUGE_ERR_POINTER);
-    CHECK_STRING(message, "alpha is NULL");
+    CHECK_MESSAGE(fuge_halfplane_matrix(N, NULL, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
+                  FUGE_ERR_POINTER, message, "x is NULL");
+    CHECK_MESSAGE(fuge_halfplane_matrix(N, X, NULL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
+                  FUGE_ERR_POINTER, message, "width is NULL");
+    CHECK_MESSAGE(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, NULL, N, message, sizeof message),
+                  FUGE_ERR_POINTER, message, "alpha is NULL");
     CHECK_UNTOUCHED(alpha, N * N);
   }
 }
@@ -207,12 +202,12 @@ static void test_graded_cells(void) {
   double x[5], width[5];
   /* I_t(2, 4) at t = 1/4, 1/2, 3/4: 376/1024, 832/1024, 1008/1024. */
   const double at[6] = {-376, 0, 376, 832, 1008, 1024};
-  CHECK_STATUS(fuge_graded_cells(1.0, 3.0, FUGE_END_EDGE, FUGE_END_CORNER, 1, 0, 5, x, width, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_graded_cells(1.0, 3.0, FUGE_END_EDGE, FUGE_END_CORNER, 1, 0, 5, x, width, NULL, 0));
   for (int k = 0; k < 5; k++) {
     CHECK_NEAR(x[k], 1.0 + (at[k] + at[k + 1]) / 1024.0, TOLERANCE);
     CHECK_NEAR(width[k], 2.0 * (at[k + 1] - at[k]) / 1024.0, TOLERANCE);
   }
-  CHECK_STATUS(fuge_graded_cells(-1.0, 1.0, FUGE_END_PLAIN, FUGE_END_PLAIN, 0, 0, 1, x, width, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_graded_cells(-1.0, 1.0, FUGE_END_PLAIN, FUGE_END_PLAIN, 0, 0, 1, x, width, NULL, 0));
   CHECK_NEAR(x[0], 0.0, 0.0);
   CHECK_NEAR(width[0], 2.0, 0.0);
 }
@@ -220,9 +215,8 @@ static void test_graded_cells(void) {
 static void check_bad_cells(int n, int kind, int beyond, double right, double *x, double *width, int status,
                             const char *part) {
   char message[256] = "";
-  CHECK_STATUS(fuge_graded_cells(1.0, right, FUGE_END_EDGE, kind, 0, beyond, n, x, width, message, sizeof message),
-               status);
-  CHECK_CONTAINS(message, part);
+  CHECK_SAYS(fuge_graded_cells(1.0, right, FUGE_END_EDGE, kind, 0, beyond, n, x, width, message, sizeof message),
+             status, message, part);
 }
 
 static void test_bad_graded_cells(void) {

@@ -4,7 +4,7 @@
 
 static void test_life_cycle(void) {
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
   CHECK(op != NULL);
   fuge_operator_free(&op);
   CHECK(op == NULL);
@@ -19,14 +19,14 @@ static void test_padding(void) {
   double force[2], gap[2], approach;
   fuge_operator *op = NULL;
   fuge_solver *solver = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, alpha, 3, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_new(op, NULL, &solver, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_set_load(solver, TABLE1_LOAD), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
-  CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
+  CHECK_DONE(fuge_operator_dense(2, alpha, 3, &op, NULL, 0));
+  CHECK_DONE(fuge_solver_new(op, NULL, &solver, NULL, 0));
+  CHECK_DONE(fuge_set_gap(solver, TABLE1_GAP, NULL));
+  CHECK_DONE(fuge_set_load(solver, TABLE1_LOAD));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_force(solver, force));
+  CHECK_DONE(fuge_get_gap(solver, gap));
+  CHECK_DONE(fuge_get_motion(solver, &approach));
   check_table1(force, gap, approach);
   free_both(&solver, &op);
 }
@@ -58,7 +58,7 @@ static void test_asymmetry_limit(void) {
   const double below[4] = {0.2, 0.1, 0.1 + 0.9e-11, 0.2};
   const double above[4] = {0.2, 0.1, 0.1 + 1.1e-11, 0.2};
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, below, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_operator_dense(2, below, 2, &op, NULL, 0));
   fuge_operator_free(&op);
   check_refused(2, above, 2, FUGE_ERR_NOT_SYMMETRIC, "differ");
 }
@@ -69,10 +69,10 @@ static void test_halfplane_life_cycle(void) {
       char message[256] = "not written";
       fuge_operator *op = NULL;
       fuge_solver *solver = NULL;
-      CHECK_STATUS(fuge_operator_halfplane(100, 0.25, 3.0, element, boundary, &op, message, sizeof message), FUGE_DONE);
+      CHECK_DONE(fuge_operator_halfplane(100, 0.25, 3.0, element, boundary, &op, message, sizeof message));
       CHECK_STRING(message, "");
       CHECK(op != NULL);
-      CHECK_STATUS(fuge_solver_new(op, NULL, &solver, NULL, 0), FUGE_DONE);
+      CHECK_DONE(fuge_solver_new(op, NULL, &solver, NULL, 0));
       free_both(&solver, &op);
       CHECK(op == NULL);
     }
@@ -135,10 +135,10 @@ static fuge_solver *halfplane_solver(int element, int boundary, int method, fuge
   fuge_default_options(&options);
   options.method = method;
   make_gap(x, gap);
-  CHECK_STATUS(fuge_operator_halfplane(CELLS, SPACING, E_STAR, element, boundary, op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_new(*op, &options, &solver, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_set_load(solver, LOAD), FUGE_DONE);
+  CHECK_DONE(fuge_operator_halfplane(CELLS, SPACING, E_STAR, element, boundary, op, NULL, 0));
+  CHECK_DONE(fuge_solver_new(*op, &options, &solver, NULL, 0));
+  CHECK_DONE(fuge_set_gap(solver, gap, NULL));
+  CHECK_DONE(fuge_set_load(solver, LOAD));
   return solver;
 }
 
@@ -148,9 +148,8 @@ static void check_free_answer(int element, const double *force, const double *ga
   double x[CELLS], width[CELLS], initial[CELLS], right_force[CELLS], right_gap[CELLS], right_approach;
   make_gap(x, initial);
   for (int k = 0; k < CELLS; k++) width[k] = SPACING;
-  CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, 0, alpha, CELLS, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_solve_dense(CELLS, alpha, CELLS, initial, LOAD, right_force, right_gap, &right_approach, NULL, 0),
-               FUGE_DONE);
+  CHECK_DONE(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, 0, alpha, CELLS, NULL, 0));
+  CHECK_DONE(fuge_solve_dense(CELLS, alpha, CELLS, initial, LOAD, right_force, right_gap, &right_approach, NULL, 0));
   for (int k = 0; k < CELLS; k++) {
     CHECK_NEAR(force[k], right_force[k], 1e-7 * LOAD);
     CHECK_NEAR(gap[k], right_gap[k], 1e-8 * LOAD);
@@ -164,12 +163,12 @@ static void check_halfplane(int element, int boundary, int method) {
   fuge_info info;
   fuge_operator *op = NULL;
   fuge_solver *solver = halfplane_solver(element, boundary, method, &op);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
-  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
-  CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
-  CHECK_STATUS(fuge_get_resultant(solver, &resultant), FUGE_DONE);
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_info(solver, &info));
+  CHECK_DONE(fuge_get_force(solver, force));
+  CHECK_DONE(fuge_get_gap(solver, gap));
+  CHECK_DONE(fuge_get_motion(solver, &approach));
+  CHECK_DONE(fuge_get_resultant(solver, &resultant));
   for (int k = 0; k < CELLS; k++) {
     CHECK(force[k] >= 0.0 && gap[k] >= 0.0);
     CHECK_NEAR(force[k] * gap[k], 0.0, 0.0);
@@ -186,7 +185,7 @@ static void check_halfplane(int element, int boundary, int method) {
   CHECK(info.residual <= 1e-10);
   if (boundary == FUGE_FREE) check_free_answer(element, force, gap, approach);
   /* More load is carried where there is contact, and closes the gaps beside it. */
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, change, gap_change, &rate), FUGE_DONE);
+  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, change, gap_change, &rate));
   sum = 0.0;
   for (int k = 0; k < CELLS; k++) {
     CHECK(force[k] > 0.0 ? change[k] > 0.0 && gap_change[k] == 0.0 : change[k] == 0.0 && gap_change[k] < 0.0);
@@ -211,15 +210,14 @@ static void test_halfplane_threads(void) {
     double one[CELLS], again[CELLS];
     fuge_operator *op = NULL;
     fuge_solver *solver = halfplane_solver(FUGE_MEAN, boundary, FUGE_AUTO, &op);
-    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-    CHECK_STATUS(fuge_get_force(solver, one), FUGE_DONE);
+    CHECK_DONE(fuge_solve(solver));
+    CHECK_DONE(fuge_get_force(solver, one));
     for (int threads = 2; threads >= 1; threads--) {
       char message[64] = "not written";
-      CHECK_STATUS(fuge_operator_set_threads(op, threads, message, sizeof message), FUGE_DONE);
-      CHECK_STRING(message, "");
-      CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
-      CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-      CHECK_STATUS(fuge_get_force(solver, again), FUGE_DONE);
+      CHECK_MESSAGE(fuge_operator_set_threads(op, threads, message, sizeof message), FUGE_DONE, message, "");
+      CHECK_DONE(fuge_reset(solver));
+      CHECK_DONE(fuge_solve(solver));
+      CHECK_DONE(fuge_get_force(solver, again));
       for (int k = 0; k < CELLS; k++) CHECK_NEAR(again[k], one[k], 1e-7 * LOAD);
     }
     free_both(&solver, &op);
@@ -229,14 +227,12 @@ static void test_halfplane_threads(void) {
 static void test_thread_refusals(void) {
   char message[256] = "";
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_set_threads(NULL, 2, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_CONTAINS(message, "op is NULL");
-  CHECK_STATUS(fuge_operator_halfplane(9, 0.25, 3, FUGE_MEAN, FUGE_FREE, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_set_threads(op, 0, message, sizeof message), FUGE_ERR_OPTION);
-  CHECK_CONTAINS(message, "threads = 0");
+  CHECK_SAYS(fuge_operator_set_threads(NULL, 2, message, sizeof message), FUGE_ERR_POINTER, message, "op is NULL");
+  CHECK_DONE(fuge_operator_halfplane(9, 0.25, 3, FUGE_MEAN, FUGE_FREE, &op, NULL, 0));
+  CHECK_SAYS(fuge_operator_set_threads(op, 0, message, sizeof message), FUGE_ERR_OPTION, message, "threads = 0");
   CHECK_STATUS(fuge_operator_set_threads(op, -3, NULL, 0), FUGE_ERR_OPTION);
   fuge_operator_free(&op);
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
   CHECK_STATUS(fuge_operator_set_threads(op, 2, message, sizeof message), FUGE_ERR_UNSUPPORTED);
   CHECK_CONTAINS(message, "fuge_operator_halfplane");
   fuge_operator_free(&op);
@@ -251,8 +247,7 @@ static void test_halfplane_unsupported(void) {
     fuge_operator *op = NULL;
     fuge_solver *solver = halfplane_solver(FUGE_MEAN, FUGE_FREE, method, &op);
     CHECK_STATUS(fuge_solve(solver), FUGE_ERR_UNSUPPORTED);
-    CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-    CHECK_CONTAINS(message, "FUGE_ITERATIVE");
+    CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "FUGE_ITERATIVE");
     fill(force, CELLS);
     CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
     CHECK_UNTOUCHED(force, CELLS);
@@ -270,20 +265,20 @@ static void test_halfplane_steps(void) {
   fuge_operator *op = NULL;
   fuge_solver *solver = halfplane_solver(FUGE_MEAN, FUGE_PERIODIC, FUGE_AUTO, &op);
   int warm = 0, cold = 0;
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_info(solver, &first), FUGE_DONE);
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_info(solver, &first));
   for (int step = 1; step <= 10; step++) {
-    CHECK_STATUS(fuge_set_load(solver, LOAD * (1.0 + 0.002 * step)), FUGE_DONE);
-    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-    CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+    CHECK_DONE(fuge_set_load(solver, LOAD * (1.0 + 0.002 * step)));
+    CHECK_DONE(fuge_solve(solver));
+    CHECK_DONE(fuge_get_info(solver, &info));
     warm += info.products;
     cold += first.products;
   }
   CHECK(warm < cold);
-  CHECK_STATUS(fuge_set_load(solver, LOAD), FUGE_DONE);
-  CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_DONE(fuge_set_load(solver, LOAD));
+  CHECK_DONE(fuge_reset(solver));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_info(solver, &info));
   CHECK_INT(info.products, first.products);
   CHECK_INT(info.preconditionings, first.preconditionings);
   CHECK_INT(info.iterations, first.iterations);
@@ -302,14 +297,14 @@ static void test_halfplane_cancelled(void) {
   double force[CELLS];
   fuge_operator *op = NULL;
   fuge_solver *solver = halfplane_solver(FUGE_MEAN, FUGE_FREE, FUGE_AUTO, &op);
-  CHECK_STATUS(fuge_set_progress(solver, cancel_third, &last), FUGE_DONE);
+  CHECK_DONE(fuge_set_progress(solver, cancel_third, &last));
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CANCELLED);
   CHECK_INT(last, 3);
   fill(force, CELLS);
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
   CHECK_UNTOUCHED(force, CELLS);
-  CHECK_STATUS(fuge_set_progress(solver, NULL, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_DONE(fuge_set_progress(solver, NULL, NULL));
+  CHECK_DONE(fuge_solve(solver));
   free_both(&solver, &op);
 }
 
@@ -326,14 +321,13 @@ static void check_halfplane_product(int element) {
     width[k] = SPACING;
     f[k] = sin(1.0 + k) + (k == 3 ? 5.0 : 0.0);
   }
-  CHECK_STATUS(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, 0, alpha, CELLS, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_dense(CELLS, alpha, CELLS, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_apply(op, CELLS, f, dense, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_DONE(fuge_halfplane_matrix(CELLS, x, width, E_STAR, element, 0, alpha, CELLS, NULL, 0));
+  CHECK_DONE(fuge_operator_dense(CELLS, alpha, CELLS, &op, NULL, 0));
+  CHECK_MESSAGE(fuge_operator_apply(op, CELLS, f, dense, message, sizeof message), FUGE_DONE, message, "");
   fuge_operator_free(&op);
-  CHECK_STATUS(fuge_operator_halfplane(CELLS, SPACING, E_STAR, element, FUGE_FREE, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_apply(op, CELLS, f, u, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_apply(op, CELLS, f, f, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_operator_halfplane(CELLS, SPACING, E_STAR, element, FUGE_FREE, &op, NULL, 0));
+  CHECK_DONE(fuge_operator_apply(op, CELLS, f, u, NULL, 0));
+  CHECK_DONE(fuge_operator_apply(op, CELLS, f, f, NULL, 0));
   fuge_operator_free(&op);
   for (int i = 0; i < CELLS; i++) {
     double sum = 0.0;
@@ -353,8 +347,8 @@ static void test_periodic_product(void) {
   double f[CELLS], u[CELLS];
   fuge_operator *op = NULL;
   for (int k = 0; k < CELLS; k++) f[k] = 2.0;
-  CHECK_STATUS(fuge_operator_halfplane(CELLS, SPACING, E_STAR, FUGE_MEAN, FUGE_PERIODIC, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_operator_apply(op, CELLS, f, u, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_operator_halfplane(CELLS, SPACING, E_STAR, FUGE_MEAN, FUGE_PERIODIC, &op, NULL, 0));
+  CHECK_DONE(fuge_operator_apply(op, CELLS, f, u, NULL, 0));
   for (int k = 0; k < CELLS; k++) CHECK_NEAR(u[k], 0.0, 1e-13);
   fuge_operator_free(&op);
 }
@@ -366,22 +360,19 @@ static void test_product_refusals(void) {
   char message[256] = "";
   fuge_operator *op = NULL;
   fill(u, 2);
-  CHECK_STATUS(fuge_operator_apply(NULL, 2, f, u, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "op is NULL");
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_MESSAGE(fuge_operator_apply(NULL, 2, f, u, message, sizeof message), FUGE_ERR_POINTER, message, "op is NULL");
+  CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
   CHECK_STATUS(fuge_operator_apply(op, 3, f, u, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STRING(message, "n = 3, but op has 2 points");
   CHECK_STATUS(fuge_operator_apply(op, -1, f, u, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_operator_apply(op, 2, NULL, u, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "f is NULL");
-  CHECK_STATUS(fuge_operator_apply(op, 2, f, NULL, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "u is NULL");
+  CHECK_MESSAGE(fuge_operator_apply(op, 2, NULL, u, message, sizeof message), FUGE_ERR_POINTER, message, "f is NULL");
+  CHECK_MESSAGE(fuge_operator_apply(op, 2, f, NULL, message, sizeof message), FUGE_ERR_POINTER, message, "u is NULL");
   CHECK_STATUS(fuge_operator_apply(op, 2, infinite, u, message, sizeof message), FUGE_ERR_NOT_FINITE);
   CHECK_CONTAINS(message, "f(1) = Inf");
   CHECK_STATUS(fuge_operator_apply(op, 2, large, u, message, sizeof message), FUGE_ERR_OVERFLOW);
   CHECK_CONTAINS(message, "larger unit of force");
   fuge_operator_free(&op);
-  CHECK_STATUS(fuge_operator_dense(2, compliant, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_operator_dense(2, compliant, 2, &op, NULL, 0));
   CHECK_STATUS(fuge_operator_apply(op, 2, forces, u, message, sizeof message), FUGE_ERR_OVERFLOW);
   CHECK_CONTAINS(message, "the displacements are too large");
   CHECK_UNTOUCHED(u, 2);

@@ -12,9 +12,9 @@ static void test_two_points(void) {
   int point[MOST], state[MOST], contacts[MOST], entries = -1;
   char message[256] = "old";
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, MOST, load, approach, rate, point, state, contacts, &entries,
-                              message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
+  CHECK_DONE(fuge_load_path(op, TABLE1_GAP, 20.0, MOST, load, approach, rate, point, state, contacts, &entries, message,
+                            sizeof message));
   CHECK_INT(entries, 3);
   CHECK_STRING(message, "");
   CHECK_INT(point[0], -1);
@@ -25,8 +25,7 @@ static void test_two_points(void) {
   CHECK_INT(state[2], FUGE_AT_LOWER_STOP);
   CHECK_INT(contacts[1], 1);
   CHECK_INT(contacts[2], 2);
-  CHECK_NEAR(load[0], 0.0, 0.0);
-  CHECK_NEAR(load[1], 0.0, 0.0);
+  CHECK_VALUES(load, 0.0, 0.0, 0.0);
   CHECK_NEAR(load[2], 10.0, 1e-13);
   CHECK_NEAR(approach[2], 2.0, 1e-13);
   CHECK_NEAR(1.0 / rate[1], 5.0, 1e-13);
@@ -39,15 +38,12 @@ static void test_capacity(void) {
   double load[2] = {-1.0, -1.0};
   int entries = -1;
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
-               FUGE_DONE);
+  CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
+  CHECK_DONE(fuge_load_path(op, TABLE1_GAP, 20.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0));
   CHECK_INT(entries, 3);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 20.0, 1, load, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
-               FUGE_DONE);
+  CHECK_DONE(fuge_load_path(op, TABLE1_GAP, 20.0, 1, load, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0));
   CHECK_INT(entries, 3);
-  CHECK_NEAR(load[0], 0.0, 0.0);
-  CHECK_NEAR(load[1], -1.0, 0.0);
+  CHECK_VALUES(load, 0.0, 0.0, -1.0);
   fuge_operator_free(&op);
 }
 
@@ -55,7 +51,7 @@ static void test_refusals(void) {
   int entries = -1;
   char message[256] = "";
   fuge_operator *op = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
   CHECK_STATUS(fuge_load_path(NULL, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
                FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_load_path(op, NULL, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0), FUGE_ERR_POINTER);
@@ -63,9 +59,8 @@ static void test_refusals(void) {
                FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 1.0, -1, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
                FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, -3.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, message,
-                              sizeof message), FUGE_ERR_NO_EQUILIBRIUM);
-  CHECK_CONTAINS(message, "-3.0");
+  CHECK_SAYS(fuge_load_path(op, TABLE1_GAP, -3.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, message,
+                            sizeof message), FUGE_ERR_NO_EQUILIBRIUM, message, "-3.0");
   CHECK_INT(entries, -1);
   fuge_operator_free(&op);
 }
@@ -77,30 +72,28 @@ static void test_derivative(void) {
   fuge_info info;
   fuge_operator *op = NULL;
   fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
-  CHECK_STATUS(fuge_set_gap(solver, TABLE1_GAP, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_set_load(solver, 20.0), FUGE_DONE);
+  CHECK_DONE(fuge_set_gap(solver, TABLE1_GAP, NULL));
+  CHECK_DONE(fuge_set_load(solver, 20.0));
   CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_ERR_CALL_ORDER);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_DONE(fuge_solve(solver));
   CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, NULL, gap, &motion), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_DONE);
-  CHECK_NEAR(force[0], 0.5, 1e-14);
-  CHECK_NEAR(force[1], 0.5, 1e-14);
+  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion));
+  CHECK_VALUES(force, 1e-14, 0.5, 0.5);
   CHECK_NEAR(gap[0], 0.0, 0.0);
   CHECK_NEAR(motion, 0.15, 1e-14);
   /* A unit of gap at point 2 moves 5 units of force to point 1 (0.2 F_1 - 0.2 F_2 = 2 .. 1). */
-  CHECK_STATUS(fuge_get_derivative(solver, unit, 0.0, force, NULL, NULL), FUGE_DONE);
-  CHECK_NEAR(force[0], 5.0, 1e-13);
-  CHECK_NEAR(force[1], -5.0, 1e-13);
+  CHECK_DONE(fuge_get_derivative(solver, unit, 0.0, force, NULL, NULL));
+  CHECK_VALUES(force, 1e-13, 5.0, -5.0);
   /* Solution and report of the solve are still there, after a derivative that is refused too. */
   CHECK_STATUS(fuge_get_derivative(solver, unit, NAN, force, NULL, NULL), FUGE_ERR_NOT_FINITE);
-  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_DONE(fuge_get_info(solver, &info));
   CHECK_INT(info.status, FUGE_DONE);
   CHECK_INT(info.contacts, 2);
   CHECK(info.products > 0);
-  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  CHECK_DONE(fuge_get_force(solver, force));
   CHECK_NEAR(force[0] + force[1], 20.0, 1e-13);
-  CHECK_STATUS(fuge_set_load(solver, 0.0), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_DONE(fuge_set_load(solver, 0.0));
+  CHECK_DONE(fuge_solve(solver));
   CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_ERR_CALL_ORDER);
   fuge_solver_free(&solver);
   fuge_operator_free(&op);
@@ -114,16 +107,16 @@ static void test_follow_path(void) {
   char message[256] = "old";
   fuge_operator *op = NULL;
   fuge_solver *s = NULL;
-  CHECK_STATUS(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_new(op, NULL, &s, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
+  CHECK_DONE(fuge_solver_new(op, NULL, &s, NULL, 0));
   CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
                FUGE_ERR_CALL_ORDER);
   fuge_solver_message(s, message, sizeof message);
   CHECK_CONTAINS(message, "fuge_set_gap before fuge_follow_path");
-  CHECK_STATUS(fuge_set_gap(s, TABLE1_GAP, NULL), FUGE_DONE);
+  CHECK_DONE(fuge_set_gap(s, TABLE1_GAP, NULL));
   CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
                FUGE_ERR_CALL_ORDER);
-  CHECK_STATUS(fuge_set_load(s, 5.0), FUGE_DONE);
+  CHECK_DONE(fuge_set_load(s, 5.0));
   CHECK_STATUS(fuge_follow_path(NULL, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
                FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_follow_path(s, NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries), FUGE_ERR_POINTER);
@@ -132,12 +125,11 @@ static void test_follow_path(void) {
   CHECK_STATUS(fuge_follow_path(s, back, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
                FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_INT(entries, -1);
-  CHECK_STATUS(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
-               FUGE_DONE);
+  CHECK_DONE(fuge_follow_path(s, finish, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries));
   CHECK_INT(entries, 2);
   fuge_solver_message(s, message, sizeof message);
   CHECK_STRING(message, "");
-  CHECK_STATUS(fuge_follow_path(s, finish, MOST, parameter, motion, rate, point, state, contacts, &entries), FUGE_DONE);
+  CHECK_DONE(fuge_follow_path(s, finish, MOST, parameter, motion, rate, point, state, contacts, &entries));
   CHECK_INT(entries, 2);
   CHECK_INT(point[0], -1);
   CHECK_INT(point[1], 1);
@@ -146,10 +138,8 @@ static void test_follow_path(void) {
   CHECK_INT(contacts[1], 2);
   CHECK_NEAR(parameter[0], 0.0, 0.0);
   CHECK_NEAR(parameter[1], 1.0 / 3.0, 1e-14);
-  CHECK_NEAR(motion[0], 1.0, 1e-14);
-  CHECK_NEAR(motion[1], 2.0, 1e-14);
-  CHECK_NEAR(rate[0], 3.0, 1e-13);
-  CHECK_NEAR(rate[1], 2.25, 1e-13);
+  CHECK_VALUES(motion, 1e-14, 1.0, 2.0);
+  CHECK_VALUES(rate, 1e-13, 3.0, 2.25);
   fuge_solver_free(&s);
   fuge_operator_free(&op);
 }
@@ -163,14 +153,12 @@ static void test_follow_motions(void) {
   char message[256] = "";
   fuge_operator *op = NULL;
   fuge_solver *s = new_solver(alpha, 2, NULL, &op);
-  CHECK_STATUS(fuge_set_gap(s, gap, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_set_modes(s, 2, modes, middle), FUGE_DONE);
-  CHECK_STATUS(fuge_follow_path(s, right, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries), FUGE_DONE);
+  CHECK_DONE(fuge_set_gap(s, gap, NULL));
+  CHECK_DONE(fuge_set_modes(s, 2, modes, middle));
+  CHECK_DONE(fuge_follow_path(s, right, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries));
   CHECK_INT(entries, 1);
-  CHECK_NEAR(motion[0], 1.0, 1e-14);
-  CHECK_NEAR(motion[1], 0.0, 1e-14);
-  CHECK_NEAR(rate[0], 0.0, 1e-14);
-  CHECK_NEAR(rate[1], 0.5, 1e-14);
+  CHECK_VALUES(motion, 1e-14, 1.0, 0.0);
+  CHECK_VALUES(rate, 1e-14, 0.0, 0.5);
   /* The line of action passes point 2, at 1, half way. */
   CHECK_STATUS(fuge_follow_path(s, beside, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries),
                FUGE_ERR_NO_EQUILIBRIUM);

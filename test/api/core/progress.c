@@ -47,14 +47,14 @@ static fuge_solver *scene_solver(int method, fuge_operator **op) {
   fuge_default_options(&options);
   options.method = method;
   fuge_solver *solver = new_solver(alpha, N, &options, op);
-  CHECK_STATUS(fuge_set_gap(solver, gap, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_set_load(solver, 1.0), FUGE_DONE);
+  CHECK_DONE(fuge_set_gap(solver, gap, NULL));
+  CHECK_DONE(fuge_set_load(solver, 1.0));
   return solver;
 }
 
 static void check_same(fuge_solver *solver, const double *expected) {
   double force[N];
-  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
+  CHECK_DONE(fuge_get_force(solver, force));
   for (int k = 0; k < N; k++) CHECK_NEAR(force[k], expected[k], EXACT);
 }
 
@@ -63,14 +63,14 @@ static void check_cancelled(fuge_solver *solver, int iteration) {
   double force[N];
   fuge_info info;
   record r = {0, iteration, 0, 0, 0.0};
-  CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_set_progress(solver, watch, &r), FUGE_DONE);
+  CHECK_DONE(fuge_reset(solver));
+  CHECK_DONE(fuge_set_progress(solver, watch, &r));
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CANCELLED);
   CHECK_INT(r.calls, iteration);
-  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_solver_message(solver, message, sizeof message));
   snprintf(part, sizeof part, "iteration %d ", iteration);
   CHECK_CONTAINS(message, part);
-  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_DONE(fuge_get_info(solver, &info));
   CHECK_INT(info.status, FUGE_ERR_CANCELLED);
   fill(force, N);
   CHECK_STATUS(fuge_get_force(solver, force), FUGE_ERR_CALL_ORDER);
@@ -83,10 +83,10 @@ static void test_method(int method) {
   fuge_operator *op = NULL;
   fuge_solver *solver = scene_solver(method, &op);
   record all = {0, 0, 0, 0, 0.0};
-  CHECK_STATUS(fuge_set_progress(solver, watch, &all), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
-  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_DONE(fuge_set_progress(solver, watch, &all));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_force(solver, force));
+  CHECK_DONE(fuge_get_info(solver, &info));
   CHECK(all.calls > (method == FUGE_ITERATIVE ? 1 : 5));
   /* The tableau ends with a set. */
   CHECK_INT(all.calls, info.iterations + (method == FUGE_TABLEAU));
@@ -95,8 +95,8 @@ static void test_method(int method) {
   for (int k = 1; k <= all.calls; k++) {
     check_cancelled(solver, k);
     /* NULL removes the callback. */
-    CHECK_STATUS(fuge_set_progress(solver, NULL, &all), FUGE_DONE);
-    CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+    CHECK_DONE(fuge_set_progress(solver, NULL, &all));
+    CHECK_DONE(fuge_solve(solver));
     check_same(solver, force);
   }
   free_both(&solver, &op);
@@ -107,16 +107,16 @@ static void test_stays(void) {
   fuge_operator *op = NULL;
   fuge_solver *solver = scene_solver(FUGE_TABLEAU, &op);
   record r = {0, 1, 0, 0, 0.0};
-  CHECK_STATUS(fuge_set_progress(solver, watch, &r), FUGE_DONE);
+  CHECK_DONE(fuge_set_progress(solver, watch, &r));
   for (int k = 1; k <= 3; k++) {
     CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CANCELLED);
     CHECK_INT(r.calls, k);
     CHECK_INT(r.last, 1);
     r.last = 0;
-    CHECK_STATUS(fuge_reset(solver), FUGE_DONE);
+    CHECK_DONE(fuge_reset(solver));
   }
-  CHECK_STATUS(fuge_set_load(solver, 0.0), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_DONE(fuge_set_load(solver, 0.0));
+  CHECK_DONE(fuge_solve(solver));
   CHECK_INT(r.calls, 3);
   free_both(&solver, &op);
 }
@@ -125,10 +125,10 @@ static void test_null_pointers(void) {
   fuge_operator *op = NULL;
   fuge_solver *solver = scene_solver(FUGE_TABLEAU, &op);
   CHECK_STATUS(fuge_set_progress(NULL, watch, NULL), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_set_progress(solver, watch_without_user, NULL), FUGE_DONE);
+  CHECK_DONE(fuge_set_progress(solver, watch_without_user, NULL));
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_CANCELLED);
-  CHECK_STATUS(fuge_set_progress(solver, NULL, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_DONE(fuge_set_progress(solver, NULL, NULL));
+  CHECK_DONE(fuge_solve(solver));
   free_both(&solver, &op);
 }
 

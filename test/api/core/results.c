@@ -10,7 +10,7 @@ static fuge_solver *solved_table1(int keep_history, fuge_operator **op) {
   options.method = FUGE_TABLEAU;
   options.keep_history = keep_history;
   fuge_solver *solver = table1_solver(&options, op);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
+  CHECK_DONE(fuge_solve(solver));
   return solver;
 }
 
@@ -18,11 +18,11 @@ static void test_numbers(void) {
   double force[2], gap[2], approach, resultant;
   fuge_operator *op = NULL;
   fuge_solver *solver = solved_table1(0, &op);
-  CHECK_STATUS(fuge_get_force(solver, force), FUGE_DONE);
-  CHECK_STATUS(fuge_get_gap(solver, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_get_motion(solver, &approach), FUGE_DONE);
+  CHECK_DONE(fuge_get_force(solver, force));
+  CHECK_DONE(fuge_get_gap(solver, gap));
+  CHECK_DONE(fuge_get_motion(solver, &approach));
   check_table1(force, gap, approach);
-  CHECK_STATUS(fuge_get_resultant(solver, &resultant), FUGE_DONE);
+  CHECK_DONE(fuge_get_resultant(solver, &resultant));
   CHECK_NEAR(resultant, TABLE1_LOAD, EXACT);
   free_both(&solver, &op);
 }
@@ -32,7 +32,7 @@ static void test_info(void) {
   fuge_operator *op = NULL;
   fuge_solver *solver = solved_table1(0, &op);
   memset(&info, 0xff, sizeof info);
-  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_DONE(fuge_get_info(solver, &info));
   CHECK_INT(info.status, FUGE_DONE);
   CHECK_INT(info.iterations, 3);
   CHECK_INT(info.contacts, 1);
@@ -89,7 +89,7 @@ static void test_whole_history(void) {
   int basis[TABLE1_STEPS * ROWS], available = 0;
   fuge_operator *op = NULL;
   fuge_solver *solver = solved_table1(1, &op);
-  CHECK_STATUS(fuge_get_history(solver, 0, TABLE1_STEPS, basis, z, &available), FUGE_DONE);
+  CHECK_DONE(fuge_get_history(solver, 0, TABLE1_STEPS, basis, z, &available));
   CHECK_INT(available, TABLE1_STEPS);
   for (int k = 0; k < TABLE1_STEPS * ROWS; k++) CHECK_INT(basis[k], TABLE1_BASIS[k]);
   for (int k = 0; k < TABLE1_STEPS; k++) CHECK_NEAR(z[k], TABLE1_Z[k], EXACT);
@@ -104,7 +104,7 @@ static void test_part_of_history(void) {
   fuge_solver *solver = solved_table1(1, &op);
   fill(z, 3);
   memset(basis, 0xff, sizeof basis);
-  CHECK_STATUS(fuge_get_history(solver, 1, 2, basis, z, &available), FUGE_DONE);
+  CHECK_DONE(fuge_get_history(solver, 1, 2, basis, z, &available));
   for (int k = 0; k < 2 * ROWS; k++) CHECK_INT(basis[k], TABLE1_BASIS[ROWS + k]);
   for (int k = 2 * ROWS; k < 3 * ROWS; k++) CHECK_INT(basis[k], -1);
   for (int k = 0; k < 2; k++) CHECK_NEAR(z[k], TABLE1_Z[1 + k], EXACT);
@@ -158,7 +158,7 @@ static void test_history_null_pointers(void) {
   CHECK_UNTOUCHED(&z, 1);
   CHECK_INT(basis[0], -1);
   CHECK_INT(available, -1);
-  CHECK_STATUS(fuge_get_history(solver, 0, 0, NULL, NULL, &available), FUGE_DONE);
+  CHECK_DONE(fuge_get_history(solver, 0, 0, NULL, NULL, &available));
   CHECK_INT(available, TABLE1_STEPS);
   free_both(&solver, &op);
 }
@@ -169,7 +169,7 @@ static void test_history_not_kept(void) {
   char message[256] = "";
   fuge_operator *op = NULL;
   fuge_solver *solver = solved_table1(0, &op);
-  CHECK_STATUS(fuge_get_history(solver, 0, 0, NULL, NULL, &available), FUGE_DONE);
+  CHECK_DONE(fuge_get_history(solver, 0, 0, NULL, NULL, &available));
   CHECK_INT(available, 0);
   CHECK_STATUS(fuge_get_history(solver, 0, 1, basis, &z, &available), FUGE_ERR_SIZE);
   CHECK_UNTOUCHED(&z, 1);
@@ -184,11 +184,11 @@ static void test_history_of_zero_load(void) {
   fuge_info info;
   fuge_operator *op = NULL;
   fuge_solver *solver = solved_table1(1, &op);
-  CHECK_STATUS(fuge_set_load(solver, 0.0), FUGE_DONE);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_history(solver, 0, 0, NULL, NULL, &available), FUGE_DONE);
+  CHECK_DONE(fuge_set_load(solver, 0.0));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_history(solver, 0, 0, NULL, NULL, &available));
   CHECK_INT(available, 0);
-  CHECK_STATUS(fuge_get_info(solver, &info), FUGE_DONE);
+  CHECK_DONE(fuge_get_info(solver, &info));
   CHECK_INT(info.iterations, 0);
   CHECK_INT(info.contacts, 0);
   free_both(&solver, &op);
@@ -199,8 +199,8 @@ static void test_history_of_second_solve(void) {
   int available = -1;
   fuge_operator *op = NULL;
   fuge_solver *solver = solved_table1(1, &op);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_get_history(solver, 0, 0, NULL, NULL, &available), FUGE_DONE);
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_history(solver, 0, 0, NULL, NULL, &available));
   CHECK_INT(available, TABLE1_STEPS);
   free_both(&solver, &op);
 }
@@ -217,7 +217,7 @@ static void test_history_of_failed_solve(void) {
   options.max_iterations = 1;
   fuge_solver *solver = table1_solver(&options, &op);
   CHECK_STATUS(fuge_solve(solver), FUGE_ERR_ITERATION_LIMIT);
-  CHECK_STATUS(fuge_get_history(solver, 0, 2, basis, z, &available), FUGE_DONE);
+  CHECK_DONE(fuge_get_history(solver, 0, 2, basis, z, &available));
   CHECK_INT(available, 2);
   for (int k = 0; k < 2 * ROWS; k++) CHECK_INT(basis[k], TABLE1_BASIS[k]);
   CHECK_NEAR(z[1], TABLE1_Z[1], EXACT);
@@ -231,9 +231,8 @@ static void test_message_is_empty_when_done(void) {
   fuge_operator *op = NULL;
   fuge_solver *solver = table1_solver(NULL, &op);
   CHECK_STATUS(fuge_set_load(solver, -1.0), FUGE_ERR_NO_EQUILIBRIUM);
-  CHECK_STATUS(fuge_solve(solver), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_MESSAGE(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "");
   free_both(&solver, &op);
 }
 
@@ -241,8 +240,7 @@ static void test_message_of_new_solver(void) {
   char message[16] = "not yet written";
   fuge_operator *op = NULL;
   fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
-  CHECK_STATUS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "");
   free_both(&solver, &op);
 }
 
@@ -252,15 +250,13 @@ static void test_message_is_cut(void) {
   fuge_operator *op = NULL;
   fuge_solver *solver = table1_solver(NULL, &op);
   CHECK_STATUS(fuge_set_load(solver, -1.0), FUGE_ERR_NO_EQUILIBRIUM);
-  CHECK_STATUS(fuge_solver_message(solver, whole, sizeof whole), FUGE_DONE);
-  CHECK_STATUS(fuge_solver_message(solver, buffer, 0), FUGE_DONE);
-  CHECK_STRING(buffer, "#######");
-  CHECK_STATUS(fuge_solver_message(solver, buffer, 5), FUGE_DONE);
+  CHECK_DONE(fuge_solver_message(solver, whole, sizeof whole));
+  CHECK_MESSAGE(fuge_solver_message(solver, buffer, 0), FUGE_DONE, buffer, "#######");
+  CHECK_DONE(fuge_solver_message(solver, buffer, 5));
   CHECK_INT(strlen(buffer), 4);
   CHECK(strncmp(buffer, whole, 4) == 0);
   CHECK_STRING(buffer + 5, "##");
-  CHECK_STATUS(fuge_solver_message(solver, buffer, 1), FUGE_DONE);
-  CHECK_STRING(buffer, "");
+  CHECK_MESSAGE(fuge_solver_message(solver, buffer, 1), FUGE_DONE, buffer, "");
   CHECK(store[0] == '#');
   CHECK(strlen(whole) > 8 && whole[strlen(whole) - 1] != ' ');
   free_both(&solver, &op);

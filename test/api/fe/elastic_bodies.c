@@ -81,18 +81,18 @@ static fuge_bodies *two_blocks(const block *lower, const block *upper) {
   for (int k = 0; k <= upper->elements; k++)
     load[2 * (k + upper->elements + 1) + 1] =
         -PRESSURE / upper->elements * (k == 0 || k == upper->elements ? 0.5 : 1.0);
-  CHECK_STATUS(fuge_bodies_create(&bodies, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_add(bodies, lower->degrees, lower->column, lower->row, lower->value, &number), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_create(&bodies, NULL, 0));
+  CHECK_DONE(fuge_bodies_add(bodies, lower->degrees, lower->column, lower->row, lower->value, &number));
   CHECK_INT(number, 0);
-  CHECK_STATUS(fuge_bodies_add(bodies, upper->degrees, upper->column, upper->row, upper->value, &number), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_add(bodies, upper->degrees, upper->column, upper->row, upper->value, &number));
   CHECK_INT(number, 1);
-  CHECK_STATUS(fuge_bodies_fix(bodies, 0, 4, fixed, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_set_load(bodies, 1, load), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_set_contact(bodies, 1, 2, upper->nodes, upper->x, 2, upper->elements, upper->bottom,
-                                       upper->dof), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_set_opposite(bodies, 0, 2, lower->nodes, lower->x, 2, lower->elements, lower->top,
-                                        lower->dof), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_fix(bodies, 0, 4, fixed, NULL));
+  CHECK_DONE(fuge_bodies_set_load(bodies, 1, load));
+  CHECK_DONE(fuge_bodies_set_contact(bodies, 1, 2, upper->nodes, upper->x, 2, upper->elements, upper->bottom,
+                                     upper->dof));
+  CHECK_DONE(fuge_bodies_set_opposite(bodies, 0, 2, lower->nodes, lower->x, 2, lower->elements, lower->top,
+                                      lower->dof));
+  CHECK_DONE(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1));
   return bodies;
 }
 
@@ -103,14 +103,14 @@ static void check_solution(const fuge_bodies *bodies, const block *lower, const 
   int n = -1, unpaired = -1, number = -1, pair[MOST + 1], node[MOST + 1];
   fuge_info info;
 
-  CHECK_STATUS(fuge_bodies_get_sizes(bodies, &n, &unpaired, &number), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_get_sizes(bodies, &n, &unpaired, &number));
   CHECK_INT(n, 4);
   CHECK_INT(unpaired, 0);
   CHECK_INT(number, 2);
-  CHECK_STATUS(fuge_bodies_get_unpaired(bodies, NULL, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_get_forces(bodies, force, pressure, gap), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_get_areas(bodies, area, initial), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_get_points(bodies, pair, node, NULL, NULL, direction), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_get_unpaired(bodies, NULL, NULL));
+  CHECK_DONE(fuge_bodies_get_forces(bodies, force, pressure, gap));
+  CHECK_DONE(fuge_bodies_get_areas(bodies, area, initial));
+  CHECK_DONE(fuge_bodies_get_points(bodies, pair, node, NULL, NULL, direction));
   for (int i = 0; i < 4; i++) {
     CHECK_NEAR(pressure[i], PRESSURE, 1e-14);
     CHECK_NEAR(force[i], PRESSURE * area[i], 1e-15);
@@ -121,11 +121,11 @@ static void check_solution(const fuge_bodies *bodies, const block *lower, const 
     CHECK_INT(pair[i], 0);
     CHECK_INT(node[i], i);
   }
-  CHECK_STATUS(fuge_bodies_get_displacement(bodies, 0, u), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_get_displacement(bodies, 0, u));
   for (int k = 0; k < lower->nodes; k++) CHECK_NEAR(u[2 * k + 1], strain * (k / 3), 1e-14);
-  CHECK_STATUS(fuge_bodies_get_displacement(bodies, 1, u), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_get_displacement(bodies, 1, u));
   for (int k = 0; k < upper->nodes; k++) CHECK_NEAR(u[2 * k + 1], strain * (1 + k / 4), 1e-14);
-  CHECK_STATUS(fuge_bodies_get_info(bodies, &info), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_get_info(bodies, &info));
   CHECK_INT(info.status, FUGE_DONE);
   CHECK_INT(info.contacts, 4);
   CHECK(info.residual < 1e-12);
@@ -136,16 +136,16 @@ static void test_solve(void) {
   fuge_bodies *bodies = two_blocks(&lower, &upper);
   fuge_options options;
 
-  CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_solve(bodies, NULL));
   check_solution(bodies, &lower, &upper);
   fuge_default_options(&options);
   options.method = 7;
   CHECK_STATUS(fuge_bodies_solve(bodies, &options), FUGE_ERR_OPTION);
   options.method = FUGE_TABLEAU;
-  CHECK_STATUS(fuge_bodies_solve(bodies, &options), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_solve(bodies, &options));
   check_solution(bodies, &lower, &upper);
 #ifdef HAVE_SPARSE
-  CHECK_STATUS(fuge_bodies_solve_sparse(bodies, NULL), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_solve_sparse(bodies, NULL));
   check_solution(bodies, &lower, &upper);
 #endif
   fuge_bodies_free(&bodies);
@@ -162,20 +162,20 @@ static void test_rigid_ground(void) {
   double modes[3 * DEGREES], load[DEGREES] = {0}, pressure[MOST];
   fuge_bodies *bodies = NULL;
 
-  CHECK_STATUS(fuge_rigid_modes(2, b.nodes, b.x, modes, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_rigid_modes(2, b.nodes, b.x, modes, NULL, 0));
   load[7] = load[11] = -0.25 * PRESSURE;
   load[9] = -0.5 * PRESSURE;
-  CHECK_STATUS(fuge_bodies_create(&bodies, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_add(bodies, b.degrees, b.column, b.row, b.value, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_set_load(bodies, 0, load), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_set_rigid_modes(bodies, 0, 3, modes), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_set_contact(bodies, 0, 2, b.nodes, b.x, 2, 2, b.bottom, b.dof), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_set_opposite(bodies, -1, 2, 2, ground, 2, 1, face, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_create(&bodies, NULL, 0));
+  CHECK_DONE(fuge_bodies_add(bodies, b.degrees, b.column, b.row, b.value, NULL));
+  CHECK_DONE(fuge_bodies_set_load(bodies, 0, load));
+  CHECK_DONE(fuge_bodies_set_rigid_modes(bodies, 0, 3, modes));
+  CHECK_DONE(fuge_bodies_set_contact(bodies, 0, 2, b.nodes, b.x, 2, 2, b.bottom, b.dof));
+  CHECK_DONE(fuge_bodies_set_opposite(bodies, -1, 2, 2, ground, 2, 1, face, NULL));
+  CHECK_DONE(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1));
   for (int known = 1; known >= 0; known--) {
-    if (!known) CHECK_STATUS(fuge_bodies_set_rigid_modes(bodies, 0, 0, NULL), FUGE_DONE);
-    CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_DONE);
-    CHECK_STATUS(fuge_bodies_get_forces(bodies, NULL, pressure, NULL), FUGE_DONE);
+    if (!known) CHECK_DONE(fuge_bodies_set_rigid_modes(bodies, 0, 0, NULL));
+    CHECK_DONE(fuge_bodies_solve(bodies, NULL));
+    CHECK_DONE(fuge_bodies_get_forces(bodies, NULL, pressure, NULL));
     for (int i = 0; i < 3; i++) CHECK_NEAR(pressure[i], PRESSURE, 1e-14);
   }
   fuge_bodies_free(&bodies);
@@ -190,13 +190,13 @@ static void test_bodies_as_one(void) {
   double value[2 * DEGREES * DEGREES], normal[64], gap[8], play[8], area[8];
 
   CHECK_STATUS(fuge_bodies_get_joined_sizes(bodies, &degrees, NULL, NULL, NULL), FUGE_ERR_CALL_ORDER);
-  CHECK_STATUS(fuge_bodies_join(bodies), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_get_joined_sizes(bodies, &degrees, &entries, &n, &width), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_join(bodies));
+  CHECK_DONE(fuge_bodies_get_joined_sizes(bodies, &degrees, &entries, &n, &width));
   CHECK_INT(degrees, lower.degrees + upper.degrees);
   CHECK_INT(n, 4);
   CHECK(width >= 3 && width <= 16);
   CHECK(entries > degrees && entries < lower.column[lower.degrees] + upper.column[upper.degrees]);
-  CHECK_STATUS(fuge_bodies_get_matrix(bodies, column, row, value, first), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_get_matrix(bodies, column, row, value, first));
   CHECK_INT(first[0], 0);
   CHECK_INT(first[1], lower.degrees);
   CHECK_INT(first[2], degrees);
@@ -208,7 +208,7 @@ static void test_bodies_as_one(void) {
       CHECK(row[p] <= j && row[p] >= first[k]);
       CHECK_NEAR(value[p], b->matrix[row[p] - first[k] + b->degrees * (j - first[k])], 1e-15);
     }
-  CHECK_STATUS(fuge_bodies_get_contact(bodies, dof, normal, gap, play, area), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_get_contact(bodies, dof, normal, gap, play, area));
   for (int i = 0; i < n; i++) {
     double sum = 0.0;
     for (int k = 0; k < width; k++)
@@ -218,7 +218,7 @@ static void test_bodies_as_one(void) {
     CHECK_NEAR(gap[i], 0.0, 1e-16);
   }
   /* Out of date after a change. */
-  CHECK_STATUS(fuge_bodies_fix(bodies, 0, 0, NULL, NULL), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_fix(bodies, 0, 0, NULL, NULL));
   CHECK_STATUS(fuge_bodies_get_contact(bodies, dof, NULL, NULL, NULL, NULL), FUGE_ERR_CALL_ORDER);
   fuge_bodies_free(&bodies);
 }
@@ -234,13 +234,13 @@ static void test_refusals(void) {
 
   CHECK_STATUS(fuge_bodies_create(NULL, message, sizeof message), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_bodies_solve(NULL, NULL), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_bodies_create(&bodies, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_create(&bodies, message, sizeof message));
   CHECK_STATUS(fuge_bodies_get_info(bodies, &info), FUGE_ERR_CALL_ORDER);
   CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_bodies_add(bodies, 0, lower.column, lower.row, lower.value, NULL), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_bodies_add(bodies, lower.degrees, NULL, lower.row, lower.value, NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_bodies_fix(bodies, 0, 2, broken, displacement), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_bodies_message(bodies, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_message(bodies, message, sizeof message));
   CHECK_CONTAINS(message, "body = 0 is not one of the 0 bodies");
   CHECK_STATUS(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1),
                FUGE_ERR_CALL_ORDER);
@@ -249,41 +249,41 @@ static void test_refusals(void) {
 
   /* Bodies and degrees of freedom from 0 in messages. */
   bodies = two_blocks(&lower, &upper);
-  CHECK_STATUS(fuge_bodies_fix(bodies, 1, 2, broken, displacement), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_fix(bodies, 1, 2, broken, displacement));
   CHECK_STATUS(fuge_bodies_get_forces(bodies, u, NULL, NULL), FUGE_ERR_CALL_ORDER);
   CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_ERR_DOF);
-  CHECK_STATUS(fuge_bodies_message(bodies, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_message(bodies, message, sizeof message));
   CHECK_CONTAINS(message, "body 1: fixed(1) = 20 is not one of the 16 degrees of freedom");
-  CHECK_STATUS(fuge_bodies_get_info(bodies, &info), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_get_info(bodies, &info));
   CHECK_INT(info.status, FUGE_ERR_DOF);
   CHECK_STATUS(fuge_bodies_get_displacement(bodies, 0, u), FUGE_ERR_CALL_ORDER);
   CHECK_UNTOUCHED(u, 1);
-  CHECK_STATUS(fuge_bodies_fix(bodies, 1, 0, NULL, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_fix(bodies, 1, 0, NULL, NULL));
+  CHECK_DONE(fuge_bodies_solve(bodies, NULL));
   CHECK_STATUS(fuge_bodies_get_displacement(bodies, 2, u), FUGE_ERR_SIZE);
   CHECK_UNTOUCHED(u, 1);
   /* The surfaces look the same way. */
-  CHECK_STATUS(fuge_bodies_set_contact(bodies, 1, 2, upper.nodes, upper.x, 2, 3, upper.bottom, upper.dof), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_set_opposite(bodies, 0, 2, lower.nodes, lower.x, 2, 2, lower.bottom, lower.dof), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_set_contact(bodies, 1, 2, upper.nodes, upper.x, 2, 3, upper.bottom, upper.dof));
+  CHECK_DONE(fuge_bodies_set_opposite(bodies, 0, 2, lower.nodes, lower.x, 2, 2, lower.bottom, lower.dof));
+  CHECK_DONE(fuge_bodies_add_pair(bodies, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1));
   CHECK_STATUS(fuge_bodies_join(bodies), FUGE_ERR_MESH);
-  CHECK_STATUS(fuge_bodies_message(bodies, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_message(bodies, message, sizeof message));
   CHECK_CONTAINS(message, "pair 1, contact body 1, opposite body 0: ");
   /* Both look into their bodies. */
   fuge_bodies *inwards = two_blocks(&lower, &upper);
   int turned[6], below[4];
   for (int k = 0; k < 6; k++) turned[k] = upper.bottom[k % 2 == 0 ? k + 1 : k - 1];
   for (int k = 0; k < 4; k++) below[k] = lower.top[k % 2 == 0 ? k + 1 : k - 1];
-  CHECK_STATUS(fuge_bodies_set_contact(inwards, 1, 2, upper.nodes, upper.x, 2, 3, turned, upper.dof), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_set_opposite(inwards, 0, 2, lower.nodes, lower.x, 2, 2, below, lower.dof), FUGE_DONE);
-  CHECK_STATUS(fuge_bodies_add_pair(inwards, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_set_contact(inwards, 1, 2, upper.nodes, upper.x, 2, 3, turned, upper.dof));
+  CHECK_DONE(fuge_bodies_set_opposite(inwards, 0, 2, lower.nodes, lower.x, 2, 2, below, lower.dof));
+  CHECK_DONE(fuge_bodies_add_pair(inwards, FUGE_MORTAR, FUGE_NORMALS_AVERAGED, NULL, 0.0, INFINITY, 0, 1));
   CHECK_STATUS(fuge_bodies_join(inwards), FUGE_ERR_MESH);
-  CHECK_STATUS(fuge_bodies_message(inwards, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_message(inwards, message, sizeof message));
   CHECK_CONTAINS(message, "pair 1: contact surface of body 1: face 0 looks into the body");
   fuge_bodies_free(&inwards);
   /* The last solution stays. */
   CHECK_STATUS(fuge_bodies_solve(bodies, NULL), FUGE_ERR_MESH);
-  CHECK_STATUS(fuge_bodies_get_displacement(bodies, 0, u), FUGE_DONE);
+  CHECK_DONE(fuge_bodies_get_displacement(bodies, 0, u));
   fuge_bodies_free(&bodies);
 }
 
@@ -303,18 +303,16 @@ static void test_mesh_rows(void) {
   fputs("*NODE\n10,0,0\n20,1,0\n30,2,0\n40,0,1\n50,1,1\n60,2,1\n*ELEMENT, TYPE=CPE4, ELSET=ALL\n1,10,20,50,40\n"
         "2,20,30,60,50\n*NSET, NSET=ENDS\n60,10,40\n*SURFACE, NAME=TOP\nALL, S3\n", file);
   fclose(file);
-  CHECK_STATUS(fuge_read_mesh(path, &mesh, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_read_mesh(path, &mesh, message, sizeof message));
   remove(path);
-  CHECK_STATUS(fuge_mesh_get_surface_dof(mesh, "top", 2, 9, node, direction, dof, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_surface_dof(mesh, "top", 2, 9, node, direction, dof, message, sizeof message));
   const int expected[12] = {-1, -1, 0, 1, 2, 3, 4, 5, 6, 7, -1, 8};
   for (int k = 0; k < 12; k++) CHECK_INT(dof[k], expected[k]);
-  CHECK_STATUS(fuge_mesh_get_set_dof(mesh, "ENDS", 2, 9, node, direction, 12, dof, &count, message, sizeof message),
-               FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_set_dof(mesh, "ENDS", 2, 9, node, direction, 12, dof, &count, message, sizeof message));
   CHECK_INT(count, 2);
   CHECK_INT(dof[0], 8);
   CHECK_INT(dof[1], 5);
-  CHECK_STATUS(fuge_mesh_get_set_dof(mesh, "ENDS", 1, 9, node, direction, 0, NULL, &count, message, sizeof message),
-               FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_set_dof(mesh, "ENDS", 1, 9, node, direction, 0, NULL, &count, message, sizeof message));
   CHECK_INT(count, 1);
   CHECK_STATUS(fuge_mesh_get_surface_dof(mesh, "TOP", 3, 9, node, direction, dof, message, sizeof message),
                FUGE_ERR_ELEMENT);

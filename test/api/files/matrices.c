@@ -15,12 +15,11 @@ static void test_read_matrix(void) {
   int rows = -1, columns = -1;
   char message[256] = "old";
   write_file(NAME, "%%MatrixMarket matrix array real general\n3 2\n1\n2\n3\n4\n5\n6\n");
-  CHECK_STATUS(fuge_read_matrix(NAME, 0, 0, NULL, &rows, &columns, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_read_matrix(NAME, 0, 0, NULL, &rows, &columns, message, sizeof message), FUGE_DONE, message, "");
   CHECK_INT(rows, 3);
   CHECK_INT(columns, 2);
   fill(matrix, 9);
-  CHECK_STATUS(fuge_read_matrix(NAME, 4, 2, matrix, &rows, &columns, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_matrix(NAME, 4, 2, matrix, &rows, &columns, NULL, 0));
   CHECK_NEAR(matrix[0], 1.0, 0.0);
   CHECK_NEAR(matrix[2], 3.0, 0.0);
   CHECK_UNTOUCHED(matrix + 3, 1);
@@ -28,7 +27,7 @@ static void test_read_matrix(void) {
   CHECK_NEAR(matrix[6], 6.0, 0.0);
   CHECK_UNTOUCHED(matrix + 7, 2);
   fill(matrix, 9);
-  CHECK_STATUS(fuge_read_matrix(NAME, 2, 1, matrix, &rows, &columns, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_matrix(NAME, 2, 1, matrix, &rows, &columns, NULL, 0));
   CHECK_NEAR(matrix[1], 2.0, 0.0);
   CHECK_UNTOUCHED(matrix + 2, 7);
   CHECK_INT(rows, 3);
@@ -46,9 +45,8 @@ static void test_read_refusals(void) {
   CHECK_STATUS(fuge_read_matrix(NAME, 2, 2, matrix, &rows, &columns, message, sizeof message), FUGE_ERR_FILE);
   CHECK_STRING(message, "\"api_matrices_scratch.mtx\", line 3: row \"3\" is outside 1 .. 2");
   message[0] = '\0';
-  CHECK_STATUS(fuge_read_sparse(NAME, 2, 4, column, row, value, &rows, &columns, &entries, message, sizeof message),
-               FUGE_ERR_FILE);
-  CHECK_STRING(message, "\"api_matrices_scratch.mtx\", line 3: row \"3\" is outside 1 .. 2");
+  CHECK_MESSAGE(fuge_read_sparse(NAME, 2, 4, column, row, value, &rows, &columns, &entries, message, sizeof message),
+                FUGE_ERR_FILE, message, "\"api_matrices_scratch.mtx\", line 3: row \"3\" is outside 1 .. 2");
   remove(NAME);
   CHECK_STATUS(fuge_read_matrix(NAME, 2, 2, matrix, &rows, &columns, message, sizeof message), FUGE_ERR_FILE);
   CHECK_CONTAINS(message, "cannot be opened");
@@ -77,26 +75,24 @@ static void test_sparse(void) {
   double found[7];
   for (int symmetric = 0; symmetric < 2; symmetric++) {
     fill(found, 7);
-    CHECK_STATUS(fuge_write_sparse(NAME, 3, 3, column, row, value, symmetric, NULL, 0), FUGE_DONE);
-    CHECK_STATUS(fuge_read_sparse(NAME, 0, 0, NULL, NULL, NULL, &rows, &columns, &entries, NULL, 0), FUGE_DONE);
+    CHECK_DONE(fuge_write_sparse(NAME, 3, 3, column, row, value, symmetric, NULL, 0));
+    CHECK_DONE(fuge_read_sparse(NAME, 0, 0, NULL, NULL, NULL, &rows, &columns, &entries, NULL, 0));
     CHECK(rows == 3 && columns == 3 && entries == 7);
-    CHECK_STATUS(fuge_read_sparse(NAME, 3, 7, found_column, found_row, found, &rows, &columns, &entries, NULL, 0),
-                 FUGE_DONE);
+    CHECK_DONE(fuge_read_sparse(NAME, 3, 7, found_column, found_row, found, &rows, &columns, &entries, NULL, 0));
     CHECK(memcmp(column, found_column, sizeof column) == 0);
     CHECK(memcmp(row, found_row, sizeof row) == 0);
     CHECK(memcmp(value, found, sizeof value) == 0);
   }
   fill(found, 7);
-  CHECK_STATUS(fuge_read_sparse(NAME, 1, 2, found_column, found_row, found, &rows, &columns, &entries, NULL, 0),
-               FUGE_DONE);
+  CHECK_DONE(fuge_read_sparse(NAME, 1, 2, found_column, found_row, found, &rows, &columns, &entries, NULL, 0));
   CHECK_INT(entries, 7);
   CHECK_NEAR(found[1], -1.0, 0.0);
   CHECK_UNTOUCHED(found + 2, 5);
   for (int k = 0; k < 4; k++) found_column[k] = -1;
-  CHECK_STATUS(fuge_read_sparse(NAME, 0, 0, found_column, NULL, NULL, &rows, &columns, &entries, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_sparse(NAME, 0, 0, found_column, NULL, NULL, &rows, &columns, &entries, NULL, 0));
   CHECK(found_column[0] == 0 && found_column[1] == -1);
-  CHECK_STATUS(fuge_read_sparse(NAME, INT_MAX, INT_MAX, found_column, found_row, found, &rows, &columns, &entries, NULL,
-                                0), FUGE_DONE);
+  CHECK_DONE(fuge_read_sparse(NAME, INT_MAX, INT_MAX, found_column, found_row, found, &rows, &columns, &entries, NULL,
+                              0));
   CHECK(memcmp(column, found_column, sizeof column) == 0);
   CHECK(memcmp(value, found, sizeof value) == 0);
   remove(NAME);
@@ -106,12 +102,12 @@ static void test_write(void) {
   const double matrix[6] = {0.1, -1e-300, HUGE_VAL, 1.0 / 3.0, 1.7976931348623157e308, HUGE_VAL};
   double found[4];
   int rows, columns;
-  CHECK_STATUS(fuge_write_matrix(NAME, 2, 2, matrix, 3, 0, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_read_matrix(NAME, 2, 2, found, &rows, &columns, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_write_matrix(NAME, 2, 2, matrix, 3, 0, NULL, 0));
+  CHECK_DONE(fuge_read_matrix(NAME, 2, 2, found, &rows, &columns, NULL, 0));
   CHECK(memcmp(found, matrix, 2 * sizeof *found) == 0);
   CHECK(memcmp(found + 2, matrix + 3, 2 * sizeof *found) == 0);
-  CHECK_STATUS(fuge_write_matrix(NAME, 2, 2, matrix, 3, 1, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_read_matrix(NAME, 2, 2, found, &rows, &columns, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_write_matrix(NAME, 2, 2, matrix, 3, 1, NULL, 0));
+  CHECK_DONE(fuge_read_matrix(NAME, 2, 2, found, &rows, &columns, NULL, 0));
   CHECK_NEAR(found[2], -1e-300, 0.0);
   remove(NAME);
 }
@@ -199,8 +195,8 @@ static void test_full_disk(void) {
   for (int k = 0; k < 100 && access("/dev/full", W_OK) == 0; k++) write_in_vain("/dev/full");
   CHECK_INT(free_descriptor(), descriptor);
   /* The next write is not disturbed. */
-  CHECK_STATUS(fuge_write_matrix(NAME, LARGE, LARGE, large, LARGE, 0, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_read_matrix(NAME, 0, 0, NULL, &rows, &columns, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_write_matrix(NAME, LARGE, LARGE, large, LARGE, 0, NULL, 0));
+  CHECK_DONE(fuge_read_matrix(NAME, 0, 0, NULL, &rows, &columns, NULL, 0));
   CHECK_INT(rows, LARGE);
   remove(NAME);
 }

@@ -12,46 +12,41 @@ static void test_mesh(void) {
   write_file(NAME, "*NODE\n10, 0., 0., 0.\n20, 1., 0., 0.\n30, 0., 1., 0.\n40, 0., 0., 1.\n"
              "*ELEMENT, TYPE=c3d4, ELSET=Tet\n7, 10, 20, 30, 40\n*NSET, NSET=BASE\n10, 30, 20\n"
              "*SURFACE, NAME=FOOT\nTET, S1\nTET, S3\n");
-  CHECK_STATUS(fuge_read_mesh(NAME, &mesh, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_read_mesh(NAME, &mesh, message, sizeof message), FUGE_DONE, message, "");
   CHECK(mesh != NULL);
   if (mesh == NULL) return;
-  CHECK_STATUS(fuge_mesh_get_sizes(mesh, &nodes, &elements, &connections), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_sizes(mesh, &nodes, &elements, &connections));
   CHECK(nodes == 4 && elements == 1 && connections == 4);
-  CHECK_STATUS(fuge_mesh_get_nodes(mesh, node, position), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_nodes(mesh, node, position));
   CHECK(node[0] == 10 && node[3] == 40);
   CHECK_NEAR(position[3], 1.0, 0.0);
   CHECK_NEAR(position[11], 1.0, 0.0);
-  CHECK_STATUS(fuge_mesh_get_nodes(mesh, NULL, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_mesh_get_elements(mesh, element, first, connection), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_nodes(mesh, NULL, NULL));
+  CHECK_DONE(fuge_mesh_get_elements(mesh, element, first, connection));
   CHECK(element[0] == 7 && first[0] == 0 && first[1] == 4 && connection[0] == 0 && connection[3] == 3);
-  CHECK_STATUS(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE);
-  CHECK_STRING(type, "C3D4");
+  CHECK_MESSAGE(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE, type, "C3D4");
   CHECK_STATUS(fuge_mesh_get_type(mesh, 1, type, sizeof type), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_mesh_get_type(mesh, -1, type, sizeof type), FUGE_ERR_SIZE);
   member[2] = -9;
-  CHECK_STATUS(fuge_mesh_get_node_set(mesh, "base", 2, member, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_node_set(mesh, "base", 2, member, &count, NULL, 0));
   CHECK(count == 3 && member[0] == 0 && member[1] == 2 && member[2] == -9);
-  CHECK_STATUS(fuge_mesh_get_element_set(mesh, "TET", 4, member, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_element_set(mesh, "TET", 4, member, &count, NULL, 0));
   CHECK(count == 1 && member[0] == 0);
   CHECK_STATUS(fuge_mesh_get_element_set(mesh, "BASE", 4, member, &count, message, sizeof message), FUGE_ERR_OPTION);
   CHECK_STRING(message, "the mesh has no set of elements \"BASE\", it has TET");
-  CHECK_STATUS(fuge_mesh_get_faces(mesh, "foot", 0, NULL, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_faces(mesh, "foot", 0, NULL, &count, NULL, 0));
   CHECK_INT(count, 2);
-  CHECK_STATUS(fuge_mesh_get_faces(mesh, "foot", 2, faces, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_faces(mesh, "foot", 2, faces, &count, NULL, 0));
   CHECK(faces[0] == 0 && faces[1] == 2 && faces[2] == 1 && faces[3] == -1 && faces[7] == -1);
   CHECK(faces[8] == 1 && faces[9] == 2 && faces[10] == 3 && faces[15] == -1);
   CHECK_STATUS(fuge_mesh_get_faces(mesh, "TOP", 2, faces, &count, message, sizeof message), FUGE_ERR_OPTION);
   CHECK_STRING(message, "the mesh has no surface \"TOP\", it has FOOT");
-  CHECK_STATUS(fuge_mesh_get_set_counts(mesh, &nodes, &elements, &count), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_set_counts(mesh, &nodes, &elements, &count));
   CHECK(nodes == 1 && elements == 1 && count == 1);
-  CHECK_STATUS(fuge_mesh_get_set_counts(mesh, NULL, NULL, NULL), FUGE_DONE);
-  CHECK_STATUS(fuge_mesh_get_node_set_name(mesh, 0, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "BASE");
-  CHECK_STATUS(fuge_mesh_get_element_set_name(mesh, 0, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "TET");
-  CHECK_STATUS(fuge_mesh_get_surface_name(mesh, 0, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "FOOT");
+  CHECK_DONE(fuge_mesh_get_set_counts(mesh, NULL, NULL, NULL));
+  CHECK_MESSAGE(fuge_mesh_get_node_set_name(mesh, 0, message, sizeof message), FUGE_DONE, message, "BASE");
+  CHECK_MESSAGE(fuge_mesh_get_element_set_name(mesh, 0, message, sizeof message), FUGE_DONE, message, "TET");
+  CHECK_MESSAGE(fuge_mesh_get_surface_name(mesh, 0, message, sizeof message), FUGE_DONE, message, "FOOT");
   CHECK_STATUS(fuge_mesh_get_surface_name(mesh, 1, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_mesh_get_node_set_name(mesh, -1, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_mesh_get_element_set_name(NULL, 0, message, sizeof message), FUGE_ERR_POINTER);
@@ -127,24 +122,22 @@ static void test_write(void) {
   int count = 0, node[10], first[5], connection[14], nodes, cells;
   size_t bytes;
   for (int k = 0; k < 20; k++) u[k] = k + 0.25;
-  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 2, types, &mesh, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_create(2, 5, position, 4, 2, element, 2, types, &mesh, message, sizeof message));
   CHECK_STRING(message, "");
   if (mesh == NULL) return;
-  CHECK_STATUS(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE);
-  CHECK_STRING(type, "CPS4");
+  CHECK_MESSAGE(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE, type, "CPS4");
   CHECK_STATUS(fuge_mesh_get_node_set(mesh, "A", 0, NULL, &count, NULL, 0), FUGE_ERR_OPTION);
   both[0] = mesh;
   both[1] = mesh;
-  CHECK_STATUS(fuge_mesh_join(2, both, &joined, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_join(2, both, &joined, message, sizeof message));
   if (joined == NULL) return;
-  CHECK_STATUS(fuge_mesh_get_sizes(joined, &nodes, &cells, &count), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_sizes(joined, &nodes, &cells, &count));
   CHECK(nodes == 10 && cells == 4 && count == 14);
-  CHECK_STATUS(fuge_mesh_get_nodes(joined, node, NULL), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_nodes(joined, node, NULL));
   CHECK(node[4] == 5 && node[5] == 1);
-  CHECK_STATUS(fuge_mesh_get_elements(joined, NULL, first, connection), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_elements(joined, NULL, first, connection));
   CHECK(first[2] == 7 && first[4] == 14 && connection[7] == 5 && connection[12] == 9);
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields,
-               message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields, message, sizeof message));
   bytes = read_back(content, sizeof content);
   CHECK(bytes > 0 && bytes < sizeof content);
   CHECK_NEAR(number_at(content, bytes, 8), 0.25, 0.0);
@@ -152,37 +145,30 @@ static void test_write(void) {
   CHECK_NEAR(number_at(content, bytes, 24), 0.0, 0.0);
   CHECK_NEAR(number_at(content, bytes, 8 + 9 * 24 + 8), 19.25, 0.0);
   CHECK_NEAR(number_at(content, bytes, 8 + 10 * 24 + 8 + 3 * 8), 2.0, 0.0);
-  CHECK_STATUS(fuge_write_mesh(NAME, mesh, 0, NULL, NULL, NULL, NULL, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_write_mesh(NAME, mesh, 0, NULL, NULL, NULL, NULL, message, sizeof message));
   CHECK(read_back(content, sizeof content) < bytes);
-  CHECK_STATUS(fuge_write_mesh(NAME, mesh, 2, names, components, NULL, fields, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_write_mesh(NAME, mesh, 2, names, components, NULL, fields, message, sizeof message));
   remove(NAME);
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, same, components, elements, fields, message, sizeof message),
-               FUGE_ERR_OPTION);
-  CHECK_CONTAINS(message, "fields 0 and 1 have the same name");
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, elements, elements, fields,
-               message, sizeof message), FUGE_ERR_SIZE);
-  CHECK_CONTAINS(message, "components[0] = 0");
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, missing, message, sizeof message),
-               FUGE_ERR_POINTER);
-  CHECK_STRING(message, "field[1] is NULL");
+  CHECK_SAYS(fuge_write_mesh(NAME, joined, 2, same, components, elements, fields, message, sizeof message),
+             FUGE_ERR_OPTION, message, "fields 0 and 1 have the same name");
+  CHECK_SAYS(fuge_write_mesh(NAME, joined, 2, names, elements, elements, fields, message, sizeof message),
+             FUGE_ERR_SIZE, message, "components[0] = 0");
+  CHECK_MESSAGE(fuge_write_mesh(NAME, joined, 2, names, components, elements, missing, message, sizeof message),
+                FUGE_ERR_POINTER, message, "field[1] is NULL");
   CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, NULL, components, elements, fields, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_write_mesh(NAME, joined, -1, names, components, elements, fields, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_mesh(NULL, joined, 0, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_write_mesh(NAME, NULL, 0, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
   u[3] = NAN;
-  CHECK_STATUS(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields, message, sizeof message),
-               FUGE_ERR_NOT_FINITE);
-  CHECK_CONTAINS(message, "field \"u\", column 1: component(1) = NaN");
+  CHECK_SAYS(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields, message, sizeof message),
+             FUGE_ERR_NOT_FINITE, message, "field \"u\", column 1: component(1) = NaN");
   CHECK(fopen(NAME, "rb") == NULL);
-  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, types, &none, message, sizeof message),
-               FUGE_ERR_ELEMENT);
-  CHECK_STRING(message, "element 1 of type CPS4 has 3 nodes instead of 4");
-  CHECK_STATUS(fuge_mesh_create(2, 4, position, 4, 2, element, 2, types, &none,
-               message, sizeof message), FUGE_ERR_SIZE);
-  CHECK_STRING(message, "element 1 names node 4: there are 4");
-  CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, &long_type, &none, message, sizeof message),
-               FUGE_ERR_OPTION);
-  CHECK_CONTAINS(message, "type[0]");
+  CHECK_MESSAGE(fuge_mesh_create(2, 5, position, 4, 2, element, 1, types, &none, message, sizeof message),
+                FUGE_ERR_ELEMENT, message, "element 1 of type CPS4 has 3 nodes instead of 4");
+  CHECK_MESSAGE(fuge_mesh_create(2, 4, position, 4, 2, element, 2, types, &none, message, sizeof message),
+                FUGE_ERR_SIZE, message, "element 1 names node 4: there are 4");
+  CHECK_SAYS(fuge_mesh_create(2, 5, position, 4, 2, element, 1, &long_type, &none, message, sizeof message),
+             FUGE_ERR_OPTION, message, "type[0]");
   CHECK_STATUS(fuge_mesh_create(2, 5, NULL, 4, 2, element, 2, types, &none, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, NULL, 2, types, &none, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_mesh_create(2, 5, position, 4, 2, element, 2, NULL, &none, NULL, 0), FUGE_ERR_POINTER);
@@ -191,8 +177,7 @@ static void test_write(void) {
   CHECK_STATUS(fuge_mesh_join(0, both, &none, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_mesh_join(2, NULL, &none, NULL, 0), FUGE_ERR_POINTER);
   both[1] = NULL;
-  CHECK_STATUS(fuge_mesh_join(2, both, &none, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STRING(message, "mesh[1] is NULL");
+  CHECK_MESSAGE(fuge_mesh_join(2, both, &none, message, sizeof message), FUGE_ERR_POINTER, message, "mesh[1] is NULL");
   CHECK(none == NULL);
   fuge_mesh_free(&joined);
   fuge_mesh_free(&mesh);
@@ -210,7 +195,7 @@ static void test_full_disk(void) {
   fclose(full);
   for (int n = 3; n <= LARGE; n += LARGE - 3) {
     fuge_mesh *mesh = NULL;
-    CHECK_STATUS(fuge_mesh_create(2, n, position, 3, 1, element, 1, &type, &mesh, NULL, 0), FUGE_DONE);
+    CHECK_DONE(fuge_mesh_create(2, n, position, 3, 1, element, 1, &type, &mesh, NULL, 0));
     message[0] = '\0';
     CHECK_STATUS(fuge_write_mesh("/dev/full", mesh, 0, NULL, NULL, NULL, NULL, message, sizeof message), FUGE_ERR_FILE);
     CHECK_CONTAINS(message, "\"/dev/full\" cannot be written: ");

@@ -8,18 +8,17 @@ static void test_read(void) {
   int count = -1;
   char message[256] = "old";
   write_file(NAME, "x z\n0 1\n1 2\n2 4\n");
-  CHECK_STATUS(fuge_read_profile(NAME, 3, x, z, &count, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_read_profile(NAME, 3, x, z, &count, message, sizeof message), FUGE_DONE, message, "");
   CHECK_INT(count, 3);
   CHECK_NEAR(x[2], 2.0, 0.0);
   CHECK_NEAR(z[2], 4.0, 0.0);
   fill(x, 3);
   count = -1;
-  CHECK_STATUS(fuge_read_profile(NAME, 1, x, NULL, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_profile(NAME, 1, x, NULL, &count, NULL, 0));
   CHECK_INT(count, 3);
   CHECK_NEAR(x[0], 0.0, 0.0);
   CHECK_UNTOUCHED(x + 1, 2);
-  CHECK_STATUS(fuge_read_profile(NAME, 0, NULL, NULL, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_profile(NAME, 0, NULL, NULL, &count, NULL, 0));
   remove(NAME);
 }
 
@@ -61,9 +60,8 @@ static void test_sample(void) {
   CHECK_STATUS(fuge_sample_profile(2, x, z, 2, NULL, height, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_sample_profile(2, x, z, 2, centre, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_UNTOUCHED(height, 2);
-  CHECK_STATUS(fuge_sample_profile(2, x, z, 2, centre, height, NULL, 0), FUGE_DONE);
-  CHECK_NEAR(height[0], 3.0, 0.0);
-  CHECK_NEAR(height[1], 1.0, 0.0);
+  CHECK_DONE(fuge_sample_profile(2, x, z, 2, centre, height, NULL, 0));
+  CHECK_VALUES(height, 0.0, 3.0, 1.0);
 }
 
 static void test_level(void) {
@@ -71,16 +69,15 @@ static void test_level(void) {
   double z[3];
   char message[256] = "";
   fill(z, 3);
-  CHECK_STATUS(fuge_level_profile(3, x, z, 5, message, sizeof message), FUGE_ERR_OPTION);
-  CHECK_CONTAINS(message, "form = 5");
+  CHECK_SAYS(fuge_level_profile(3, x, z, 5, message, sizeof message), FUGE_ERR_OPTION, message, "form = 5");
   CHECK_STATUS(fuge_level_profile(1, x, z, FUGE_LEVEL_MEAN, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_level_profile(3, NULL, z, FUGE_LEVEL_MEAN, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_level_profile(3, x, NULL, FUGE_LEVEL_MEAN, NULL, 0), FUGE_ERR_POINTER);
   CHECK_UNTOUCHED(z, 3);
   z[0] = 1.0; z[1] = 2.0; z[2] = 3.0;
-  CHECK_STATUS(fuge_level_profile(3, x, z, FUGE_LEVEL_MEAN, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_level_profile(3, x, z, FUGE_LEVEL_MEAN, NULL, 0));
   CHECK_NEAR(z[0], -1.0, 1e-15);
-  CHECK_STATUS(fuge_level_profile(3, x, z, FUGE_LEVEL_LINE, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_level_profile(3, x, z, FUGE_LEVEL_LINE, NULL, 0));
   CHECK_NEAR(z[0], 0.0, 1e-15);
 }
 

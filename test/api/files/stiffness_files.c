@@ -11,27 +11,23 @@ static void test_named_entries(void) {
   char message[256] = "old";
   /* Rows of node 4 in y, node 9 in x. */
   write_file(NAME, "** stiffness\n9,1, 9,1, 8.0\n9,1, 4,2, -1.5\n4,2, 4,2, 6.0\n");
-  CHECK_STATUS(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ANY, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL, NULL, &rows,
-                                   &entries, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ANY, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL, NULL, &rows,
+                                    &entries, message, sizeof message), FUGE_DONE, message, "");
   CHECK(rows == 2 && entries == 4);
   fill(value, 5);
-  CHECK_STATUS(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ABAQUS, NULL, "", 2, 4, column, row, value, node, direction,
-                                   &rows, &entries, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ABAQUS, NULL, "", 2, 4, column, row, value, node, direction,
+                                 &rows, &entries, NULL, 0));
   CHECK(column[0] == 0 && column[1] == 2 && column[2] == 4 && column[3] == -1);
   CHECK(row[0] == 0 && row[1] == 1 && row[2] == 0 && row[3] == 1 && row[4] == -1);
   CHECK(node[0] == 4 && node[1] == 9 && node[2] == -1);
   CHECK(direction[0] == 2 && direction[1] == 1);
-  CHECK_NEAR(value[0], 6.0, 0.0);
-  CHECK_NEAR(value[1], -1.5, 0.0);
-  CHECK_NEAR(value[2], -1.5, 0.0);
-  CHECK_NEAR(value[3], 8.0, 0.0);
+  CHECK_VALUES(value, 0.0, 6.0, -1.5, -1.5, 8.0);
   CHECK_UNTOUCHED(value + 4, 1);
   /* Less room than the matrix needs. */
   fill(value, 5);
   node[1] = -1;
-  CHECK_STATUS(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ANY, NULL, NULL, 1, 3, column, row, value, node, NULL, &rows,
-                                   &entries, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ANY, NULL, NULL, 1, 3, column, row, value, node, NULL, &rows,
+                                 &entries, NULL, 0));
   CHECK_INT(node[1], -1);
   CHECK_INT(entries, 4);
   CHECK_UNTOUCHED(value + 3, 2);
@@ -42,12 +38,12 @@ static void test_names_and_matrices(void) {
   int rows = -1, entries = -1, node[2], direction[2];
   write_file(NAME, "1 1 2.0\n1 2 -1.0\n2 2 3.0\n");
   write_file(ROWS, "17.3\n5.1\n");
-  CHECK_STATUS(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ANY, ROWS, NULL, 2, 4, NULL, NULL, NULL, node, direction, &rows,
-                                   &entries, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ANY, ROWS, NULL, 2, 4, NULL, NULL, NULL, node, direction, &rows,
+                                 &entries, NULL, 0));
   CHECK(node[0] == 17 && direction[0] == 3 && node[1] == 5 && direction[1] == 1);
   write_file(NAME, "DMIG,M,0,6,2\nDMIG,M,5,1,,5,1,2.0\nDMIG,K,0,6,2\nDMIG,K,7,3,,7,3,4.0\n");
-  CHECK_STATUS(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ANY, NULL, "K", 2, 4, NULL, NULL, NULL, node, direction, &rows,
-                                   &entries, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_stiffness(NAME, FUGE_STIFFNESS_ANY, NULL, "K", 2, 4, NULL, NULL, NULL, node, direction, &rows,
+                                 &entries, NULL, 0));
   CHECK(rows == 1 && node[0] == 7 && direction[0] == 3);
   remove(NAME);
   remove(ROWS);
@@ -72,9 +68,8 @@ static void test_refusals(void) {
                FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_read_stiffness(NAME, 0, NULL, NULL, 2, -1, NULL, NULL, NULL, node, NULL, &rows, &entries, NULL, 0),
                FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_read_stiffness(NAME, 0, "no_such.dof", NULL, 2, 4, NULL, NULL, NULL, node, NULL, &rows, &entries,
-                                   message, sizeof message), FUGE_ERR_FILE);
-  CHECK_CONTAINS(message, "\"no_such.dof\" cannot be opened");
+  CHECK_SAYS(fuge_read_stiffness(NAME, 0, "no_such.dof", NULL, 2, 4, NULL, NULL, NULL, node, NULL, &rows, &entries,
+                                 message, sizeof message), FUGE_ERR_FILE, message, "\"no_such.dof\" cannot be opened");
   remove(NAME);
   CHECK_STATUS(fuge_read_stiffness(NAME, 0, NULL, NULL, 2, 4, NULL, NULL, NULL, node, NULL, &rows, &entries, NULL, 0),
                FUGE_ERR_FILE);
@@ -92,10 +87,9 @@ static void read_sample(const char *folder, const char *name, const char *names,
   int place[DEGREES];
   snprintf(path, sizeof path, "%s/%s", folder, name);
   snprintf(names_path, sizeof names_path, "%s/block.dof", folder);
-  CHECK_STATUS(fuge_read_stiffness(path, FUGE_STIFFNESS_ANY, names != NULL ? names_path : NULL, NULL, DEGREES,
-                                   DEGREES * DEGREES, column, row, value, node, direction, &rows, &entries, message,
-                                   sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_read_stiffness(path, FUGE_STIFFNESS_ANY, names != NULL ? names_path : NULL, NULL, DEGREES,
+                                    DEGREES * DEGREES, column, row, value, node, direction, &rows, &entries, message,
+                                    sizeof message), FUGE_DONE, message, "");
   CHECK_INT(rows, DEGREES);
   for (int i = 0; i < DEGREES * DEGREES; i++) k[i] = 0.0;
   if (rows != DEGREES) return;
@@ -125,10 +119,10 @@ static void test_samples(const char *folder) {
     CHECK(memcmp(k, other, sizeof k) == 0);
   }
   snprintf(path, sizeof path, "%s/block.inp", folder);
-  CHECK_STATUS(fuge_read_mesh(path, &mesh, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_mesh(path, &mesh, NULL, 0));
   if (mesh == NULL) return;
-  CHECK_STATUS(fuge_mesh_get_nodes(mesh, NULL, position), FUGE_DONE);
-  CHECK_STATUS(fuge_mesh_get_faces(mesh, "TOP", 1, faces, &count, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_mesh_get_nodes(mesh, NULL, position));
+  CHECK_DONE(fuge_mesh_get_faces(mesh, "TOP", 1, faces, &count, NULL, 0));
   CHECK(count == 1 && faces[0] == 4 && faces[1] == 5 && faces[2] == -1);
   fuge_mesh_free(&mesh);
   CHECK_NEAR(k[0], 12.0, 0.0);

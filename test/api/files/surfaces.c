@@ -21,9 +21,8 @@ static void test_read(void) {
   int nx = -1, ny = -1, filled = -1;
   char message[256] = "old";
   write_file(NAME, "# made by hand\n1 2 4\n8 16 nan\n");
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_GRID, 1, 6, height, &nx, &ny, spacing, origin, &filled, message,
-                                 sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_read_surface(NAME, FUGE_FILE_GRID, 1, 6, height, &nx, &ny, spacing, origin, &filled, message,
+                                  sizeof message), FUGE_DONE, message, "");
   CHECK_INT(nx, 3);
   CHECK_INT(ny, 2);
   CHECK_INT(filled, 1);
@@ -34,21 +33,18 @@ static void test_read(void) {
   CHECK_NEAR(origin[1], 0.0, 0.0);
   fill(height, 6);
   write_file(NAME, "10 5 1\n12 5 2\n12 6 4\n10 6 3\n10 7 5\n12 7 6\n");
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 4, height, &nx, &ny, spacing, origin, NULL, NULL, 0),
-               FUGE_DONE);
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 4, height, &nx, &ny, spacing, origin, NULL, NULL, 0));
   CHECK_INT(nx, 2);
   CHECK_INT(ny, 3);
   CHECK_NEAR(height[2], 3.0, 0.0);
   CHECK_NEAR(height[3], 4.0, 0.0);
   CHECK_UNTOUCHED(height + 4, 2);
-  CHECK_NEAR(spacing[0], 2.0, 0.0);
-  CHECK_NEAR(spacing[1], 1.0, 0.0);
-  CHECK_NEAR(origin[0], 10.0, 0.0);
-  CHECK_NEAR(origin[1], 5.0, 0.0);
+  CHECK_VALUES(spacing, 0.0, 2.0, 1.0);
+  CHECK_VALUES(origin, 0.0, 10.0, 5.0);
   fill(height, 6);
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 0, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 0, height, &nx, &ny, NULL, NULL, NULL, NULL, 0));
   CHECK_UNTOUCHED(height, 6);
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 9, NULL, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 9, NULL, &nx, &ny, NULL, NULL, NULL, NULL, 0));
   remove(NAME);
 }
 
@@ -58,18 +54,16 @@ static void test_read_refusals(void) {
   char message[256] = "";
   fill(height, 4);
   write_file(NAME, "1 2\n3\n");
-  CHECK_STATUS(fuge_read_surface(NAME, 0, 0, 4, height, &nx, &ny, NULL, NULL, NULL, message, sizeof message),
-               FUGE_ERR_FILE);
-  CHECK_STRING(message, "\"api_surfaces_scratch.txt\", line 2: 1 value(s), but the first row has 2");
+  CHECK_MESSAGE(fuge_read_surface(NAME, 0, 0, 4, height, &nx, &ny, NULL, NULL, NULL, message, sizeof message),
+                FUGE_ERR_FILE, message, "\"api_surfaces_scratch.txt\", line 2: 1 value(s), but the first row has 2");
   CHECK_STATUS(fuge_read_surface(NAME, 9, 0, 4, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_ERR_OPTION);
   CHECK_STATUS(fuge_read_surface(NAME, 0, 0, -1, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_read_surface(NAME, 0, 0, 4, height, NULL, &ny, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_read_surface(NAME, 0, 0, 4, height, &nx, NULL, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_read_surface(NULL, 0, 0, 4, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
   remove(NAME);
-  CHECK_STATUS(fuge_read_surface(NAME, 0, 0, 4, height, &nx, &ny, NULL, NULL, NULL, message, sizeof message),
-               FUGE_ERR_FILE);
-  CHECK_CONTAINS(message, "cannot be opened");
+  CHECK_SAYS(fuge_read_surface(NAME, 0, 0, 4, height, &nx, &ny, NULL, NULL, NULL, message, sizeof message),
+             FUGE_ERR_FILE, message, "cannot be opened");
   CHECK_UNTOUCHED(height, 4);
   CHECK_INT(nx, -1);
   CHECK_INT(ny, -1);
@@ -82,14 +76,14 @@ static void test_write(void) {
   double back[6], found[2];
   int nx, ny;
   char message[256] = "";
-  CHECK_STATUS(fuge_write_surface(NAME, 2, 3, spacing, height, message, sizeof message), FUGE_DONE);
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_GRID, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_write_surface(NAME, 2, 3, spacing, height, message, sizeof message));
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_GRID, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0));
   CHECK_INT(nx, 2);
   CHECK_INT(ny, 3);
   CHECK(memcmp(back, height, sizeof back) == 0);
   CHECK(memcmp(found, spacing, sizeof found) == 0);
-  CHECK_STATUS(fuge_write_surface(NAME, 6, 1, NULL, height, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_write_surface(NAME, 6, 1, NULL, height, NULL, 0));
+  CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 6, back, &nx, &ny, found, NULL, NULL, NULL, 0));
   CHECK_INT(nx, 6);
   CHECK_NEAR(found[0], 0.0, 0.0);
   CHECK_STATUS(fuge_write_surface(NAME, 2, 3, wrong, height, NULL, 0), FUGE_ERR_WIDTH);
@@ -106,9 +100,9 @@ static void test_write(void) {
 static void test_level(void) {
   double height[6] = {1.0, 3.0, 2.0, 4.0, 3.0, 5.0};
   char message[256] = "";
-  CHECK_STATUS(fuge_level_surface(2, 3, height, FUGE_LEVEL_MEAN, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_level_surface(2, 3, height, FUGE_LEVEL_MEAN, NULL, 0));
   CHECK_NEAR(height[0], -2.0, 1e-15);
-  CHECK_STATUS(fuge_level_surface(2, 3, height, FUGE_LEVEL_PLANE, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_level_surface(2, 3, height, FUGE_LEVEL_PLANE, NULL, 0));
   CHECK_NEAR(height[0], 0.0, 1e-15);
   CHECK_NEAR(height[5], 0.0, 1e-15);
   fill(height, 6);
@@ -123,12 +117,11 @@ static void test_fill(void) {
   double height[6] = {1.0, 3.0, NAN, 4.0, 3.0, 5.0}, hole[2] = {NAN, NAN}, infinite[2] = {NAN, -INFINITY};
   char message[256] = "old";
   int filled = -1;
-  CHECK_STATUS(fuge_fill_surface(2, 3, height, &filled, message, sizeof message), FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_fill_surface(2, 3, height, &filled, message, sizeof message), FUGE_DONE, message, "");
   CHECK_INT(filled, 1);
   CHECK_NEAR(height[2], (1.0 + 4.0 + 3.0) / 3.0, 1e-15);
   CHECK_NEAR(height[5], 5.0, 0.0);
-  CHECK_STATUS(fuge_fill_surface(2, 3, height, NULL, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_fill_surface(2, 3, height, NULL, NULL, 0));
   CHECK_STATUS(fuge_fill_surface(2, 1, hole, &filled, message, sizeof message), FUGE_ERR_NOT_FINITE);
   CHECK_CONTAINS(message, "all heights are NaN");
   CHECK(isnan(hole[0]) && isnan(hole[1]));
@@ -148,8 +141,7 @@ static void test_volume(void) {
   char message[256] = "", *bytes, *values;
   size_t length;
   double back[6];
-  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, origin, 3, depth, 1, names, fields, message, sizeof message),
-               FUGE_DONE);
+  CHECK_DONE(fuge_write_volume(NAME, 2, 1, spacing, origin, 3, depth, 1, names, fields, message, sizeof message));
   bytes = read_file(&length);
   CHECK_CONTAINS(bytes, "<RectilinearGrid WholeExtent=\"0 1 0 0 0 2\">");
   CHECK_CONTAINS(bytes, "Name=\"zz\" format=\"appended\" offset=\"0\"");
@@ -166,9 +158,8 @@ static void test_volume(void) {
     CHECK_NEAR(back[2], 2.0, 0.0);
   }
   free(bytes);
-  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, back_up, 1, names, fields, message, sizeof message),
-               FUGE_ERR_GRID);
-  CHECK_CONTAINS(message, "depth(2) = 0.5");
+  CHECK_SAYS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, back_up, 1, names, fields, message, sizeof message),
+             FUGE_ERR_GRID, message, "depth(2) = 0.5");
   CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 0, depth, 1, names, fields, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, NULL, 1, names, fields, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_write_volume(NAME, 32768, 32768, spacing, NULL, 3, depth, 1, names, fields, message,
@@ -183,7 +174,7 @@ static void test_fields(void) {
   char message[256] = "", *bytes, *values;
   size_t length;
   double back[2];
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, origin, 2, names, fields, message, sizeof message), FUGE_DONE);
+  CHECK_DONE(fuge_write_fields(NAME, 2, 1, spacing, origin, 2, names, fields, message, sizeof message));
   bytes = read_file(&length);
   CHECK_CONTAINS(bytes, "WholeExtent=\"0 2 0 1 0 0\"");
   CHECK_CONTAINS(bytes, "Origin=\" 9.75");
@@ -192,19 +183,17 @@ static void test_fields(void) {
   CHECK(values != NULL);
   if (values != NULL) {
     memcpy(back, values + 2 + 8 + 16 + 8, sizeof back);
-    CHECK_NEAR(back[0], 0.5, 0.0);
-    CHECK_NEAR(back[1], -3.0, 0.0);
+    CHECK_VALUES(back, 0.0, 0.5, -3.0);
   }
   free(bytes);
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 1, names, fields, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_write_fields(NAME, 2, 1, spacing, NULL, 1, names, fields, NULL, 0));
   CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, same, fields, message, sizeof message), FUGE_ERR_OPTION);
   CHECK_CONTAINS(message, "fields 0 and 1");
   CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, none, fields, message, sizeof message), FUGE_ERR_POINTER);
   CHECK_STRING(message, "names[1] is NULL");
   CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, names, no_field, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, names, infinite, message, sizeof message),
-               FUGE_ERR_NOT_FINITE);
-  CHECK_CONTAINS(message, "field \"p & q\": value(1)");
+  CHECK_SAYS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, names, infinite, message, sizeof message),
+             FUGE_ERR_NOT_FINITE, message, "field \"p & q\": value(1)");
   CHECK_STATUS(fuge_write_fields(NAME, 2, 1, flat, NULL, 2, names, fields, NULL, 0), FUGE_ERR_WIDTH);
   CHECK_STATUS(fuge_write_fields(NAME, 2, 0, spacing, NULL, 2, names, fields, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_write_fields(NAME, 65536, 65536, spacing, NULL, 2, names, fields, NULL, 0), FUGE_ERR_SIZE);
@@ -230,9 +219,8 @@ static void test_full_disk(void) {
     CHECK_STATUS(fuge_write_surface("/dev/full", n, n, NULL, values, message, sizeof message), FUGE_ERR_FILE);
     CHECK_CONTAINS(message, "\"/dev/full\" cannot be written: ");
     message[0] = '\0';
-    CHECK_STATUS(fuge_write_fields("/dev/full", n, n, spacing, NULL, 1, &name, &field, message, sizeof message),
-                 FUGE_ERR_FILE);
-    CHECK_CONTAINS(message, "\"/dev/full\" cannot be written: ");
+    CHECK_SAYS(fuge_write_fields("/dev/full", n, n, spacing, NULL, 1, &name, &field, message, sizeof message),
+               FUGE_ERR_FILE, message, "\"/dev/full\" cannot be written: ");
   }
 }
 
@@ -248,16 +236,14 @@ static void test_data(const char *folder) {
   int nx, ny, filled;
   for (int k = 0; k < 2; k++) {
     snprintf(path, sizeof path, "%s/%s", folder, names[k]);
-    CHECK_STATUS(fuge_read_surface(path, FUGE_FILE_ANY, 0, 0, NULL, &nx, &ny, NULL, NULL, NULL, message,
-                                   sizeof message), FUGE_ERR_FILE);
-    CHECK_CONTAINS(message, "not measured");
-    CHECK_STATUS(fuge_read_surface(path, FUGE_FILE_ANY, 1, NX * NY, heights[k], &nx, &ny, spacing, NULL, &filled,
-                                   message, sizeof message), FUGE_DONE);
+    CHECK_SAYS(fuge_read_surface(path, FUGE_FILE_ANY, 0, 0, NULL, &nx, &ny, NULL, NULL, NULL, message, sizeof message),
+               FUGE_ERR_FILE, message, "not measured");
+    CHECK_DONE(fuge_read_surface(path, FUGE_FILE_ANY, 1, NX * NY, heights[k], &nx, &ny, spacing, NULL, &filled, message,
+                                 sizeof message));
     CHECK_INT(nx, NX);
     CHECK_INT(ny, NY);
     CHECK_INT(filled, 9);
-    CHECK_NEAR(spacing[0], 2.0e-6, 0.0);
-    CHECK_NEAR(spacing[1], 2.5e-6, 0.0);
+    CHECK_VALUES(spacing, 0.0, 2.0e-6, 2.5e-6);
   }
   for (int k = 0; k < NX * NY; k++) difference = fmax(difference, fabs(from_sdf[k] - from_grid[k]));
   CHECK_NEAR(from_sdf[1], 7.259e-7, 1e-21);

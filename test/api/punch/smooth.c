@@ -41,11 +41,10 @@ static void test_cylinder(void) {
   char message[256] = "old";
   const double a = sqrt(4.0 * 0.7 / (2.0 * PI * 3.0));
   double x[3], gap[3], pressure[3], coefficients[3];
-  CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, message, sizeof message),
-               FUGE_DONE);
-  CHECK_STRING(message, "");
+  CHECK_MESSAGE(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, message, sizeof message),
+                FUGE_DONE, message, "");
   CHECK(p.calls > 0);
-  CHECK_STATUS(fuge_smooth_get_report(contact, &report, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_smooth_get_report(contact, &report, NULL, 0));
   CHECK_NEAR(report.left, -a, 1e-12);
   CHECK_NEAR(report.right, a, 1e-12);
   CHECK_NEAR(report.half_width, a, 1e-12);
@@ -59,18 +58,17 @@ static void test_cylinder(void) {
   CHECK(report.iterations > 0 && report.coefficients > 0 && report.coefficients < 8);
   x[0] = 0.0; x[1] = 0.5 * a; x[2] = -2.0 * a;
   for (int k = 0; k < 3; k++) gap[k] = x[k] * x[k];
-  CHECK_STATUS(fuge_smooth_get_pressure(contact, 3, x, pressure, NULL, 0), FUGE_DONE);
-  CHECK_NEAR(pressure[0], 3.0 * a, 1e-12);
-  CHECK_NEAR(pressure[1], 3.0 * sqrt(0.75) * a, 1e-12);
+  CHECK_DONE(fuge_smooth_get_pressure(contact, 3, x, pressure, NULL, 0));
+  CHECK_VALUES(pressure, 1e-12, 3.0 * a, 3.0 * sqrt(0.75) * a);
   CHECK_NEAR(pressure[2], 0.0, 0.0);
-  CHECK_STATUS(fuge_smooth_get_gap(contact, 3, x, gap, gap, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_smooth_get_gap(contact, 3, x, gap, gap, NULL, 0));
   CHECK_NEAR(gap[1], 0.0, 0.0);
   CHECK_NEAR(gap[2], a * a * (2.0 * sqrt(3.0) - acosh(2.0)), 1e-12);
   fill(coefficients, 3);
-  CHECK_STATUS(fuge_smooth_get_coefficients(contact, 1, coefficients, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_smooth_get_coefficients(contact, 1, coefficients, NULL, 0));
   CHECK_NEAR(coefficients[0], 3.0 * a, 1e-12);
   CHECK_UNTOUCHED(coefficients + 1, 2);
-  CHECK_STATUS(fuge_smooth_get_pressure(contact, 0, x, pressure, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_smooth_get_pressure(contact, 0, x, pressure, NULL, 0));
   fuge_smooth_free(&contact);
   CHECK(contact == NULL);
   fuge_smooth_free(&contact);
@@ -82,8 +80,8 @@ static void test_tilt(void) {
   fuge_smooth *contact = NULL;
   fuge_smooth_report report;
   const double moment = 0.7 * 0.25;
-  CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, &moment, &contact, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_smooth_get_report(contact, &report, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, &moment, &contact, NULL, 0));
+  CHECK_DONE(fuge_smooth_get_report(contact, &report, NULL, 0));
   CHECK_NEAR(0.5 * (report.left + report.right), 0.25, 1e-12);
   CHECK_NEAR(report.tilt, 0.5, 1e-12);
   CHECK_NEAR(report.moment, moment, 0.0);
@@ -96,14 +94,14 @@ static void test_no_force(void) {
   fuge_smooth_report report;
   const double x = 1.0, moment = 0.0;
   double value = -1.0;
-  CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.0, NULL, &contact, NULL, 0), FUGE_DONE);
-  CHECK_STATUS(fuge_smooth_get_report(contact, &report, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.0, NULL, &contact, NULL, 0));
+  CHECK_DONE(fuge_smooth_get_report(contact, &report, NULL, 0));
   CHECK_NEAR(report.left, report.right, 0.0);
   CHECK_INT(report.coefficients, 0);
-  CHECK_STATUS(fuge_smooth_get_pressure(contact, 1, &x, &value, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_smooth_get_pressure(contact, 1, &x, &value, NULL, 0));
   CHECK_NEAR(value, 0.0, 0.0);
   value = SENTINEL;
-  CHECK_STATUS(fuge_smooth_get_coefficients(contact, 1, &value, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_smooth_get_coefficients(contact, 1, &value, NULL, 0));
   CHECK_UNTOUCHED(&value, 1);
   fuge_smooth_free(&contact);
   CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.0, &moment, &contact, NULL, 0),
@@ -118,20 +116,17 @@ static void test_refusals(void) {
   char message[256] = "";
   const double x = 0.0;
   double value = SENTINEL;
-  CHECK_STATUS(fuge_solve_smooth_punch(two_wells, NULL, -2.0, 2.0, 1.0, 0.01, NULL, &contact, message, sizeof message),
-               FUGE_ERR_UNSUPPORTED);
-  CHECK_CONTAINS(message, "FUGE_ITERATIVE");
+  CHECK_SAYS(fuge_solve_smooth_punch(two_wells, NULL, -2.0, 2.0, 1.0, 0.01, NULL, &contact, message, sizeof message),
+             FUGE_ERR_UNSUPPORTED, message, "FUGE_ITERATIVE");
   p.returns = 5;
-  CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, message, sizeof message),
-               FUGE_ERR_CALLBACK);
-  CHECK_CONTAINS(message, "status 5");
+  CHECK_SAYS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, message, sizeof message),
+             FUGE_ERR_CALLBACK, message, "status 5");
   p.returns = FUGE_ERR_MEMORY;
   CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, NULL, 0), FUGE_ERR_CALLBACK);
   p.returns = 0;
   p.forget = 1;
-  CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, message, sizeof message),
-               FUGE_ERR_CALLBACK);
-  CHECK_CONTAINS(message, "slope");
+  CHECK_SAYS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, message, sizeof message),
+             FUGE_ERR_CALLBACK, message, "slope");
   p.forget = 0;
   CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, 3.0, 3.0, 3.0, 0.7, NULL, &contact, NULL, 0), FUGE_ERR_WIDTH);
   CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 0.0, 0.7, NULL, &contact, NULL, 0), FUGE_ERR_MODULUS);
@@ -142,7 +137,7 @@ static void test_refusals(void) {
   CHECK(contact == NULL);
   CHECK_STATUS(fuge_smooth_get_report(NULL, &report, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_smooth_get_pressure(NULL, 1, &x, &value, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, NULL, 0), FUGE_DONE);
+  CHECK_DONE(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, NULL, 0));
   CHECK_STATUS(fuge_smooth_get_report(contact, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_smooth_get_pressure(contact, -1, &x, &value, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_smooth_get_pressure(contact, 1, NULL, &value, NULL, 0), FUGE_ERR_POINTER);
