@@ -55,7 +55,7 @@ def write_growth(path, data):
 
 
 def comparison_table(data):
-    """First solves of all codes, and how often fuge's fits into that of the fastest other one."""
+    """First solves of all codes, and the time of the fastest other one over that of fuge."""
     rows = []
     for problem in NAMES:
         for own in data.where(problem=problem, method="iterative_fft", tolerance=TOLERANCE[problem]):

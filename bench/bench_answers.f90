@@ -5,15 +5,15 @@ module bench_answers
   implicit none
   private
 
-  public :: field, value
+  public :: column, value
 
-  !> The numbers of the fields.
+  !> The numbers of the columns.
   integer, parameter, public :: NAME = 1, METHOD = 2, TOLERANCE = 3, TIME = 4, RESIDUAL = 5, MEMORY = 6, FAILURE = 7
 
 contains
 
-  !> Field `number` of a line.
-  pure function field(line, number) result(word)
+  !> Column `number` of a line.
+  pure function column(line, number) result(word)
     character(len=*), intent(in) :: line
     integer, intent(in) :: number
     character(len=:), allocatable :: word
@@ -26,9 +26,9 @@ contains
       word = line(first:first + length - 1)
       first = min(first + length + 1, len(line))
     end do
-  end function field
+  end function column
 
-  !> Negative for an empty field.
+  !> Negative for an empty column.
   function value(word) result(found)
     character(len=*), intent(in) :: word
     real(dp) :: found

@@ -34,7 +34,8 @@ contains
     block%body%load = [(1.0e-3_dp*modulo(i, 7), i=1, all)]
   end subroutine hold
 
-  !> No supports: the rigid modes are to be found, and the load is balanced in the directions that contact resists not.
+  !> No supports: the rigid modes are to be found, and the load is balanced in the directions that contact does not
+  !> resist.
   subroutine float(block)
     type(mesh), intent(inout) :: block
     integer :: all, d, nodes, side

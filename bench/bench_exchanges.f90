@@ -1,4 +1,4 @@
-! What messages between ranks take: the exchanges of a product on a shared surface, round trips, sums over all ranks.
+! Times of messages between ranks: the exchanges of a product on a shared surface, round trips, sums over all ranks.
 module bench_exchanges
   use fuge, only: dp => fuge_dp
   use mpi_f08

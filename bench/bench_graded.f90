@@ -1,5 +1,5 @@
-!> The known contacts on cells that become narrower towards edges and corners, as somebody makes them who does not know
-!> where the contact ends.
+!> The known contacts on cells that become narrower towards edges and corners, made without knowing where the contact
+!> ends.
 module bench_graded
   use bench_judge, only: edge_interval
   use bench_problems, only: bench_problem, add_matrix, make_known, make_known_on, uniform_edges, REACH

@@ -7,8 +7,8 @@ module bench_records
 
   public :: open_table, write_row, write_problem, element_name, number
 
-  !> One measurement; doc/performance.md explains the columns. Negative: not known, an empty
-  !> field.
+  !> One measurement; doc/performance.md explains the columns. Negative: not known, written as
+  !> an empty column.
   type, public :: bench_row
     character(len=16) :: problem = '', method = '', element = ''
     integer :: n = 0, unknowns = -1, work = -1, preconditionings = -1

@@ -26,8 +26,8 @@ module bench_surface_judge
 
 contains
 
-  !> `by_waves`: on a periodic surface the displacement of a wave of forces is that of a sine, 2/(E* |q|), as solvers
-  !> have it that count waves instead of cells.
+  !> `by_waves`: on a periodic surface the displacement of a wave of forces is that of a sine, 2/(E* |q|), as in
+  !> solvers that count waves instead of cells.
   subroutine prepare(self, surface, by_waves)
     class(surface_judge), intent(inout) :: self
     type(bench_surface), intent(in) :: surface

@@ -69,7 +69,7 @@ contains
     type(fuge_problem) :: contact
 
     contact = surface%contact()
-    ! What FFTW remembers of earlier plans, a first solve would not have.
+    ! A first solve would not have what FFTW remembers of earlier plans.
     call forget_wisdom()
     call watches%first%start()
     call watches%setup%start()

@@ -151,9 +151,9 @@ contains
   end function segment
 
   !> Periodic self-affine surface of side 1: waves of 4 .. n/8 periods in all directions with amplitudes k**(-1 - H) and
-  !> random phases, slope 0.1 (root mean square). `n` >= 64 a power of two. Another n has the same long waves; with as
-  !> many `periods` of the shortest wave (default n/8) another n is another grid of the same surface, and gaps count from
-  !> its mean plane.
+  !> random phases, slope 0.1 (root mean square). `n` >= 64 a power of two. Another n has the same long waves; with
+  !> equal `periods` of the shortest wave (default n/8) another n is another grid of the same surface, and gaps count
+  !> from its mean plane.
   subroutine make_rough_surface(n, pressure, surface, periods)
     integer, intent(in) :: n
     real(dp), intent(in) :: pressure

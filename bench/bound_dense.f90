@@ -6,8 +6,8 @@
 !> with one `dposv`, and multiplies the columns of the contact once, for gaps and certificate together. A cold solve
 !> makes a new operator and a new solver; a warm one follows a solve at a load that was 1 % smaller, and is compared
 !> with the `dposv` alone. Both sides of a ratio are measured alternately, and the fastest run of each counts. Writes
-!> rows of a Markdown table, with KIND (quartic or random) and N those of one problem only: that for quartic 4096 is to
-!> be run with 1 and with 2 threads of BLAS.
+!> rows of a Markdown table, with KIND (quartic or random) and N those of one problem only: run quartic 4096 with 1 and
+!> with 2 threads of BLAS.
 program bound_dense
   use, intrinsic :: iso_fortran_env, only: int64, output_unit
   use bench_lapack, only: dposv

@@ -160,7 +160,7 @@ contains
     call make_problem(name, n, problem)
     do k = 1, repeats
       allocate (operator)
-      ! What FFTW remembers of earlier plans, a first solve would not have.
+      ! A first solve would not have what FFTW remembers of earlier plans.
       call forget_wisdom()
       call set_operator(problem, operator)
       call first%start()

@@ -56,7 +56,7 @@ contains
       call evaluate(x, width, force, element, px, pz, found)
       time = min(time, (seconds() - start)/n)
     end do
-    ! So few points at a time go by the plain sum.
+    ! The plain sum takes this few points at a time.
     do k = 1, SOME, 10
       call evaluate(x, width, force, element, px(k:k + 9), pz(k:k + 9), plain(:, k:k + 9))
     end do

@@ -95,7 +95,7 @@ contains
     call make_surface(name, n, surface)
     do k = 1, repeats
       allocate (operator)
-      ! What FFTW remembers of earlier plans, a first solve would not have.
+      ! A first solve would not have what FFTW remembers of earlier plans.
       call forget_wisdom()
       call set_operator(surface, operator)
       call first%start()

@@ -16,7 +16,7 @@ def rows_of(text):
 
 
 def _number(text):
-    match = re.match(r"([-+.\dE]+) *(ms|MB)?$", text.strip())
+    match = re.match(r"([-+.\dE]*\d[.\dE+-]*) *(ms|MB)?$", text.strip())
     return float(match[1])*UNITS.get(match[2], 1.0) if match else None
 
 
@@ -53,7 +53,7 @@ def tables(choices, bodies):
             ["more cells than one machine holds", "`fuge_mpi_halfspace_operator`", "the same", "[mpi.md](mpi.md)", ""]]
     points = [[("n points" if k == 0 else ""), ("`fuge_solve_dense`, " if k == 0 else "") + f"n = {n}",
                short(found[f"matrix_{n}"][0][0]), time_of(f"matrix_{n}")] for k, n in enumerate((50, 200, 800, 2000))]
-    costs = "[in parts of a solve](#what-more-than-a-solution-costs)"
+    costs = "[in multiples of a solve](#what-more-than-a-solution-costs)"
     points += [["one load after the other", "`fuge_solver`, kept from solve to solve", "the same", costs],
                ["every load at which a point joins", "`fuge_load_path`", "the same", costs],
                ["no matrix, but products A f", "an extension of `fuge_operator`; in C `fuge_operator_callback`",
@@ -74,7 +74,7 @@ def body_table(bodies):
         size = size.replace(" points", " contact points" if k == 0 else " points")
         rows.append([name, (calls if k == 0 else "") + size, short(errors[0]), seconds(once[0]), seconds(solve[0]),
                      seconds(displaced[0]), memory(held[0])])
-    rows += [["two meshes that do not match", "`fuge_solve_bodies`", "of the mesh", "[parts of it](#where-the-time-goes)", "",
+    rows += [["two meshes that do not match", "`fuge_solve_bodies`", "of the mesh", "[where it goes](#where-the-time-goes)", "",
               "", ""],
              ["a band or a full matrix", "`fuge_band_stiffness`, `fuge_dense_stiffness`", "of the mesh", "", "", "", ""],
              ["files of CalculiX, Abaqus or Nastran", "the program `fuge`", "of the mesh", "[files.md](files.md)", "", "", ""]]

@@ -4,10 +4,10 @@
 !>
 !> Runs each row in a process of its own and writes a Markdown table; with ROW only that one. A row begins with the data
 !> of the contact and ends with a certified answer, influence matrix or operator included. Errors: of the pressure, the
-!> fraction of the load in the wrong place; of the approach, relative, for lines in parts of 2 F/(pi E*); of the half
-!> width. Where no answer is known, the library's own estimate of the largest error of a force counts as that of the
-!> pressure. Memory is the largest resident memory of the first run, less that before. Processor time, the least of some
-!> repetitions, one thread.
+!> fraction of the load in the wrong place; of the approach, relative, for lines as a fraction of 2 F/(pi E*); of the
+!> half width. Where no answer is known, the library's own estimate of the largest error of a force counts as that of
+!> the pressure. Memory is the largest resident memory of the first run, less that before. Processor time, the least of
+!> some repetitions, one thread.
 program choices
   use, intrinsic :: iso_fortran_env, only: output_unit
   use bench_graded, only: make_graded
@@ -83,7 +83,7 @@ contains
     case default
       call run_sized(row(:index(row, '_') - 1), size_in(row), found)
     end select
-    memory = ''
+    memory = '-'
     if (found%memory > 0.0_dp) write (memory, '(f0.1,a)') 1.0e-6_dp*found%memory, ' MB'
     write (output_unit, '(8a,f0.3,3a)') '| ', trim(row), ' | ', number(found%pressure), ' | ', number(found%approach), &
       ' | ', number(found%half_width)//' | ', 1.0e3_dp*found%watch%best, ' ms | ', trim(memory), ' |'
@@ -377,7 +377,7 @@ contains
       call stop_run(found, info)
     end do
     found%pressure = info%force_error
-    ! Memory left from the making of the matrix is used again.
+    ! Memory left over from making the matrix is used again.
     found%memory = -1.0_dp
   end subroutine run_matrix
 

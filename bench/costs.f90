@@ -1,5 +1,5 @@
-!> What a caller may want beside a solution: a next solve, derivatives, a load path, edges and stresses, in times of a
-!> solve.
+!> The cost of what a caller may want beside a solution, in multiples of a solve: a next solve, derivatives, a load
+!> path, edges and stresses.
 !>
 !>     costs
 !>

@@ -1,12 +1,12 @@
-!> Bodies from their stiffness matrices: condensation, and what follows it, in times of a solve.
+!> Bodies from their stiffness matrices: the times of condensation, and of what follows it.
 !>
 !>     costs_bodies
 !>
 !> Blocks of square or cubic elements, held on one side, into whose opposite side a rigid parabola is pressed: from the
 !> sparse stiffness matrix to the influence matrix of the contact points, a solve for their forces, and the
-!> displacements of all degrees of freedom. Writes rows of a Markdown table with times, the errors that the library reports for the
-!> forces and the displacements, and the memory of the condensed body. Processor time, the least of some repetitions,
-!> one thread; OMP_THREAD_LIMIT=1 keeps CHOLMOD to it.
+!> displacements of all degrees of freedom. Writes rows of a Markdown table with times, the errors that the library
+!> reports for the forces and the displacements, and the memory of the condensed body. Processor time, the least of some
+!> repetitions, one thread; OMP_THREAD_LIMIT=1 keeps CHOLMOD to it.
 program costs_bodies
   use, intrinsic :: iso_fortran_env, only: output_unit
   use bench_blocks, only: hold, make_mesh, mesh
@@ -64,11 +64,15 @@ contains
     write (output_unit, '(a,2(i0,a),f0.1,a)', advance='no') '| '//name//', ', size(block%column) - 1, &
       ' degrees of freedom, ', size(condensed%alpha, 2), ' points | ', 1.0e3_dp*watch%best, ' ms |'
     call measure_contact(condensed, size(block%column) - 1, places(elements))
-    write (output_unit, '(f7.0,a)') 1.0e-6_dp*memory, ' MB |'
+    if (memory < 0.0_dp) then
+      write (output_unit, '(a)') ' - |'
+    else
+      write (output_unit, '(f7.0,a)') 1.0e-6_dp*memory, ' MB |'
+    end if
     flush (output_unit)
   end subroutine measure
 
-  !> `place`: where the contact points lie on the face, in parts of its sides.
+  !> `place`: where the contact points lie on the face, as fractions of its sides.
   subroutine measure_contact(condensed, degrees, place)
     type(fuge_condensed), intent(in), target :: condensed
     integer, intent(in) :: degrees

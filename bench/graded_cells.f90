@@ -6,7 +6,7 @@
 !> flat faces, upright and tilted by a force beside the middle, within the kern and beyond it, where one side lifts off.
 !> The grading begins with a solution on half as many equal cells, or 32, that tells where the contact ends; its time
 !> counts. Writes rows of a Markdown table: cells, errors of the pressure (the fraction of the load in the wrong place)
-!> and of the approach (in parts of 2 F/(pi E*)), and the time from the data to the answer, matrix included.
+!> and of the approach (as a fraction of 2 F/(pi E*)), and the time from the data to the answer, matrix included.
 program graded_cells
   use, intrinsic :: iso_fortran_env, only: output_unit
   use bench_graded, only: make_graded

@@ -3,7 +3,7 @@
 !>     hard DIRECTORY write     writes the scenes
 !>     hard DIRECTORY           writes DIRECTORY/hard.md from the answers
 program hard
-  use bench_answers, only: field, FAILURE, METHOD, NAME, TOLERANCE
+  use bench_answers, only: column, FAILURE, METHOD, NAME, TOLERANCE
   use bench_problems, only: bench_problem, whole
   use bench_records, only: bench_row, write_problem
   use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET
@@ -17,7 +17,7 @@ program hard
   !> With a residual above this an answer counts as wrong.
   real(dp), parameter :: WRONG = 1.0e-6_dp
 
-  !> Of a line of answers.csv.
+  !> Most characters in a line of answers.csv.
   integer, parameter :: LENGTH = 400
 
   call run()
@@ -105,11 +105,11 @@ contains
     do peer = 1, size(PEERS)
       line = line//' | '
       do k = 1, size(answers)
-        if (field(answers(k), NAME) /= stem .or. field(answers(k), METHOD) /= PEERS(peer)) cycle
-        if (field(answers(k), FAILURE) /= '') then
-          line = line//field(answers(k), FAILURE)
+        if (column(answers(k), NAME) /= stem .or. column(answers(k), METHOD) /= PEERS(peer)) cycle
+        if (column(answers(k), FAILURE) /= '') then
+          line = line//column(answers(k), FAILURE)
         else
-          open (newunit=forces, file=directory//'/'//stem//'.'//trim(PEERS(peer))//field(answers(k), TOLERANCE), &
+          open (newunit=forces, file=directory//'/'//stem//'.'//trim(PEERS(peer))//column(answers(k), TOLERANCE), &
                 access='stream', form='unformatted', status='old', action='read')
           read (forces) force
           close (forces)

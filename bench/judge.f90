@@ -5,7 +5,7 @@
 !> reads DIRECTORY/answers.csv: a line with problem file, method, tolerance, time, residual,
 !> memory and failure for each answer, whose forces are in a file of its own; appends to DIRECTORY/results.csv.
 program judge_answers
-  use bench_answers, only: field, value, FAILURE, METHOD, NAME, RESIDUAL, TIME, TOLERANCE
+  use bench_answers, only: column, value, FAILURE, METHOD, NAME, RESIDUAL, TIME, TOLERANCE
   use bench_judge, only: judge
   use bench_problems, only: bench_problem, make_known, uniform_edges, KNOWN
   use bench_records, only: bench_row, open_table, write_row
@@ -39,7 +39,7 @@ contains
     do
       read (answers, '(a)', iostat=stat) line
       if (stat /= 0) exit
-      stem = trim(directory)//'/'//field(line, NAME)
+      stem = trim(directory)//'/'//column(line, NAME)
       if (stem /= last) call read_problem(trim(stem), question)
       last = stem
       call judge_one(question, trim(stem), line, table)
@@ -79,7 +79,7 @@ contains
       case ('limit')
         read (word, *) question%limit
       case default
-        ! The remaining fields are for other solvers.
+        ! The remaining columns are for other solvers.
         cycle
       end select
     end do
@@ -124,14 +124,14 @@ contains
     integer :: unit
 
     row = new_row(question%problem, trim(question%name))
-    row%method = field(line, METHOD)
-    row%tolerance = value(field(line, TOLERANCE))
-    row%time = value(field(line, TIME))
+    row%method = column(line, METHOD)
+    row%tolerance = value(column(line, TOLERANCE))
+    row%time = value(column(line, TIME))
     row%setup = question%setup
     row%limit = question%limit
-    row%failure = field(line, FAILURE)
+    row%failure = column(line, FAILURE)
     if (row%failure == '') then
-      open (newunit=unit, file=stem//'.'//trim(field(line, METHOD))//field(line, TOLERANCE), access='stream', &
+      open (newunit=unit, file=stem//'.'//trim(column(line, METHOD))//column(line, TOLERANCE), access='stream', &
             form='unformatted', status='old', action='read')
       read (unit) force
       close (unit)
@@ -139,7 +139,7 @@ contains
         call operator%set(question%problem%alpha, info)
         call judge(question%problem, operator, force, question%force, row)
       else
-        call judge_profile(question, force, value(field(line, RESIDUAL)), row)
+        call judge_profile(question, force, value(column(line, RESIDUAL)), row)
       end if
     end if
     call write_row(table, row)

@@ -5,7 +5,7 @@
 !> reads DIRECTORY/area_answers.csv, a line for each answer, whose forces are in a file of its own; appends to
 !> DIRECTORY/results.csv.
 program judge_surfaces
-  use bench_answers, only: field, value, FAILURE, MEMORY, METHOD, NAME, TIME, TOLERANCE
+  use bench_answers, only: column, value, FAILURE, MEMORY, METHOD, NAME, TIME, TOLERANCE
   use bench_records, only: bench_row, open_table, write_row
   use bench_surface_judge, only: surface_judge
   use bench_surface_runs, only: new_area_row
@@ -32,12 +32,12 @@ contains
     do
       read (answers, '(a)', iostat=stat) line
       if (stat /= 0) exit
-      if (field(line, NAME) /= last) then
-        call make_named(field(line, NAME), surface)
+      if (column(line, NAME) /= last) then
+        call make_named(column(line, NAME), surface)
         ! All of them count the waves of a periodic surface, not its cells.
         call judge%prepare(surface, by_waves=.true.)
       end if
-      last = field(line, NAME)
+      last = column(line, NAME)
       call judge_one(surface, judge, trim(directory)//'/'//trim(last), line, table)
     end do
     call judge%free()
@@ -66,15 +66,15 @@ contains
     integer :: unit
 
     row = new_area_row(surface)
-    row%method = field(line, METHOD)
-    row%tolerance = value(field(line, TOLERANCE))
-    row%time = value(field(line, TIME))
+    row%method = column(line, METHOD)
+    row%tolerance = value(column(line, TOLERANCE))
+    row%time = value(column(line, TIME))
     row%first = row%time
-    row%memory = value(field(line, MEMORY))
-    row%failure = field(line, FAILURE)
+    row%memory = value(column(line, MEMORY))
+    row%failure = column(line, FAILURE)
     if (row%failure == '') then
       allocate (force(size(surface%gap)))
-      open (newunit=unit, file=stem//'.'//trim(field(line, METHOD))//field(line, TOLERANCE), access='stream', &
+      open (newunit=unit, file=stem//'.'//trim(column(line, METHOD))//column(line, TOLERANCE), access='stream', &
             form='unformatted', status='old', action='read')
       read (unit) force
       close (unit)

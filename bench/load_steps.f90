@@ -1,13 +1,14 @@
-!> Load steps by the iteration: what a solve costs that may start from the solutions before it, beside one from scratch.
+!> Load steps by the iteration: the cost of a solve that may start from the solutions before it, beside one from
+!> scratch.
 !>
 !>     load_steps [tolerance [problem]]
 !>
 !> Each problem is solved under loads that grow from solve to solve by 1, 5 and 20 %, and with the approaches that
-!> belong to these loads; `tilt`, a flat square face under an eccentric load, with a moment that turns by 1, 5 and 20 degrees.
-!> A row has means over the last solves of a sequence: the points that change state from solve to solve, in parts of the
-!> points in contact; products + preconditionings and contact sets (on all grids) of a solve from scratch and of one in
-!> the sequence; how much that saves, and the largest excess of products of a single solve; times, the fastest of three
-!> runs; the largest difference of a force, over the largest force.
+!> belong to these loads; `tilt`, a flat square face under an eccentric load, with a moment that turns by 1, 5 and 20
+!> degrees. A row has means over the last solves of a sequence: the points that change state from solve to solve, as a
+!> fraction of the points in contact; products + preconditionings and contact sets (on all grids) of a solve from
+!> scratch and of one in the sequence; how much that saves, and the largest excess of products of a single solve; times,
+!> the fastest of three runs; the largest difference of a force, over the largest force.
 program load_steps
   use bench_problems, only: bench_problem, make_known, make_rough, uniform_edges, whole
   use bench_surfaces, only: bench_surface, make_surface, set_operator

@@ -9,8 +9,8 @@
 !   W(n) n^2/P + 48 n^2/(P B) (1 - 1/P) + 4 (P - 1) L (levels) + SUMS L log2(P) (levels)
 !
 ! W(n) = (product + preconditioning) (a + b log2 n) + passes is the work at a cell, with all cores busy. The latencies
-! count as often as there are grids: as if coarser ones took as many iterations as the finest, whose ranks they have down
-! to the fewest cells and the shortest messages that fuge_slab_rows allows.
+! count once for each grid, as if coarser grids took as many iterations as the finest one; each grid lies on as many
+! ranks as fuge_slab_rows gives it.
 program mpi_model
   use bench_exchanges, only: exchange_time, latency, sent_numbers, sum_time
   use fuge, dp => fuge_dp
@@ -22,7 +22,7 @@ program mpi_model
   integer, parameter :: SUMS = 10
   ! As in fuge_slab_rows.
   integer, parameter :: FEWEST_CELLS = 16384, SHORTEST = 128
-  ! The least grid that is measured.
+  ! Cells along a side of the smallest grid that is measured.
   integer, parameter :: LEAST = 512
 
   ! Seconds at a cell: of a product and a preconditioning (a + b log2 n), of passes; of a message, a number, a sum.
@@ -119,7 +119,7 @@ contains
     call MPI_Allreduce(MPI_IN_PLACE, times, 2, MPI_DOUBLE_PRECISION, MPI_MAX, MPI_COMM_WORLD)
   end subroutine time_products
 
-  ! What a solve takes beside its products and preconditionings, for each product.
+  ! Time of a solve beside its products and preconditionings, for each product.
   subroutine measure_passes(n, here)
     integer, intent(in) :: n
     type(machine), intent(inout) :: here

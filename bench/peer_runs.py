@@ -10,7 +10,7 @@ import time
 
 import numpy as np
 
-# A busy machine may take so much longer; a solve is repeated for a fraction of a second.
+# How many times longer a busy machine may take; a solve is repeated for a fraction of a second.
 BUSY = 3
 PATIENCE = 0.0 if "once" in sys.argv else 0.1
 

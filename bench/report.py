@@ -21,7 +21,7 @@ from report_text import Table, cell, fit, memory, power, seconds, short, table, 
 KNOWN = ("quartic", "cylinder", "wave", "flat", "tilted", "lifted")
 QUADRATIC = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls")
 PEERS = (*QUADRATIC, "tamaas", *area_report.CODES)
-# README compares line contacts of at least so many points.
+# README compares line contacts of this many points or more.
 SMALLEST_LINE = 32
 # Programs bound_*, each a part of one table.
 BOUNDS = ("dense", "path", "fft", "surface", "condensation")
@@ -120,7 +120,7 @@ def write_growth(path, data):
 # The tables.
 
 def choice_table(data):
-    """For a given error the fastest method; a curve counts from the grid on from which it stays below that error."""
+    """The fastest method for a given error; a curve counts from the grid from which on it stays below that error."""
     rows = []
     for column, text in (("error_pressure", "pressure"), ("error_halfwidth", "half width")):
         for target in (1e-3, 1e-6, 1e-9):
@@ -279,7 +279,7 @@ def machine_texts(directory):
     if not said:
         return {}
     own = said.split("Peers: ")[0].strip().rstrip(".")
-    measured = f"All is measured by one run of `script/bench --doc`: {own}."
+    measured = f"All figures are from one run of `script/bench --doc`: {own}."
     return {"machine": "\n".join(textwrap.fill(part, 120, break_on_hyphens=False) for part in said.splitlines()) + "\n",
             "measured": textwrap.fill(measured, 120, break_on_hyphens=False) + "\n", "older": ""}
 
@@ -334,7 +334,7 @@ def speed_text(data):
     if not areas or not ratios:
         return ""
     (few, small), (many, large) = ratios[0], ratios[-1]
-    lines = (f" Line contacts by a matrix take the fastest of {len(QUADRATIC)} quadratic programming codes "
+    lines = (f" For line contacts by a matrix the fastest of {len(QUADRATIC)} quadratic programming codes takes "
              f"{area_report.span(small)} times as long with {few} points, and {area_report.span(large)} times with {many} "
              "(`script/bench --peers`).")
     return textwrap.fill(areas + lines, 120, break_on_hyphens=False) + "\n"

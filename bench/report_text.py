@@ -92,15 +92,16 @@ def power(n):
 
 
 def memory(value):
+    """Such as 1.5 MB; a dash where the system does not tell the peak."""
     if value is None:
-        return ""
+        return "-"
     if value >= 1e9:
         return f"{value / 1e9:.2g} GB"
     return f"{value / 1e6:.2g} MB" if value < 99.5e6 else f"{value / 1e6:.0f} MB"
 
 
 def table(head, rows, left=1):
-    """Markdown, the first columns to the left, as many as `left` says."""
+    """A table in Markdown, its first `left` columns aligned to the left, the others to the right."""
     lines = [head, [*["---"] * left, *["---:"] * (len(head) - left)], *rows]
     return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
 

@@ -4,8 +4,8 @@
 !>
 !> A periodic self-affine surface with waves of 4 to 16 periods along a side is pressed on a half-space under a light
 !> and a heavy load, on 128 x 128 to FINEST x FINEST cells (default 2048), and on a grid twice as fine with which the
-!> others are compared. Writes Markdown tables: the area of contact (in parts of the surface), the approach of the mean
-!> planes (in parts of the root mean square of the heights) and the largest pressure, and their errors by the grid, at a
+!> others are compared. Writes Markdown tables: the area of contact (as a fraction of the surface), the approach of the
+!> mean planes (over the root mean square of the heights) and the largest pressure, and their errors by the grid, at a
 !> tolerance of 1e-12; then what tolerances of 1e-4 and 1e-8 change on the same grid, the worst of the three quantities
 !> relative to their values. One thread.
 program rough_grids
@@ -26,8 +26,8 @@ program rough_grids
   !> Up to this grid the tolerances are compared.
   integer, parameter :: FINEST_COMPARED = 1024
 
-  !> What is wanted of a contact: parts of the surface, of the heights, and of E*. `corrected`: the area less the share
-  !> of its perimeter by which counted cells exceed a smooth outline.
+  !> The results of a contact, as fractions of the surface, of the heights, and of E*. `corrected`: the area less the
+  !> share of its perimeter by which counted cells exceed a smooth outline.
   type :: rough_result
     integer :: n = 0
     real(dp) :: area = 0.0_dp, corrected = 0.0_dp, approach = 0.0_dp, peak = 0.0_dp

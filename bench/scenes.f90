@@ -4,8 +4,8 @@
 !>     scenes [sizes]     n cells of the half-plane; n x n of the half-space where the size is written nxn
 !>
 !> Prints a table with a column for each size: products + preconditionings and the time, in microseconds or over that of
-!> the scene compared with, then the largest residual. Scenes alternate, and the least time of each counts, because other programs may
-!> run. Each solve is from scratch, operators are set before.
+!> the scene compared with, then the largest residual. Scenes alternate, and the least time of each counts, because
+!> other programs may run. Each solve is from scratch, with operators that are set up beforehand.
 program scenes
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_halfspace_operator, fuge_info, fuge_operator, &
@@ -22,7 +22,7 @@ program scenes
     !> The scene with which this one is compared.
     integer :: reference = 0
     type(fuge_problem) :: problem
-    !> Not the solve counts, but the derivative of its solution in the first motion.
+    !> The derivative of the solution in the first motion counts, not the solve.
     logical :: derivative = .false.
     integer :: products = 0, preconditionings = 0
     real(dp) :: seconds = huge(1.0_dp), residual = 0.0_dp

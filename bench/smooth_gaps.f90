@@ -10,7 +10,7 @@ program smooth_gaps
   implicit none
 
   real(dp), parameter :: PI = acos(-1.0_dp)
-  !> Of the ellipse, of semi-axes 1.5 and 1; and radius and interference of the press fit.
+  !> Distance of the outer curve from the ellipse of semi-axes 1.5 and 1; radius and interference of the press fit.
   real(dp), parameter :: GAP = 1.0e-3_dp, RADIUS = 20.0_dp, INTERFERENCE = 0.0025_dp
 
   call print_ellipse(.false.)

@@ -19,7 +19,7 @@ do for [k = 1:words(panels)] {
   set title heading[k] offset 0, -0.5
   set ylabel (column == 0 ? 'time [s]' : '') offset 0.7
   set xlabel measure offset 0, 0.5
-  # The error falls from left to right. A mark for each decade, a number for every so many.
+  # The error falls from left to right. A mark for each decade, a number for each `every` decades.
   set xrange [2*10.0**first[k]:0.5*10.0**last[k]]
   set yrange [fastest[k]:slowest[k]]
   set xtics () nomirror

@@ -72,7 +72,7 @@ contains
     if (ranks > 1) call report_messages(n, boundary == FUGE_FREE, product_time)
   end subroutine run
 
-  ! What the two exchanges of a product take if nothing else is done, if all ranks have rows.
+  ! Time of the two exchanges of a product if nothing else is done, if all ranks have rows.
   subroutine report_messages(n, padded, product_time)
     integer, intent(in) :: n
     logical, intent(in) :: padded

@@ -15,7 +15,7 @@ program surfaces
   !> Cells along a side.
   integer, parameter :: COARSEST = 64, FINEST = 2048, FINEST_QUICK = 256
   integer, parameter :: PICTURE = 512, LARGE = 1024, PICTURE_QUICK = 256
-  !> Grids of the orders: the edge is anywhere in a cell.
+  !> Number of grids for the orders: the edge is anywhere in a cell.
   integer, parameter :: GRIDS = 24, GRIDS_QUICK = 8
   real(dp), parameter :: FEWEST = 24.0_dp, MOST = 600.0_dp, MOST_QUICK = 200.0_dp
   !> Tolerances of the sphere, of large rough surfaces, of the picture, and of the orders, where the errors of the

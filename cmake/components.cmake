@@ -1,17 +1,12 @@
-# Which components of src/ are built: FUGE_COMPONENTS and those that they use, as src/components.txt has them, in
-# `fuge_components`; the others in `fuge_left_out_components`.
+# Sets `fuge_components`, the components of src/ that are built: FUGE_COMPONENTS and those that they use according to
+# src/components.txt; the others are in `fuge_left_out_components`.
 set(FUGE_COMPONENTS core area punch stress fe files CACHE STRING
   "Components of the library, a list: what they use is built with them")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS src/components.txt)
 
-# `all_components`, and uses_<component> of each, those that it uses first.
-set(all_components)
-file(STRINGS src/components.txt component_lines REGEX "^[a-z]")
-foreach(line IN LISTS component_lines)
-  string(REGEX MATCH "^([a-z0-9]+) *: *(.*)$" line "${line}")
-  list(APPEND all_components "${CMAKE_MATCH_1}")
-  string(REPLACE " " ";" "uses_${CMAKE_MATCH_1}" "${CMAKE_MATCH_2}")
-endforeach()
+# uses_<component>: what a component uses.
+include(cmake/uses.cmake)
+fuge_read_uses("${PROJECT_SOURCE_DIR}/src/components.txt" uses_)
 # The facade uses just the six.
 set(fuge_all_components ${uses_facade})
 

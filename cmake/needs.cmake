@@ -1,5 +1,5 @@
-# Which sources of tests and examples go with this build? Those that need FFTW where FUGE_WITH_FFTW is off, and those that
-# use a component that FUGE_COMPONENTS leaves out, are not part of the build, and so not in the list of ctest.
+# Which sources of tests and examples go with this build? Those that need FFTW where FUGE_WITH_FFTW is off, and those
+# that use a component that FUGE_COMPONENTS leaves out, are not part of the build, and so not in the list of ctest.
 #
 #   fuge_is_left_out(result text ..)          is what has these texts in its source left out?
 #   fuge_files_are_left_out(result file ..)   the same for files
@@ -12,7 +12,7 @@ set(fuge_of_fftw
   "fft_plan|set_grid_store|use fuge_(convolution|grid_convolution|grid_plan|grid_waves|halfspace_waves)")
 list(JOIN fuge_of_fftw "|" fuge_of_fftw)
 
-# fuge_owner_<name>, in small letters: the component that has the module, that exports the Fortran name, or whose header
+# fuge_owner_<name>, in lower case: the component that has the module, that exports the Fortran name, or whose header
 # declares the C function.
 foreach(component IN LISTS fuge_all_components)
   file(GLOB_RECURSE names CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${component}/*.f90")

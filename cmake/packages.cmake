@@ -27,7 +27,7 @@ endif()
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-# The package of one library is no package yet when those that need the library are made.
+# When the packages that need a library are made, the package of that library does not exist yet.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src" "${PROJECT_BINARY_DIR}/src/sparse")
 set(stage "${PROJECT_BINARY_DIR}/packages/all")
 set(CPACK_INSTALL_COMMANDS

@@ -1,9 +1,9 @@
-# fuge_write_reference(root file component ..): the public Fortran interface as a page, from the docstrings of the source
-# in `root`.
+# fuge_write_reference(root file component ..): the public Fortran interface as a page, from the docstrings of the
+# source in `root`.
 #
 # What the modules fuge_<component> pass on, folder by folder: procedures with their arguments, types with their public
-# components and procedures, constants with their values; then fuge_sparse and fuge_mpi. The form of the sources is that of the house:
-# a docstring is lines `!> ...` right before what it is about.
+# components and procedures, constants with their values; then fuge_sparse and fuge_mpi. In the sources a docstring is
+# lines `!> ...` right before what it is about.
 
 # CMake takes these characters as its own: others stand for them.
 string(ASCII 1 fuge_bracket)
@@ -65,7 +65,7 @@ macro(fuge_read_module path)
     elseif(type AND line MATCHES "^ *private *$")
       set(hidden TRUE)
     elseif(type AND bound AND line MATCHES "^ *(procedure *(\\(([a-z_0-9]+)\\))?|generic)([a-z_, ]*):: *([^!]+)$")
-      # A procedure of the name of another type's keeps its own docstring, if it has one here.
+      # A procedure with the name of another type's procedure keeps its own docstring, if it has one here.
       set(interface "${CMAKE_MATCH_3}")
       set(attributes "${CMAKE_MATCH_4}")
       set(names "${CMAKE_MATCH_5}")

@@ -60,8 +60,8 @@
  *     -> fuge_solve -> fuge_get_... -> (set, solve, get again)
  *     -> fuge_solver_free -> fuge_operator_free
  *
- * HEADERS.  Those included below, one for each part of the library, can also be included
- * alone.  What needs MPI is in fuge_mpi.h.
+ * HEADERS.  Those included below, one for each component of the library, can also be
+ * included alone.  What needs MPI is in fuge_mpi.h.
  */
 #ifndef FUGE_H
 #define FUGE_H

@@ -304,7 +304,7 @@ int fuge_operator_set_coarser(fuge_operator *op, const fuge_operator *coarse,
  * fuge_operator_halfspace, has the cells of op, and its displacements are close to those of
  * apply, such as those of the body without its layers.  op gets its grid; where none has been
  * set for op, its preconditioner and its coarser grids; its windows for contacts that fill a
- * small part of the grid; and the size of the terms by which the residual is judged.  The
+ * small fraction of the grid; and the size of the terms by which the residual is judged.  The
  * closer the bodies, the fewer products; it pays as long as the force of one cell displaces it
  * less than about four times as far as on auxiliary.  auxiliary is not copied: free it after
  * the solves with op.  FUGE_ERR_SIZE for other cells, FUGE_ERR_UNSUPPORTED for another

@@ -189,7 +189,7 @@ int fuge_read_stiffness(const char *path, int format, const char *names_path, co
  * *ELEMENT, *NSET (GENERATE, ELSET), *ELSET (GENERATE), *SURFACE (faces S1 to S6, SPOS, SNEG, or
  * nodes, which become a set), *INCLUDE; other keywords are skipped, *TRANSFORM too: the mesh
  * does not depend on it, but the rows of a stiffness matrix may have the turned directions.
- * Nodes and elements have the order of the file; places in it count from 0. */
+ * Nodes and elements have the order of the file; their indices in it count from 0. */
 
 typedef struct fuge_mesh fuge_mesh;
 
@@ -238,7 +238,7 @@ int fuge_mesh_get_sizes(const fuge_mesh *mesh, int *nodes, int *elements, int *c
 /* Number of each node in the file, and its position (3 x nodes).  Either may be NULL. */
 int fuge_mesh_get_nodes(const fuge_mesh *mesh, int *node, double *position);
 
-/* Number of each element in the file; element k has the nodes connection[p], places, for
+/* Number of each element in the file; element k has the nodes connection[p], indices, for
  * first[k] <= p < first[k+1].  Each may be NULL. */
 int fuge_mesh_get_elements(const fuge_mesh *mesh, int *element, int *first, int *connection);
 
@@ -256,7 +256,7 @@ int fuge_mesh_get_node_set_name(const fuge_mesh *mesh, int k, char *name, size_t
 int fuge_mesh_get_element_set_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
 int fuge_mesh_get_surface_name(const fuge_mesh *mesh, int k, char *name, size_t name_len);
 
-/* Places of the members of a set; `name` in upper or lower case.  Only the first `capacity` are
+/* Indices of the members of a set; `name` in upper or lower case.  Only the first `capacity` are
  * written to member, which may be NULL; *count is their number.  FUGE_ERR_OPTION if the
  * mesh has no such set; the message has the names of those it has. */
 int fuge_mesh_get_node_set(const fuge_mesh *mesh, const char *name, int capacity, int *member,
@@ -264,7 +264,7 @@ int fuge_mesh_get_node_set(const fuge_mesh *mesh, const char *name, int capacity
 int fuge_mesh_get_element_set(const fuge_mesh *mesh, const char *name, int capacity, int *member,
                               int *count, char *message, size_t len);
 
-/* Nodes of the faces of a surface, places, 8 for each face: corners first, then those on the
+/* Nodes of the faces of a surface, indices, 8 for each face: corners first, then those on the
  * edges, -1 beyond.  Corners of a solid's face follow each other counter-clockwise if it is seen
  * from outside; an edge of an element of a plane goes counter-clockwise round the element.
  * FUGE_ERR_OPTION if the mesh has no such surface, FUGE_ERR_ELEMENT for a type without such a

@@ -28,7 +28,7 @@ QUERIES = (("fuge_solve_smooth_punch", "", 1, "fuge_solve_smooth_punch"), ("fuge
            ("SOLVER", "", 5, "python"), ("how to tilt", "", 3, "#a-punch-that-tilts"),
            ("tilting", "", 5, "#a-punch-that-tilts"), ("pressure", "", 1, "page/"), ("hertz", "", 3, "page/tutorial"),
            ("hertz", "Python", 1, "python.html#hertz_ellipse"), ("stresses", "", 1, "tutorial_stress"))
-# What no word begins with, though words have it in them.
+# Letters with which no word begins, though some words contain them.
 INSIDE = "ertz"
 # Where a reader of one language gets nothing of another one.
 LANGUAGE = ("Python", "hertz", "type/")
@@ -161,7 +161,7 @@ def check_search(browser, site):
     if browser.evaluate(hits()) != found:
         yield f"the language {language} is not remembered"
     browser.evaluate("document.querySelector('#languages input').click()")
-    # From the field of another page, by the keyboard alone.
+    # From the box of another page, by the keyboard alone.
     open_page(browser, (site/"page/index.html").as_uri())
     browser.evaluate("document.querySelector('header input').focus()")
     browser.call("Input.insertText", text=QUERIES[0][0])
@@ -170,7 +170,7 @@ def check_search(browser, site):
                  windowsVirtualKeyCode=13)
     browser.wait_for("Page.loadEventFired")
     if not any(QUERIES[0][3] in address for address in browser.evaluate(hits())[:1]):
-        yield "the field at the top of a page does not search"
+        yield "the box at the top of a page does not search"
 
 
 def checked(check):

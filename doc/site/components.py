@@ -31,7 +31,7 @@ HOLDS = {
 SIX = {"core", "area", "punch", "stress", "fe", "files"}
 
 BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 80, 36, 14, 8, 8
-# For a page of 800 pixels: longer lines than LINE_LENGTH letters are broken.
+# For a page of 800 pixels: lines of more than LINE_LENGTH letters are broken.
 NAME_SIZE, TEXT_SIZE, LINE_HEIGHT, LINE_LENGTH = 14.5, 13.5, 17, 18
 STARTS = 20
 

@@ -11,7 +11,7 @@ import re
 PROCEDURE = re.compile(r"\s*(?:(?:pure|elemental|recursive|impure)\s+)*(subroutine|function)\s+(\w+)", re.I)
 TYPE = re.compile(r"\s*type\b(?!\s*\().*::\s*(\w+)\s*$", re.I)
 BINDING = re.compile(r"\s*procedure\b[^:]*::\s*\w+(?:\s*=>\s*(\w+))?", re.I)
-# Finalisers are nobody's business but the compiler's.
+# Finalisers concern the compiler only.
 FINAL = re.compile(r"\s*final\s*::", re.I)
 DEFERRED = re.compile(r"\s*procedure\((\w+)\)", re.I)
 

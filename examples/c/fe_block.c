@@ -7,7 +7,7 @@
  * condenses its band matrix to the nodes beneath the punch, solves the contact, and gives the
  * displacements of all nodes back.  doc/tutorial_fe.md goes through it step by step.
  *
- * The half-plane is known exactly, but a block is none.  Two errors of the half-width a of
+ * The half-plane is known exactly, but a block is no half-plane.  Two errors of the half-width a of
  * the contact are told apart:
  *   - by the block: the same elements beneath the punch, a block W wide and deep.  It falls
  *     like (a/W)^2.  The approach has no limit: a line load moves the surface of a half-plane
@@ -225,7 +225,7 @@ static int solve_block(int elements, int doublings, int sides_held, int draw, bl
   return status;
 }
 
-/* More than the relative error that so many elements make. */
+/* More than the relative error that this many elements make. */
 static double element_error(int elements) { return 0.5 * pow(4.0 / (3.0 * elements), 2); }
 
 /* Where these elements lead on an endless block, from the last two. */

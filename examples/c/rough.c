@@ -7,7 +7,7 @@
  * u = A f, here by FFTW, and an inverse of it; and because its cells form a grid, by the same
  * functions on coarser grids.  Each saves many products.  Replace them by those of a layer, a
  * viscoelastic body, a finite element model.  The built-in operator solves the same scene:
- * forces have to agree, and the products are as many.  limit > 0: cancel a solve after so many
+ * forces have to agree, and it takes as many products.  limit > 0: cancel a solve after this many
  * iterations. */
 #include <fftw3.h>
 #include <math.h>

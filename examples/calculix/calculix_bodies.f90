@@ -10,7 +10,7 @@ module calculix_bodies
 
   public :: solve_by_fuge
 
-  !> What is asked of fuge.
+  !> The task for fuge.
   type, public :: contact_request
     !> The model; the job that writes its stiffness has the same name with _stiffness.
     character(len=16) :: model = ''

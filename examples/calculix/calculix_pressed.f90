@@ -24,7 +24,7 @@ module calculix_pressed
   real(dp), parameter :: E_STAR = 1.0_dp/sum((1.0_dp - POISSON**2)/YOUNG)
   !> Radius of the upper face, thickness of the slabs, their width (of the half) and height; mm.
   real(dp), parameter :: RADIUS = 100.0_dp, THICKNESS = 0.1_dp, SIDE = 10.0_dp
-  !> How far the upper end is pressed down after the bodies have touched, and the part of it by which they overlap in
+  !> How far the upper end is pressed down after the bodies have touched, and the share of it by which they overlap in
   !> the mesh, because CalculiX's mortar contact does not start from bodies that only touch; mm.
   real(dp), parameter :: DEPTH_PRESSED = 4.0e-3_dp, OVERLAP = 1.0e-5_dp, MOTION = DEPTH_PRESSED - OVERLAP
   !> Elements where the bodies may touch, up to REACH from the middle; growth of those farther out.

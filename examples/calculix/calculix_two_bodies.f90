@@ -26,15 +26,15 @@ program calculix_two_bodies
   character(len=18), parameter :: METHOD(10) = [character(len=18) :: 'SURFACE TO SURFACE', 'SURFACE TO SURFACE', &
     'SURFACE TO SURFACE', 'SURFACE TO SURFACE', 'NODE TO SURFACE', 'NODE TO SURFACE', 'NODE TO SURFACE', &
     'NODE TO SURFACE', 'MORTAR', 'PGLINMORTAR']
-  !> The last ones are those of the files that stay behind.
+  !> Systems of units; the files in the last one remain.
   type(unit_system), parameter :: UNITS(3) = [unit_system('m, N', 1.0e-3_dp, 1.0_dp), &
                                               unit_system('inch,lbf', 1.0_dp/25.4_dp, 1.0_dp/4.4482216152605_dp), &
                                               unit_system('mm, N', 1.0_dp, 1.0_dp)]
-  !> A job of CalculiX may take so many seconds of the processor; mortar contact in other units, which may not end, so
-  !> many times what it takes in mm and N.
+  !> Most seconds of the processor for a job of CalculiX; for mortar contact in other units, which may not end, the most
+  !> as a multiple of its time in mm and N.
   integer, parameter :: MOST = 12
   real(dp), parameter :: LONGER = 1.5_dp
-  !> The reference has elements so many times smaller.
+  !> How many times smaller the elements of the reference are.
   integer, parameter :: FINER = 3
   real(dp), parameter :: PI = acos(-1.0_dp)
 

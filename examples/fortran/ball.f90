@@ -20,7 +20,7 @@ program ball
   !> The model ends this many semi-axes from the middle.
   real(dp), parameter :: COVERED = 1.2_dp
   integer, parameter :: SIZES(3) = [10, 20, 40]
-  !> The picture of the pressure has about so many cells in each direction.
+  !> The picture of the pressure has about this many cells in each direction.
   integer, parameter :: SHOWN = 256
 
   call run()
@@ -207,7 +207,7 @@ contains
     end do
   end subroutine write_axis
 
-  !> x, y and pressure of every so many cells.
+  !> x, y and pressure of cells at equal steps.
   subroutine write_map(file, x, y, pressure)
     integer, intent(in) :: file
     real(dp), intent(in) :: x(:), y(:), pressure(:, :)

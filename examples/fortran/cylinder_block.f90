@@ -49,7 +49,7 @@ program cylinder_block
     integer :: contact = CYLINDER
     !> Elements of the block for six of the cylinder.
     integer :: of_block = 4
-    !> Order of the block's elements if it is another one.
+    !> Order of the block's elements if it differs.
     integer :: block_order = 0
     !> Least orders of convergence: force, half-width, peak pressure, all pressures.
     real(dp) :: least_order(4) = 0.0_dp

@@ -8,7 +8,7 @@ module cylinder_block_mesh
   public :: make_block, make_cylinder
 
   real(dp), parameter :: PI = acos(-1.0_dp)
-  !> Elements along each way out of the fine zone: this many times as many as along the zone itself.
+  !> Elements along each way out of the fine zone over those along the zone itself.
   integer, parameter :: LENGTHS = 3
 
   !> A mesh in the plane; elements of 4 or 8 nodes, as `elastic_elements` takes them.

@@ -33,7 +33,7 @@ module flange_model
     integer, allocatable :: joint_face(:, :)
     !> Forces of an internal pressure of 1, as the degrees of freedom are.
     real(dp), allocatable :: unit_load(:)
-    !> What this pressure pulls the upper flange upwards by, in this model of half a pitch.
+    !> The force by which this pressure pulls the upper flange upwards, in this model of half a pitch.
     real(dp) :: unit_thrust = 0.0_dp
   end type flange_joint
 

@@ -1,4 +1,4 @@
-!> What the pictures of the example `flange` are drawn from.
+!> The tables from which the pictures of the example `flange` are drawn.
 module flange_picture
   use example_output, only: create_file
   use flange_mesh, only: faces_outside

@@ -2,8 +2,8 @@
 !>
 !> Units nm and GPa = nN/nm**2: a cone of 70.3 degrees half angle, which has the area of a Berkovich pyramid over its
 !> depth, with a tip of 100 nm radius, on fused quartz. For a series of depths: load and radius of the contact, and the
-!> parts of that load that a sharp cone and a sphere of the tip's radius would carry, by `fuge_solve_round_punch`; then
-!> the same contact on rings, by a matrix and the dense engine, and the relative difference of its approach.
+!> fractions of that load that a sharp cone and a sphere of the tip's radius would carry, by `fuge_solve_round_punch`;
+!> then the same contact on rings, by a matrix and the dense engine, and the relative difference of its approach.
 program indenter
   use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_info, fuge_power_profile, &

@@ -21,7 +21,7 @@ program rough
   integer, parameter :: LOADS_A_DECADE = 10, DECADES = 3
   !> Mean pressure over E*, the largest one, and that of the picture.
   real(dp), parameter :: LARGEST = 0.1_dp, SHOWN = 0.01_dp
-  !> The picture shows this fraction of the period.
+  !> The picture shows one part in WINDOW of the period.
   integer, parameter :: WINDOW = 64
 
   call run()

@@ -10,7 +10,7 @@ module rough_profile
   !> The spectrum of a generated profile. Of all its properties the real contact depends mainly on
   !> the mean square slope.
   real(dp), parameter :: HURST = 0.8_dp, SLOPE = 0.1_dp
-  !> The longest wave is this fraction of the period, the shortest one this many cells long.
+  !> The period holds LONGEST of the longest waves; the shortest wave is SHORTEST cells long.
   integer, parameter :: LONGEST = 4, SHORTEST = 16
   integer(int64), parameter :: SEED = 2026_int64
   real(dp), parameter :: PI = acos(-1.0_dp)

@@ -9,7 +9,7 @@
 !> The interference is an eight-thousandth of the radius: the chord of a circle in 64 parts is 0.024 mm high, ten times
 !> as much. So polygons taken as they are leave gaps, or penetrate by far too much, wherever their corners do not meet.
 !> The smooth surfaces that they stand for (options%smooth, the default) leave neither: all nodes have the same
-!> pressure. What is missing to Lame's is the error of the elements, as meshes that match show.
+!> pressure. The difference from Lame's pressure is the error of the elements, as meshes that match show.
 !>
 !> First in plane stress: whole rings, which float and turn freely, and quarters with supports at the planes of
 !> symmetry. Then the section of both tubes, as bodies of revolution.
@@ -30,7 +30,7 @@ program shaft_hub
   !> Lame: both tubes have the same modulus.
   real(dp), parameter :: PRESSURE = INTERFERENCE*YOUNG/RADIUS/((RADIUS**2 + BORE**2)/(RADIUS**2 - BORE**2) &
     + (RIM**2 + RADIUS**2)/(RIM**2 - RADIUS**2))
-  !> What is allowed for each node.
+  !> The error allowed at each node.
   real(dp), parameter :: ALLOWED = 0.005_dp
 
   !> A pair of meshes, and how their surfaces are paired.
@@ -71,7 +71,7 @@ program shaft_hub
     choice('quadratic, 24 and 36, sizes 1:3', mesh_kind(2, grading=0.5_dp), 24, 36, 3), &
     choice('quadratic triangles, 24 and 36', mesh_kind(2, .true.), 24, 36, 3), &
     choice('quadratic, 24 and 36, a quarter', QUADRATIC, 24, 36, 3, quarter=.true.)]
-  !> What goes wrong otherwise.
+  !> The errors without smooth surfaces or the mortar method.
   type(choice), parameter :: OTHERS(7) = [ &
     choice('linear, 64 and 96, faces as they are', LINEAR, 64, 96, smooth=.false., curve=3), &
     choice('linear, 96 and 64, faces as they are', LINEAR, 96, 64, smooth=.false., curve=4), &

@@ -16,7 +16,7 @@ module stress_areas
   public :: press_ball_and_barrel
 
   real(dp), parameter :: PI = acos(-1.0_dp), POISSON = 0.3_dp
-  !> A quarter of the surface has so many rectangles along each axis, which cover this many semi-axes.
+  !> Rectangles along each axis of a quarter of the surface, and the semi-axes that they cover.
   integer, parameter :: RECTANGLES = 24, RINGS = 100
   real(dp), parameter :: COVERED = 1.1_dp
   !> Whether the largest shear or the largest von Mises stress is asked for.

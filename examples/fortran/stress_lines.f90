@@ -121,7 +121,7 @@ contains
     real(dp), allocatable :: stress(:, :), exact(:, :), pz(:)
     type(fuge_stress_peak) :: peak
     type(fuge_info) :: info
-    !> Rows of the picture for the table.
+    !> The rows of the picture that the table shows.
     integer, parameter :: ROWS(4) = [3, 12, 60, 180]
     integer :: k
 

@@ -16,9 +16,9 @@ module stress_rough
   !> p/(E* g) with the root mean square gradient g.
   real(dp), parameter :: PRESSURE = 0.1_dp
   type(fuge_options), parameter :: OPTIONS = fuge_options(tolerance=1.0e-8_dp)
-  !> The shortest wave has so many cells, so that spots of contact have many.
+  !> Cells of the shortest wave: enough that spots of contact have many.
   integer, parameter :: SHORTEST = 16
-  !> Stresses go down so many cells, a depth for each.
+  !> Stresses go down this many cells, a depth for each.
   integer, parameter :: DEPTHS = 64
 
 contains

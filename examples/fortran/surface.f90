@@ -3,13 +3,13 @@
 !>     surface [cells [folder for its tables]]
 !>
 !> A self-affine surface of `cells` x `cells`, a power of two, 1024 unless given, periodic in both directions. Lengths
-!> count in periods and pressures in E*. While the contact is small its area is proportional to the load,
-!> A/A_0 = kappa p/(E* g) with the root mean square g of the gradient, kappa being sqrt(2 pi) = 2.51 in the asymptotic
-!> theory of A. W. Bush, R. D. Gibson and T. R. Thomas (1975) and sqrt(8/pi) = 1.60 in that of B. N. J. Persson (2001),
-!> who has A/A_0 = erf(sqrt(2) p/(E* g)) up to complete contact; what is computed lies between.
-!> Cells at the edge of a spot count as a whole, so the area is too large by a part of its perimeter; a second column is
-!> without it, by (pi - 1 + ln 2)/24 of the perimeter times the cell (V. A. Yastrebov, G. Anciaux, J.-F. Molinari 2017).
-!> For the pictures it writes surface_load.csv and surface_map.dat.
+!> count in periods and pressures in E*. While the contact is small its area is proportional to the load, A/A_0 = kappa
+!> p/(E* g) with the root mean square g of the gradient, kappa being sqrt(2 pi) = 2.51 in the asymptotic theory of A. W.
+!> Bush, R. D. Gibson and T. R. Thomas (1975) and sqrt(8/pi) = 1.60 in that of B. N. J. Persson (2001), who has A/A_0 =
+!> erf(sqrt(2) p/(E* g)) up to complete contact; what is computed lies between. Cells at the edge of a spot count as a
+!> whole, so the area is too large by a share of its perimeter; a second column is without it, by (pi - 1 + ln 2)/24 of
+!> the perimeter times the cell (V. A. Yastrebov, G. Anciaux, J.-F. Molinari 2017). For the pictures it writes
+!> surface_load.csv and surface_map.dat.
 program surface
   use, intrinsic :: iso_fortran_env, only: int64
   use example_output, only: create_file
@@ -23,10 +23,10 @@ program surface
   !> p/(E* g): the loads, and that of the map.
   real(dp), parameter :: LOADS(10) = &
     [0.02_dp, 0.035_dp, 0.06_dp, 0.1_dp, 0.16_dp, 0.25_dp, 0.4_dp, 0.65_dp, 1.0_dp, 1.6_dp]
-  !> No picture shows more digits.
+  !> A tolerance that is finer than the digits of any picture.
   type(fuge_options), parameter :: OPTIONS = fuge_options(tolerance=1.0e-8_dp)
   integer, parameter :: SHOWN = 4
-  !> The map has so many places in each direction.
+  !> The map has this many pixels in each direction.
   integer, parameter :: PLACES = 512
 
   call run()
@@ -134,7 +134,7 @@ contains
     is_between = area >= 0.95_dp*persson(pressure) .and. area <= sqrt(2.0_dp*PI)*pressure
   end function is_between
 
-  !> Pressures as rows of numbers, means over so many cells that there are at most PLACES rows.
+  !> Pressures as rows of numbers, at most PLACES of them; each number is a mean over a square of cells.
   subroutine write_map(pressure)
     real(dp), intent(in) :: pressure(:, :)
     integer :: file, i, j, step

@@ -9,7 +9,7 @@ module surface_heights
 
   !> The spectrum. Of all properties of a surface the real contact depends mainly on the mean square gradient.
   real(dp), parameter :: HURST = 0.8_dp, GRADIENT = 0.1_dp
-  !> The longest wave is this fraction of the period, the shortest one this many cells long.
+  !> The period holds LONGEST of the longest waves; the shortest wave is SHORTEST_WAVE cells long.
   integer, parameter :: LONGEST = 4, SHORTEST_WAVE = 8
   integer(int64), parameter :: SEED = 2026_int64
   real(dp), parameter :: PI = acos(-1.0_dp)

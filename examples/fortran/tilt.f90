@@ -21,7 +21,7 @@ program tilt
 
   !> N, mm.
   integer, parameter :: CELLS = 400, FINE_CELLS = 2**18
-  !> By FFT also 4, 16, .. times fewer cells.
+  !> Number of grids by FFT: FINE_CELLS cells, and 4, 16, .. times fewer.
   integer, parameter :: SIZES = 7
   real(dp), parameter :: HALF_FACE = 10.0_dp, E_STAR = 1.0e5_dp, LOAD = 5.0e3_dp
   real(dp), parameter :: PI = acos(-1.0_dp)

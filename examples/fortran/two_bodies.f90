@@ -39,7 +39,7 @@ program two_bodies
     real(dp) :: approach(2) = 0.0_dp, touching(2) = 0.0_dp
   end type answer
 
-  !> What a solve takes.
+  !> The cost of a solve.
   type :: effort
     integer :: products = 0
     real(dp) :: seconds = 0.0_dp

@@ -15,17 +15,17 @@ How the bodies deform: an operator, whose ``operator @ force`` are displacements
     HalfplaneOperator(n, spacing, e_star)   line contact, equal cells, by FFT
     HalfspaceOperator(nx, ny, dx, dy, e_star)   an area, equal cells, by FFT
     CallbackOperator(n, apply)              a function of your own
-    Operator, GridOperator, Cells           what all of them are, those by FFT, and the cells that these tell
+    Operator, GridOperator, Cells           the base of all, that of those by FFT, and their cells
     halfplane_matrix, halfspace_matrix, ring_matrix   matrices of cells, rectangles, and rings about an axis
     graded_cells                            cells that are narrow at the edges of a contact
     plane_modulus, combined_modulus         the modulus e_star of two bodies
-    displacement_shares, ring_displacement  what each body has of the displacements, and the surface beside rings
+    displacement_shares, ring_displacement  shares of the bodies in the displacements; the surface beside rings
 
 Solving: gaps and a load, a prescribed approach, or several rigid motions
 
     solve(operator, gap, load)              one problem; the result is a Contact with its Info
     Solver(operator)                        one solve after the other; a Derivative, and the History of the tableau
-    load_path(alpha, gap, load)             all loads at which a point joins, a Path of each PointState
+    load_path(alpha, gap, load)             all loads at which a point changes its PointState: a Path
     contact_edges(x, width, force, element) edges finer than the grid: ContactEdges, each of an EdgeKind
     hertz_ellipse                           Hertz in closed form: HertzContact
     solve_smooth_punch                      one interval under a smooth profile, without a grid: SmoothContact

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
 import operator
-from typing import Any, Mapping, Tuple, Union
+from typing import Any, Collection, Mapping, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,7 +28,7 @@ def number(name: str, value: Any) -> float:
 
 
 def optional_number(name: str, value: Any) -> Doubles | None:
-    """A number as C takes it where it may be NULL."""
+    """A number, or None, for a parameter that may be NULL."""
     return None if value is None else np.array([number(name, value)])
 
 
@@ -55,7 +56,7 @@ def _fits(found: tuple[int, ...], wanted: Shape) -> bool:
 
 
 def check_shape(name: str, found: tuple[int, ...], *wanted: Shape) -> None:
-    """One of the shapes `wanted`."""
+    """Refuse a shape that is none of those `wanted`."""
     if not any(_fits(found, shape) for shape in wanted):
         shapes = " or ".join(dict.fromkeys(_described(shape) for shape in wanted))
         raise error(Status.ERR_SIZE, f"{name} has the shape {_described(found)}, but must have {shapes}")
@@ -68,7 +69,7 @@ def _is_masked(value: Any) -> bool:
 
 
 def array(name: str, value: ArrayLike) -> NDArray[Any]:
-    """An array of any type; not a masked one with masked elements, whose values numpy would take without a word."""
+    """An array of any type; refused if elements are masked, because numpy would use their values without a warning."""
     if _is_masked(value):
         raise error(
             Status.ERR_NOT_FINITE,
@@ -99,7 +100,7 @@ def vector(name: str, value: ArrayLike, n: int | None = None) -> Doubles:
 
 
 def spread(name: str, value: ArrayLike, n: int) -> Doubles:
-    """n doubles, or one for all."""
+    """n doubles; a single number is repeated n times."""
     found = _real(name, value)
     if found.ndim == 0:
         return np.full(n, float(found))
@@ -114,7 +115,7 @@ def columns(name: str, value: ArrayLike, *shapes: Shape) -> Doubles:
 
 
 def symmetric(name: str, value: ArrayLike) -> Doubles:
-    """A square symmetric matrix, in either order: its transpose is the same matrix."""
+    """A square matrix in either memory order, because the transpose of a symmetric matrix is the same matrix."""
     found = _real(name, value)
     check_shape(name, found.shape, (None, None))
     if found.shape[0] != found.shape[1]:
@@ -149,10 +150,20 @@ def flags(name: str, value: ArrayLike, *shapes: Shape) -> Ints:
 
 
 def choice(name: str, value: Any, values: Mapping[str, int], status: Status = Status.ERR_OPTION) -> int:
-    """The number of a word."""
+    """The value of a word, or an error that lists the words."""
     if isinstance(value, str) and value in values:
         return values[value]
     raise error(status, f"{name} is {value!r}, but must be one of " + ", ".join(repr(word) for word in values))
+
+
+def texts(words: Collection[str]) -> Any:
+    """A C array of strings."""
+    return (ctypes.c_char_p * len(words))(*(word.encode() for word in words))
+
+
+def addresses(arrays: Sequence[Doubles]) -> Any:
+    """A C array of the addresses of arrays, which the caller has to keep."""
+    return (ctypes.c_void_p * len(arrays))(*(array.ctypes.data for array in arrays))
 
 
 def points(*named: tuple[str, ArrayLike]) -> tuple[tuple[int, ...], list[Doubles]]:

@@ -13,18 +13,17 @@ from typing import Any, Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fuge import _library
 from fuge._arrays import doubles, vector
-from fuge._library import function
+from fuge._library import CALLBACKS, HEADERS, function
 from fuge._messages import Shapes, in_python
 from fuge.errors import Status, error, finish
 
-MESSAGE_LENGTH = 256
+MESSAGE_LENGTH = HEADERS.constants["MESSAGE_LENGTH"]
 
 NO_SHAPES: Shapes = MappingProxyType({})
 
-# Of each thread: the exception that a callback has raised, until the call that it ends is over, and whether Ctrl-C
-# was seen.
+# For each thread: the exception that a callback has raised, until the call of the library returns, and whether Ctrl-C
+# was pressed.
 _pending = threading.local()
 
 
@@ -36,9 +35,9 @@ def _take_exception() -> BaseException | None:
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """Let Ctrl-C end a call with callbacks by the next one of them.
+    """Let Ctrl-C end a call of the library at its next callback.
 
-    Python would raise KeyboardInterrupt where a callback begins, outside its `try`, and ctypes would lose it.
+    Python by itself raises KeyboardInterrupt where the callback begins, before its `try`, and ctypes drops it there.
     """
     main = threading.current_thread() is threading.main_thread()
     if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
@@ -69,18 +68,18 @@ def _check_interrupt() -> None:
 
 
 def end_call(code: int, read_message: Callable[[], str], shapes: Shapes = NO_SHAPES) -> None:
-    """Raise what a callback has raised, or raise and warn as the status demands."""
+    """Raise the exception of a callback, if there is one; otherwise raise or warn as the status demands."""
     exception = _take_exception()
     if exception is not None:
         raise exception
     if code != 0:
         message = read_message()
-        # What is said about a file has its own places.
+        # Numbers in messages about a file are those of its lines.
         finish(code, message if code == Status.ERR_FILE else in_python(message, shapes))
 
 
 def call(name: str, *arguments: Any, shapes: Shapes = NO_SHAPES) -> None:
-    """Call a function whose last two arguments, not in `arguments`, are message and len.
+    """Call a function with `arguments`, followed by its last two, message and len.
 
     `shapes` are those of arrays to which the message may refer, as :func:`in_python` takes them.
     """
@@ -92,8 +91,7 @@ def call(name: str, *arguments: Any, shapes: Shapes = NO_SHAPES) -> None:
 class Handle:
     """A C object, freed when nothing uses it any more.
 
-    `needs` are the handles that it refers to: they are freed after it, in whatever order the garbage collector
-    or the caller finds them.
+    The handles that it needs are freed after it, in whatever order the garbage collector or the caller closes them.
     """
 
     # Reentrant, because the garbage collector may free one handle while another one is being freed.
@@ -120,16 +118,16 @@ class Handle:
             other._users += 1
 
     def keep(self, *objects: Any) -> None:
-        """Keep arrays and callbacks to which the C object refers as long as it lives."""
+        """Keep arrays and callbacks to which the C object refers, as long as it lives."""
         self._kept.extend(objects)
 
     def keep_only(self, callback: Any) -> None:
-        """Keep this callback in place of the one before."""
+        """Keep this callback, and nothing that was kept before."""
         self._kept = [callback]
 
     @property
     def pointer(self) -> ctypes.c_void_p:
-        """For calls in which nothing else can close it."""
+        """The address of the C object, for calls during which nothing else can close it."""
         self._check_open()
         return self._pointer
 
@@ -139,15 +137,15 @@ class Handle:
 
     @contextmanager
     def use(self) -> Iterator[ctypes.c_void_p]:
-        """The pointer, for one thread at a time; not from a callback that is called in a use."""
+        """The pointer, for one thread at a time, and not for a callback of the call that it is used in."""
         with self._alone():
             yield self.pointer
 
     @contextmanager
     def reading(self, closed: bool = False) -> Iterator[ctypes.c_void_p]:
-        """The pointer, for calls beside each other, in which it can be closed, but is not freed before they are over.
+        """The pointer, for calls that may run side by side; a handle closed meanwhile is freed after the last of them.
 
-        `closed` says that it may be closed already, by the user of an object that needs it.
+        `closed`: it may have been closed before, as long as another handle needs it.
         """
         with self._alone(), self._counting:
             if not closed:
@@ -164,7 +162,7 @@ class Handle:
 
     @contextmanager
     def changing(self) -> Iterator[ctypes.c_void_p]:
-        """The pointer, for a change of what calls read; not beside them."""
+        """The pointer, for a call that changes the object; an error while calls read it."""
         with self.use() as pointer:
             if self._readers > 0:
                 reason = "it cannot be changed during a product or a solve"
@@ -184,7 +182,7 @@ class Handle:
                 self._owner = None
 
     def close(self) -> None:
-        """Free it, or let its last user free it."""
+        """Free the object, now or when its last user has ended."""
         if not self._closed:
             with self.use():
                 self._closed = True
@@ -203,12 +201,12 @@ class Handle:
         raise TypeError(f"cannot copy or pickle the {self.name}: it is in the memory of the library")
 
     def __del__(self) -> None:
-        # Nobody can be using it: a call holds a reference.
+        # No call is using the handle, because it would hold a reference.
         self._closed = True
         self._release()
 
 
-# A child has no thread that could release the lock.
+# In a forked child the thread that holds the lock does not exist: nobody may hold it during a fork.
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(
         before=Handle._counting.acquire,
@@ -218,7 +216,7 @@ if hasattr(os, "register_at_fork"):
 
 
 class Owner:
-    """An object that owns a handle: ``close()``, and a context manager."""
+    """Base of the classes that own a handle: ``close()``, and use in a ``with`` statement."""
 
     _handle: Handle
 
@@ -241,10 +239,17 @@ class Owner:
         self.close()
 
     def _call(self, name: str, *arguments: Any, shapes: Shapes | None = None) -> None:
-        """Call a function of the handle which leaves its message there."""
+        """Call a function of the handle that stores its message in the handle."""
         with self._handle.use() as pointer:
             code = function(name)(pointer, *arguments)
             end_call(code, lambda: self._read_message(pointer), self._shapes if shapes is None else shapes)
+
+    def _counts(self, getter: str) -> list[int]:
+        """The ints that a function of the handle returns, one in each argument after the handle."""
+        signature = HEADERS.functions[getter]
+        counts = [np.empty(1, dtype=np.intc) for _ in signature.parameters[1:]]
+        self._call(getter, *counts)
+        return [int(count[0]) for count in counts]
 
     # Shapes of arrays to which messages may refer.
     _shapes: Shapes = NO_SHAPES
@@ -260,7 +265,7 @@ class Owner:
 def new_handle(
     name: str, create: str, free: str, *arguments: Any, needs: Sequence[Handle] = (), shapes: Shapes = NO_SHAPES
 ) -> Handle:
-    """Call `create`, whose arguments are followed by the place for the handle, message and len."""
+    """Call `create` with `arguments`, followed by the address of the handle, message and len."""
     handle = Handle(name, free, ctypes.c_void_p())
     for other in needs:
         handle.need(other)
@@ -274,9 +279,9 @@ def _keep(exception: BaseException) -> int:
 
 
 def _read_only(address: Any, n: int) -> NDArray[np.float64]:
-    """A copy of an array of the library, whose memory may be gone after the call.
+    """A copy of an array of the library, whose memory may be freed after the call.
 
-    It is read-only, so that a callback that means to change the library's numbers fails.
+    It is read-only, so that a callback fails if it tries to change the numbers of the library.
     """
     values = np.array(np.ctypeslib.as_array(address, (n,)))
     values.flags.writeable = False
@@ -295,13 +300,13 @@ def product_callback(apply: Callable[[NDArray[np.float64]], Any]) -> Any:
         except BaseException as exception:
             return _keep(exception)
 
-    return _library.Apply(called)
+    return CALLBACKS["fuge_apply"](called)
 
 
 def progress_callback(progress: Callable[[int, float, int], Any] | None) -> Any:
     """A C function that calls ``progress(iteration, residual, contacts)``.
 
-    Without one it does nothing but let Python see Ctrl-C.
+    Without a function it only lets Python see Ctrl-C.
     """
 
     def called(iteration: int, residual: float, contacts: int, user: Any) -> int:
@@ -311,7 +316,7 @@ def progress_callback(progress: Callable[[int, float, int], Any] | None) -> Any:
         except BaseException as exception:
             return _keep(exception)
 
-    return _library.Progress(called)
+    return CALLBACKS["fuge_progress"](called)
 
 
 def profile_callback(profile: Callable[[NDArray[np.float64]], Any]) -> Any:
@@ -329,4 +334,4 @@ def profile_callback(profile: Callable[[NDArray[np.float64]], Any]) -> Any:
         except BaseException as exception:
             return _keep(exception)
 
-    return _library.Profile(called)
+    return CALLBACKS["fuge_smooth_profile"](called)

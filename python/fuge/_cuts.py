@@ -20,13 +20,12 @@ from fuge.stress_measures import halfplane_tensor, round_tensor, tresca
 
 Doubles = NDArray[np.float64]
 
-# Most columns of a picture, and its depths.
+# Largest number of columns of a picture, and number of its depths.
 _COLUMNS = 240
 _DEPTHS = 81
-# Cells at all depths for which stresses are computed at once.
+# Stresses are computed for at most this many cells at once, those at all depths together.
 _ROOM = 2**21
-# At each depth the transforms of a grid take, for each of its cells, as long as this many stresses by a cell at a
-# point.
+# At each depth, transforms take as long for each cell of the grid as this many stresses at a point by one loaded cell.
 _TRANSFORMS = 50
 # How far a picture goes beside and below a contact, relative to its length.
 _BESIDE = 0.75
@@ -35,10 +34,10 @@ _BELOW = 1.25
 
 @dataclass(frozen=True)
 class Cut:
-    """The largest shear stress, (depths, places), at places along a cut and depths; where the contact begins and ends.
+    """Shear stresses in a cut: shear[k, i] is the largest one at depth[k] below place[i].
 
-    Places of the cells of a grid count from the middle of the grid. Above the depth `resolved` the cells are too wide
-    to show how large a stress is; it is infinite if the pressure has no limit.
+    The contact begins at `left` and ends at `right`; on a grid these and `place` count from its middle. Above the depth
+    `resolved` the cells are too wide to show how large a stress is; it is infinite if the pressure has no limit.
     """
 
     place: Doubles
@@ -55,8 +54,8 @@ class Cut:
         return int(k), int(i)
 
 
-def strongest_run(pressed: NDArray[np.bool_], peak: int) -> tuple[int, int]:
-    """First and last cell of the cells in contact side by side that have the cell `peak` among them."""
+def segment_around(pressed: NDArray[np.bool_], peak: int) -> tuple[int, int]:
+    """First and last cell of the segment of cells in contact that contains the cell `peak`."""
     open_cells = np.flatnonzero(~pressed)
     before, after = open_cells[open_cells < peak], open_cells[open_cells > peak]
     first = int(before[-1]) + 1 if before.size else 0
@@ -65,7 +64,7 @@ def strongest_run(pressed: NDArray[np.bool_], peak: int) -> tuple[int, int]:
 
 
 def peak_cell(force: Doubles) -> tuple[int, ...]:
-    """Indices of the largest force; there must be one."""
+    """Indices of the largest force, or an error if no force is positive."""
     if not force.max() > 0.0:
         raise error(Status.ERR_OPTION, "no point carries a force, so there is no stress: press harder")
     return tuple(int(k) for k in np.unravel_index(int(force.argmax()), force.shape))
@@ -74,7 +73,7 @@ def peak_cell(force: Doubles) -> tuple[int, ...]:
 def cut_through(
     contact: Contact | SmoothContact | RoundContact, poisson: float, along: str, below: float | None
 ) -> Cut:
-    """The cut through the largest pressure, `below` deep."""
+    """The cut through the largest pressure, down to the depth `below`, or to one that fits the contact."""
     if not isinstance(contact, Contact):
         place, depth = _points(*ends(contact), below)
         if isinstance(contact, RoundContact):
@@ -111,7 +110,7 @@ def _points(left: float, right: float, below: float | None) -> tuple[Doubles, Do
     if not length > 0.0:
         raise error(Status.ERR_OPTION, "the bodies touch without a force, so there is no stress: press harder")
     beside = _BESIDE * length
-    # Neither at an end nor in the middle, where a pressure may have no limit, and just below the surface.
+    # The pressure may have no limit at the ends and in the middle: no place is there, and no depth is zero.
     place = np.linspace(left - beside, right + beside, _COLUMNS)
     depth = np.linspace(0.0, below or _BELOW * length, _DEPTHS)
     depth[0] = 0.02 * depth[1]
@@ -125,7 +124,7 @@ def _cut_through_cells(contact: Contact, cells: Cells, poisson: float, along: st
         raise error(Status.ERR_OPTION, "along='y' is for areas: on a line the cut is along x")
     axis = 1 if along == "y" else 0
     row = force if force.ndim == 1 else (force[peak[0]] if axis == 0 else force[:, peak[1]])
-    first, last = strongest_run(row > 0.0, peak[-1] if axis == 0 else peak[0])
+    first, last = segment_around(row > 0.0, peak[-1] if axis == 0 else peak[0])
     width = cells.spacing[axis]
     length = (last - first + 1) * width
     beside = max(int(np.ceil(_BESIDE * (last - first + 1))), 3)
@@ -150,14 +149,14 @@ def _line_stress(force: Doubles, cells: Cells, columns: NDArray[np.intp], depth:
     if cells.boundary == "free" and np.count_nonzero(loaded) * columns.size <= _TRANSFORMS * force.size:
         return halfplane_stress(x[loaded], width, force[loaded], element, x[columns], depth[:, None])
     boundary = cast(Boundary, cells.boundary)
-    parts = [
-        halfplane_stress_grid(width, force, element, part, boundary)[:, columns] for part in _batches(depth, force.size)
-    ]
-    return np.concatenate(parts)
+    batches = _batches(depth, force.size)
+    return np.concatenate(
+        [halfplane_stress_grid(width, force, element, batch, boundary)[:, columns] for batch in batches]
+    )
 
 
 def _batches(depth: Doubles, cells: int) -> list[Doubles]:
-    """The depths in parts for which there is room on a grid of this number of cells."""
+    """The depths, split so that a grid of this number of cells has room for each batch."""
     return np.array_split(depth, min(-(-depth.size * cells // _ROOM), depth.size))
 
 
@@ -181,8 +180,8 @@ def _area_stress(
             x[loaded], y[loaded], width_x, width_y, force[loaded], poisson, px, py, depth[:, None]
         )
     boundary = cast(AreaBoundary, cells.boundary)
-    parts = []
-    for part in _batches(depth, force.size):
-        stress = halfspace_stress_grid(width_x, width_y, force, poisson, part, boundary)
-        parts.append(stress[:, peak[0], columns] if axis == 0 else stress[:, columns, peak[1]])
-    return np.concatenate(parts)
+    tensors = []
+    for batch in _batches(depth, force.size):
+        stress = halfspace_stress_grid(width_x, width_y, force, poisson, batch, boundary)
+        tensors.append(stress[:, peak[0], columns] if axis == 0 else stress[:, columns, peak[1]])
+    return np.concatenate(tensors)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fuge.errors import FileError, Status
 
-# In messages of the library about a file that it names but does not read.
+# Follows the name of the file in the library's message about a format that it recognises but does not read.
 REMARK = ", which fuge does not read: "
 METRES = {
     "m": 1.0,
@@ -19,7 +19,7 @@ METRES = {
     "um": 1e-6,
     "\N{MICRO SIGN}m": 1e-6,
     "\N{GREEK SMALL LETTER MU}m": 1e-6,
-    # The first one in UTF-8, read as Latin-1, as in .sur of programs other than MountainsMap.
+    # The micro sign in UTF-8 read as Latin-1, as in files .sur of programs other than MountainsMap.
     "\N{LATIN CAPITAL LETTER A WITH CIRCUMFLEX}\N{MICRO SIGN}m": 1e-6,
     "nm": 1e-9,
     "\N{ANGSTROM SIGN}": 1e-10,
@@ -33,7 +33,7 @@ def _failure(what: str, reason: str) -> FileError:
 
 
 def _topography(path: str, what: str) -> Any:
-    """The default channel of a file, as SurfaceTopography reads it; `what` the file is, for messages."""
+    """The default channel of a file, as SurfaceTopography reads it; messages begin with `what`."""
     try:
         import SurfaceTopography
     except ModuleNotFoundError as missing:

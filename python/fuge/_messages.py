@@ -8,20 +8,21 @@ from typing import Mapping
 
 import numpy as np
 
+from fuge._words import WORDS
+
 Shapes = Mapping[str, "tuple[int, ...]"]
-"""Shapes of the caller's arrays by their names in messages, for those whose indices differ; `point` for all points."""
+"""Shapes of arrays whose indices differ in Python, by their names in messages; `point` is that of all points."""
 
 _PATTERN = re.compile(
     r'"[^"]*"'
     r"|\bmode (?P<mode>\d+) at point \((?P<row>\d+)\)"
     r"|\b(?P<before>point|the first is) (?P<point>\d+)\b"
     r"|\b(?P<name>[a-z]\w*)\((?P<index>\d+)(?:, ?(?P<second>\d+))?\)"
-    r"|\bFUGE_(?P<constant>[A-Z_]*[A-Z])"
+    r"|\bFUGE_(?P<constant>[A-Z_]*[A-Z]\d*)"
     r"|\bfuge_(?P<function>\w+)"
 )
 
-# Prefixes of constants and of functions that Python's words do not have.
-_CONSTANT = re.compile("(?:plane|end|file|level|stiffness|measure|normals)_(?=.)")
+# Prefixes of functions that Python's methods do not have.
 _HANDLE = re.compile("(?:operator|bodies|body|pairs)_(?=.)")
 
 _ARRAYS = {"f": "force", "u": "displacement"}
@@ -38,9 +39,9 @@ _FUNCTIONS = {
 
 
 def in_python(message: str, shapes: Shapes) -> str:
-    """The message with indices in brackets, as of the arrays of these shapes, and with Python's names and options.
+    """The message with Python's indices, for arrays of these shapes, and with the names and words of this package.
 
-    What is quoted stays as it is.
+    Quoted text stays as it is.
     """
     return _PATTERN.sub(lambda match: _replaced(match, shapes), message)
 
@@ -55,15 +56,15 @@ def _replaced(match: re.Match[str], shapes: Shapes) -> str:
     if found["name"]:
         return _element(found["name"], found["index"], found["second"], shapes)
     if found["constant"]:
-        constant = found["constant"].lower()
-        return match[0] if constant.startswith("with_") else repr(_CONSTANT.sub("", constant, count=1))
+        word = WORDS.get(found["constant"])
+        return match[0] if word is None else repr(word)
     if found["function"]:
         return _function(found["function"])
     return match[0]
 
 
 def _element(name: str, index: str, second: str | None, shapes: Shapes) -> str:
-    """An element of an array; two indices count as in Fortran's order, which is Python's for arrays without a shape."""
+    """An element of an array; two indices come in Fortran's order, which Python reverses for arrays with a shape."""
     if second is None:
         place = _places(name, index, shapes)
     else:

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, new_handle
-from fuge._library import has_sparse
-from fuge._structs import InfoStruct
+from fuge._library import has_sparse, struct
 from fuge.columns import CompressedColumns, compressed, compressed_dense, is_sparse, require_sparse
 from fuge.contact import Info, info_of
 from fuge.errors import Status, error
@@ -31,23 +30,23 @@ class BodiesContact:
     pressure : ndarray, shape (n,)
         Force over area.
     gap, initial_gap : ndarray, shape (n,)
-        Under load and before; length.
+        Gaps under load and before it; length.
     area : ndarray, shape (n,)
-        In the plane lengths.
+        Areas of the contact points; in the plane lengths.
     pair, node, face : ndarray of int, shape (n,)
         The pair, the node of its contact surface, and the opposite face.
     place : ndarray, shape (n, dimensions - 1)
-        Place in the opposite face.
+        Coordinates in the opposite face.
     direction : ndarray, shape (n, dimensions)
         Direction of the gap.
     unpaired : ndarray of int, shape (count, 2)
-        Pair and node of the nodes that have no opposite.
+        Pair and node of each node without an opposite face.
     displacement : list of ndarray
-        Of all degrees of freedom of each body; length.
+        For each body, of all its degrees of freedom; length.
     info : Info
         Report, with the certificate.
     message : str
-        What there is to say about the solution; mostly empty.
+        What the library remarks on the solution; mostly empty.
     """
 
     force: NDArray[np.float64]
@@ -68,7 +67,7 @@ class BodiesContact:
 
 @dataclass(frozen=True, eq=False)
 class JoinedBodies:
-    """Bodies as one, for :class:`Body`.
+    """Several bodies as one, whose matrix is one for :class:`Body`.
 
     Attributes
     ----------
@@ -112,7 +111,7 @@ class ElasticBodies(Owner):
         self._dimensions = 0
 
     def add(self, stiffness: Any) -> int:
-        """Add a body; its number, from 0.
+        """Add a body and return its number, from 0.
 
         Parameters
         ----------
@@ -135,12 +134,15 @@ class ElasticBodies(Owner):
         self._call("fuge_bodies_fix", _arrays.integer("body", body), fixed.size, fixed, given)
 
     def set_load(self, body: int, load: ArrayLike) -> None:
-        """External load of a body, one force for each of its degrees of freedom."""
+        """Set the external load of a body, one force for each of its degrees of freedom."""
         number = self._number(body)
         self._call("fuge_bodies_set_load", number, _arrays.vector("load", load, self._degrees[number]))
 
     def set_rigid_modes(self, body: int, rigid_modes: ArrayLike) -> None:
-        """Rigid modes that the supports of a body leave, (degrees, m): for all bodies that float, or they are found."""
+        """Set the rigid modes that the supports of a body leave, (degrees, m).
+
+        Give those of all bodies that float, or of none: then they are found.
+        """
         number = self._number(body)
         modes = _arrays.columns("rigid_modes", rigid_modes, (self._degrees[number], None))
         self._call("fuge_bodies_set_rigid_modes", number, modes.shape[1], modes)
@@ -192,20 +194,20 @@ class ElasticBodies(Owner):
         Parameters
         ----------
         sparse : bool, optional
-            Factorise by CHOLMOD, or as a band, which is for small models; by CHOLMOD if the library has it.
+            True: factorise by CHOLMOD; False: as a band, for small models. By CHOLMOD if the library has it.
         method, max_iterations, tolerance
             As in :class:`Solver`.
 
         Raises
         ------
         Error
-            As :meth:`ContactPairs.find`, :meth:`Body.condense` and :meth:`Solver.solve`; the message names the body or
-            the pair.
+            Those of :meth:`ContactPairs.find`, :meth:`Body.condense` and :meth:`Solver.solve`; the message names the
+            body or the pair.
 
         Warns
         -----
         Warning
-            Those of these calls.
+            Those of the same three.
         """
         options = chosen_options(method, None, max_iterations, None, tolerance)
         by_cholmod = has_sparse() if sparse is None else sparse
@@ -215,11 +217,9 @@ class ElasticBodies(Owner):
         return self._contact()
 
     def join(self) -> JoinedBodies:
-        """The bodies as one, for further loads on the same factor or for points that are excluded."""
+        """Join the bodies into one, for further loads on the same factor, or to exclude points."""
         self._call("fuge_bodies_join")
-        sizes = [np.empty(1, dtype=np.intc) for _ in range(4)]
-        self._call("fuge_bodies_get_joined_sizes", *sizes)
-        degrees, entries, n, width = (int(size[0]) for size in sizes)
+        degrees, entries, n, width = self._counts("fuge_bodies_get_joined_sizes")
         column, row = np.empty(degrees + 1, dtype=np.intc), np.empty(entries, dtype=np.intc)
         value, first = np.empty(entries), np.empty(len(self._degrees) + 1, dtype=np.intc)
         dof, normal = np.empty((n, width), dtype=np.intc), np.empty((n, width))
@@ -232,16 +232,14 @@ class ElasticBodies(Owner):
     @property
     def info(self) -> Info:
         """Report of the last solve, failed or not."""
-        report = InfoStruct()
+        report = struct("fuge_info")
         self._call("fuge_bodies_get_info", ctypes.byref(report))
         return info_of(report)
 
     def _contact(self) -> BodiesContact:
         with self._handle.use() as pointer:
             message = self._read_message(pointer)
-        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
-        self._call("fuge_bodies_get_sizes", *sizes)
-        n, lonely = int(sizes[0][0]), int(sizes[1][0])
+        n, lonely, _ = self._counts("fuge_bodies_get_sizes")
         force, pressure, gap, area, initial_gap = (np.empty(n) for _ in range(5))
         pair, node, face = (np.empty(n, dtype=np.intc) for _ in range(3))
         place, direction = np.empty((n, max(self._dimensions - 1, 0))), np.empty((n, self._dimensions))

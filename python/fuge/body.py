@@ -16,7 +16,7 @@ from fuge.errors import Status, error
 
 @dataclass(frozen=True, eq=False)
 class Condensed:
-    """What a contact problem has to know of a body.
+    """A body reduced to what a contact problem needs.
 
     Attributes
     ----------
@@ -27,7 +27,7 @@ class Condensed:
     modes : ndarray, shape (n, m)
         Rigid modes that the contact has to resist; m = 0 if the body does not float.
     resultant : ndarray, shape (m,)
-        Their resultants.
+        Resultant of the load for each mode, which the contact forces must have too.
     """
 
     influence: NDArray[np.float64]
@@ -37,7 +37,7 @@ class Condensed:
 
 
 class Body(Owner):
-    """A body by its stiffness matrix K, symmetric, force per displacement.
+    """A body, given by its stiffness matrix K, symmetric, force per displacement.
 
     Two bodies in contact are one Body: K has both, and contact points name degrees of freedom of both surfaces.
     Degrees of freedom count from 0.
@@ -77,14 +77,14 @@ class Body(Owner):
 
     @classmethod
     def from_band(cls, ab: ArrayLike, *, upper: bool = False) -> Body:
-        """A body by the diagonals of its stiffness, as ``scipy.linalg.cholesky_banded`` takes them.
+        """A body from the diagonals of its stiffness matrix, as ``scipy.linalg.cholesky_banded`` takes them.
 
         Parameters
         ----------
         ab : array_like, shape (kd + 1, degrees)
             Lower form: ab[i - j, j] = K[i, j], i >= j; upper form: ab[kd + i - j, j] = K[i, j], i <= j.
         upper : bool
-            The form.
+            Whether `ab` has the upper form.
         """
         band = _arrays.columns("ab", ab, (None, None))
         rows, degrees = band.shape
@@ -107,7 +107,7 @@ class Body(Owner):
         self._handle = new_handle("body", create, "fuge_body_free", degrees, *arguments)
 
     def fix(self, dof: ArrayLike, displacement: ArrayLike | None = None) -> None:
-        """Fix degrees of freedom, at zero or at these displacements; replaces those of the call before.
+        """Fix degrees of freedom, at zero or at these displacements, in place of those that were fixed before.
 
         Parameters
         ----------
@@ -119,27 +119,27 @@ class Body(Owner):
         self._call("fuge_body_fix", fixed.size, fixed, given)
 
     def set_load(self, load: ArrayLike) -> None:
-        """External load, one force for each degree of freedom. After :meth:`condense` it costs one solve."""
+        """Set the external load, one force for each degree of freedom. After :meth:`condense` it costs one solve."""
         self._call("fuge_body_set_load", _arrays.vector("load", load, self.degrees))
 
     def set_rigid_modes(self, rigid_modes: ArrayLike) -> None:
-        """The body floats: the rigid modes that its supports allow, shape (degrees, m); see :func:`rigid_modes`."""
+        """Let the body float, with the rigid modes that its supports allow, (degrees, m); see :func:`rigid_modes`."""
         modes = _arrays.columns("rigid_modes", rigid_modes, (self.degrees, None))
         self._call("fuge_body_set_rigid_modes", modes.shape[1], modes)
 
     def find_rigid_modes(self) -> None:
-        """The body floats, and :meth:`condense` finds its rigid modes."""
+        """Let the body float, with rigid modes that :meth:`condense` finds."""
         self._call("fuge_body_find_rigid_modes")
 
     def set_contact(self, dof: ArrayLike, normal: ArrayLike) -> None:
-        """Contact points; point i moves by the sum of normal[i, k] * u[dof[i, k]] over k, which opens its gap.
+        """Set the contact points; point i moves by the sum of normal[i, k] * u[dof[i, k]] over k, which opens its gap.
 
         Parameters
         ----------
         dof : array_like of int, shape (n, width) or (n,)
             Degrees of freedom of each point; -1 for none.
         normal : array_like of the same shape
-            The direction in which the contact force acts on the body, into the body; for the second body the opposite.
+            Direction of the contact force on the body, into the body; on a second body in K the opposite direction.
         """
         degrees = _arrays.integers("dof", stacked("dof", dof), (None, None))
         n, width = degrees.shape
@@ -169,9 +169,7 @@ class Body(Owner):
             K is so close to singular that few digits may be correct.
         """
         self._call("fuge_body_condense")
-        count = np.empty(1, dtype=np.intc)
-        self._call("fuge_body_get_mode_count", count)
-        n, m = self._n, int(count[0])
+        n, m = self._n, self._mode_count()
         influence, displacement = np.empty((n, n), order="F"), np.empty(n)
         modes, resultant = np.empty((n, m), order="F"), np.empty(m)
         self._call("fuge_body_get_influence", influence, n)
@@ -204,12 +202,14 @@ class Body(Owner):
             K u is out of balance by more than 1e-10 of the forces.
         """
         forces = _arrays.vector("force", force, self._n)
-        count = np.empty(1, dtype=np.intc)
-        self._call("fuge_body_get_mode_count", count)
-        motions = None if motion is None else _arrays.vector("motion", motion, int(count[0]))
+        m = self._mode_count()
+        motions = None if motion is None else _arrays.vector("motion", motion, m)
         displacement = np.empty(self.degrees)
         self._call("fuge_body_recover", forces, motions, displacement)
         return displacement
+
+    def _mode_count(self) -> int:
+        return self._counts("fuge_body_get_mode_count")[0]
 
 
 def rigid_modes(position: ArrayLike) -> NDArray[np.float64]:

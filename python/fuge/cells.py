@@ -1,4 +1,4 @@
-"""The equal cells, on a line or an area, that the points of an operator are."""
+"""Points of an operator that are equal cells, on a line or an area."""
 
 from __future__ import annotations
 
@@ -44,6 +44,6 @@ class Cells:
         return tuple(self.boundary in ("periodic", f"periodic_{axis}") for axis in axes)
 
     def centres(self, axis: int) -> NDArray[np.float64]:
-        """Places along x (axis 0) or y (axis 1) of the middles of the cells, from the middle of them all; length."""
+        """Coordinates of the centres along x (axis 0) or y (axis 1), from the middle of the grid; length."""
         n = self.shape[::-1][axis]
         return self.spacing[axis] * (np.arange(n, dtype=np.float64) - 0.5 * (n - 1))

@@ -40,7 +40,7 @@ class CompressedColumns:
 
 
 def require_sparse() -> None:
-    """Refuse what the library for sparse matrices would have to do if it is not there."""
+    """Raise an error if the library for sparse matrices is missing."""
     if not has_sparse():
         raise error(
             Status.ERR_UNSUPPORTED,

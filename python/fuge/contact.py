@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fuge._structs import InfoStruct
 from fuge.cells import Cells
 from fuge.errors import Status, error
 
@@ -26,7 +26,7 @@ class Info:
     products : int
         Products by the operator; those on coarser grids count by their cost.
     preconditionings : int
-        Applications of a preconditioner, likewise.
+        Applications of a preconditioner; those on coarser grids count by their cost.
     residual : float
         The certificate: the largest scaled violation of the contact conditions.
     force_error : float
@@ -59,9 +59,9 @@ class Contact:
     info : Info
         Report, with the certificate.
     message : str
-        What there is to say about the solution; mostly empty.
+        What the library remarks on the solution; mostly empty.
     cells : Cells or None
-        Those of the operator, if it has a grid.
+        The cells of the operator, if its points are equal cells.
     """
 
     force: NDArray[np.float64]
@@ -76,12 +76,12 @@ class Contact:
     def pressure(self) -> NDArray[np.float64]:
         """Forces over the area of a cell, or its width on a line, in the shape of the forces; force per length^2.
 
-        For operators of grids. With the element 'hat' it is the pressure at the middle of the cells.
+        For operators of equal cells. With the element 'hat' it is the pressure at the centres of the cells.
 
         Raises
         ------
         InputError
-            The points are no cells that the operator knows, as those of a matrix.
+            The operator does not know the cells of its points, as a matrix does not.
         """
         if self.cells is None:
             raise error(
@@ -128,7 +128,9 @@ class Derivative:
     Attributes
     ----------
     force, gap : ndarray, shape of the gaps
+        Changes of the forces and of the gaps.
     motion : ndarray, shape (m,)
+        Changes of the rigid motions.
     """
 
     force: NDArray[np.float64]
@@ -152,8 +154,8 @@ class History:
     z: NDArray[np.float64]
 
 
-def info_of(report: InfoStruct) -> Info:
-    """The report in a struct of the library."""
+def info_of(report: Any) -> Info:
+    """The report in the struct fuge_info."""
     return Info(
         Status(report.status),
         report.iterations,

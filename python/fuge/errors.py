@@ -10,44 +10,44 @@ from __future__ import annotations
 
 import sys
 import warnings
-from enum import IntEnum
+from enum import auto
 from pathlib import Path
 
-from fuge._library import function
+from fuge._library import Constants, function
 
 
-class Status(IntEnum):
-    """What a call of the library has come to; doc/errors.md has a line for each."""
+class Status(Constants):
+    """The result of a call of the library, an ``IntEnum``; doc/errors.md has a line for each."""
 
-    DONE = 0
-    WARN_RESIDUAL = 1
-    WARN_NOT_UNIQUE = 2
-    WARN_ILL_CONDITIONED = 3
-    WARN_PAIRS = 4
-    WARN_NO_CONTACT = 5
-    ERR_SIZE = -1
-    ERR_POINTER = -2
-    ERR_NOT_FINITE = -3
-    ERR_WIDTH = -4
-    ERR_MODULUS = -5
-    ERR_ELEMENT = -6
-    ERR_GRID = -7
-    ERR_NOT_SYMMETRIC = -8
-    ERR_NOT_DEFINITE = -9
-    ERR_NO_EQUILIBRIUM = -10
-    ERR_ITERATION_LIMIT = -11
-    ERR_MEMORY = -12
-    ERR_CALL_ORDER = -13
-    ERR_OPTION = -14
-    ERR_UNSUPPORTED = -15
-    ERR_OVERFLOW = -16
-    ERR_CALLBACK = -17
-    ERR_CANCELLED = -18
-    ERR_FILE = -19
-    ERR_GAP = -20
-    ERR_MODES = -21
-    ERR_DOF = -22
-    ERR_MESH = -23
+    DONE = auto()
+    WARN_RESIDUAL = auto()
+    WARN_NOT_UNIQUE = auto()
+    WARN_ILL_CONDITIONED = auto()
+    WARN_PAIRS = auto()
+    WARN_NO_CONTACT = auto()
+    ERR_SIZE = auto()
+    ERR_POINTER = auto()
+    ERR_NOT_FINITE = auto()
+    ERR_WIDTH = auto()
+    ERR_MODULUS = auto()
+    ERR_ELEMENT = auto()
+    ERR_GRID = auto()
+    ERR_NOT_SYMMETRIC = auto()
+    ERR_NOT_DEFINITE = auto()
+    ERR_NO_EQUILIBRIUM = auto()
+    ERR_ITERATION_LIMIT = auto()
+    ERR_MEMORY = auto()
+    ERR_CALL_ORDER = auto()
+    ERR_OPTION = auto()
+    ERR_UNSUPPORTED = auto()
+    ERR_OVERFLOW = auto()
+    ERR_CALLBACK = auto()
+    ERR_CANCELLED = auto()
+    ERR_FILE = auto()
+    ERR_GAP = auto()
+    ERR_MODES = auto()
+    ERR_DOF = auto()
+    ERR_MESH = auto()
 
     @property
     def text(self) -> str:
@@ -56,7 +56,7 @@ class Status(IntEnum):
 
 
 class Error(Exception):
-    """A call that could not be done.
+    """A call that failed, and changed nothing.
 
     Attributes
     ----------
@@ -138,7 +138,7 @@ class ResidualWarning(Warning):
 
 
 class NotUniqueWarning(Warning):
-    """The solution is one of many; the message says which part of it."""
+    """The solution is one of many; the message says whether forces or motions are not unique."""
 
 
 class IllConditionedWarning(Warning):
@@ -150,7 +150,7 @@ class PairsWarning(Warning):
 
 
 class NoContactWarning(Warning):
-    """No point of the bodies touches: loads and supports open all gaps."""
+    """No point of the bodies is in contact: loads and supports open all gaps."""
 
 
 class GridWarning(Warning):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 from dataclasses import dataclass
 from typing import Any, Literal, Mapping, Union
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from fuge import _arrays
 from fuge._calls import call
 from fuge._instruments import REMARK, read_instrument
+from fuge._words import Words
 from fuge.columns import CompressedColumns, compressed
 from fuge.errors import FileError, Status
 
@@ -20,10 +20,13 @@ PathLike = Union[str, "os.PathLike[str]"]
 StiffnessFormat = Literal["any", "matrix_market", "calculix", "abaqus", "dmig", "op4"]
 SurfaceFormat = Literal["any", "grid", "points", "sdf"]
 
-STIFFNESS_FORMATS = {"any": 0, "matrix_market": 1, "calculix": 2, "abaqus": 3, "dmig": 4, "op4": 5}
-SURFACE_FORMATS = {"any": 0, "grid": 1, "points": 2, "sdf": 3}
-LINE_FORMS = {"mean": 0, "line": 1}
-PLANE_FORMS = {"mean": 0, "plane": 2}
+ProfileForm = Literal["mean", "line"]
+SurfaceForm = Literal["mean", "plane"]
+
+STIFFNESS_FORMATS = Words("format", StiffnessFormat, "STIFFNESS_")
+SURFACE_FORMATS = Words("format", SurfaceFormat, "FILE_")
+PROFILE_FORMS = Words("form", ProfileForm, "LEVEL_")
+SURFACE_FORMS = Words("form", SurfaceForm, "LEVEL_")
 
 
 def encoded(path: PathLike) -> bytes:
@@ -137,10 +140,10 @@ def read_stiffness(
     format : {'any', 'matrix_market', 'calculix', 'abaqus', 'dmig', 'op4'}
         'any' recognises it by its content.
     names_path : str or path, optional
-        File with a line node.direction for each row, of a matrix whose entries have numbers only; without it job.dof
-        for a path job.sti.
+        For a matrix whose rows have no names: a file with a line node.direction for each row. By default that of
+        job.sti is job.dof.
     name : str, optional
-        Which matrix of a file of Nastran, such as KAAX.
+        Name of the matrix in a file of Nastran, such as KAAX.
 
     Raises
     ------
@@ -149,7 +152,7 @@ def read_stiffness(
     """
     arguments = [
         encoded(path),
-        _arrays.choice("format", format, STIFFNESS_FORMATS),
+        STIFFNESS_FORMATS.number(format),
         None if names_path is None else encoded(names_path),
         None if name is None else name.encode(),
     ]
@@ -200,11 +203,11 @@ def sample_profile(x: ArrayLike, z: ArrayLike, centre: ArrayLike) -> NDArray[np.
     return height
 
 
-def level_profile(x: ArrayLike, z: ArrayLike, form: Literal["mean", "line"]) -> NDArray[np.float64]:
+def level_profile(x: ArrayLike, z: ArrayLike, form: ProfileForm) -> NDArray[np.float64]:
     """Heights without their mean, or without the least-squares line; each weighted by the length it stands for."""
     places = _arrays.vector("x", x)
     heights = _arrays.vector("z", z, places.size).copy()
-    call("fuge_level_profile", places.size, places, heights, _arrays.choice("form", form, LINE_FORMS))
+    call("fuge_level_profile", places.size, places, heights, PROFILE_FORMS.number(form))
     return heights
 
 
@@ -222,13 +225,14 @@ class SurfaceHeights:
     height : ndarray, shape (ny, nx)
         In the unit of the file.
     spacing : tuple of float or None
-        Along x and y; None if the file does not say.
+        Along x and y; None if the file does not give it.
     origin : tuple of float
         Position of height[0, 0].
     filled : int
         Number of points that were not measured and have been filled.
     unit : str or None
-        'm' of a file of an instrument that says its unit; else None, lengths are in the unit of the file (SDF: metres).
+        'm' if a file of an instrument gives its unit; otherwise None, and lengths are in the unit of the file (SDF:
+        metres).
     """
 
     height: NDArray[np.float64]
@@ -239,7 +243,7 @@ class SurfaceHeights:
 
 
 def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = False) -> SurfaceHeights:
-    """Read a surface.
+    """Read the heights of a surface on a grid.
 
     Other files of instruments, such as x3p, sur, vk4, plux, al3d, datx, opd and gwy, are read by the package
     SurfaceTopography where that is installed, in metres.
@@ -248,8 +252,8 @@ def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = 
     ----------
     path : str or path
     format : {'any', 'grid', 'points', 'sdf'}
-        A line for each row; x, y and height of a point on each line; ISO 25178-71; 'any' recognises them, and files of
-        instruments.
+        'grid': a line for each row; 'points': x, y and height of a point on each line; 'sdf': ISO 25178-71. 'any'
+        recognises them, and files of instruments.
     fill : bool
         Points that were not measured get the mean height of their neighbours; otherwise they are refused.
 
@@ -280,7 +284,7 @@ def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = 
 
 
 def _read_text(path: PathLike, format: SurfaceFormat, fill: bool) -> SurfaceHeights:
-    arguments = [encoded(path), _arrays.choice("format", format, SURFACE_FORMATS), int(bool(fill))]
+    arguments = [encoded(path), SURFACE_FORMATS.number(format), int(bool(fill))]
     nx, ny, filled = _counts(3)
     spacing, origin = np.empty(2), np.empty(2)
     call("fuge_read_surface", *arguments, 0, None, nx, ny, spacing, origin, filled)
@@ -315,11 +319,11 @@ def fill_surface(height: ArrayLike) -> NDArray[np.float64]:
     return heights
 
 
-def level_surface(height: ArrayLike, form: Literal["mean", "plane"]) -> NDArray[np.float64]:
+def level_surface(height: ArrayLike, form: SurfaceForm) -> NDArray[np.float64]:
     """Heights of shape (ny, nx) without their mean, or without the least-squares plane."""
     heights = _arrays.doubles("height", height, ("ny", "nx")).copy()
     ny, nx = heights.shape
-    chosen = _arrays.choice("form", form, PLANE_FORMS)
+    chosen = SURFACE_FORMS.number(form)
     call("fuge_level_surface", nx, ny, heights, chosen, shapes={"height": heights.shape})
     return heights
 
@@ -330,9 +334,7 @@ def level_surface(height: ArrayLike, form: Literal["mean", "plane"]) -> NDArray[
 def _named(fields: Mapping[str, ArrayLike], shape: tuple[int, ...]) -> tuple[list[Any], Any]:
     """C arrays of names and fields, and what keeps them alive."""
     arrays = [_arrays.doubles(f"the field {name!r}", field, shape) for name, field in fields.items()]
-    names = (ctypes.c_char_p * len(arrays))(*(name.encode() for name in fields))
-    pointers = (ctypes.c_void_p * len(arrays))(*(array.ctypes.data for array in arrays))
-    return [len(arrays), names, pointers], arrays
+    return [len(arrays), _arrays.texts(fields), _arrays.addresses(arrays)], arrays
 
 
 def _grid_shape(fields: Mapping[str, ArrayLike], *dimensions: str) -> tuple[int, ...]:

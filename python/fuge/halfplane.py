@@ -11,16 +11,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
+from fuge._library import HEADERS
+from fuge._words import Words
 from fuge.errors import Status
 
 Element = Literal["centre", "mean", "hat"]
 PlaneState = Literal["strain", "stress"]
-
 EndKind = Literal["plain", "edge", "corner"]
 
-ELEMENTS = {"centre": 0, "mean": 1, "hat": 2}
-PLANE_STATES = {"strain": 0, "stress": 1}
-END_KINDS = {"plain": 0, "edge": 1, "corner": 2}
+ELEMENTS = Words("element", Element, status=Status.ERR_ELEMENT)
+PLANE_STATES = Words("plane_state", PlaneState, "PLANE_")
+END_KINDS = Words("ends", EndKind, "END_")
 
 
 def plane_modulus(young: float, poisson: float, plane_state: PlaneState = "strain") -> float:
@@ -46,7 +47,7 @@ def plane_modulus(young: float, poisson: float, plane_state: PlaneState = "strai
         E or nu is out of range.
     """
     modulus = np.empty(1)
-    state = _arrays.choice("plane_state", plane_state, PLANE_STATES)
+    state = PLANE_STATES.number(plane_state)
     call("fuge_plane_modulus", _arrays.number("young", young), _arrays.number("poisson", poisson), state, modulus)
     return float(modulus[0])
 
@@ -112,7 +113,7 @@ def halfplane_matrix(
     n = centres.size
     alpha = np.empty((n, n), order="F")
     widths = _arrays.spread("width", width, n)
-    chosen = _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT)
+    chosen = ELEMENTS.number(element)
     modulus = _arrays.number("e_star", e_star)
     call("fuge_halfplane_matrix", n, centres, widths, modulus, chosen, int(bool(symmetric)), alpha, n)
     return alpha
@@ -157,7 +158,7 @@ def graded_cells(
         No cell, left >= right, more cells beyond an end than inside, or cells that rounding would lose.
     """
     limits = _arrays.number("left", left), _arrays.number("right", right)
-    left_end, right_end = (_arrays.choice("ends", kind, END_KINDS) for kind in ends)
+    left_end, right_end = (END_KINDS.number(kind) for kind in ends)
     before, after = (_arrays.integer("beyond", cells) for cells in beyond)
     total = _arrays.integer("n", _arrays.integer("n", n) + before + after)
     x, width = np.empty(max(total, 1)), np.empty(max(total, 1))
@@ -166,15 +167,15 @@ def graded_cells(
 
 
 class EdgeKind(IntEnum):
-    """How well an edge of contact is known; all but REFINED are edges of cells."""
+    """How well an edge of contact is known, an ``IntEnum``; all but REFINED are edges of cells."""
 
-    REFINED = 0
+    REFINED = HEADERS.constants["EDGE_REFINED"]
     """Extrapolated from the forces, more accurate than the grid."""
-    FEW_CELLS = 1
+    FEW_CELLS = HEADERS.constants["EDGE_FEW_CELLS"]
     """Fewer than five cells are in contact."""
-    SINGULAR = 2
+    SINGULAR = HEADERS.constants["EDGE_SINGULAR"]
     """The pressure does not fall like a square root, as under a corner."""
-    GRID_END = 3
+    GRID_END = HEADERS.constants["EDGE_GRID_END"]
     """The contact reaches the last cell of the grid."""
 
 
@@ -237,7 +238,7 @@ def contact_edges(
         centres,
         _arrays.spread("width", width, n),
         _arrays.vector("force", force, n),
-        _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
+        ELEMENTS.number(element),
         int(bool(symmetric)),
         n,
         *numbers,

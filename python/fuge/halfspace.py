@@ -10,12 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
+from fuge._words import Words
 from fuge.errors import Status
 from fuge.halfplane import ELEMENTS
 
 AreaElement = Literal["centre", "mean"]
 
-AREA_ELEMENTS = {word: ELEMENTS[word] for word in ("centre", "mean")}
+AREA_ELEMENTS = Words("element", AreaElement, status=Status.ERR_ELEMENT)
 
 
 def halfspace_matrix(
@@ -65,7 +66,7 @@ def halfspace_matrix(
         _arrays.spread("width_x", width_x, n),
         _arrays.spread("width_y", width_y, n),
         _arrays.number("e_star", e_star),
-        _arrays.choice("element", element, AREA_ELEMENTS, Status.ERR_ELEMENT),
+        AREA_ELEMENTS.number(element),
         int(bool(symmetric_x)),
         int(bool(symmetric_y)),
     ]
@@ -98,7 +99,7 @@ def ring_matrix(radius: ArrayLike, e_star: float) -> NDArray[np.float64]:
     radii = _arrays.vector("radius", radius)
     n = max(radii.size - 1, 0)
     alpha = np.empty((n, n), order="F")
-    call("fuge_ring_matrix", n, radii, _arrays.number("e_star", e_star), ELEMENTS["mean"], alpha, n)
+    call("fuge_ring_matrix", n, radii, _arrays.number("e_star", e_star), ELEMENTS.number("mean"), alpha, n)
     return alpha
 
 
@@ -148,9 +149,9 @@ class HertzContact:
     semi_axis_x, semi_axis_y : float
         Of the area of contact; length.
     approach : float
-        Absolute; length.
+        By how much distant points of the bodies approach each other; length.
     peak_pressure : float
-        In the middle; force per length^2.
+        The pressure in the middle; force per length^2.
     """
 
     semi_axis_x: float

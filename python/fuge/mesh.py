@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Handle, Owner, call, end_call, new_handle
-from fuge._library import function
+from fuge._calls import Handle, Owner, call, new_handle
 from fuge.files import PathLike, StiffnessFile, encoded
 from fuge.pairs import Surface
 
@@ -19,7 +18,7 @@ _NAME_LENGTH = 80
 
 
 class Mesh(Owner):
-    """Nodes, elements, sets and surfaces; places in its arrays count from 0.
+    """Nodes, elements, sets and surfaces; indices of its arrays count from 0.
 
     Made by :func:`read_mesh`, :meth:`from_arrays` or :func:`join_meshes`.
 
@@ -32,27 +31,27 @@ class Mesh(Owner):
     element : ndarray of int, shape (elements,)
         Number of each element in the file.
     first, connection : ndarray of int
-        Element k has the nodes connection[first[k]:first[k + 1]], as places.
+        Element k has the nodes with the indices connection[first[k]:first[k + 1]].
     node_sets, element_sets, surfaces : list of str
         Their names, in upper case.
     """
 
     def __init__(self, handle: Handle) -> None:
         self._handle = handle
-        nodes, elements, connections = self._sizes("fuge_mesh_get_sizes")
+        nodes, elements, connections = self._counts("fuge_mesh_get_sizes")
         self.node, self.element = np.empty(nodes, dtype=np.intc), np.empty(elements, dtype=np.intc)
         self.position = np.empty((nodes, 3))
         self.first, self.connection = np.empty(elements + 1, dtype=np.intc), np.empty(connections, dtype=np.intc)
-        self._get("fuge_mesh_get_nodes", self.node, self.position)
-        self._get("fuge_mesh_get_elements", self.element, self.first, self.connection)
-        counts = self._sizes("fuge_mesh_get_set_counts")
+        self._call("fuge_mesh_get_nodes", self.node, self.position)
+        self._call("fuge_mesh_get_elements", self.element, self.first, self.connection)
+        counts = self._counts("fuge_mesh_get_set_counts")
         self.node_sets = [self._text("fuge_mesh_get_node_set_name", k) for k in range(counts[0])]
         self.element_sets = [self._text("fuge_mesh_get_element_set_name", k) for k in range(counts[1])]
         self.surfaces = [self._text("fuge_mesh_get_surface_name", k) for k in range(counts[2])]
 
     @classmethod
     def from_arrays(cls, position: ArrayLike, element: ArrayLike, type: str | Sequence[str]) -> Mesh:
-        """A mesh without sets and surfaces, such as for :meth:`write`.
+        """Make a mesh without sets and surfaces, for example to write it.
 
         Parameters
         ----------
@@ -66,10 +65,10 @@ class Mesh(Owner):
         places = _arrays.doubles("position", position, (None, 2), (None, 3))
         elements = _arrays.integers("element", element, (None, None))
         types = [type] if isinstance(type, str) else list(type)
-        names = (ctypes.c_char_p * len(types))(*(name.encode() for name in types))
         nodes, dimensions = places.shape
-        arguments = [dimensions, nodes, places, elements.shape[1], elements.shape[0], elements, len(types), names]
-        return cls(new_handle("mesh", "fuge_mesh_create", "fuge_mesh_free", *arguments))
+        arguments = [dimensions, nodes, places, elements.shape[1], elements.shape[0], elements]
+        names = [len(types), _arrays.texts(types)]
+        return cls(new_handle("mesh", "fuge_mesh_create", "fuge_mesh_free", *arguments, *names))
 
     def write(
         self,
@@ -94,10 +93,9 @@ class Mesh(Owner):
                 names.append(name)
                 at_elements.append(int(given is not node_fields))
         components = np.array([field.shape[1] if field.ndim == 2 else 1 for field in fields], dtype=np.intc)
-        texts = (ctypes.c_char_p * len(names))(*(name.encode() for name in names))
-        pointers = (ctypes.c_void_p * len(names))(*(field.ctypes.data for field in fields))
-        places = np.array(at_elements, dtype=np.intc)
-        call("fuge_write_mesh", encoded(path), self._handle.pointer, len(names), texts, components, places, pointers)
+        where = np.array(at_elements, dtype=np.intc)
+        arguments = [len(names), _arrays.texts(names), components, where, _arrays.addresses(fields)]
+        call("fuge_write_mesh", encoded(path), self._handle.pointer, *arguments)
         del fields
 
     def element_type(self, k: int) -> str:
@@ -105,15 +103,15 @@ class Mesh(Owner):
         return self._text("fuge_mesh_get_type", _arrays.integer("k", k))
 
     def node_set(self, name: str) -> NDArray[np.intc]:
-        """Places of the nodes of a set; InputError if the mesh has none of this name, in upper or lower case."""
+        """Indices of the nodes of a set; InputError if the mesh has none of this name, in upper or lower case."""
         return self._members("fuge_mesh_get_node_set", name, 1).reshape(-1)
 
     def element_set(self, name: str) -> NDArray[np.intc]:
-        """Places of the elements of a set."""
+        """Indices of the elements of a set."""
         return self._members("fuge_mesh_get_element_set", name, 1).reshape(-1)
 
     def faces(self, name: str) -> NDArray[np.intc]:
-        """Nodes of the faces of a surface, places, shape (faces, 8), -1 in unused places; for :class:`Surface`."""
+        """Indices of the nodes of a surface's faces, shape (faces, 8), -1 where unused; for :class:`Surface`."""
         return self._members("fuge_mesh_get_faces", name, 8)
 
     def surface(self, name: str, stiffness: StiffnessFile, dimensions: int = 3) -> Surface:
@@ -162,16 +160,12 @@ class Mesh(Owner):
 
     def _text(self, getter: str, k: int) -> str:
         text = ctypes.create_string_buffer(_NAME_LENGTH + 1)
-        self._get(getter, k, text, len(text))
+        self._call(getter, k, text, len(text))
         return text.value.decode(errors="replace")
 
-    def _sizes(self, getter: str) -> list[int]:
-        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
-        self._get(getter, *sizes)
-        return [int(size[0]) for size in sizes]
-
-    def _get(self, name: str, *results: object) -> None:
-        end_call(function(name)(self._handle.pointer, *results), lambda: "")
+    def _read_message(self, pointer: ctypes.c_void_p) -> str:
+        """None: a mesh does not keep messages, and the exception has the general text of the status."""
+        return ""
 
 
 def read_mesh(path: PathLike) -> Mesh:
@@ -186,6 +180,6 @@ def read_mesh(path: PathLike) -> Mesh:
 
 
 def join_meshes(meshes: Sequence[Mesh]) -> Mesh:
-    """One mesh of several ones, such as those of several bodies: nodes and elements, one mesh after the other."""
+    """Join meshes, such as those of several bodies: nodes and elements, one mesh after the other."""
     pointers = (ctypes.c_void_p * len(meshes))(*(mesh._handle.pointer.value for mesh in meshes))
     return Mesh(new_handle("mesh", "fuge_mesh_join", "fuge_mesh_free", len(meshes), pointers))

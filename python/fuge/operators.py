@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import NO_SHAPES, Owner, call, interruptible, new_handle, product_callback
+from fuge._words import Words
 from fuge.cells import Cells
 from fuge.errors import Status, error
 from fuge.halfplane import ELEMENTS, Element
@@ -18,18 +19,18 @@ from fuge.halfspace import AREA_ELEMENTS, AreaElement
 Boundary = Literal["free", "periodic"]
 AreaBoundary = Literal["free", "periodic", "periodic_x", "periodic_y"]
 
-BOUNDARIES = {"free": 0, "periodic": 1}
-AREA_BOUNDARIES = {"free": 0, "periodic": 1, "periodic_x": 2, "periodic_y": 3}
+BOUNDARIES = Words("boundary", Boundary)
+AREA_BOUNDARIES = Words("boundary", AreaBoundary)
 
 Product = Callable[[NDArray[np.float64]], ArrayLike]
 
 
 class Operator(Owner):
-    """Displacements of n contact points by forces on them; made by one of the subclasses.
+    """Base of all operators, which give the displacements of n contact points by forces on them.
 
     ``operator @ force`` are the displacements by forces of the shape (n,) or that of the grid. Solvers may share an
-    operator, also in several threads. It cannot be changed during a solve or a product; one that is closed in them is
-    freed at their end.
+    operator, also in several threads. It cannot be changed during a solve or a product; if it is closed meanwhile, it
+    is freed at their end.
 
     Attributes
     ----------
@@ -65,7 +66,7 @@ class Operator(Owner):
         return f"{type(self).__name__}({arguments})"
 
     def _described(self) -> Mapping[str, Any]:
-        """What there is to say about the operator."""
+        """What `repr` shows of the operator."""
         return {"n": self.n}
 
     def _points(self, name: str, value: ArrayLike) -> NDArray[np.float64]:
@@ -204,8 +205,8 @@ class HalfplaneOperator(GridOperator):
             self.n,
             width,
             modulus,
-            _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
-            _arrays.choice("boundary", boundary, BOUNDARIES),
+            ELEMENTS.number(element),
+            BOUNDARIES.number(boundary),
         )
         self.e_star = modulus
         self.cells = Cells((self.n,), (width,), boundary, element)
@@ -275,8 +276,8 @@ class HalfspaceOperator(GridOperator):
             rows,
             *spacing,
             modulus,
-            _arrays.choice("element", element, AREA_ELEMENTS, Status.ERR_ELEMENT),
-            _arrays.choice("boundary", boundary, AREA_BOUNDARIES),
+            AREA_ELEMENTS.number(element),
+            AREA_BOUNDARIES.number(boundary),
         )
         self.n = columns * rows
         self.grid = (rows, columns)
@@ -349,17 +350,17 @@ class CallbackOperator(Operator):
             self.set_diagonal(diagonal)
 
     def set_preconditioner(self, preconditioner: Product) -> None:
-        """An approximate inverse of the operator, which replaces an earlier one or the diagonal."""
+        """Set an approximate inverse of the operator, in place of an earlier one or of the diagonal."""
         function = product_callback(_callable("preconditioner", preconditioner))
         self._handle.keep(function)
         self._set("fuge_operator_set_preconditioner", function)
 
     def set_diagonal(self, diagonal: ArrayLike) -> None:
-        """The preconditioner 1/alpha_kk from the n coefficients alpha_kk > 0."""
+        """Set the preconditioner 1/alpha_kk, from the n coefficients alpha_kk > 0."""
         self._set("fuge_operator_set_diagonal", _arrays.vector("diagonal", diagonal, self.n))
 
     def set_grid(self, nx: int, ny: int = 1) -> None:
-        """The points are equal cells of a grid, nx in a row; for :meth:`set_coarser` and :meth:`set_auxiliary`."""
+        """Let the points be equal cells of a grid, nx in a row; for :meth:`set_coarser` and :meth:`set_auxiliary`."""
         columns, rows = _arrays.integer("nx", nx), _arrays.integer("ny", ny)
         self._set("fuge_operator_set_grid", columns, rows)
         self.grid = (rows, columns) if rows > 1 else None
@@ -367,7 +368,7 @@ class CallbackOperator(Operator):
             self.cells = None
 
     def set_coarser(self, coarse: Operator) -> None:
-        """The same body on cells twice as wide, from which a solve gets the forces to start with.
+        """Set the operator of the same body on cells twice as wide, where a solve gets the forces to start with.
 
         Parameters
         ----------
@@ -378,20 +379,20 @@ class CallbackOperator(Operator):
         self._set_other("fuge_operator_set_coarser", "coarse", coarse)
 
     def set_auxiliary(self, auxiliary: Operator) -> None:
-        """A half-plane or half-space operator of the same cells whose displacements are close to those of `apply`.
+        """Set a half-plane or half-space operator of the same cells whose displacements are close to those of `apply`.
 
-        It lends its grid, its preconditioner and its coarser grids, so that a solve needs fewer products; the
-        solution is that of `apply`.
+        A solve uses its grid, its preconditioner and its coarser grids, and so needs fewer products; the solution is
+        still that of `apply`.
         """
         self._set_other("fuge_operator_set_auxiliary", "auxiliary", auxiliary)
-        # The pressures are those of its cells, the stresses are not those of its body.
+        # The cells give the pressures, but the stresses are not those of the auxiliary body.
         self.cells = auxiliary.cells and replace(auxiliary.cells, homogeneous=False)
 
     def _described(self) -> Mapping[str, Any]:
         return {"n": self.n, **({"grid": self.grid} if self.grid else {})}
 
     def set_coefficients(self, datum: float = 0.0, mean: float = 0.0) -> None:
-        """What products do not show of the coefficients.
+        """Give what products do not show of the coefficients.
 
         Parameters
         ----------

@@ -10,13 +10,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, new_handle
+from fuge._words import Words
 from fuge.errors import Warning
 
 PairMethod = Literal["mortar", "node_to_face"]
 Normals = Literal["averaged", "opposite", "given"]
 
-PAIR_METHODS = {"mortar": 0, "node_to_face": 1}
-NORMALS = {"averaged": 0, "opposite": 1, "given": 2}
+PAIR_METHODS = Words("method", PairMethod)
+NORMALS = Words("normals", Normals, "NORMALS_")
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +42,7 @@ class Surface:
 
 
 def surface_arguments(name: str, surface: Surface) -> list[Any]:
-    """dimensions, nodes, node, most, faces, face, dof."""
+    """The arguments dimensions, nodes, node, most, faces, face, dof of a surface."""
     nodes = _arrays.doubles(f"{name}.node", surface.node, (None, 2), (None, 3))
     faces = _arrays.integers(f"{name}.face", surface.face, (None, None))
     dof = None if surface.dof is None else _arrays.integers(f"{name}.dof", surface.dof, nodes.shape)
@@ -59,10 +60,10 @@ def pair_options(
     tied: bool,
     smooth: bool,
 ) -> list[Any]:
-    """method, normals, normal, reach, play, tied, smooth."""
+    """The arguments method, normals, normal, reach, play, tied, smooth of a pair."""
     return [
-        _arrays.choice("method", method, PAIR_METHODS),
-        _arrays.choice("normals", normals, NORMALS),
+        PAIR_METHODS.number(method),
+        NORMALS.number(normals),
         None if normal is None else _arrays.doubles("normal", normal, np.shape(contact.node)),
         _arrays.number("reach", reach),
         _arrays.number("play", play),
@@ -87,11 +88,11 @@ class ContactPairs(Owner):
     pair, node, face : ndarray of int, shape (n,)
         The pair, the node of its contact surface, and the opposite face (with 'mortar' that with the largest share).
     place : ndarray, shape (n, dimensions - 1)
-        Place in the opposite face.
+        Coordinates in the opposite face.
     direction : ndarray, shape (n, dimensions)
         Direction of the gap: the force on the opposite body is force*direction.
     unpaired : ndarray of int, shape (count, 2)
-        Pair and node of the nodes that have no opposite, and so are no contact points.
+        Pair and node of each node without an opposite face, which is no contact point.
     """
 
     _message_function = "fuge_pairs_message"
@@ -126,20 +127,20 @@ class ContactPairs(Owner):
             Weighted gaps of the dual mortar method; or each node against the face across from it, which does not
             reproduce a uniform pressure on meshes that do not match.
         normals : {'averaged', 'opposite', 'given'}
-            Averaged at the nodes of the contact surface, those of the opposite faces, or `normal`.
+            Normals averaged at the nodes of the contact surface, those of the opposite faces, or `normal`.
         normal : array_like, shape of contact.node, optional
             For 'given': outwards from the contact surface, of any length.
         reach : float
             How far apart, or one inside the other, opposite points may be; 0: as far as the surfaces extend; length.
         play : float
-            Between the two stops: 0 for points that stay in contact but slide; length.
+            Distance of the two stops: 0 for points that stay in contact but slide; length.
         tied : bool
             Glue the surfaces where they are, along each axis.
         smooth : bool
-            Normals, gaps and areas of the smooth bodies that the meshes stand for, exact on circles, spheres and
+            Use normals, gaps and areas of the curved bodies that the meshes approximate, exact on circles, spheres and
             cylinders. If false, those of the faces as they are.
         crease : float
-            Angle between the normals of neighbouring faces, in degrees from 0 to 90, beyond which a smooth body has an
+            Angle between the normals of neighbouring faces, in degrees from 0 to 90, beyond which a curved body has an
             edge there.
         revolution : bool
             Surfaces in the plane are those of bodies of revolution with the radius along x: areas are those of rings,
@@ -170,9 +171,7 @@ class ContactPairs(Owner):
         self._collect(dimensions)
 
     def _collect(self, dimensions: int) -> None:
-        sizes = [np.empty(1, dtype=np.intc) for _ in range(3)]
-        self._call("fuge_pairs_get_sizes", *sizes)
-        n, width, unpaired = (int(size[0]) for size in sizes)
+        n, width, unpaired = self._counts("fuge_pairs_get_sizes")
         lonely = self._keep(n, width, unpaired, dimensions)
         self._call("fuge_pairs_get_contact", self.dof, self.normal)
         self._call("fuge_pairs_get_gaps", self.gap, self.gap_upper, self.area)
@@ -181,7 +180,7 @@ class ContactPairs(Owner):
         self.unpaired = np.column_stack(lonely)
 
     def _keep(self, n: int, width: int, unpaired: int, dimensions: int) -> list[NDArray[np.intc]]:
-        """New arrays; the result is for pair and node of the nodes without an opposite."""
+        """Make new arrays; those returned are for pair and node of the nodes without an opposite face."""
         self.dof: NDArray[np.intc] = np.empty((n, width), dtype=np.intc)
         self.normal = np.empty((n, width))
         self.gap, self.gap_upper, self.area = np.empty(n), np.empty(n), np.empty(n)

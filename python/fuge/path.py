@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import auto
 from typing import Any, Callable
 
 import numpy as np
@@ -11,18 +11,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
+from fuge._library import Constants
 from fuge.errors import Status, error
 from fuge.operators import DenseOperator, Operator
 
 
-class PointState(IntEnum):
-    """State of a contact point."""
+class PointState(Constants):
+    """State of a contact point, an ``IntEnum``."""
 
-    AT_LOWER_STOP = 1
+    AT_LOWER_STOP = auto()
     """Gap 0, force >= 0; of either sign if the point is tied."""
-    OPEN = 0
+    OPEN = auto()
     """Between the stops, no force."""
-    AT_UPPER_STOP = -1
+    AT_UPPER_STOP = auto()
     """Gap equal to the play, force <= 0."""
 
 

@@ -7,8 +7,8 @@
     fuge.plot.stress(contact)    the largest shear stress below the contact
     fuge.plot.path(fuge.load_path(alpha, gap, load))    the load over the approach
 
-Each returns matplotlib's Axes, those of the argument ``ax`` or new ones; ``ax.figure.savefig`` saves the picture. Units
-stand at the axes if they are told: ``unit="mm", pressure_unit="MPa"``. Places count from the middle of the grid unless
+Each returns matplotlib's Axes, those of the argument ``ax`` or new ones; ``ax.figure.savefig`` saves the picture. The
+axes show units that are given, ``unit="mm", pressure_unit="MPa"``. Coordinates count from the middle of the grid unless
 they are given.
 """
 
@@ -33,10 +33,10 @@ Axes = Any
 
 AnyContact = Union[Contact, SmoothContact, RoundContact]
 
-# Blue and vermilion are told apart by all eyes, and so are the shades of these maps.
+# Colour-blind readers too can tell blue from vermilion, and the shades of these maps from each other.
 BLUE, VERMILION, GREY = "#0072B2", "#D55E00", "#BBBBBB"
 PRESSURES, GAPS, STRESSES = "viridis", "cividis_r", "inferno"
-# Widths of cells that differ by more, relative to the mean width, are drawn as they are.
+# Cells are drawn as equal ones if their widths differ by at most this, relative to the mean width.
 _UNEQUAL = 1e-3
 
 
@@ -157,7 +157,7 @@ def _image(ax: Axes, values: NDArray[np.float64], x: _Places, y: _Places, colour
 
 
 def _colour_bar(ax: Axes, image: Any, label: str) -> None:
-    """As high as the picture beside it."""
+    """Add a colour bar as high as the picture beside it."""
     ax.figure.colorbar(image, cax=ax.inset_axes([1.03, 0.0, 0.04, 1.0]), label=label)
 
 
@@ -393,18 +393,18 @@ def stress(
 ) -> Axes:
     """The largest shear stress below the contact, in a cut through the largest pressure; a cross where it is largest.
 
-    Half of Tresca's stress, in the body below, of plane strain if the contact is one of a line. Of several contacts the
-    one with the largest pressure is shown. Where the stress is largest within a cell of the surface, as under the
-    corner of a punch, the title says "or more".
+    It is half of Tresca's stress, in the body below; a contact along a line is taken as one of plane strain. Of several
+    contacts the one with the largest pressure is shown. Where the stress is largest within a cell of the surface, as
+    under the corner of a punch, the title says "or more".
 
     Parameters
     ----------
     contact : Contact, SmoothContact or RoundContact
-        A Contact has to be one of a HalfplaneOperator or a HalfspaceOperator.
+        A Contact must come from a HalfplaneOperator or a HalfspaceOperator.
     poisson : float
         Poisson's ratio of the body.
     depth : float, optional
-        How deep; without it a quarter more than the contact is long; length.
+        How deep the cut goes; without it a quarter more than the contact is long; length.
     along : {'x', 'y'}
         The direction of the cut through an area.
     unit, pressure_unit : str, optional

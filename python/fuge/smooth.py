@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, call, interruptible, new_handle, profile_callback
-from fuge._structs import RoundReport, SmoothReport
+from fuge._library import struct
 from fuge.halfplane import PlaneState
 from fuge.stress import at_points, elasticity
-from fuge.stress_peak import Measure, StressPeak, find_peak, measured, plane_body
+from fuge.stress_peak import MEASURES, Measure, StressPeak, find_peak, plane_body
 
 Profile = Callable[[NDArray[np.float64]], "tuple[ArrayLike, ArrayLike]"]
 
@@ -48,7 +48,7 @@ class SmoothContact(Owner):
         arguments = [profile, None, *limits, e_star, force, moment]
         with interruptible():
             self._handle = new_handle("smooth contact", "fuge_solve_smooth_punch", "fuge_smooth_free", *arguments)
-        report = SmoothReport()
+        report = struct("fuge_smooth_report")
         call("fuge_smooth_get_report", self._handle.pointer, ctypes.byref(report))
         self.left: float = report.left
         self.right: float = report.right
@@ -92,14 +92,14 @@ class SmoothContact(Owner):
 
     def peak(self, poisson: float, measure: Measure = "von_mises", *, plane_state: PlaneState = "strain") -> StressPeak:
         """The largest von Mises or Tresca stress and its place."""
-        arguments = [self._handle.pointer, *plane_body(plane_state, poisson), measured(measure)]
+        arguments = [self._handle.pointer, *plane_body(plane_state, poisson), MEASURES.number(measure)]
         return find_peak("fuge_smooth_peak", *arguments)
 
 
 def solve_smooth_punch(
     profile: Profile, lower: float, upper: float, e_star: float, force: float, *, moment: float | None = None
 ) -> SmoothContact:
-    """Press a smooth punch into a half-plane; a few dozen coefficients of the pressure reach rounding.
+    """Press a smooth punch into a half-plane; a few dozen coefficients give the pressure to rounding.
 
     Parameters
     ----------
@@ -152,10 +152,11 @@ class RoundContact(Owner):
     Attributes
     ----------
     radius : float
-        Of the contact; length.
+        Radius of the contact; length.
     load : float
+        Force.
     approach : float
-        Absolute; length.
+        By how much distant points of the bodies approach each other; length.
     residual : float
         The certificate: largest scaled violation of the problem.
     radius_error, pressure_error : float
@@ -167,7 +168,7 @@ class RoundContact(Owner):
     def __init__(self, solve: str, *arguments: Any) -> None:
         with interruptible():
             self._handle = new_handle("round contact", solve, "fuge_round_free", *arguments)
-        report = RoundReport()
+        report = struct("fuge_round_report")
         call("fuge_round_get_report", self._handle.pointer, ctypes.byref(report))
         self.radius: float = report.radius
         self.load: float = report.load
@@ -204,7 +205,8 @@ class RoundContact(Owner):
 
     def peak(self, poisson: float, measure: Measure = "von_mises") -> StressPeak:
         """The largest von Mises or Tresca stress and its place."""
-        return find_peak("fuge_round_peak", self._handle.pointer, _arrays.number("poisson", poisson), measured(measure))
+        arguments = [self._handle.pointer, _arrays.number("poisson", poisson), MEASURES.number(measure)]
+        return find_peak("fuge_round_peak", *arguments)
 
 
 def _pressed(load: float | None, approach: float | None, radius: float | None) -> list[Any]:
@@ -276,7 +278,9 @@ def solve_round_powers(
     approach: float | None = None,
     radius: float | None = None,
 ) -> RoundContact:
-    """The same for the initial gap sum of coefficients[k] (r - starts[k])^powers[k], each term from starts[k] on.
+    """Press a punch of revolution whose initial gap is a sum of powers into a half-space.
+
+    The sum is that of coefficients[k] (r - starts[k])^powers[k], each term from r = starts[k] on.
 
     Parameters
     ----------

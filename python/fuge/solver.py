@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Owner, end_call, interruptible, new_handle, progress_callback
-from fuge._library import function
+from fuge._library import function, struct
 from fuge._messages import in_python
-from fuge._structs import InfoStruct, Options
+from fuge._words import Words
 from fuge.contact import Contact, Derivative, History, Info, info_of
 from fuge.errors import GridWarning, Status, error, warn
 from fuge.operators import DenseOperator, Operator
@@ -21,8 +21,8 @@ from fuge.path import Path, check_matrix, collect_path
 Method = Literal["auto", "tableau", "active_set", "iterative"]
 PivotRule = Literal["paper", "most_negative", "greatest_decrease"]
 
-METHODS = {"auto": 0, "tableau": 1, "active_set": 2, "iterative": 3}
-PIVOT_RULES = {"paper": 0, "most_negative": 1, "greatest_decrease": 2}
+METHODS = Words("method", Method)
+PIVOT_RULES = Words("pivot_rule", PivotRule, paper="PAPER_RULE")
 
 Progress = Callable[[int, float, int], Any]
 
@@ -33,14 +33,14 @@ def chosen_options(
     max_iterations: int | None = None,
     keep_history: bool | None = None,
     tolerance: float | None = None,
-) -> Options:
-    """The library's defaults, but for what is not None."""
-    options = Options()
+) -> Any:
+    """fuge_options: the library's defaults, but for what is not None."""
+    options = struct("fuge_options")
     function("fuge_default_options")(ctypes.byref(options))
     if method is not None:
-        options.method = _arrays.choice("method", method, METHODS)
+        options.method = METHODS.number(method)
     if pivot_rule is not None:
-        options.pivot_rule = _arrays.choice("pivot_rule", pivot_rule, PIVOT_RULES)
+        options.pivot_rule = PIVOT_RULES.number(pivot_rule)
     if max_iterations is not None:
         options.max_iterations = _arrays.integer("max_iterations", max_iterations)
     if keep_history is not None:
@@ -65,7 +65,7 @@ class Solver(Owner):
         The engine. 'auto' takes the active set for a matrix, the tableau if the history is kept, and the iteration
         for any other operator.
     pivot_rule : {'paper', 'most_negative', 'greatest_decrease'}, optional
-        Of the tableau.
+        The pivot rule of the tableau.
     max_iterations : int, optional
         Limit of pivots or contact sets.
     keep_history : bool, optional
@@ -122,7 +122,7 @@ class Solver(Owner):
     # ---- the problem
 
     def set_gap(self, gap: ArrayLike, gap_upper: ArrayLike | None = None) -> None:
-        """Initial gaps.
+        """Set the initial gaps, and the play of points with two stops.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class Solver(Owner):
         self._shapes = {"point": shape}
 
     def set_excluded(self, excluded: ArrayLike | None) -> None:
-        """Points that carry no force, where the booleans are true; None: no such points.
+        """Let points carry no force, those where the booleans are true; None: no such points.
 
         Their gaps are computed nevertheless, and may be negative.
         """
@@ -158,15 +158,15 @@ class Solver(Owner):
         self._call("fuge_set_excluded", chosen)
 
     def set_load(self, load: float) -> None:
-        """One translation, free under a load that is not negative; force."""
+        """Let the bodies approach each other by one translation, under a load that is not negative; force."""
         self._call("fuge_set_load", _arrays.number("load", load))
 
     def set_approach(self, approach: float) -> None:
-        """One translation, prescribed; length. The load is then a result."""
+        """Prescribe by how much the bodies approach each other; length. The load is then a result."""
         self._call("fuge_set_approach", _arrays.number("approach", approach))
 
     def set_modes(self, modes: ArrayLike, resultant: ArrayLike) -> None:
-        """Several rigid motions, all free.
+        """Let the bodies move by several rigid motions, all free.
 
         Parameters
         ----------
@@ -194,9 +194,7 @@ class Solver(Owner):
     @property
     def mode_count(self) -> int:
         """Number m of rigid motions of the problem."""
-        m = np.empty(1, dtype=np.intc)
-        self._call("fuge_get_mode_count", m)
-        return int(m[0])
+        return self._counts("fuge_get_mode_count")[0]
 
     # ---- the solution
 
@@ -249,7 +247,7 @@ class Solver(Owner):
     @property
     def info(self) -> Info:
         """Report of the last solve, failed or not."""
-        report = InfoStruct()
+        report = struct("fuge_info")
         self._call("fuge_get_info", ctypes.byref(report))
         return info_of(report)
 
@@ -263,7 +261,7 @@ class Solver(Owner):
         gap_change : array_like, shape (n,) or that of the grid, optional
             Changes of the gaps.
         load_change : float, or array_like of shape (m,), optional
-            Changes of the load; of the resultants of free motions and of prescribed motions.
+            Change of the load; with several motions those of the resultants, and of the motions that are prescribed.
 
         Raises
         ------
@@ -314,12 +312,12 @@ class Solver(Owner):
         return collect_path(self.n, m, lambda *results: self._call("fuge_follow_path", end, *results))
 
     def _reading(self) -> ContextManager[Any]:
-        """During this nobody changes the operator, which the caller may have closed."""
+        """A context in which no call can change the operator; the caller may have closed it."""
         return self.operator._handle.reading(closed=True)
 
     def _contact(self, pointer: ctypes.c_void_p, message: str) -> Contact:
         count = np.empty(1, dtype=np.intc)
-        report = InfoStruct()
+        report = struct("fuge_info")
         self._get("fuge_get_mode_count", pointer, count)
         force, gap = np.empty(self._shape), np.empty(self._shape)
         motion, resultant = np.empty(int(count[0])), np.empty(int(count[0]))
@@ -334,7 +332,7 @@ class Solver(Owner):
         end_call(function(name)(pointer, result), lambda: self._read_message(pointer))
 
     def _points(self, name: str, value: ArrayLike) -> NDArray[np.float64]:
-        """One value for each point; a number for all."""
+        """One value for each point; a single number stands for all of them."""
         found = _arrays.array(name, value)
         if found.ndim == 0:
             return _arrays.spread(name, found, self.n)
@@ -392,7 +390,7 @@ def solve(
     Raises
     ------
     Error
-        As :meth:`Solver.solve`; :class:`InputError` also unless one of load, approach and modes is given.
+        Those of :meth:`Solver.solve`; also :class:`InputError` unless one of load, approach and modes is given.
 
     Examples
     --------

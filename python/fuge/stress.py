@@ -2,8 +2,8 @@
 
 z >= 0 counts from the surface into the body; tension is positive, so that under a pressure p at z = 0 the stress zz is
 -p. Displacements are positive along their axes, that along z into the body. The body is the one below; for the other
-one turn z round and take its own moduli. Coordinates of points are broadcast against each other, as by numpy, and
-results have their shape followed by the components.
+one z points into it, and the moduli are its own. Coordinates of points are broadcast against each other, as by numpy,
+and results have their shape followed by the components.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
-from fuge.errors import Status
 from fuge.halfplane import ELEMENTS, PLANE_STATES, Element, PlaneState
 
 
@@ -38,7 +37,7 @@ def strips(x: ArrayLike, width: ArrayLike, force: ArrayLike, element: Element) -
         centres,
         _arrays.spread("width", width, centres.size),
         _arrays.vector("force", force, centres.size),
-        _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
+        ELEMENTS.number(element),
     ]
 
 
@@ -63,11 +62,11 @@ def rings(radius: ArrayLike, force: ArrayLike) -> list[Any]:
 
 
 def elasticity(young: float, poisson: float, plane_state: PlaneState) -> list[Any]:
-    """Arguments of a body in a plane."""
+    """The arguments young, poisson, plane_state of a body in a plane."""
     return [
         _arrays.number("young", young),
         _arrays.number("poisson", poisson),
-        _arrays.choice("plane_state", plane_state, PLANE_STATES),
+        PLANE_STATES.number(plane_state),
     ]
 
 

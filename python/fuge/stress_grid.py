@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
-from fuge.errors import Status
 from fuge.halfplane import ELEMENTS, Element, PlaneState
 from fuge.operators import AREA_BOUNDARIES, BOUNDARIES, AreaBoundary, Boundary
 from fuge.stress import elasticity
@@ -25,8 +24,8 @@ def _line(spacing: float, force: ArrayLike, element: Element, boundary: Boundary
         forces.size,
         _arrays.number("spacing", spacing),
         forces,
-        _arrays.choice("element", element, ELEMENTS, Status.ERR_ELEMENT),
-        _arrays.choice("boundary", boundary, BOUNDARIES),
+        ELEMENTS.number(element),
+        BOUNDARIES.number(boundary),
     ]
 
 
@@ -41,7 +40,7 @@ def _area(
         _arrays.number("spacing_x", spacing_x),
         _arrays.number("spacing_y", spacing_y),
         forces,
-        _arrays.choice("boundary", boundary, AREA_BOUNDARIES),
+        AREA_BOUNDARIES.number(boundary),
     ]
 
 
@@ -57,18 +56,20 @@ def _at_depths(
 def halfplane_stress_grid(
     spacing: float, force: ArrayLike, element: Element, depth: ArrayLike, boundary: Boundary = "free"
 ) -> NDArray[np.float64]:
-    """Stresses in a half-plane.
+    """Stresses in a half-plane below the centres of its cells.
 
     Parameters
     ----------
     spacing : float
         Width of a cell; length.
     force : array_like, shape (n,)
-        Per depth, compression positive.
+        Forces on the cells per depth, positive in compression.
     element : {'centre', 'mean', 'hat'}
+        As in :func:`halfplane_matrix`.
     depth : array_like, shape (d,), or float
         Not negative; length.
     boundary : {'free', 'periodic'}
+        As for :class:`HalfplaneOperator`.
 
     Returns
     -------
@@ -106,19 +107,20 @@ def halfspace_stress_grid(
     depth: ArrayLike,
     boundary: AreaBoundary = "free",
 ) -> NDArray[np.float64]:
-    """Stresses in a half-space.
+    """Stresses in a half-space below the centres of its cells.
 
     Parameters
     ----------
     spacing_x, spacing_y : float
         Widths of a cell; length.
     force : array_like, shape (ny, nx)
-        Of the cells, compression positive.
+        Forces on the cells, positive in compression.
     poisson : float
         Poisson's ratio of the body.
     depth : array_like, shape (d,), or float
         Not negative; length.
     boundary : {'free', 'periodic', 'periodic_x', 'periodic_y'}
+        As for :class:`HalfspaceOperator`.
 
     Returns
     -------

@@ -28,7 +28,7 @@ def halfplane_tensor(stress: ArrayLike, poisson: float, plane_state: PlaneState 
     """
     stresses = _components("stress", stress, 3)
     tensor = np.empty((*stresses.shape[:-1], 6))
-    state = _arrays.choice("plane_state", plane_state, PLANE_STATES)
+    state = PLANE_STATES.number(plane_state)
     call("fuge_halfplane_tensor", tensor.size // 6, stresses, state, _arrays.number("poisson", poisson), tensor)
     return tensor
 

@@ -11,15 +11,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
-from fuge._structs import StressPeakStruct
+from fuge._library import struct
+from fuge._words import Words
 from fuge.halfplane import PLANE_STATES, Element, PlaneState
 from fuge.stress import rectangles, rings, strips
 
 Measure = Literal["von_mises", "tresca"]
 Location = Literal["inside", "surface", "singular"]
 
-MEASURES = {"von_mises": 0, "tresca": 1}
-LOCATIONS = {"inside": 0, "surface": 1, "singular": 2}
+MEASURES = Words("measure", Measure, "MEASURE_")
+LOCATIONS = Words("location", Location, "PEAK_")
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,22 +46,16 @@ class StressPeak:
 
 
 def find_peak(name: str, *arguments: Any) -> StressPeak:
-    """Call a function whose arguments are followed by the peak, message and len."""
-    peak = StressPeakStruct()
+    """Call a function with `arguments`, followed by the peak, message and len."""
+    peak = struct("fuge_stress_peak")
     call(name, *arguments, ctypes.byref(peak))
-    words = {number: word for word, number in LOCATIONS.items()}
-    location = cast(Location, words[peak.location])
+    location = cast(Location, LOCATIONS.word(peak.location))
     return StressPeak(location, peak.value, np.array(peak.place), np.array(peak.tensor))
 
 
-def measured(measure: Measure) -> int:
-    """The number of a measure."""
-    return _arrays.choice("measure", measure, MEASURES)
-
-
 def plane_body(plane_state: PlaneState, poisson: float) -> list[Any]:
-    """Arguments of a body in a plane."""
-    return [_arrays.choice("plane_state", plane_state, PLANE_STATES), _arrays.number("poisson", poisson)]
+    """The arguments plane_state, poisson of a body in a plane."""
+    return [PLANE_STATES.number(plane_state), _arrays.number("poisson", poisson)]
 
 
 def halfplane_peak(
@@ -74,7 +69,7 @@ def halfplane_peak(
     plane_state: PlaneState = "strain",
     symmetric: bool = False,
 ) -> StressPeak:
-    """Under the forces of cells on a half-plane, which are those of :func:`halfplane_stress`.
+    """The largest stress under forces on the cells of a half-plane.
 
     Parameters
     ----------
@@ -83,10 +78,12 @@ def halfplane_peak(
     poisson : float
         Poisson's ratio of the body.
     measure : {'von_mises', 'tresca'}
+        Which stress is to be largest.
     plane_state : {'strain', 'stress'}
+        Long bodies, or thin ones.
     """
     arguments = [*strips(x, width, force, element), *plane_body(plane_state, poisson), int(bool(symmetric))]
-    return find_peak("fuge_halfplane_peak", *arguments, measured(measure))
+    return find_peak("fuge_halfplane_peak", *arguments, MEASURES.number(measure))
 
 
 def halfspace_peak(
@@ -101,12 +98,13 @@ def halfspace_peak(
     symmetric_x: bool = False,
     symmetric_y: bool = False,
 ) -> StressPeak:
-    """Under the forces of rectangles on a half-space, which are those of :func:`halfspace_stress`."""
+    """The largest stress under forces on rectangles, given as for :func:`halfspace_stress`."""
     arguments = [*rectangles(x, y, width_x, width_y, force), _arrays.number("poisson", poisson)]
     sides = [int(bool(symmetric_x)), int(bool(symmetric_y))]
-    return find_peak("fuge_halfspace_peak", *arguments, *sides, measured(measure))
+    return find_peak("fuge_halfspace_peak", *arguments, *sides, MEASURES.number(measure))
 
 
 def ring_peak(radius: ArrayLike, force: ArrayLike, poisson: float, measure: Measure = "von_mises") -> StressPeak:
-    """Under the forces of rings, which are those of :func:`ring_stress`."""
-    return find_peak("fuge_ring_peak", *rings(radius, force), _arrays.number("poisson", poisson), measured(measure))
+    """The largest stress under forces on rings, given as for :func:`ring_stress`."""
+    arguments = [*rings(radius, force), _arrays.number("poisson", poisson)]
+    return find_peak("fuge_ring_peak", *arguments, MEASURES.number(measure))

@@ -58,7 +58,7 @@ def summary(outputs: list[dict[str, Any]]) -> tuple[str, int]:
 
 
 def main(path: Path, write: bool) -> int:
-    """Run all code cells in one namespace; 1 if one of them gives something else than the file says."""
+    """Run all code cells in one namespace; 1 if the output of one of them differs from that in the file."""
     notebook = json.loads(path.read_text(encoding="utf-8"))
     names: dict[str, Any] = {"__name__": "__main__"}
     different = 0

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 
 import fuge
-import headers
 from fuge._library import has_sparse
 
 YOUNG, POISSON, PRESSURE = 2.0, 0.25, 0.01
@@ -153,7 +152,7 @@ class MeshWithMatrix(unittest.TestCase):
             )
             mesh = fuge.read_mesh(path)
         node, direction = np.repeat(np.array([10, 20, 30, 40], dtype=np.intc), 2), np.tile([1, 2], 4).astype(np.intc)
-        # The program has left out a support.
+        # The matrix has no row for one degree of freedom, which is fixed.
         node, direction = node[1:], direction[1:]
         identity = np.arange(8, dtype=np.intc)
         stiffness = fuge.StiffnessFile((7, 7), identity, identity[:7], np.ones(7), node, direction)
@@ -168,7 +167,7 @@ class MeshWithMatrix(unittest.TestCase):
 
     def test_blocks_in_files(self):
         # Two blocks 6 wide whose meshes do not match, under 12: the job of the program fuge in this folder.
-        folder = headers.ROOT / "examples" / "data" / "blocks"
+        folder = Path(__file__).resolve().parents[2] / "examples" / "data" / "blocks"
         bodies, surfaces = fuge.ElasticBodies(), []
         for name in ("lower", "upper"):
             mesh, stiffness = fuge.read_mesh(folder / f"{name}.inp"), fuge.read_stiffness(folder / f"{name}.sti")

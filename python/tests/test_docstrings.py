@@ -14,7 +14,7 @@ PICTURES = ("gap", "line", "map", "path", "stress")
 
 
 def public(module):
-    """What a module offers, by its names."""
+    """The public functions and classes of a module, by their names."""
     return {
         name: item
         for name, item in vars(module).items()
@@ -41,7 +41,7 @@ class Docstrings(unittest.TestCase):
     def test_the_map_has_all_names(self):
         words = set(re.findall(r"[\w.]+", fuge.__doc__))
         self.assertEqual(set(ALL) - words, set())
-        # And no others: what looks like a function or a class is one.
+        # What looks like a function or a class in the map is one.
         unknown = [
             word
             for word in re.findall(r"\b(?:plot\.)?[A-Za-z]+(?:_[a-z]+)+|\b[A-Z][a-z]+[A-Z]\w+", fuge.__doc__)

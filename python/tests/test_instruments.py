@@ -1,4 +1,4 @@
-"""Files of instruments: read by SurfaceTopography, of which a stub stands in the way of a real one."""
+"""Files of instruments, read by a stub in place of SurfaceTopography."""
 
 import os
 import sys

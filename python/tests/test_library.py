@@ -1,4 +1,4 @@
-"""What is said where libraries are missing, and errors that go from process to process."""
+"""Messages where libraries are missing, and errors and results that are pickled."""
 
 import os
 import pickle
@@ -13,7 +13,7 @@ from fuge import _library
 
 
 def run(code, folder):
-    """What a new Python prints whose libraries are in `folder`."""
+    """The output of a new Python that looks for the libraries in `folder`."""
     environment = {**os.environ, "FUGE_LIBRARY_DIR": str(folder)}
     return subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)
 

@@ -48,7 +48,7 @@ class Words(unittest.TestCase):
 
 
 class Places(unittest.TestCase):
-    """What stands at [2, 3] of an array of the shape (4, 5) is there in the message."""
+    """An element at [2, 3] of an array of the shape (4, 5) has these indices in the message."""
 
     def setUp(self):
         self.bad = np.zeros((4, 5))
@@ -74,7 +74,7 @@ class Places(unittest.TestCase):
         self.says("gap_upper", lambda: fuge.solve(self.operator, 0.0, 1.0, gap_upper=self.bad))
         modes = np.dstack([np.ones((4, 5)), self.bad])
         self.says("modes", lambda: fuge.solve(self.operator, 0.0, modes=modes, resultant=[1.0, 0.0]), "[2, 3, 1]")
-        # In the shape in which they were given.
+        # Indices are those of the shape that the caller's array has.
         self.says("gap", lambda: fuge.solve(self.operator, self.bad.ravel(), 1.0), "[13]")
         self.says("force", lambda: self.operator @ self.bad)
 

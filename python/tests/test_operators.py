@@ -123,12 +123,12 @@ class Halfspace(QuietRims):
         self.assertEqual(seen.warning.status, fuge.Status.DONE)
         self.assertEqual(contact.info.status, fuge.Status.DONE)
         self.assertIn("rim", contact.message)
-        # For bodies that end there.
+        # Where the bodies end at the rim, the warning can be turned off.
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", fuge.GridWarning)
             fuge.solve(operator, gap, 0.1)
-        # As an error: the solver still has its solution.
+        # A warning that is raised as an error leaves the solution in the solver.
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             solver = fuge.Solver(operator)
@@ -265,7 +265,7 @@ class Callback(unittest.TestCase):
 
 
 class Grids(QuietRims):
-    """What operators of grids tell of themselves and of their contacts."""
+    """Attributes and representations of operators of grids and of their contacts."""
 
     def test_line(self):
         operator = fuge.HalfplaneOperator(64, 0.5, 2.0)
@@ -305,7 +305,7 @@ class Grids(QuietRims):
         np.testing.assert_allclose(fuge.HalfplaneOperator(3, 1.0, 1.0) @ [1.0, 0.0, 0.0], wanted, rtol=1e-13)
 
     def test_path_without_a_matrix(self):
-        # Whatever the shape of the gaps.
+        # The operator is refused, whatever the shapes of gaps and motions are.
         operator = fuge.HalfspaceOperator(2, 2, 1.0, 1.0, 1.0)
         words = r"influence matrix, which HalfspaceOperator\(nx=2"
         with self.assertRaisesRegex(fuge.UnsupportedError, words):
@@ -337,7 +337,7 @@ class Grids(QuietRims):
         self.assertEqual(operator.cells.shape, (3, 4))
         self.assertEqual(repr(operator), "CallbackOperator(n=12, grid=(3, 4))")
         np.testing.assert_allclose(fuge.solve(operator, 0.0, 3.0).pressure, 1.0)
-        # Another grid: its spacing is unknown.
+        # The spacing of another grid is unknown.
         operator.set_grid(2, 6)
         self.assertIsNone(operator.cells)
 
@@ -364,7 +364,7 @@ class Products(unittest.TestCase):
             np.testing.assert_allclose(fuge.HalfplaneOperator(20, 0.1, 2.0, element) @ force, wanted, atol=1e-14)
 
     def test_area(self):
-        # Not square, and in either shape and memory order.
+        # A grid that is not square, with forces in either shape and memory order.
         ny, nx = 3, 5
         x, y = np.meshgrid(0.1 * np.arange(nx), 0.3 * np.arange(ny))
         force = np.cos(20.0 * x) * (1.0 + y)
@@ -375,7 +375,7 @@ class Products(unittest.TestCase):
         np.testing.assert_allclose(operator @ np.asfortranarray(force), wanted.reshape(ny, nx), atol=1e-14)
 
     def test_gaps_of_a_contact(self):
-        # What the solver returns is c = g + A f - v.
+        # The gaps of a solution are c = g + A f - v.
         operator = fuge.HalfspaceOperator(8, 8, 1.0, 1.0, 1.0, "mean")
         gap = np.add.outer((np.arange(8) - 3.5) ** 2, (np.arange(8) - 3.5) ** 2)
         contact = fuge.solve(operator, gap, 10.0)

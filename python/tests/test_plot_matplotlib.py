@@ -35,7 +35,7 @@ class Pictures(unittest.TestCase):
         self.addCleanup(pyplot.close, "all")
 
     def drawn(self, ax):
-        """Draw it as into a file."""
+        """The axes, drawn as when their figure is saved."""
         with io.BytesIO() as picture:
             ax.figure.savefig(picture, format="png")
             self.assertGreater(picture.tell(), 5000)
@@ -84,7 +84,7 @@ class Lines(Pictures):
         self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("x", "pressure"))
 
     def test_forces_that_pull(self):
-        # Tied points, of which some pull: by sums as by transforms, on areas and on lines.
+        # Some of the tied points pull; stresses are the same by sums and by transforms, on areas and on lines.
         tied = {"gap_upper": 0.0}
         area = fuge.HalfspaceOperator(12, 10, 0.1, 0.1, 2.0)
         line = fuge.HalfplaneOperator(24, 0.1, 2.0)
@@ -140,7 +140,7 @@ class Maps(Pictures):
         np.testing.assert_allclose(image.get_extent(), [0.52, 1.48, 1.6, 2.4])
 
     def test_unequal_cells(self):
-        # They grow from the middle of the grid.
+        # The widths of the cells grow from the middle of the grid.
         x = np.sign(self.x) * self.x**2
         ax = self.drawn(fuge.plot.map(self.ball, x=x, y=self.y))
         (mesh,) = ax.collections
@@ -260,7 +260,7 @@ class Stresses(Pictures):
                     self.spacing, self.spacing, contact.force, 0.3, depth, "periodic_x"
                 ),
             )
-            # The cut goes through the largest pressure, beside which the largest stress may be by a cell.
+            # The largest stress may be a cell beside the largest pressure, through which the cut goes.
             self.assertAlmostEqual(ax.collections[0].get_array().max() / wanted, 1.0, delta=5e-3)
             # A large grid has room for a few depths at a time only.
             with mock.patch.object(fuge._cuts, "_ROOM", 10 * contact.force.size):
@@ -268,7 +268,7 @@ class Stresses(Pictures):
             np.testing.assert_allclose(again.collections[0].get_array(), ax.collections[0].get_array(), rtol=1e-12)
 
     def test_many_cells(self):
-        # The sums over all pressed cells give way to transforms.
+        # Transforms replace sums where many cells are pressed.
         for along in ("x", "y"):
             ax = fuge.plot.stress(self.ball, along=along)
             a_sum = mock.Mock(side_effect=AssertionError("a sum"))

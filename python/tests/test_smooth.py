@@ -56,7 +56,7 @@ class Smooth(unittest.TestCase):
         self.assertRaises(fuge.CallbackError, fuge.solve_smooth_punch, lambda x: (x * np.nan, x), -1.0, 1.0, 1.0, 1.0)
 
     def test_warnings_that_are_errors(self):
-        # A tilt that is free and has no force to resist: with the filter "error" nothing is left behind.
+        # Without a force the tilt is arbitrary, a warning; raised as an error it leaves no handle behind.
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             with self.assertRaises(fuge.NotUniqueWarning) as caught:

@@ -152,7 +152,7 @@ class Errors(unittest.TestCase):
         )
 
     def test_kinds(self):
-        # Python's own kinds hold as well.
+        # The exceptions are also of Python's own classes.
         self.assertTrue(issubclass(fuge.InputError, ValueError))
         self.assertTrue(issubclass(fuge.OutOfMemoryError, MemoryError))
         self.assertTrue(issubclass(fuge.FileError, OSError))
@@ -160,7 +160,7 @@ class Errors(unittest.TestCase):
             self.assertTrue(status.text)
 
     def test_warning(self):
-        # A body without load: its tilt is any.
+        # The tilt of a body without load is arbitrary.
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             contact = fuge.solve(ALPHA, GAP, modes=np.array([[1.0, 0.0], [1.0, 1.0]]), resultant=[0.0, 0.0])
@@ -195,7 +195,7 @@ class Solvers(unittest.TestCase):
         again = self.solver.solve()
         self.assertLess(warm.info.products, again.info.products)
         np.testing.assert_allclose(warm.force, again.force, rtol=0, atol=1e-10)
-        # Results belong to their own solve.
+        # Later solves do not change the results of earlier ones.
         self.assertAlmostEqual(cold.force.sum(), 400.0, delta=1e-10)
 
     def test_engines_agree(self):
@@ -294,7 +294,7 @@ class Solvers(unittest.TestCase):
         self.solver.set_progress(progress)
         with self.assertRaisesRegex(KeyError, "mine"):
             self.solver.solve()
-        # The next call has nothing left of it.
+        # The exception is gone in the next call.
         self.solver.set_progress(None)
         self.assertEqual(self.solver.solve().info.status, fuge.Status.DONE)
 
@@ -395,7 +395,7 @@ class Solvers(unittest.TestCase):
 
 
 class Copies(unittest.TestCase):
-    """What is in the memory of the library is neither copied nor pickled."""
+    """Objects in the memory of the library are neither copied nor pickled."""
 
     def test_copies_and_pickles_are_refused(self):
         solver = fuge.Solver(ALPHA.copy())
@@ -413,7 +413,7 @@ class Copies(unittest.TestCase):
         ignored.assert_not_called()
         solver.set_gap(GAP)
         solver.set_load(2.0)
-        # Answers are arrays of Python.
+        # A solution has arrays of its own, and can be copied.
         contact = solver.solve()
         for other in (copy.deepcopy(contact), pickle.loads(pickle.dumps(contact))):
             np.testing.assert_array_equal(other.force, contact.force)

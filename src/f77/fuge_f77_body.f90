@@ -9,7 +9,7 @@ module fuge_f77_body
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
     FUGE_ERR_NO_EQUILIBRIUM
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
@@ -56,10 +56,8 @@ contains
     allocate (body%fixed(size(fixed)), body%displacement(size(displacement)), body%load(size(load)), &
               body%dof(size(dof, 1), size(dof, 2)), body%normal(size(dof, 1), size(dof, 2)), stat=stat)
     if (stat == 0 .and. m > 0) allocate (body%rigid_modes(size(load), m), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of supports, load, rigid modes and contact points')
-      return
-    end if
+    call require_memory(stat, 'a copy of supports, load, rigid modes and contact points', info)
+    if (stat /= 0) return
     body%fixed = fixed
     body%displacement = displacement
     body%load = load

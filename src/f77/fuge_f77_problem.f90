@@ -8,7 +8,8 @@ module fuge_f77_problem
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
   use fuge_solver_type, only: fuge_solver
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_OPTION
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, &
+    FUGE_ERR_OPTION
   implicit none
   private
 
@@ -110,10 +111,8 @@ contains
     allocate (problem%gap(n), problem%modes(n, m), problem%resultant(m), stat=stat)
     if (stat == 0 .and. any(stops == EXCLUDED)) allocate (problem%excluded(n), stat=stat)
     if (stat == 0 .and. any(stops == TWO_SIDED)) allocate (problem%gap_upper(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of gaps, stops and modes')
-      return
-    end if
+    call require_memory(stat, 'a copy of gaps, stops and modes', info)
+    if (stat /= 0) return
     problem%gap = gap
     ! Without modes their array need not have n rows.
     if (m > 0) problem%modes = modes(:n, :)

@@ -71,11 +71,8 @@ set(number_of_functions 0)
 set(number_of_constants 0)
 
 # The six are those that the facade has.
-file(STRINGS "${SOURCES}/components.txt" lines REGEX "^[a-z]")
-foreach(line IN LISTS lines)
-  string(REGEX MATCH "^([a-z0-9]+) *: *(.*)$" line "${line}")
-  string(REPLACE " " ";" "uses_${CMAKE_MATCH_1}" "${CMAKE_MATCH_2}")
-endforeach()
+include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/uses.cmake")
+fuge_read_uses("${SOURCES}/components.txt" uses_)
 set(components ${uses_facade})
 
 foreach(component IN LISTS components)

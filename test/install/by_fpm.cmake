@@ -1,5 +1,5 @@
 # fpm projects in Fortran and C: one links the copy in PREFIX; the other one, without PREFIX, depends on the
-# sources in SOURCE_DIR.
+# sources in SOURCE_DIR. After the latter also the project src/program, which depends on them too.
 # ctest sets PREFIX and PKG_CONFIG, or SOURCE_DIR, MAKE_PROGRAM and BUILT; LIBDIR, KIND, SCRATCH, FPM and
 # Fortran_COMPILER.
 cmake_minimum_required(VERSION 3.20)
@@ -20,6 +20,8 @@ if(NOT PREFIX)
   prepare_compiling()
   set(options --flag "${flags}" --c-flag -O0)
   if(BUILT)
+    # What is compiled anew is not optimised.
+    list(APPEND compiling FURTHER=-O0)
     # fpm knows a compiler by its name.
     file(CONFIGURE OUTPUT "${SCRATCH}/gfortran" @ONLY
       CONTENT "#!/bin/sh\nexec '@CMAKE_CURRENT_LIST_DIR@/take_built.sh' '@Fortran_COMPILER@' \"$@\"\n")
@@ -27,7 +29,8 @@ if(NOT PREFIX)
     set(Fortran_COMPILER "${SCRATCH}/gfortran")
   endif()
   # fpm takes no absolute path.
-  file(RELATIVE_PATH SOURCE_DIR "${SCRATCH}" "${SOURCE_DIR}")
+  set(sources "${SOURCE_DIR}")
+  file(RELATIVE_PATH SOURCE_DIR "${SCRATCH}" "${sources}")
   configure_file("${CMAKE_CURRENT_LIST_DIR}/${project}/fpm.toml" "${SCRATCH}/fpm.toml" @ONLY)
 endif()
 configure_file("${CMAKE_CURRENT_LIST_DIR}/fortran/main.f90" "${SCRATCH}/app/main.f90" COPYONLY)
@@ -39,4 +42,22 @@ string(REGEX MATCHALL "${answer}" answers "${output}")
 list(LENGTH answers count)
 if(NOT count EQUAL 2)
   message(FATAL_ERROR "${count} programs by fpm have answered, not 2: ${output}")
+endif()
+
+if(NOT PREFIX)
+  # The program, in a copy of its folder that lies among the others as in the sources, where fpm would leave its build.
+  set(tree "${SCRATCH}_program")
+  file(REMOVE_RECURSE "${tree}")
+  file(COPY "${sources}/src/program" DESTINATION "${tree}/src" PATTERN build EXCLUDE)
+  file(GLOB others RELATIVE "${sources}" "${sources}/fpm.toml" "${sources}/examples" "${sources}/src/*")
+  list(REMOVE_ITEM others src/program)
+  foreach(other IN LISTS others)
+    file(CREATE_LINK "${sources}/${other}" "${tree}/${other}" SYMBOLIC)
+  endforeach()
+  run("the program by fpm" ${compiling} "${CMAKE_COMMAND}" -E chdir "${tree}/src/program"
+    "${FPM}" run --compiler "${Fortran_COMPILER}" ${options} -- --version)
+  if(NOT output MATCHES "fuge [0-9]+[.][0-9]")
+    message(FATAL_ERROR "the program by fpm does not say its version: ${output}")
+  endif()
+  file(REMOVE_RECURSE "${tree}")
 endif()

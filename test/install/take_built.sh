@@ -2,7 +2,7 @@
 # take_built.sh compiler argument ..: compile a Fortran source, or take what the build in the folder BUILT has made of
 # it. That needs the same flags, FLAGS, an object newer than the source in SOURCE_DIR, and modules in use that are the
 # same to the byte; -Werror and -fPIC do not count, the library has the latter in any case. Without BUILT, and for all
-# else, the compiler does it.
+# else, the compiler does it, with the options FURTHER too.
 # The scripts of the tests set BUILT, FLAGS and SOURCE_DIR in the environment; CMake runs this as a launcher.
 object='' modules=. flags='' file='' previous=''
 for word; do
@@ -58,7 +58,9 @@ is_built() {
   done
 }
 
-is_built || exec "$@"
+# Word splitting is meant: options.
+# shellcheck disable=SC2086
+is_built || exec "$@" ${FURTHER:-}
 for module in $declared; do
   # As a compiler, which leaves one that has not changed.
   cmp -s "$modules_built/$module.mod" "$modules/$module.mod" || cp "$modules_built/$module.mod" "$modules" || exit 1

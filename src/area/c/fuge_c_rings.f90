@@ -4,7 +4,7 @@ module fuge_c_rings
   use fuge_c_operator, only: find_matrix
   use fuge_c_types, only: copy_reals, report_to_c, require_count, require_pointer
   use fuge_ring_influence, only: fuge_ring_displacement, fuge_ring_matrix
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -50,7 +50,7 @@ contains
     call require_pointer(displacement, 'displacement', info)
     if (.not. info%failed()) then
       allocate (found(number), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
+      call require_memory(stat, 'the displacements', info)
     end if
     if (.not. info%failed()) then
       call c_f_pointer(radius, radii, [int(n) + 1])

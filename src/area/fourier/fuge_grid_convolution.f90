@@ -26,7 +26,7 @@ module fuge_grid_convolution
 
   !> Columns in the buffer.
   integer, parameter :: COLUMNS = 16
-  !> Rows whose distance in memory is a multiple of so many bytes fall on the same places of the cache.
+  !> Rows whose distance in memory is a multiple of PAGE bytes displace each other from the cache.
   integer, parameter :: PAGE = 4096
 
   !> The spectrum of an even kernel.
@@ -172,7 +172,8 @@ contains
     call return_rows(plan%kept, rows)
   end subroutine convolve
 
-  !> What threads need to know. By addresses, because no pointer may be associated with arguments that are read only.
+  !> The product as the threads see it. By addresses, because no pointer may be associated with arguments that are read
+  !> only.
   subroutine describe_job(kernel, plan, x, y, job)
     class(grid_kernel), intent(in), target :: kernel
     type(grid_plan), intent(in), target :: plan

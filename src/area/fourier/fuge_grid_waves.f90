@@ -202,16 +202,16 @@ contains
     real(dp), intent(inout) :: y(:)
     real(c_double), pointer, contiguous :: kernels(:, :, :), values(:, :, :), product(:, :, :)
     real(dp) :: factor, sign_y
-    integer :: j, k, part, opposite
+    integer :: j, k, component, opposite
 
     call see_waves(self, self%kernels, kernels)
     call see_waves(self, self%values, values)
     call see_waves(self, self%product, product)
-    part = merge(2, 1, odd(1) .neqv. odd(2))
+    component = merge(2, 1, odd(1) .neqv. odd(2))
     sign_y = merge(-0.5_dp, 0.5_dp, odd(2))
     do k = 0, self%length(2) - 1
       opposite = modulo(-k, self%length(2))
-      if (part == 1) then
+      if (component == 1) then
         do j = 0, self%length(1)/2
           factor = 0.5_dp*kernels(1, j, k) + sign_y*kernels(1, j, opposite)
           product(1, j, k) = factor*values(1, j, k)
@@ -231,8 +231,8 @@ contains
   !> `y` (nx*ny): the values convolved with a kernel of the kind `odd` (2) whose spectrum is given, cyclic in both
   !> directions.
   !>
-  !> `spectrum` (0:nx/2, 0:ny/2): the factor of the waves of that many periods along x and y, but for the imaginary unit
-  !> of a kernel that is odd in one direction.
+  !> `spectrum` (0:nx/2, 0:ny/2): (j, k) is the factor of the wave of j and k periods along x and y, but for the
+  !> imaginary unit of a kernel that is odd in one direction.
   subroutine multiply(self, odd, spectrum, y)
     class(grid_waves), intent(inout) :: self
     logical, intent(in) :: odd(2)

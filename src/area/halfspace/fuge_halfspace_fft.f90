@@ -219,7 +219,7 @@ contains
     call self%influence%convolve(self%plan, size(force), force, displacement, self%threads, status)
   end subroutine apply
 
-  !> What is subtracted from all coefficients, length per force; 0 unless the surface is periodic in one direction only.
+  !> The number subtracted from all coefficients, length per force; 0 unless one direction only is periodic.
   function datum(self)
     class(fuge_halfspace_operator), intent(in) :: self
     real(dp) :: datum

@@ -13,13 +13,13 @@ module fuge_halfspace_influence
   use fuge_rectangle_checks, only: check_area_element, check_area_modulus, check_rectangles
   use fuge_rectangle_influence, only: mixed_coefficients, new_rectangle_kernel, pair_coefficients, rectangle_kernel, &
     set_widths, HALFSPACE_FACTOR, PAIRS
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   implicit none
   private
 
   public :: fuge_halfspace_matrix
 
-  !> Rectangles, and what their coefficients depend on.
+  !> Rectangles, and the data on which their coefficients depend.
   type :: rectangles
     real(dp), allocatable :: x(:), y(:), width_x(:), width_y(:)
     !> One side and the other one of x = 0 and of y = 0: 1 or 2 images.
@@ -77,7 +77,7 @@ contains
       call fill_from_grid(cells, e_star, alpha, done)
       if (.not. done) call fill_from_pairs(cells, e_star, alpha, stat)
     end if
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rectangles: n = '//text(size(x)))
+    call require_memory(stat, 'the rectangles: n =', size(x), '', info)
   end subroutine fuge_halfspace_matrix
 
   !> Cells of one grid have few different coefficients: fill the matrix from a table of them. `done` is false, and
@@ -111,8 +111,8 @@ contains
 
   !> The place 0, 1, .. of each cell in its line, if they are cells of one width side by side, up to rounding.
   !>
-  !> `mirror`: with two images, the mirror image of a cell in place 0 is that many places away from it; 0 with one
-  !> image; -1 if they are no such cells.
+  !> `mirror`: with two images, the distance of a cell in place 0 from its mirror image, in places; 0 with one image; -1
+  !> if they are no such cells.
   pure subroutine find_places(x, width, images, place, mirror)
     real(dp), intent(in) :: x(:), width(:)
     integer, intent(in) :: images

@@ -31,8 +31,8 @@ module fuge_halfspace_waves
   real(dp), parameter :: SHORT = 0.04_dp
   !> Up to this t/h the sum over cells is taken, above it the one over waves.
   real(dp), parameter :: SWITCH = 0.4_dp
-  !> From this t/h on a Gaussian is smooth over a cell.
-  real(dp), parameter :: SMOOTH = 2.0_dp
+  !> From this t/h on, the Gauss rule integrates a Gaussian over a cell to rounding.
+  real(dp), parameter :: RESOLVED = 2.0_dp
   !> Cells on each side, and waves, that count.
   integer, parameter :: NEIGHBOURS = 5, ALIASES = 3
   !> exp(-x**2) and erfc(x) are less than rounding.
@@ -218,25 +218,25 @@ contains
     end do
   end subroutine fill_circle
 
-  !> The part of a Gaussian of variance 2 t**2 about a cell of width 1, averaged over the cell unless the `element` is
+  !> The share of a Gaussian of variance 2 t**2 about a cell of width 1, averaged over the cell unless the `element` is
   !> FUGE_CENTRE, that lies in the cells at the distances 0, 1, ..
-  pure subroutine fill_places(t, element, part)
+  pure subroutine fill_places(t, element, share)
     real(dp), intent(in) :: t
     integer, intent(in) :: element
-    real(dp), intent(out) :: part(0:)
+    real(dp), intent(out) :: share(0:)
     integer :: count, j
 
-    count = int(min(real(ubound(part, 1), dp), 2.0_dp + 2.0_dp*NEGLIGIBLE*t))
-    part(count + 1:) = 0.0_dp
-    if (t < SMOOTH) then
-      call fill_parts(t, merge(1, 2, element == FUGE_CENTRE), part(:count))
+    count = int(min(real(ubound(share, 1), dp), 2.0_dp + 2.0_dp*NEGLIGIBLE*t))
+    share(count + 1:) = 0.0_dp
+    if (t < RESOLVED) then
+      call fill_shares(t, merge(1, 2, element == FUGE_CENTRE), share(:count))
       return
     end if
     do j = 0, count
       if (element == FUGE_CENTRE) then
-        part(j) = sum(GAUSS_WEIGHT*(gaussian(j + 0.5_dp*GAUSS_NODE, t) + gaussian(j - 0.5_dp*GAUSS_NODE, t)))*0.5_dp
+        share(j) = sum(GAUSS_WEIGHT*(gaussian(j + 0.5_dp*GAUSS_NODE, t) + gaussian(j - 0.5_dp*GAUSS_NODE, t)))*0.5_dp
       else
-        part(j) = sum(GAUSS_WEIGHT*(1.0_dp - GAUSS_NODE)*(gaussian(j + GAUSS_NODE, t) + gaussian(j - GAUSS_NODE, t)))
+        share(j) = sum(GAUSS_WEIGHT*(1.0_dp - GAUSS_NODE)*(gaussian(j + GAUSS_NODE, t) + gaussian(j - GAUSS_NODE, t)))
       end if
     end do
   end subroutine fill_places
@@ -285,13 +285,13 @@ contains
     integer, intent(in) :: n, power
     real(dp), intent(in) :: t
     real(dp), intent(out) :: sums(0:)
-    real(dp) :: part(0:NEIGHBOURS)
+    real(dp) :: share(0:NEIGHBOURS)
     integer :: k
 
     if (t < SWITCH) then
-      call fill_parts(t, power, part)
+      call fill_shares(t, power, share)
       do k = 0, ubound(sums, 1)
-        sums(k) = sum_over_cells(part, real(k, dp)/real(n, dp))
+        sums(k) = sum_over_cells(share, real(k, dp)/real(n, dp))
       end do
     else
       do k = 0, ubound(sums, 1)
@@ -300,23 +300,23 @@ contains
     end if
   end subroutine fill_sums
 
-  !> The part of a Gaussian of variance 2 t**2 about a cell of width 1, averaged over the cell if `power` is 2,
+  !> The share of a Gaussian of variance 2 t**2 about a cell of width 1, averaged over the cell if `power` is 2,
   !> that lies in the cells at the distances 0, 1, ..
-  pure subroutine fill_parts(t, power, part)
+  pure subroutine fill_shares(t, power, share)
     real(dp), intent(in) :: t
     integer, intent(in) :: power
-    real(dp), intent(out) :: part(0:)
+    real(dp), intent(out) :: share(0:)
     integer :: j
 
-    do j = 0, ubound(part, 1)
+    do j = 0, ubound(share, 1)
       if (power == 1) then
-        part(j) = 0.5_dp*(erfc((j - 0.5_dp)/(2.0_dp*t)) - erfc((j + 0.5_dp)/(2.0_dp*t)))
+        share(j) = 0.5_dp*(erfc((j - 0.5_dp)/(2.0_dp*t)) - erfc((j + 0.5_dp)/(2.0_dp*t)))
       else
-        part(j) = 0.5_dp*(antiderivative(j - 1.0_dp, t) - 2.0_dp*antiderivative(real(j, dp), t) &
+        share(j) = 0.5_dp*(antiderivative(j - 1.0_dp, t) - 2.0_dp*antiderivative(real(j, dp), t) &
                           + antiderivative(j + 1.0_dp, t))
       end if
     end do
-  end subroutine fill_parts
+  end subroutine fill_shares
 
   !> The integral of -erfc(s/(2 t)) over s up to x, from infinity.
   pure function antiderivative(x, t) result(value)
@@ -328,18 +328,18 @@ contains
     if (abs(ratio) < 2.0_dp*NEGLIGIBLE) value = value + 2.0_dp*t/sqrt(PI)*exp(-ratio**2)
   end function antiderivative
 
-  !> `part`(0) + 2 sum of `part`(j) cos(2 pi mu j).
-  pure function sum_over_cells(part, mu) result(total)
-    real(dp), intent(in) :: part(0:), mu
+  !> `share`(0) + 2 sum of `share`(j) cos(2 pi mu j).
+  pure function sum_over_cells(share, mu) result(total)
+    real(dp), intent(in) :: share(0:), mu
     real(dp) :: total, before, now, next, twice
     integer :: j
 
     twice = 2.0_dp*cos(2.0_dp*PI*mu)
     before = 1.0_dp
     now = 0.5_dp*twice
-    total = part(0)
-    do j = 1, ubound(part, 1)
-      total = total + 2.0_dp*part(j)*now
+    total = share(0)
+    do j = 1, ubound(share, 1)
+      total = total + 2.0_dp*share(j)*now
       next = twice*now - before
       before = now
       now = next

@@ -15,9 +15,9 @@ module fuge_rectangle_checks
 
   !> Widths with a smaller relative difference count as equal.
   real(dp), parameter :: WIDTH_TOLERANCE = 1.0e-10_dp
-  !> An overlap of a smaller part of the narrower width is taken for rounding of the positions.
+  !> An overlap below this fraction of the narrower width counts as rounding of the positions.
   real(dp), parameter :: OVERLAP_TOLERANCE = 1.0e-6_dp
-  !> Closed forms of two rectangles lose their digits where one width is a smaller part of another one.
+  !> Closed forms of two rectangles lose their digits where one width is below this fraction of another one.
   real(dp), parameter :: SMALLEST_RATIO = 1.0e-5_dp
 
 contains

@@ -24,7 +24,7 @@ module fuge_rectangle_influence
   type(double_double), parameter, public :: HALFSPACE_FACTOR = &
     double_double(0.3183098861837907_dp, -1.9678676675182486e-17_dp)
 
-  !> What all pairs share.
+  !> Data that all pairs share.
   type, public :: rectangle_kernel
     private
     type(double_double) :: factor
@@ -96,7 +96,7 @@ contains
     type(rectangle_kernel), intent(in) :: kernel
     real(dp), intent(in), contiguous :: x_high(:), x_low(:), y_high(:), y_low(:), observed(:, :)
     real(dp), intent(out), contiguous :: coefficient(:)
-    real(dp), dimension(size(coefficient)) :: high, low, square, part
+    real(dp), dimension(size(coefficient)) :: high, low, square, found
     integer, dimension(size(coefficient)) :: order, member
     integer :: group, count, k
 
@@ -122,8 +122,8 @@ contains
       if (count < 1) cycle
       associate (these => member(:count))
         call group_coefficients(kernel, GROUP_ORDERS(group), x_high(these), y_high(these), high(these), low(these), &
-                                square(these), observed(:, these), part(:count))
-        coefficient(these) = part(:count)
+                                square(these), observed(:, these), found(:count))
+        coefficient(these) = found(:count)
       end associate
     end do
   end subroutine mixed_coefficients

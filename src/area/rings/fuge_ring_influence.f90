@@ -12,7 +12,7 @@ module fuge_ring_influence
   use fuge_number_text, only: index_text, text
   use fuge_rectangle_checks, only: check_area_modulus
   use fuge_ring_kernel, only: new_ring_kernel, ring_kernel, ring_mean, ring_value
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, &
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, FUGE_ERR_OVERFLOW, &
     FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   implicit none
   private
@@ -106,11 +106,8 @@ contains
     integer :: stat
 
     allocate (kernel, stat=stat)
-    if (stat == 0) then
-      kernel = new_ring_kernel()
-    else
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the quadrature rules')
-    end if
+    call require_memory(stat, 'the quadrature rules', info)
+    if (stat == 0) kernel = new_ring_kernel()
   end subroutine start_kernel
 
   !> Refuse an element that rings do not have.

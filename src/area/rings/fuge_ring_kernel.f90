@@ -5,7 +5,7 @@
 !> quadrature: all terms are positive, and the distance of two points is a sum of positive terms too, so that no digit
 !> is lost however thin or far the rings are. Rings close to each other have a closed form, `fuge_ring_potential`.
 module fuge_ring_kernel
-  use fuge_gauss_legendre, only: gauss_rule
+  use fuge_gauss_legendre, only: gauss_rules
   use fuge_kinds, only: dp
   use fuge_ring_potential, only: near_ring_mean, near_ring_value
   implicit none
@@ -23,7 +23,7 @@ module fuge_ring_kernel
   type, public :: ring_kernel
     private
     real(dp) :: node(MOST_NODES, MOST_NODES) = 0.0_dp, weight(MOST_NODES, MOST_NODES) = 0.0_dp
-    !> Closest reach for which so many nodes suffice, see `nodes_for`.
+    !> Closest reach for which a rule of n nodes suffices, see `nodes_for`.
     real(dp) :: reach(MOST_NODES) = 0.0_dp
   end type ring_kernel
 
@@ -33,8 +33,8 @@ contains
     type(ring_kernel) :: kernel
     integer :: n
 
+    call gauss_rules(kernel%node, kernel%weight)
     do n = 1, MOST_NODES
-      call gauss_rule(kernel%node(:n, n), kernel%weight(:n, n))
       ! The error falls like (x + sqrt(x**2 - 1))**(-2 n), x the distance of the singularity from the middle of the
       ! ring in half widths.
       kernel%reach(n) = cosh(-log(ERROR)/real(2*n, dp))

@@ -26,80 +26,81 @@ module fuge_number_text
 
 contains
 
-  !> Digit by digit, not by an internal write: see `real_field`.
-  pure function integer_field(value) result(field)
+  !> Digit by digit, not by an internal write: see `real_string`.
+  pure function integer_string(value) result(string)
     integer, intent(in) :: value
-    character(len=12) :: field
+    character(len=12) :: string
     integer :: first, rest
 
-    field = ''
-    first = len(field)
+    string = ''
+    first = len(string)
     ! The negative number always exists.
     rest = merge(value, -value, value < 0)
     do
-      field(first:first) = achar(iachar('0') - mod(rest, 10))
+      string(first:first) = achar(iachar('0') - mod(rest, 10))
       rest = rest/10
       if (rest == 0) exit
       first = first - 1
     end do
     if (value < 0) then
       first = first - 1
-      field(first:first) = '-'
+      string(first:first) = '-'
     end if
-    field = field(first:)
-  end function integer_field
+    string = string(first:)
+  end function integer_string
 
   pure function text_integer(value) result(string)
     integer, intent(in) :: value
-    character(len=len_trim(integer_field(value))) :: string
+    character(len=len_trim(integer_string(value))) :: string
 
-    string = integer_field(value)
+    string = integer_string(value)
   end function text_integer
 
   !> An index for a message: the number of a point, row, degree of freedom or mode, which counts
   !> from 1 here and from 0 in C. `fuge_status` turns the marked number into the caller's.
   pure function index_text(value) result(string)
     integer, intent(in) :: value
-    character(len=len_trim(integer_field(value)) + 1) :: string
+    character(len=len_trim(integer_string(value)) + 1) :: string
 
-    string = INDEX_MARK//integer_field(value)
+    string = INDEX_MARK//integer_string(value)
   end function index_text
 
   !> A real number to six digits or so. Not by an internal write: gfortran's run-time library keeps internal units in
   !> the list through which `open` walks in another thread.
-  pure function real_field(value) result(field)
+  pure function real_string(value) result(string)
     real(dp), intent(in) :: value
-    character(len=24) :: field
+    character(len=24) :: string
 
     ! Asked first, because a comparison with NaN may trap.
     if (ieee_is_nan(value)) then
-      field = 'NaN'
+      string = 'NaN'
       return
     else if (.not. ieee_is_finite(value)) then
-      field = 'Infinity'
+      string = 'Infinity'
     else if (abs(value) >= 1.0e-3_dp .and. abs(value) < 1.0e5_dp) then
-      field = fixed_field(abs(value))
+      string = fixed_string(abs(value))
     else
-      field = exponent_field(abs(value))
+      string = exponent_string(abs(value))
     end if
-    if (sign(1.0_dp, value) < 0.0_dp) field = '-'//trim(field)
-  end function real_field
+    if (sign(1.0_dp, value) < 0.0_dp) string = '-'//trim(string)
+  end function real_string
 
   !> Six digits after the decimal point, of a value below 1e5.
-  pure function fixed_field(value) result(field)
+  pure function fixed_string(value) result(string)
     real(dp), intent(in) :: value
-    character(len=24) :: field
+    character(len=24) :: string
     integer(int64) :: millionths
 
     ! As a double, because flang cannot round wider numbers.
     millionths = nint(real(real(value, xp)*1.0e6_xp, dp), int64)
-    field = trim(integer_field(int(millionths/1000000_int64)))//'.'//last_digits(int(mod(millionths, 1000000_int64)), 6)
-  end function fixed_field
+    string = trim(integer_string(int(millionths/1000000_int64)))//'.' &
+             //last_digits(int(mod(millionths, 1000000_int64)), 6)
+  end function fixed_string
 
   !> One digit, five digits after the decimal point, and the exponent.
-  pure function exponent_field(value) result(field)
+  pure function exponent_string(value) result(string)
     real(dp), intent(in) :: value
-    character(len=24) :: field
+    character(len=24) :: string
     integer :: digits, power
 
     digits = 0
@@ -112,9 +113,9 @@ contains
       if (digits >= 1000000) power = power + 1
       digits = min(six_digits(value, power), 999999)
     end if
-    field = trim(integer_field(digits/100000))//'.'//last_digits(mod(digits, 100000), 5)//'E' &
-            //merge('-', '+', power < 0)//last_digits(abs(power), 3)
-  end function exponent_field
+    string = trim(integer_string(digits/100000))//'.'//last_digits(mod(digits, 100000), 5)//'E' &
+             //merge('-', '+', power < 0)//last_digits(abs(power), 3)
+  end function exponent_string
 
   !> value/10**(power - 5), rounded. In two factors, which stay in range.
   pure function six_digits(value, power) result(digits)
@@ -142,9 +143,9 @@ contains
 
   pure function text_real(value) result(string)
     real(dp), intent(in) :: value
-    character(len=len_trim(real_field(value))) :: string
+    character(len=len_trim(real_string(value))) :: string
 
-    string = real_field(value)
+    string = real_string(value)
   end function text_real
 
 end module fuge_number_text

@@ -16,7 +16,7 @@ module fuge_status
   implicit none
   private
 
-  public :: composed_message, fuge_status_text, message_counting_from, report
+  public :: composed_message, fuge_status_text, message_counting_from, report, require_memory
 
   !> Done, the residual is at most the tolerance.
   integer, parameter, public :: FUGE_DONE = 0
@@ -147,6 +147,13 @@ module fuge_status
     procedure :: failed
   end type fuge_info
 
+  !> Report FUGE_ERR_MEMORY unless `stat` of an allocation is 0. It is passed by value, so that the compiler knows that it
+  !> stays what it is.
+  interface require_memory
+    module procedure require_memory_for
+    module procedure require_memory_for_count
+  end interface require_memory
+
 contains
 
   !> Is it an error? Outputs were then left untouched.
@@ -167,6 +174,26 @@ contains
     info%composed = message
     info%message = message_counting_from(1, info)
   end subroutine report
+
+  !> `what` completes the message 'no memory for ..'.
+  pure subroutine require_memory_for(stat, what, info)
+    integer, value :: stat
+    character(len=*), intent(in) :: what
+    type(fuge_info), intent(inout) :: info
+
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//what)
+  end subroutine require_memory_for
+
+  !> The same for a count of things: 'no memory for the gaps of 12 points' has what = 'the gaps of', unit = 'points'.
+  !> The text is composed only where it is needed.
+  pure subroutine require_memory_for_count(stat, what, count, unit, info)
+    integer, value :: stat
+    integer, intent(in) :: count
+    character(len=*), intent(in) :: what, unit
+    type(fuge_info), intent(inout) :: info
+
+    if (stat /= 0) call require_memory_for(stat, trim(what//' '//text(count))//' '//unit, info)
+  end subroutine require_memory_for_count
 
   !> The message with its indices marked, to be part of another one that `report` is given.
   pure function composed_message(info) result(message)
@@ -212,10 +239,10 @@ contains
   end function end_of_part
 
   !> An index that counts from 1, as text, counted from `first`.
-  pure function renumbered(number, first) result(field)
+  pure function renumbered(number, first) result(string)
     character(len=*), intent(in) :: number
     integer, intent(in) :: first
-    character(len=12) :: field
+    character(len=12) :: string
     integer :: k, value
 
     value = 0
@@ -223,7 +250,7 @@ contains
       if (number(k:k) /= '-') value = 10*value - (iachar(number(k:k)) - iachar('0'))
     end do
     if (scan(number, '-') < 1) value = -value
-    field = text(value + (first - 1))
+    string = text(value + (first - 1))
   end function renumbered
 
   !> Append a part to the first `written` characters; what does not fit is cut.

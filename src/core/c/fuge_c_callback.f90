@@ -10,8 +10,8 @@ module fuge_c_callback
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, &
-    FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY, &
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
@@ -118,7 +118,7 @@ contains
     if (.not. info%failed()) then
       call c_f_pointer(diagonal, values, [callback%n])
       allocate (copy, source=values, stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the diagonal')
+      call require_memory(stat, 'a copy of the diagonal', info)
     end if
     if (.not. info%failed()) call check_diagonal(copy, info)
     if (.not. info%failed()) then

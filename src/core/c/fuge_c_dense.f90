@@ -4,7 +4,7 @@ module fuge_c_dense
   use fuge_c_operator, only: find_matrix
   use fuge_c_types, only: copy_reals, report_to_c, require_pointer
   use fuge_solver_type, only: fuge_solve_dense
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -33,7 +33,7 @@ contains
       call c_f_pointer(gap, initial, [n])
       ! Arrays of the caller may overlap.
       allocate (f(n), c(n), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps')
+      call require_memory(stat, 'the forces and gaps', info)
     end if
     if (.not. info%failed()) call fuge_solve_dense(matrix, initial, load, f, c, v, info)
     status = report_to_c(info, message, length)

@@ -12,7 +12,7 @@ module fuge_c_operator
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, &
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALLBACK, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, &
     FUGE_ERR_UNSUPPORTED
   implicit none
   private
@@ -139,7 +139,7 @@ contains
 
     space = operator%ranks()
     allocate (displacement(size(force)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(force))//' displacements')
+    call require_memory(stat, '', size(force), 'displacements', info)
     call space%agree(info)
     if (info%failed()) return
     call multiply(operator, force, displacement, info)
@@ -176,10 +176,8 @@ contains
     integer :: stat
 
     allocate (handle, stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the operator')
-      return
-    end if
+    call require_memory(stat, 'the operator', info)
+    if (stat /= 0) return
     ! Moved, not copied: an operator may own what must not be shared.
     call move_alloc(operator, handle%operator)
     call set_handle(c_loc(handle), destination)

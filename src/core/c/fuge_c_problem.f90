@@ -12,7 +12,7 @@ module fuge_c_problem
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: check_load, check_play
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -100,7 +100,7 @@ contains
     if (.not. info%failed()) call array_of_one(approach, motion, info)
     if (.not. info%failed()) then
       allocate (prescribed(1), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the approach')
+      call require_memory(stat, 'the approach', info)
     end if
     if (.not. info%failed()) then
       prescribed = .true.
@@ -168,7 +168,7 @@ contains
       stat = 0
       ! Only a single translation can be without a resultant.
       if (.not. allocated(handle%problem%resultant)) allocate (handle%problem%resultant(1), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the resultant')
+      call require_memory(stat, 'the resultant', info)
     end if
     if (.not. info%failed()) then
       handle%problem%resultant(mode + 1) = resultant
@@ -266,10 +266,8 @@ contains
     if (allocated(handle%problem%prescribed)) return
     m = handle%problem%mode_count()
     allocate (prescribed(m), motion(m), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the prescribed motions')
-      return
-    end if
+    call require_memory(stat, 'the prescribed motions', info)
+    if (stat /= 0) return
     prescribed = .false.
     motion = 0.0_dp
     call move_alloc(prescribed, handle%problem%prescribed)
@@ -334,7 +332,7 @@ contains
     if (columns > 0) call require_pointer(source, 'modes', info)
     if (info%failed()) return
     allocate (copy(rows, columns), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the modes')
+    call require_memory(stat, 'a copy of the modes', info)
     if (stat /= 0 .or. columns < 1) return
     call c_f_pointer(source, values, [rows, columns])
     copy = values

@@ -5,7 +5,7 @@ module fuge_c_solver
     take_handle
   use fuge_options_type, only: fuge_options, check_options
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER
   implicit none
   private
 
@@ -45,10 +45,8 @@ contains
     integer :: stat
 
     allocate (handle, stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the solver')
-      return
-    end if
+    call require_memory(stat, 'the solver', info)
+    if (stat /= 0) return
     handle%options = options
     call c_f_pointer(operator, handle%operator)
     call set_handle(c_loc(handle), destination)

@@ -67,18 +67,18 @@ contains
     if (info%failed()) return
 
     do k = 1, beyond(1)
-      associate (place => beyond(1) + 1 - k, near => share(k - 1, n, ends), far => share(k, n, ends))
-        x(place) = left - 0.5_dp*length*(near + far)
-        width(place) = length*(far - near)
+      associate (cell => beyond(1) + 1 - k, near => share(k - 1, n, ends), far => share(k, n, ends))
+        x(cell) = left - 0.5_dp*length*(near + far)
+        width(cell) = length*(far - near)
       end associate
     end do
     do k = 1, n
       call set_inner_cell(left, right, ends, k, n, x(beyond(1) + k), width(beyond(1) + k))
     end do
     do k = 1, beyond(2)
-      associate (place => beyond(1) + n + k, near => share(k - 1, n, ends(2:1:-1)), far => share(k, n, ends(2:1:-1)))
-        x(place) = right + 0.5_dp*length*(near + far)
-        width(place) = length*(far - near)
+      associate (cell => beyond(1) + n + k, near => share(k - 1, n, ends(2:1:-1)), far => share(k, n, ends(2:1:-1)))
+        x(cell) = right + 0.5_dp*length*(near + far)
+        width(cell) = length*(far - near)
       end associate
     end do
   end subroutine fuge_graded_cells

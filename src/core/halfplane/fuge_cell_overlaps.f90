@@ -1,5 +1,5 @@
-!> Cells that overlap: they would press on the same part of the surface twice, and a repeated cell makes
-!> the influence matrix singular.
+!> Cells that overlap: they would press on the same strip of the surface twice, and a repeated cell makes the influence
+!> matrix singular.
 !>
 !> A cell extends half its width to both sides of its centre, for every element: hats, which reach over
 !> their neighbours, have their centres at least one width apart.
@@ -7,7 +7,7 @@ module fuge_cell_overlaps
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_WIDTH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_WIDTH
   implicit none
   private
 
@@ -16,7 +16,7 @@ module fuge_cell_overlaps
   !> Cells may overlap by this fraction of the narrower width, because the positions of cells side by
   !> side may have been read from a file with few digits.
   real(dp), parameter :: ALLOWANCE = 1.0e-4_dp
-  !> And by so many units in the last place of the largest |x|, but by no more than half the width.
+  !> Cells may also overlap by this many units in the last place of the largest |x|, but by no more than half the width.
   real(dp), parameter :: ROUNDINGS = 8.0_dp
 
 contains
@@ -35,10 +35,8 @@ contains
     integer :: k, farthest, stat
 
     allocate (order(size(x)), left(size(x)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(size(x))//' cells')
-      return
-    end if
+    call require_memory(stat, 'the order of', size(x), 'cells', info)
+    if (stat /= 0) return
     left = x - 0.5_dp*width
     order = [(k, k=1, size(x))]
     if (any(left(2:) < left(:size(x) - 1))) call heap_sort(left, order)

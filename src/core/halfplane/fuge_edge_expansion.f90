@@ -18,7 +18,7 @@ module fuge_edge_expansion
 
   public :: effective_edge, pressure_expansion, shift_error
 
-  !> Cells from which the expansion is computed, and its error at most.
+  !> The expansion is computed from CELLS cells, its error from up to JUDGED cells.
   integer, parameter, public :: CELLS = 4, JUDGED = 7
 
   !> First coefficients of the Wiener-Hopf factor, for FUGE_CENTRE and for the other two
@@ -36,7 +36,7 @@ module fuge_edge_expansion
   !> count in units of a2, about the first difference); and by the finite width, over the third one. From the tests.
   real(dp), parameter :: BY_FORCES = 30.0_dp, BY_WIDTH = 0.25_dp
 
-  !> Where the largest force of the contact is 1 an L below this is rounding.
+  !> Where the largest force of the contact is 1, an L below this is rounding.
   real(dp), parameter, public :: SMALLEST_L = sqrt(epsilon(1.0_dp))
 
   !> Coefficients D, K, L and M of the pressure near an effective edge, with h = 1.

@@ -58,8 +58,8 @@ module fuge_edge_refinement
   !> From the tests.
   real(dp), parameter :: BY_OTHERS = 0.1_dp, BY_FACING = 0.3_dp
 
-  !> Largest error of centres and widths, in cells.
-  real(dp), parameter :: PLACE_TOLERANCE = 1.0e-6_dp
+  !> Centres and widths of a uniform grid may be wrong by this much, in cells.
+  real(dp), parameter :: POSITION_TOLERANCE = 1.0e-6_dp
 
 contains
 
@@ -137,13 +137,13 @@ contains
 
     h = width(1)
     do k = 2, size(x)
-      if (abs(width(k) - h) <= PLACE_TOLERANCE*h .and. abs(x(k) - x(k - 1) - h) <= PLACE_TOLERANCE*h) cycle
+      if (abs(width(k) - h) <= POSITION_TOLERANCE*h .and. abs(x(k) - x(k - 1) - h) <= POSITION_TOLERANCE*h) cycle
       call report(info, FUGE_ERR_GRID, 'cell '//index_text(k)//' at x = '//text(x(k))//' of width '//text(width(k)) &
                   //' does not continue a uniform grid of width '//text(h))
       return
     end do
     if (.not. folded .or. is_on_axis(x(1), h) .or. x(1) >= h) return
-    if (abs(x(1) - 0.5_dp*h) <= PLACE_TOLERANCE*h) return
+    if (abs(x(1) - 0.5_dp*h) <= POSITION_TOLERANCE*h) return
     call report(info, FUGE_ERR_GRID, 'x('//index_text(1)//') = '//text(x(1)) &
                 //': a symmetric uniform grid starts at 0, at width/2, or at a width or more')
   end subroutine check_uniform
@@ -153,7 +153,7 @@ contains
     real(dp), intent(in) :: x, h
     logical :: is_on_axis
 
-    is_on_axis = abs(x) <= PLACE_TOLERANCE*h
+    is_on_axis = abs(x) <= POSITION_TOLERANCE*h
   end function is_on_axis
 
   !> The intervals of positive forces, with their cells `first` and `last`.

@@ -177,7 +177,7 @@ contains
     if (status == FUGE_DONE) call self%influence%convolve(self%plan, force, displacement, status)
   end subroutine apply
 
-  !> What is subtracted from all coefficients, length per force; 0 for a periodic surface.
+  !> The constant that is subtracted from all coefficients, length per force; 0 for a periodic surface.
   function datum(self)
     class(fuge_halfplane_operator), intent(in) :: self
     real(dp) :: datum

@@ -3,22 +3,21 @@
 !> It shares no code with any engine but the call of the operator, and sees only the caller's data.
 module fuge_certificate
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge_data_scales, only: data_length, is_loaded, is_prescribed, largest_of_bodies
+  use fuge_data_scales, only: data_length, is_loaded, is_prescribed, largest_by_mode, largest_of_body
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_operator_products, only: multiply_with_magnitude
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   implicit none
   private
 
   public :: fuge_residual, find_violation
 
-  !> A resultant may differ by the rounding of the largest force: so many units in its last place.
+  !> A resultant may differ by this many units in the last place of the largest force, which are its rounding.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
-  !> Forces below this part of the largest one of their body are judged beside that one where no load acts.
+  !> Forces below this fraction of the largest one of their body are judged beside that one where no load acts.
   real(dp), parameter :: BESIDE = 1.0e-2_dp
   !> Forces dwarf the data if the terms of their displacements exceed the lengths of the data by one over this factor.
   real(dp), parameter :: DWARFED = 1.0e-6_dp
@@ -54,10 +53,10 @@ contains
     class(fuge_violation), intent(in) :: self
     real(dp) :: worst
 
-    associate (parts => [self%gap_equation, self%sign, self%complementarity, self%equilibrium, self%unresolved])
-      worst = maxval(parts)
+    associate (violations => [self%gap_equation, self%sign, self%complementarity, self%equilibrium, self%unresolved])
+      worst = maxval(violations)
       ! maxval may ignore a NaN, which must not pass for small.
-      if (.not. all(parts <= huge(worst))) worst = huge(worst)
+      if (.not. all(violations <= huge(worst))) worst = huge(worst)
     end associate
   end function worst
 
@@ -116,7 +115,7 @@ contains
     if (.not. space%everywhere(all(ieee_is_finite(solution%force)))) return
     n = operator%points()
     allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), elastic(n), included(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'certificate: no memory for '//text(n)//' points')
+    call require_memory(stat, 'the certificate of', n, 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call multiply_with_magnitude(operator, solution%force, error, elastic, info)
@@ -126,13 +125,11 @@ contains
     if (allocated(problem%excluded)) included = .not. problem%excluded
     call find_rigid_displacement(problem, solution, operator%datum(), space, rigid_displacement, rigid_magnitude)
     error = (problem%gap - rigid_displacement) + error - solution%gap
-    magnitude = abs(problem%gap - rigid_displacement) + elastic
     if (allocated(problem%modes)) then
-      ! Motions are solved for together: each one that moves a point is rounded like the largest magnitude of its body.
-      rigid_magnitude = rigid_magnitude + max(count(abs(problem%modes) > 0.0_dp, 2), 1) &
-                        *largest_of_bodies(problem%modes, merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included), &
-                                           space)
+      magnitude = merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included)
+      call add_magnitude_of_bodies(problem%modes, magnitude, space, rigid_magnitude)
     end if
+    magnitude = abs(problem%gap - rigid_displacement) + elastic
     violation%equilibrium = equilibrium_violation(problem, solution, space)
     violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space)
     call contact_violations(problem, solution, magnitude, included, space, violation)
@@ -145,6 +142,36 @@ contains
     violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
                                            .not. allocated(problem%modes), space)
   end subroutine find_violation
+
+  !> Motions are solved for together: each one that moves a point is rounded like the largest `magnitude` (n) of the
+  !> body.
+  subroutine add_magnitude_of_bodies(modes, magnitude, space, rigid_magnitude)
+    real(dp), intent(in) :: modes(:, :), magnitude(:)
+    type(point_space), intent(in) :: space
+    real(dp), intent(inout) :: rigid_magnitude(:)
+    real(dp) :: by_mode(size(modes, 2))
+    integer :: k
+
+    by_mode = largest_by_mode(modes, magnitude, space)
+    do k = 1, size(magnitude)
+      rigid_magnitude(k) = rigid_magnitude(k) + max(count(abs(modes(k, :)) > 0.0_dp), 1) &
+                           *largest_of_body(modes, by_mode, k)
+    end do
+  end subroutine add_magnitude_of_bodies
+
+  !> `largest` (n): at each point the largest magnitude of `values` (n) on its body.
+  subroutine spread_over_bodies(modes, values, space, largest)
+    real(dp), intent(in) :: modes(:, :), values(:)
+    type(point_space), intent(in) :: space
+    real(dp), intent(inout) :: largest(:)
+    real(dp) :: by_mode(size(modes, 2))
+    integer :: k
+
+    by_mode = largest_by_mode(modes, values, space)
+    do k = 1, size(largest)
+      largest(k) = largest_of_body(modes, by_mode, k)
+    end do
+  end subroutine spread_over_bodies
 
   !> Where all forces that displace a point are zero but for rounding, so is its magnitude, with which nothing can be
   !> compared. There the error becomes smaller by the rounding of forces as large as the largest one of the body (M.
@@ -166,11 +193,11 @@ contains
 
     space = operator%ranks()
     allocate (largest(size(force)), of_bodies(size(force)), rounding(size(force)), terms(size(force)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the certificate of '//text(size(force))//' points')
+    call require_memory(stat, 'the certificate of', size(force), 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     largest = space%largest(maxval(abs(force)))
-    if (allocated(problem%modes)) largest = largest_of_bodies(problem%modes, abs(force), space)
+    if (allocated(problem%modes)) call spread_over_bodies(problem%modes, force, space, largest)
     where (.not. included) largest = 0.0_dp
     call multiply_with_magnitude(operator, largest, of_bodies, terms, info)
     if (info%failed()) return
@@ -183,7 +210,7 @@ contains
     terms = merge(terms + elastic, 0.0_dp, included)
     largest = space%largest(maxval(terms + rigid_magnitude, mask=included))
     if (allocated(problem%modes)) then
-      of_bodies = largest_of_bodies(problem%modes, terms, space)
+      call spread_over_bodies(problem%modes, terms, space, of_bodies)
       ! A body that no force displaces has no lengths of its own.
       where (of_bodies > 0.0_dp) largest = of_bodies
     end if
@@ -269,9 +296,8 @@ contains
     logical, intent(in) :: included(:)
     type(point_space), intent(in) :: space
     type(fuge_violation), intent(inout) :: violation
-    real(dp), allocatable :: body_forces(:)
-    logical, allocatable :: loaded(:)
-    real(dp) :: largest, body_force, rounding, upper, stop_distance, parts(2)
+    real(dp), allocatable :: by_mode(:)
+    real(dp) :: largest, body_force, rounding, upper, stop_distance, violations(2)
     integer :: k
 
     violation%sign = 0.0_dp
@@ -280,16 +306,13 @@ contains
     upper = huge(upper)
     body_force = largest
     ! Not by assignment, for which gfortran compares bounds that are not there yet.
-    if (allocated(problem%modes)) then
-      allocate (body_forces, source=largest_of_bodies(problem%modes, abs(solution%force), space))
-      allocate (loaded, source=is_loaded(problem))
-    end if
+    if (allocated(problem%modes)) allocate (by_mode, source=largest_by_mode(problem%modes, solution%force, space))
     do k = 1, size(magnitude)
-      if (allocated(body_forces)) body_force = body_forces(k)
+      if (allocated(by_mode)) body_force = largest_of_body(problem%modes, by_mode, k)
       if (.not. body_force > 0.0_dp) body_force = largest
       ! Beside the largest force, smaller ones of other bodies may be rounding, but for those that carry a load.
       rounding = merge(ROUNDINGS*epsilon(rounding)*largest, 0.0_dp, body_force < largest)
-      if (allocated(loaded)) rounding = merge(0.0_dp, rounding, loaded(k))
+      if (allocated(by_mode)) rounding = merge(0.0_dp, rounding, is_loaded(problem, k))
       associate (f => solution%force(k), c => solution%gap(k))
         if (.not. included(k)) then
           violation%sign = max(violation%sign, relative(abs(f), largest))
@@ -309,10 +332,10 @@ contains
                                             relative(abs(stop_distance), magnitude(k))))
       end associate
     end do
-    parts = [violation%sign, violation%complementarity]
-    call space%raise(parts)
-    violation%sign = parts(1)
-    violation%complementarity = parts(2)
+    violations = [violation%sign, violation%complementarity]
+    call space%raise(violations)
+    violation%sign = violations(1)
+    violation%complementarity = violations(2)
   end subroutine contact_violations
 
   !> Equation (11) in the free modes; in the others q must be as prescribed. A resultant of zero may consist of rounding
@@ -341,25 +364,27 @@ contains
   end function equilibrium_violation
 
   !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
-  !> at least to a part of the largest force of the body, since along an axis without a load forces at tied points may
-  !> be the rounding of those along the other axes.
+  !> at least to a fraction of the largest force of the body, since along an axis without a load forces at tied points
+  !> may be the rounding of those along the other axes.
   function imbalance_in_modes(problem, force, space) result(violation)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:)
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: body_forces(size(force)), own, largest, imbalance, sums(2), extremes(4)
-    logical :: loaded(size(force))
-    integer :: j
+    real(dp) :: by_mode(size(problem%modes, 2)), own, largest, imbalance, sums(2), extremes(4)
+    integer :: j, k
 
     violation = 0.0_dp
-    body_forces = largest_of_bodies(problem%modes, abs(force), space)
-    loaded = is_loaded(problem)
+    by_mode = largest_by_mode(problem%modes, force, space)
     do j = 1, size(problem%modes, 2)
       if (is_prescribed(problem, j)) cycle
       associate (mode => problem%modes(:, j), resultant => problem%resultant(j))
-        extremes = [maxval(body_forces, mask=abs(mode) > 0.0_dp), maxval(abs(force)), maxval(abs(mode)), &
-                    merge(1.0_dp, 0.0_dp, any(loaded .and. abs(mode) > 0.0_dp))]
+        extremes = [-huge(own), maxval(abs(force)), maxval(abs(mode)), 0.0_dp]
+        do k = 1, size(force)
+          if (.not. abs(mode(k)) > 0.0_dp) cycle
+          extremes(1) = max(extremes(1), largest_of_body(problem%modes, by_mode, k))
+          if (is_loaded(problem, k)) extremes(4) = 1.0_dp
+        end do
         call space%raise(extremes)
         sums = [sum(mode*force), sum(abs(mode*force))]
         call space%add(sums)
@@ -386,25 +411,32 @@ contains
     logical, intent(in) :: included(:)
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: excess(size(error)), share(size(error)), largest, length
+    real(dp) :: excess, largest, length, open, share, terms, total
     integer :: k
 
     violation = 0.0_dp
     ! Forces that push with one load between them do not dwarf it.
     if (problem%is_plain()) return
-    share = merge(abs(solution%force), 0.0_dp, included)
-    largest = space%largest(maxval(share))
+    largest = space%largest(maxval(abs(solution%force), mask=included))
     if (.not. largest > 0.0_dp) return
-    share = share/largest
-    share = share/space%total(sum(share))
-    length = data_length(problem, solution%force, elastic, included, space)
-    if (DWARFED*space%total(sum(share*elastic)) <= length) return
-    ! What the sizes of the terms excuse elsewhere is left out here but for R q and the datum.
-    excess = max(abs(error) - 2.0_dp*epsilon(excess)*(abs(problem%gap) + rigid_magnitude), epsilon(excess)*elastic)
-    do k = 1, size(excess)
-      excess(k) = max(excess(k), stop_distance_at(problem, solution, k))
+    total = 0.0_dp
+    do k = 1, size(error)
+      if (included(k)) total = total + abs(solution%force(k))/largest
     end do
-    violation = relative(space%total(sum(share*excess)), length)
+    total = space%total(total)
+    open = 0.0_dp
+    terms = 0.0_dp
+    do k = 1, size(error)
+      share = merge(abs(solution%force(k)), 0.0_dp, included(k))/largest/total
+      terms = terms + share*elastic(k)
+      ! Elsewhere the terms of a displacement excuse rounding; here only those of R q and the datum do.
+      excess = max(abs(error(k)) - 2.0_dp*epsilon(excess)*(abs(problem%gap(k)) + rigid_magnitude(k)), &
+                   epsilon(excess)*elastic(k), stop_distance_at(problem, solution, k))
+      open = open + share*excess
+    end do
+    length = data_length(problem, solution%force, elastic, included, space)
+    if (DWARFED*space%total(terms) <= length) return
+    violation = relative(space%total(open), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
 

@@ -1,4 +1,4 @@
-!> What an answer is compared with: lengths and forces that the caller's data have.
+!> The lengths and forces of the caller's data, with which a solution is compared.
 module fuge_data_scales
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem
@@ -6,7 +6,7 @@ module fuge_data_scales
   implicit none
   private
 
-  public :: data_length, is_loaded, is_prescribed, largest_of_bodies
+  public :: data_length, is_loaded, is_prescribed, largest_by_mode, largest_of_body
 
 contains
 
@@ -21,24 +21,22 @@ contains
     logical, intent(in) :: included(:)
     type(point_space), intent(in) :: space
     real(dp) :: length
-    real(dp) :: gap(size(elastic)), extremes(4), load, arm
-    integer :: j
+    real(dp) :: extremes(4), gap, load, arm
+    integer :: j, k
 
-    gap = problem%gap
     load = 0.0_dp
     do j = 1, problem%mode_count()
       arm = 1.0_dp
       if (allocated(problem%modes)) arm = space%largest(maxval(abs(problem%modes(:, j)), mask=included))
-      if (.not. is_prescribed(problem, j)) then
-        if (arm > 0.0_dp) load = max(load, abs(problem%resultant(j))/arm)
-      else if (allocated(problem%modes)) then
-        gap = gap - problem%modes(:, j)*problem%motion(j)
-      else
-        gap = gap - problem%motion(j)
-      end if
+      if (is_prescribed(problem, j)) cycle
+      if (arm > 0.0_dp) load = max(load, abs(problem%resultant(j))/arm)
     end do
-    extremes = [maxval(abs(gap), mask=included), maxval(gap, mask=included), -minval(gap, mask=included), &
-                maxval(elastic, mask=included)]
+    extremes = -huge(extremes)
+    do k = 1, size(elastic)
+      if (.not. included(k)) cycle
+      gap = gap_less_motions(problem, k)
+      extremes = max(extremes, [abs(gap), gap, -gap, elastic(k)])
+    end do
     call space%raise(extremes)
     length = extremes(1)
     if (.not. allocated(problem%modes)) then
@@ -49,32 +47,61 @@ contains
     length = length + min(load/space%total(sum(abs(force))), 1.0_dp)*extremes(4)
   end function data_length
 
-  !> At each point, the largest of `values` (>= 0) among the points that some mode moves together
-  !> with it; 0 for a point that no mode moves. Ranks, `sharing`, may share the points.
-  function largest_of_bodies(modes, values, sharing) result(largest)
-    real(dp), intent(in) :: modes(:, :), values(:)
-    type(point_space), intent(in), optional :: sharing
-    real(dp) :: largest(size(values)), of_mode(size(modes, 2))
+  !> The gap of point `k` less the displacements by the prescribed motions.
+  pure function gap_less_motions(problem, k) result(gap)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: k
+    real(dp) :: gap
     integer :: j
 
-    of_mode = [(maxval(values, mask=abs(modes(:, j)) > 0.0_dp), j=1, size(of_mode))]
-    if (present(sharing)) call sharing%raise(of_mode)
-    largest = 0.0_dp
-    do j = 1, size(modes, 2)
-      where (abs(modes(:, j)) > 0.0_dp) largest = max(largest, of_mode(j))
+    gap = problem%gap(k)
+    do j = 1, problem%mode_count()
+      if (.not. is_prescribed(problem, j)) cycle
+      if (allocated(problem%modes)) then
+        gap = gap - problem%modes(k, j)*problem%motion(j)
+      else
+        gap = gap - problem%motion(j)
+      end if
     end do
-  end function largest_of_bodies
+  end function gap_less_motions
 
-  !> Does a resultant other than zero act on the point, (n), in some free mode that moves it?
-  pure function is_loaded(problem) result(loaded)
+  !> For each mode, the largest magnitude of `values` (n) at the points that it moves, (m), for `largest_of_body`.
+  !> Ranks, `sharing`, may share the points.
+  function largest_by_mode(modes, values, sharing) result(largest)
+    real(dp), intent(in) :: modes(:, :), values(:)
+    type(point_space), intent(in), optional :: sharing
+    real(dp) :: largest(size(modes, 2))
+    integer :: j
+
+    largest = [(maxval(abs(values), mask=abs(modes(:, j)) > 0.0_dp), j=1, size(largest))]
+    if (present(sharing)) call sharing%raise(largest)
+  end function largest_by_mode
+
+  !> The largest magnitude among the points that some mode moves together with point `k`; 0 if no mode moves it.
+  !> `by_mode` (m) as from `largest_by_mode`.
+  pure function largest_of_body(modes, by_mode, k) result(largest)
+    real(dp), intent(in) :: modes(:, :), by_mode(:)
+    integer, intent(in) :: k
+    real(dp) :: largest
+    integer :: j
+
+    largest = 0.0_dp
+    do j = 1, size(by_mode)
+      if (abs(modes(k, j)) > 0.0_dp) largest = max(largest, by_mode(j))
+    end do
+  end function largest_of_body
+
+  !> Does a resultant other than zero act on point `k`, in some free mode that moves it?
+  pure function is_loaded(problem, k) result(loaded)
     type(fuge_problem), intent(in) :: problem
-    logical :: loaded(size(problem%modes, 1))
+    integer, intent(in) :: k
+    logical :: loaded
     integer :: j
 
     loaded = .false.
     do j = 1, size(problem%modes, 2)
-      if (is_prescribed(problem, j)) cycle
-      if (abs(problem%resultant(j)) > 0.0_dp) loaded = loaded .or. abs(problem%modes(:, j)) > 0.0_dp
+      if (is_prescribed(problem, j) .or. .not. abs(problem%modes(k, j)) > 0.0_dp) cycle
+      loaded = loaded .or. abs(problem%resultant(j)) > 0.0_dp
     end do
   end function is_loaded
 

@@ -1,4 +1,5 @@
-!> What operators on equal cells have in common, whoever shares the cells: checks, and coarser grids that are kept.
+!> The common base of operators on equal cells, whether or not ranks share these: checks, and coarser grids that are
+!> kept.
 module fuge_grid_operator_type
   use fuge_grid_store, only: grid_store
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
@@ -98,9 +99,9 @@ contains
 
     nullify (coarse)
     space = self%ranks()
-    k = self%coarser%place(levels)
+    k = self%coarser%position_of(levels)
     if (.not. space%everywhere(k > 0)) return
-    ! Ranks wait for each other: a thread that held the lock meanwhile might keep another one from being waited for.
+    ! Ranks wait for each other, so no thread may hold the lock meanwhile: another one may need it to get there.
     if (space%is_alone()) call lock(LOCK_GRIDS)
     if (.not. allocated(self%coarser%grid(k)%operator)) call keep_coarser(self, levels, k)
     if (allocated(self%coarser%grid(k)%operator)) coarse => self%coarser%grid(k)%operator

@@ -5,11 +5,12 @@ module fuge_grid_store
   implicit none
   private
 
-  type, public :: stored_grid
+  !> One of them, unallocated before it is made.
+  type :: stored_grid
     class(fuge_operator), allocatable :: operator
   end type stored_grid
 
-  !> Element k of `grid` has cells 2**k times as wide as the finest grid. Made when they are first asked for; the
+  !> Element k of `grid` has cells 2**k times as wide as the finest grid. Made when they are first needed; the
   !> store of a coarser grid refers to those of the finest one, whose store owns them.
   type, public :: grid_store
     type(stored_grid), pointer :: grid(:) => null()
@@ -20,7 +21,7 @@ module fuge_grid_store
   contains
     procedure :: create
     procedure :: refer_to
-    procedure :: place
+    procedure :: position_of
     procedure :: move_from
     procedure :: clear
     final :: destroy
@@ -51,7 +52,7 @@ contains
   end subroutine refer_to
 
   !> The number in `grid` of cells 2**levels times as wide as those of this grid; 0 if there is no room for it.
-  pure function place(self, levels) result(k)
+  pure function position_of(self, levels) result(k)
     class(grid_store), intent(in) :: self
     integer, intent(in) :: levels
     integer :: k
@@ -59,7 +60,7 @@ contains
     k = 0
     if (.not. associated(self%grid) .or. levels < 1) return
     if (levels <= size(self%grid) - self%level) k = self%level + levels
-  end function place
+  end function position_of
 
   !> Move the grids from `source`, which has none afterwards.
   subroutine move_from(self, source)

@@ -16,7 +16,7 @@ module fuge_matrix_operator
 
   !> Points whose rigid displacements differ by less than this fraction nearly coincide.
   real(dp), parameter :: ALIKE = 1.0e-3_dp
-  !> A compliance of so many units in the last place of its terms is rounding.
+  !> A compliance up to this many units in the last place of its terms is rounding.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
 
   !> Largest asymmetry taken for rounding, relative to the range of the coefficients.
@@ -78,7 +78,7 @@ contains
     self%stamp_value = new_stamp()
   end subroutine set
 
-  !> What the survey of the matrix found.
+  !> The survey of the matrix.
   pure function what_is_known(self) result(survey)
     class(fuge_dense_operator), intent(in) :: self
     type(matrix_survey) :: survey
@@ -194,7 +194,7 @@ contains
     end do
   end function dense_pair_compliance
 
-  !> Do rigid motions move two points alike, all but for a small part of the largest displacement?
+  !> Do rigid motions move two points alike, but for a small fraction of the largest displacement?
   pure function move_alike(one, other)
     real(dp), intent(in) :: one(:), other(:)
     logical :: move_alike

@@ -1,4 +1,4 @@
-!> What one pass over an influence matrix tells: whether all of it is usable, its extremes, how symmetric it is, and
+!> The survey of an influence matrix in one pass: whether all of it is usable, its extremes, how symmetric it is, and
 !> whether any pair of points is unstable.
 !>
 !> The pass reads each coefficient once, in square tiles together with the tile on the other side of the diagonal. An
@@ -159,7 +159,7 @@ contains
     end do
   end subroutine survey_tile
 
-  !> What a point brings to the energy of a pair, rounding included.
+  !> The contribution of a point to the energy of a pair, rounding included.
   elemental function tolerated(own)
     real(dp), intent(in) :: own
     real(dp) :: tolerated

@@ -36,9 +36,9 @@ module fuge_operator_type
     procedure :: free_rim => no_free_rim
     !> The same body on wider cells, for nested iteration.
     procedure :: coarsen => no_coarser
-    !> What `coarsen` gives, kept and owned by this operator.
+    !> The coarser operator of `coarsen`, kept and owned by this one.
     procedure :: kept_coarser => none_kept
-    !> The same body, but forces and displacements of a part of its cells only.
+    !> The same body, but forces and displacements of a window of its cells only.
     procedure :: window => no_window
     !> The processes that share the points.
     procedure :: ranks => no_other_ranks
@@ -117,7 +117,7 @@ contains
     if (self%points() < 0 .and. levels < 0) allocate (coarse, source=self)
   end subroutine no_coarser
 
-  !> `coarse` as by `coarsen`, but owned by this operator and valid as long as it is; to be asked for
+  !> `coarse` as by `coarsen`, but owned by this operator and valid as long as it is; call it
   !> before `coarsen`. Not associated if none is kept, as in this default. Several threads may ask at once.
   subroutine none_kept(self, levels, coarse)
     class(fuge_operator), intent(in) :: self

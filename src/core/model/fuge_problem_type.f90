@@ -15,15 +15,15 @@ module fuge_problem_type
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NO_EQUILIBRIUM, &
-    FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, &
+    FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, FUGE_ERR_GAP
   implicit none
   private
 
   public :: set_problem, check_problem, check_load, check_play, move_solution
 
   !> The data of a contact problem except the operator, in the units of the operator. Set the
-  !> components by name: later versions may have more. What is not allocated has the default
+  !> components by name: later versions may have more. A component that is not allocated has the default
   !> that its comment gives.
   type, public :: fuge_problem
     !> Initial gap g at each point, (n), length: the sum of both bodies' distances from a common
@@ -108,12 +108,10 @@ contains
     integer :: stat
 
     allocate (problem%gap(size(gap)), problem%resultant(1), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the gaps')
-    else
-      problem%gap = gap
-      problem%resultant = load
-    end if
+    call require_memory(stat, 'a copy of the gaps', info)
+    if (stat /= 0) return
+    problem%gap = gap
+    problem%resultant = load
   end subroutine set_problem
 
   !> Refuse data that no engine can use, for an operator of `n` points: wrong sizes
@@ -209,8 +207,8 @@ contains
     end if
   end subroutine check_modes
 
-  !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE), negative (FUGE_ERR_NO_EQUILIBRIUM), or so small that its
-  !> parts have not all digits (FUGE_ERR_OVERFLOW).
+  !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE), negative (FUGE_ERR_NO_EQUILIBRIUM), or so small that
+  !> forces below it lose digits (FUGE_ERR_OVERFLOW).
   pure subroutine check_load(load, info)
     real(dp), intent(in) :: load
     type(fuge_info), intent(inout) :: info

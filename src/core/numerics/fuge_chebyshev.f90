@@ -117,7 +117,7 @@ contains
     end do
   end subroutine transform
 
-  !> Move each value to the place whose number has the same bits in reverse order.
+  !> Move each value to the position whose number has the same bits in reverse order.
   pure subroutine reverse_bits(z)
     complex(dp), intent(inout) :: z(0:)
     complex(dp) :: moved

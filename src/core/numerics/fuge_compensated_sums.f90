@@ -33,7 +33,7 @@ contains
     upper = transfer(iand(transfer(value, UPPER_BITS), UPPER_BITS), upper)
   end function upper_half
 
-  !> What rounding takes from `difference` = a - b: the exact difference is the sum of both (D. E. Knuth, The Art of
+  !> The rounding error of `difference` = a - b: the exact difference is the sum of both (D. E. Knuth, The Art of
   !> Computer Programming 2, section 4.2.2).
   elemental function difference_rounding(a, b, difference) result(rounding)
     real(dp), intent(in) :: a, b, difference

@@ -7,7 +7,7 @@ module fuge_compressed_columns
 
   public :: compress_columns, order_triplets, sum_overflows
 
-  !> Entries of a matrix in any order; entries of the same place are contributions to one sum.
+  !> Entries of a matrix in any order; entries of the same row and column are contributions to one sum.
   type, public :: matrix_triplets
     integer :: count = 0
     integer, allocatable :: row(:), column(:)
@@ -53,8 +53,8 @@ contains
     self%value(self%count) = value
   end subroutine append
 
-  !> Sort triplets into compressed columns and add entries of the same place in the order in
-  !> which they came. The time is proportional to the numbers of entries, rows and columns.
+  !> Sort triplets into compressed columns and add entries of the same row and column in the
+  !> order in which they came. The time is proportional to the numbers of entries, rows and columns.
   !>
   !> `rows`, `columns`: size of the matrix. `overflow` is the number of an entry of `compressed`
   !> whose sum overflows, else 0. `status` is not zero without memory.
@@ -78,7 +78,7 @@ contains
     if (overflow == 0) call shorten(compressed, status)
   end subroutine compress_columns
 
-  !> Order of triplets by columns, in each column by rows, entries of the same place as they
+  !> Order of triplets by columns, in each column by rows, entries of both the same as they
   !> came: column j has the triplets order(column(j) : column(j + 1) - 1).
   pure subroutine order_triplets(triplets, rows, columns, order, column, status)
     type(matrix_triplets), intent(in) :: triplets
@@ -126,7 +126,7 @@ contains
     first(1) = 1
   end subroutine sort_by
 
-  !> Replace entries of the same place by their sum; the columns shrink in place, `row` and
+  !> Replace entries of the same row and column by their sum; the columns shrink in place, `row` and
   !> `value` keep their sizes. `overflow` as in `compress_columns`.
   pure subroutine sum_repeated(matrix, overflow)
     type(compressed_columns), intent(inout) :: matrix

@@ -7,7 +7,7 @@
 !>     Z'_k = (a - b sin(theta)) Z_k + i b cos(theta) conj(Z_(N/2-k)),   a, b = (s_k +- s_(N/2-k))/2.
 !>
 !> A convolution on a circle of 2N cells, of N values followed by N zeros, of which the first N results are
-!> wanted, is half the sum of two on N: a cyclic one with the even numbers of the spectrum, and one with the
+!> needed, is half the sum of two on N: a cyclic one with the even numbers of the spectrum, and one with the
 !> odd ones, where whatever goes once round the circle changes its sign. The second needs the numbers
 !> 1, 5, 9, .. only, the transform of the N/2 complex numbers (x_j - i x_(j+N/2)) exp(-i pi j/N). Two
 !> transforms of N values take less time than one of 2N.
@@ -215,7 +215,7 @@ contains
         kernel(k) = work(2*k + 1)
         cycle
       end if
-      ! The number k of the even places and that of the odd ones, of which only the real part is not zero.
+      ! The number k of the even positions and that of the odd ones, of which only the real part is not zero.
       other = modulo(half - k, half)
       theta = 2.0_dp*PI*(real(k, dp)/real(plan%length, dp))
       associate (a => work(2*modulo(k, half) + 1), b => work(2*modulo(k, half) + 2), c => work(2*other + 1), &

@@ -5,7 +5,7 @@ module fuge_gauss_legendre
   implicit none
   private
 
-  public :: gauss_rule
+  public :: gauss_rule, gauss_rules
 
   !> More steps of Newton's method than any node needs; after one this small the error is rounding.
   integer, parameter :: MOST_STEPS = 12
@@ -44,6 +44,17 @@ contains
       node(i) = real(0.5_xp - 0.5_xp*fine_x, dp)
     end do
   end subroutine gauss_rule
+
+  !> The rules of 1 .. n nodes, n = size(node, 1), for quadratures that choose among them: rule k is node(:k, k) and
+  !> weight(:k, k). Elements below the diagonal keep their values; `weight` has the same shape.
+  pure subroutine gauss_rules(node, weight)
+    real(dp), intent(inout) :: node(:, :), weight(:, :)
+    integer :: k
+
+    do k = 1, size(node, 2)
+      call gauss_rule(node(:k, k), weight(:k, k))
+    end do
+  end subroutine gauss_rules
 
   !> P_n/P_n' and P_n' of the Legendre polynomial at x, by its recurrence; `fraction` (n) has (k - 1)/k.
   pure subroutine newton_step(fraction, x, change, slope)

@@ -26,7 +26,7 @@ contains
     end do
   end subroutine heap_sort
 
-  !> Put the value at `order`(k) at place k; `work` has room for all of them.
+  !> Put the value at `order`(k) at position k; `work` has room for all of them.
   pure subroutine reorder(order, values, work)
     integer, intent(in) :: order(:)
     real(dp), intent(inout) :: values(:), work(:)
@@ -40,7 +40,7 @@ contains
     end do
   end subroutine reorder
 
-  !> Restore a heap, the greatest key first, in which only element `start` may be out of place.
+  !> Restore a heap, the greatest key first, in which only element `start` may be out of order.
   pure subroutine sift_down(keys, start, heap)
     real(dp), intent(in) :: keys(:)
     integer, intent(in) :: start

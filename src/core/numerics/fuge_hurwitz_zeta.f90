@@ -23,24 +23,24 @@ contains
     integer, intent(in) :: s
     real(dp), intent(in) :: a
     real(dp) :: zeta
-    real(dp) :: head, tail, factor, place
+    real(dp) :: head, tail, factor, argument
     integer :: j, k, terms
 
     terms = 0
     if (a < real(10 + s, dp)) terms = ceiling(real(10 + s, dp) - a)
-    place = a + real(terms, dp)
+    argument = a + real(terms, dp)
     tail = 0.0_dp
-    factor = place**(-s - 1)*real(s, dp)
+    factor = argument**(-s - 1)*real(s, dp)
     do j = 1, size(BERNOULLI)
       tail = tail + BERNOULLI(j)*factor
-      factor = factor*(real(s + 2*j - 1, dp)/place)*(real(s + 2*j, dp)/place)
+      factor = factor*(real(s + 2*j - 1, dp)/argument)*(real(s + 2*j, dp)/argument)
     end do
     head = 0.0_dp
     ! Smallest terms first.
     do k = terms - 1, 0, -1
       head = head + 1.0_dp/(a + real(k, dp))**s
     end do
-    zeta = head + (tail + place**(-s)*(place/real(s - 1, dp) + 0.5_dp))
+    zeta = head + (tail + argument**(-s)*(argument/real(s - 1, dp) + 0.5_dp))
   end function hurwitz_zeta
 
 end module fuge_hurwitz_zeta

@@ -12,7 +12,7 @@ module fuge_pivoted_qr
   public :: combine_independent, factorise_pivoted, numerical_rank, orthogonal_complement, orthonormalise, &
     orthonormalise_in_order
 
-  !> Columns that LAPACK transforms at a time, at most.
+  !> LAPACK transforms at most this many columns at a time.
   integer, parameter :: LARGEST_BLOCK = 64
 
 contains
@@ -87,7 +87,7 @@ contains
   !> are not rounding: diagonal entries of R above `tolerance` times the first one.
   !>
   !> `matrix` (m, n); with m < n, when no orthonormal columns exist, it is left with the
-  !> factors. `order` (n): place of each column before pivoting. `status` is not zero without
+  !> factors. `order` (n): position of each column before pivoting. `status` is not zero without
   !> memory.
   subroutine orthonormalise(matrix, tolerance, order, rank, status)
     real(dp), intent(inout), contiguous :: matrix(:, :)

@@ -18,9 +18,9 @@ module fuge_series_minimum
   integer, parameter :: CELLS_PER_DEGREE = 8, MIN_CELLS = 16
   !> Degree of the polynomial in a cell: the error is below 1e-14 of the largest magnitude of the series.
   integer, parameter :: LOCAL_DEGREE = 8
-  !> Halvings of a cell: beyond that its ends are the same number.
+  !> A cell is halved at most this many times: beyond that its ends are the same number.
   integer, parameter :: MAX_HALVINGS = 52
-  !> Rounding errors of a sum, in units of the last place, for each term.
+  !> A sum is rounded by this many units in the last place for each term.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
 
 contains

@@ -1,5 +1,5 @@
-!> What the solver asks of an engine: one solve after the other, each from what is left of the last one, and derivatives
-!> of the last solution.
+!> The interface of an engine for the solver: one solve after the other, each from what is kept of the last one, and
+!> derivatives of the last solution.
 module fuge_contact_engine
   use fuge_canonical_problem, only: canonical_problem
   use fuge_history_type, only: fuge_history
@@ -15,7 +15,7 @@ module fuge_contact_engine
   type, abstract, public :: contact_engine
     !> The last problem, where the engine needs its canonical form.
     type(canonical_problem) :: canonical
-    !> What the engine keeps belongs to a solution that was accepted.
+    !> The state that the engine keeps belongs to a solution that was accepted.
     logical :: has_solution = .false.
   contains
     procedure(solve_problem), deferred :: solve

@@ -16,8 +16,8 @@ module fuge_dense_engine
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
-  use fuge_status, only: fuge_info, report, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, FUGE_ERR_CALL_ORDER, &
-    FUGE_ERR_CANCELLED, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
+    FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
   use fuge_tableau_engine, only: solve_by_tableau
   use fuge_working_set, only: working_set
   implicit none
@@ -29,7 +29,7 @@ module fuge_dense_engine
     integer, allocatable :: state(:)
     !> Their factor outlives a solve: the next one starts from it if the matrix is the same.
     type(kkt_factor) :: factor
-    !> The last solve started from a factor that it found.
+    !> The last solve started from a factor that an earlier one had left.
     logical :: found_factor = .false.
     !> Arrays for the next solve, so that small problems do not spend their time on allocations.
     type(fuge_solution) :: spare
@@ -79,13 +79,13 @@ contains
     type(fuge_history), intent(inout) :: history
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
-    type(contact_solution) :: found
+    type(contact_solution) :: reduced
     logical :: is_set
 
     call self%canonical%set_again(problem, is_set)
     if (.not. is_set) call make_canonical(problem, self%canonical, info)
     if (info%failed()) return
-    call allocate_solution(problem%points(), size(self%canonical%load), found, info, self%spare)
+    call allocate_solution(problem%points(), size(self%canonical%load), reduced, info, self%spare)
     if (info%failed()) return
     call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known(), operator%stamp())
     self%found_factor = self%factor%belongs_to(self%canonical)
@@ -93,44 +93,43 @@ contains
     if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
       self%factor = kkt_factor()
       self%found_factor = .false.
-      call solve_by_tableau(self%canonical, options, monitor, history, self%factor, found, info)
+      call solve_by_tableau(self%canonical, options, monitor, history, self%factor, reduced, info)
     else
-      call run_active_set(self, options, monitor, found, info)
+      call run_active_set(self, options, monitor, reduced, info)
     end if
     ! The matrix is the caller's and may be gone before the next call.
     self%canonical%alpha => null()
     if (info%failed()) return
     if (self%canonical%plain) then
-      call move_alloc(found%motion, solution%motion)
+      call move_alloc(reduced%motion, solution%motion)
     else
-      call find_given_motions(self%canonical, operator%alpha, problem, found, solution, info)
+      call find_given_motions(self%canonical, operator%alpha, problem, reduced, solution, info)
       if (info%failed()) return
     end if
-    call estimate_force_error(self%canonical, operator%alpha, self%factor, problem, solution%motion, found, &
-                              info%force_error)
-    call move_alloc(found%force, solution%force)
-    call move_alloc(found%gap, solution%gap)
-    call move_alloc(found%state, self%state)
+    call estimate_force_error(self%canonical, operator%alpha, self%factor, problem, solution%motion, reduced, &
+                              info%force_error, info)
+    if (info%failed()) return
+    call move_alloc(reduced%force, solution%force)
+    call move_alloc(reduced%gap, solution%gap)
+    call move_alloc(reduced%state, self%state)
     self%has_solution = .true.
   end subroutine solve_with_matrix
 
   !> The motions in the given modes, and the gaps of excluded points.
-  subroutine find_given_motions(canonical, alpha, problem, found, solution, info)
+  subroutine find_given_motions(canonical, alpha, problem, reduced, solution, info)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
-    type(contact_solution), intent(inout) :: found
+    type(contact_solution), intent(inout) :: reduced
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
     allocate (solution%motion(problem%mode_count()), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
-      return
-    end if
-    call canonical%to_given_modes(problem%prescribed_motion(), found%motion, solution%motion)
-    call canonical%set_excluded_gaps(alpha, problem%gap, found%force, solution%motion, found%gap)
+    call require_memory(stat, 'the motions', info)
+    if (stat /= 0) return
+    call canonical%to_given_modes(problem%prescribed_motion(), reduced%motion, solution%motion)
+    call canonical%set_excluded_gaps(alpha, problem%gap, reduced%force, solution%motion, reduced%gap)
   end subroutine find_given_motions
 
   !> The active set from the last contact set; from scratch if there is none, or if that start fails.

@@ -7,21 +7,20 @@ module fuge_sensitivity
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: solve_set
   use fuge_matrix_operator, only: fuge_dense_operator
-  use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER
   use fuge_unresisted_motions, only: find_unresisted_basis, refuse_unresisted, without_unresisted
   implicit none
   private
 
   public :: find_derivative
 
-  !> Changes of the gaps that differ from a rigid motion by this fraction of their terms are one.
+  !> Changes of the gaps that differ from a rigid motion by at most this fraction of their terms count as one.
   real(dp), parameter :: RIGID_TOLERANCE = 1.0e-13_dp
-  !> Gaps that stay open on the contact, relative to their terms: more of it is no rounding, but a factor of another
-  !> matrix.
+  !> Gaps on the contact that stay open by more than this fraction of their terms show a factor of another matrix, not
+  !> rounding.
   real(dp), parameter :: CLOSED_TOLERANCE = 1.0e-8_dp
-  !> Units in the last place by which a large datum may round.
+  !> A large datum may be rounded by this many units in its last place.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
 contains
@@ -45,12 +44,11 @@ contains
     integer :: stat
 
     allocate (force(size(state)), gap(size(state)), motion(size(load_change)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(size(state))//' points')
-      return
-    end if
+    call require_memory(stat, 'the derivatives of', size(state), 'points', info)
+    if (stat /= 0) return
     datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
-    call canonical%transform_change(gap_change, load_change, reduced_gap, load)
+    call canonical%transform_change(gap_change, load_change, reduced_gap, load, info)
+    if (info%failed()) return
     call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted)
     call refuse_unresisted(load, unresisted, info)
     if (info%failed()) return

@@ -1,4 +1,4 @@
-!> What the ranks that share the points of a problem have to agree on: all have the same loads, motions and options.
+!> The check that the ranks which share the points of a problem have the same loads, motions and options.
 !>
 !> Ranks that solve different problems would wait for each other without end.
 module fuge_shared_problem
@@ -30,7 +30,7 @@ contains
     if (differ(kind_of, space)) then
       call report(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded or prescribed are not allocated alike on all ' &
                   //'ranks: allocate them on all or on none, also where a rank has no points')
-    else if (differ(controls(problem), space)) then
+    else if (differ(values_by_mode(problem), space)) then
       call report(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs between the ranks')
     else if (differ([real([options%method, options%max_iterations, merge(1, 0, options%keep_history)], dp), &
                      options%tolerance], space)) then
@@ -52,19 +52,19 @@ contains
   end function differ
 
   !> Of each mode 1 and the motion where that is prescribed, else 0 and the resultant, (2 m).
-  pure function controls(problem)
+  pure function values_by_mode(problem)
     type(fuge_problem), intent(in) :: problem
-    real(dp) :: controls(2*problem%mode_count())
+    real(dp) :: values_by_mode(2*problem%mode_count())
     integer :: j
 
-    controls = 0.0_dp
+    values_by_mode = 0.0_dp
     do j = 1, problem%mode_count()
       if (is_prescribed(problem, j)) then
-        controls(2*j - 1:2*j) = [1.0_dp, problem%motion(j)]
+        values_by_mode(2*j - 1:2*j) = [1.0_dp, problem%motion(j)]
       else
-        controls(2*j) = problem%resultant(j)
+        values_by_mode(2*j) = problem%resultant(j)
       end if
     end do
-  end function controls
+  end function values_by_mode
 
 end module fuge_shared_problem

@@ -1,10 +1,9 @@
 !> Contact without a load: the bodies just touch.
 module fuge_unloaded_contact
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -30,8 +29,7 @@ contains
     integer :: stat
 
     allocate (solution%force(problem%points()), solution%gap(problem%points()), solution%motion(1), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(problem%points()) &
-                               //' points')
+    call require_memory(stat, 'the forces and gaps of', problem%points(), 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     solution%force = 0.0_dp

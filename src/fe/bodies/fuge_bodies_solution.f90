@@ -8,11 +8,10 @@ module fuge_bodies_solution
   use fuge_joined_names, only: name_bodies, name_motions, names_motion
   use fuge_kinds, only: dp
   use fuge_matrix_operator, only: fuge_dense_operator
-  use fuge_number_text, only: text
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
+  use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_DONE
   use fuge_stiffness_type, only: fuge_stiffness
   implicit none
   private
@@ -80,10 +79,8 @@ contains
     if (info%failed()) return
     allocate (displacement(joined%first(size(joined%first))), pressure(joined%pairs%points()), &
               touching(joined%pairs%points()), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(joined%first(size(joined%first)))//' displacements')
-      return
-    end if
+    call require_memory(stat, '', joined%first(size(joined%first)), 'displacements', info)
+    if (stat /= 0) return
     call fuge_condense(stiffness, joined%body, condensed, info)
     condensation = info
     if (.not. info%failed()) then

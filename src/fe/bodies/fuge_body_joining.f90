@@ -16,7 +16,7 @@ module fuge_body_joining
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
+  use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, &
     FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_NO_CONTACT
   use fuge_symmetric_columns, only: symmetric_columns
   implicit none
@@ -85,7 +85,7 @@ contains
       return
     end if
     allocate (found%first(size(bodies) + 1), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(bodies))//' bodies')
+    call require_memory(stat, '', size(bodies), 'bodies', info)
     if (.not. info%failed()) call take_bodies(bodies, matrices, own, found%first, info)
     if (.not. info%failed()) call join_columns(matrices, found, info)
     if (.not. info%failed()) call join_supports(own, found%first, found%body, info)
@@ -181,10 +181,8 @@ contains
     if (entries < int(huge(1), int64)) &
       allocate (joined%column(joined%first(size(joined%first)) + 1), joined%row(entries), joined%value(entries), &
                 stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the stiffness matrix of all bodies')
-      return
-    end if
+    call require_memory(stat, 'the stiffness matrix of all bodies', info)
+    if (stat /= 0) return
     begin = 0
     joined%column(1) = 1
     do k = 1, size(matrices)
@@ -218,10 +216,8 @@ contains
     end do
     allocate (body%fixed(supports), body%displacement(supports), body%load(degrees), modes(degrees, mode_count), &
               stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for supports and loads of '//text(degrees)//' degrees of freedom')
-      return
-    end if
+    call require_memory(stat, 'supports and loads of', degrees, 'degrees of freedom', info)
+    if (stat /= 0) return
     body%displacement = 0.0_dp
     body%load = 0.0_dp
     modes = 0.0_dp
@@ -263,7 +259,7 @@ contains
 
     allocate (joined%body%dof, source=joined%pairs%dof, stat=stat)
     if (stat == 0) allocate (joined%body%normal, source=joined%pairs%normal, stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact points')
+    call require_memory(stat, 'the contact points', info)
   end subroutine set_points
 
   !> Move all components without a copy.

@@ -5,7 +5,7 @@ module fuge_elastic_body_type
   use fuge_contact_pairs_type, only: fuge_pair_options
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_DOF, FUGE_ERR_MEMORY, &
+  use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_DOF, &
     FUGE_ERR_NOT_DEFINITE, FUGE_ERR_SIZE
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_symmetric_columns, only: symmetric_columns
@@ -90,7 +90,7 @@ contains
     if (allocated(body%displacement) .and. stat == 0) allocate (own%displacement, source=body%displacement, stat=stat)
     if (allocated(body%load) .and. stat == 0) allocate (own%load, source=body%load, stat=stat)
     if (allocated(body%rigid_modes) .and. stat == 0) allocate (own%rigid_modes, source=body%rigid_modes, stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for copies of supports, load and rigid modes')
+    call require_memory(stat, 'copies of supports, load and rigid modes', info)
   end subroutine copy_data
 
   !> Refuse a free degree of freedom without stiffness.
@@ -102,10 +102,8 @@ contains
     integer :: j, stat
 
     allocate (terms(matrix%degrees()), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(matrix%degrees())//' degrees of freedom')
-      return
-    end if
+    call require_memory(stat, '', matrix%degrees(), 'degrees of freedom', info)
+    if (stat /= 0) return
     call matrix%diagonal(terms)
     if (allocated(own%fixed)) terms(own%fixed) = 1.0_dp
     do j = 1, size(terms)

@@ -4,7 +4,7 @@ module fuge_held_points
   use fuge_contact_pairs_type, only: fuge_contact_pairs
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_GAP, FUGE_ERR_MEMORY, FUGE_ERR_MESH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_GAP, FUGE_ERR_MESH
   implicit none
   private
 
@@ -32,10 +32,8 @@ contains
     integer :: i, stat
 
     allocate (fixed(degrees), displacement(degrees), held(pairs%points()), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(degrees)//' degrees of freedom')
-      return
-    end if
+    call require_memory(stat, '', degrees, 'degrees of freedom', info)
+    if (stat /= 0) return
     fixed = .false.
     displacement = 0.0_dp
     if (allocated(body%fixed)) fixed(body%fixed) = .true.
@@ -50,7 +48,7 @@ contains
                   //' contact points: free degrees of freedom, or leave the pair out')
     else if (any(held)) then
       call pairs%keep(.not. held, stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact points')
+      call require_memory(stat, 'the contact points', info)
     end if
   end subroutine leave_out_held
 

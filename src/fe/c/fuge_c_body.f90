@@ -10,7 +10,7 @@ module fuge_c_body
   use fuge_nodal_modes, only: fuge_rigid_modes
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_MODES, &
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MODES, &
     FUGE_ERR_SIZE, FUGE_MESSAGE_LENGTH
   use fuge_stiffness_band, only: fuge_band_stiffness
   use fuge_stiffness_dense, only: fuge_dense_stiffness
@@ -146,10 +146,8 @@ contains
     call require_pointer(destination, 'body', info)
     if (info%failed()) return
     allocate (handle, stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the body')
-      return
-    end if
+    call require_memory(stat, 'the body', info)
+    if (stat /= 0) return
     call move_alloc(source, handle%source)
     handle%degrees = degrees
     call set_handle(c_loc(handle), destination)
@@ -239,7 +237,7 @@ contains
     if (.not. info%failed() .and. m > 0) then
       call c_f_pointer(rigid_modes, values, [handle%degrees, int(m)])
       allocate (copy, source=values, stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(m))//' rigid modes')
+      call require_memory(stat, '', int(m), 'rigid modes', info)
     end if
     if (.not. info%failed()) then
       handle%body%floats = .false.
@@ -334,10 +332,8 @@ contains
     integer :: stat
 
     allocate (copy_of_dof(width, n), copy_of_normal(width, n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(n)//' contact points')
-      return
-    end if
+    call require_memory(stat, '', n, 'contact points', info)
+    if (stat /= 0) return
     call c_f_pointer(dof, numbers, [width, n])
     call c_f_pointer(normal, directions, [width, n])
     copy_of_dof = from_zero(numbers)

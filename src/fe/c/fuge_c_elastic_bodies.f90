@@ -8,8 +8,9 @@ module fuge_c_elastic_bodies
     set_handle, take_handle
   use fuge_contact_pairs_type, only: fuge_pair_options, FUGE_NORMALS_GIVEN
   use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair
-  use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, FUGE_MESSAGE_LENGTH
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, &
+    FUGE_MESSAGE_LENGTH
   implicit none
   private
 
@@ -112,10 +113,8 @@ contains
     allocate (more(n + 1), stat=stat)
     if (stat == 0) allocate (more(n + 1)%column(size(columns)), more(n + 1)%row(entries), more(n + 1)%value(entries), &
                              stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of '//text(entries)//' entries')
-      return
-    end if
+    call require_memory(stat, 'a copy of', entries, 'entries', info)
+    if (stat /= 0) return
     do k = 1, entries
       more(n + 1)%row(k) = from_zero(rows(k))
       more(n + 1)%value(k) = values(k)

@@ -6,7 +6,8 @@ module fuge_c_pairs
   use fuge_contact_pairs_search, only: fuge_find_pairs
   use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options, FUGE_NORMALS_GIVEN
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, FUGE_MESSAGE_LENGTH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, &
+    FUGE_MESSAGE_LENGTH
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   implicit none
   private
@@ -126,10 +127,8 @@ contains
 
     allocate (copy%node(sizes(1), sizes(2)), copy%face(sizes(3), sizes(4)), stat=stat)
     if (stat == 0 .and. c_associated(dof)) allocate (copy%dof(sizes(1), sizes(2)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a surface of '//text(int(sizes(4)))//' faces')
-      return
-    end if
+    call require_memory(stat, 'a surface of', int(sizes(4)), 'faces', info)
+    if (stat /= 0) return
     call c_f_pointer(node, positions, [sizes(1), sizes(2)])
     copy%node = positions
     call c_f_pointer(face, numbers, [sizes(3), sizes(4)])
@@ -204,7 +203,7 @@ contains
     if (options%normals /= FUGE_NORMALS_GIVEN) return
     call c_f_pointer(normal, values, shape(contact%node))
     allocate (options%normal, source=values, stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the normals')
+    call require_memory(stat, 'the normals', info)
   end subroutine take_options
 
   function c_pairs_get_sizes(pairs, n, width, unpaired) bind(c, name='fuge_pairs_get_sizes') result(status)

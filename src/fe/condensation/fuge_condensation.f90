@@ -1,16 +1,16 @@
 !> Static condensation: from the stiffness matrix of a body to the influence matrix of its contact
 !> points, and back from contact forces to the displacements of all degrees of freedom.
 !>
-!> With N the normals of the contact points (n columns), p the external load and G the inverse of
+!> With H the normals of the contact points (n columns), p the external load and G the inverse of
 !> K with supports and pins constrained,
 !>
-!>     alpha = N^T G N,    b = N^T u_p,    u_p = G p (plus the displacements of the supports),
-!>     u = u_p + G N f + Z q.
+!>     alpha = H^T G H,    b = H^T u_p,    u_p = G p (plus the displacements of the supports),
+!>     u = u_p + G H f + Z q.
 !>
 !> alpha is the inverse of the Schur complement of K in the contact points. Z are the rigid modes
 !> of a floating body. One degree of freedom is pinned for each; its reaction is zero when the
 !> forces are in equilibrium, so that no result depends on the choice. The gaps are then
-!> g + b + alpha f - R q with R = -N^T Z, and equilibrium is R^T f = w with w = Z^T p: the general
+!> g + b + alpha f - R q with R = -H^T Z, and equilibrium is R^T f = w with w = Z^T p: the general
 !> problem. A rigid mode that moves no contact point, such as sliding along a flat one, is left
 !> out; the load must not drive it.
 module fuge_condensation
@@ -27,8 +27,8 @@ module fuge_condensation
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_rigid_body_modes, only: check_rigid_modes, choose_pins, find_pin_loads, find_rigid_modes
   use fuge_smallest_eigenvalue, only: find_smallest_eigenvalue, unscale
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
+  use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, &
+    FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
   private
@@ -135,7 +135,7 @@ contains
     call check_body(body, stiffness%degrees(), info)
     if (info%failed()) return
     allocate (result%stiffness, source=stiffness, stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the stiffness')
+    call require_memory(stat, 'a copy of the stiffness', info)
     result%body = body
     if (.not. info%failed()) call mark_supports(result, all_scale, info)
     found = .false.
@@ -244,19 +244,15 @@ contains
       field(:, 1) = merge(0.0_dp, forces, self%constrained)
       call self%factor%solve(field, stat)
     end if
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
-      return
-    end if
+    call require_memory(stat, 'the displacements', info)
+    if (stat /= 0) return
     field(:, 1) = self%load_displacement + field(:, 1)
     do j = 1, size(self%rigid_modes, 2)
       field(:, 1) = field(:, 1) + self%rigid_modes(:, j)*solution%motion(j)
     end do
     if (allocated(self%unresisted_modes)) call remove_motions(self%unresisted_modes, self%scale, field(:, 1), stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements')
-      return
-    end if
+    call require_memory(stat, 'the displacements', info)
+    if (stat /= 0) return
     call find_residual(self, solution, field(:, 1), info)
     if (.not. info%failed()) u = field(:, 1)
   end subroutine recover
@@ -311,10 +307,8 @@ contains
     integer :: stat
 
     allocate (forces(size(u)), residual(size(u)), product(size(u)), magnitude(size(u)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the residual')
-      return
-    end if
+    call require_memory(stat, 'the residual', info)
+    if (stat /= 0) return
     forces = 0.0_dp
     call add_contact_forces(self%body, solution%force, forces)
     call self%stiffness%multiply(u, product, magnitude)
@@ -341,10 +335,8 @@ contains
 
     degrees = self%stiffness%degrees()
     allocate (self%constrained(degrees), self%scale(degrees), all_scale(degrees), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(degrees)//' degrees of freedom')
-      return
-    end if
+    call require_memory(stat, '', degrees, 'degrees of freedom', info)
+    if (stat /= 0) return
     self%constrained = .false.
     if (allocated(self%body%fixed)) self%constrained(self%body%fixed) = .true.
     call find_scale(self, all_scale, info)
@@ -533,7 +525,7 @@ contains
     if (allocated(self%body%displacement)) field(self%body%fixed) = field(self%body%fixed) + self%body%displacement
   end subroutine add_supports
 
-  !> R = -N^T Z; keep the modes that the contact points resist.
+  !> R = -H^T Z; keep the modes that the contact points resist.
   subroutine keep_resisted_modes(self, info)
     type(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
@@ -566,10 +558,8 @@ contains
 
     n = size(self%body%dof, 2)
     allocate (load(size(self%constrained)), resultant(size(self%modes, 2)), displacement(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements due to the load')
-      return
-    end if
+    call require_memory(stat, 'the displacements due to the load', info)
+    if (stat /= 0) return
     load = 0.0_dp
     if (allocated(self%body%load)) load = self%body%load
     call check_unresisted(self%unresisted_modes, load, self%scale, self%mode_error, info)

@@ -1,7 +1,7 @@
-!> The influence matrix alpha = N^T G N of the contact points of a body, G the inverse of the stiffness matrix K without
+!> The influence matrix alpha = H^T G H of the contact points of a body, G the inverse of the stiffness matrix K without
 !> the constrained degrees of freedom.
 !>
-!> If the factor of K ends with the degrees of freedom that N touches, the last rows of N, C, and the factor L of their
+!> If the factor of K ends with the degrees of freedom that H touches, the last rows of H, C, and the factor L of their
 !> Schur complement are all that alpha needs: with X = L^-1 C, alpha = X^T X. Otherwise each point costs a solve.
 module fuge_condensed_influence
   use fuge_body_type, only: fuge_body
@@ -9,8 +9,8 @@ module fuge_condensed_influence
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_lapack, only: dsyrk, dtrsm
-  use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_number_text, only: index_text
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_OVERFLOW
   use fuge_stiffness_type, only: stiffness_factor
   implicit none
   private
@@ -63,10 +63,8 @@ contains
     else if (stat == 0) then
       call solve_for_points(body, constrained, factor, alpha, stat)
     end if
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the influence matrix of '//text(n)//' contact points')
-      return
-    end if
+    call require_memory(stat, 'the influence matrix of', n, 'contact points', info)
+    if (stat /= 0) return
     do j = 1, n
       if (is_finite_everywhere(alpha(:, j)) .and. alpha(j, j) < huge(1.0_dp)) cycle
       call report(info, FUGE_ERR_OVERFLOW, 'the influence of contact point '//index_text(j) &

@@ -1,4 +1,4 @@
-!> The rigid modes of a body at its contact points: R = -N^T Z, the resultant w = Z^T p, and the
+!> The rigid modes of a body at its contact points: R = -H^T Z, the resultant w = Z^T p, and the
 !> modes that no contact force resists.
 module fuge_contact_modes
   use fuge_body_type, only: fuge_body
@@ -64,7 +64,7 @@ contains
     end do
   end subroutine split_rigid_modes
 
-  !> R = -N^T Z, `modes` (n, m). Where a mode does not move a point, R is set to exactly zero: a
+  !> R = -H^T Z, `modes` (n, m). Where a mode does not move a point, R is set to exactly zero: a
   !> remainder of rounding size would let the point resist the mode with huge forces.
   !> `stat` is not zero without memory.
   subroutine find_contact_modes(body, rigid_modes, scale, mode_error, modes, stat)

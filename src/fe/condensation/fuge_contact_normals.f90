@@ -1,4 +1,4 @@
-!> The normals N of the contact points, (degrees, n): N f and N^T u.
+!> The normals H of the contact points, (degrees, n): H f and H^T u.
 module fuge_contact_normals
   use fuge_body_type, only: fuge_body
   use fuge_kinds, only: dp
@@ -11,7 +11,7 @@ module fuge_contact_normals
 
 contains
 
-  !> Add the forces of all contact points, N f, to the loads `field` (degrees); `force` (n).
+  !> Add the forces of all contact points, H f, to the loads `field` (degrees); `force` (n).
   pure subroutine add_contact_forces(body, force, field)
     type(fuge_body), intent(in) :: body
     real(dp), intent(in) :: force(:)
@@ -23,7 +23,7 @@ contains
     end do
   end subroutine add_contact_forces
 
-  !> Add the force of one contact point, a column of N times `force`, to the loads `field`
+  !> Add the force of one contact point, a column of H times `force`, to the loads `field`
   !> (degrees).
   pure subroutine add_point_force(dof, normal, force, field)
     integer, intent(in) :: dof(:)
@@ -36,7 +36,7 @@ contains
     end do
   end subroutine add_point_force
 
-  !> Displacement of a contact point, a row of N^T u, in the displacements `field` (degrees).
+  !> Displacement of a contact point, a row of H^T u, in the displacements `field` (degrees).
   pure function point_displacement(dof, normal, field) result(displacement)
     integer, intent(in) :: dof(:)
     real(dp), intent(in) :: normal(:), field(:)

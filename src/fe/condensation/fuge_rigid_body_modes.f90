@@ -10,7 +10,8 @@ module fuge_rigid_body_modes
   use fuge_number_text, only: index_text, text
   use fuge_pivoted_qr, only: factorise_pivoted, numerical_rank, orthonormalise
   use fuge_smallest_eigenvalue, only: unscale
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_MEMORY, FUGE_ERR_MODES, &
+    FUGE_ERR_NOT_DEFINITE
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
   private
@@ -73,10 +74,8 @@ contains
     width = min(FIRST_BLOCK, free)
     do
       call find_softest_modes(stiffness, factor, scale, width, y, quotient, magnitudes, status)
-      if (status /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(width)//' modes of the body')
-        return
-      end if
+      call require_memory(status, '', width, 'modes of the body', info)
+      if (status /= 0) return
       rigid = count(quotient <= error_share*NO_STIFFNESS*magnitudes)
       if (rigid < width .or. width == free) exit
       width = min(2*width, free)

@@ -4,7 +4,7 @@ module fuge_symmetric_columns
   use fuge_compressed_columns, only: compress_columns, compressed_columns, matrix_triplets
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_stiffness_check, only: check_entry, check_pair
   implicit none
   private
@@ -40,11 +40,8 @@ contains
     call check_columns(column, row, value, info)
     if (info%failed()) return
     call split_triangles(column, row, value, lower, upper, stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the stiffness matrix with '//text(size(row)) &
-                  //' entries')
-      return
-    end if
+    call require_memory(stat, 'a copy of the stiffness matrix with', size(row), 'entries', info)
+    if (stat /= 0) return
     if (.not. has_triangle(upper)) then
       call move_columns(lower, self%upper)
     else

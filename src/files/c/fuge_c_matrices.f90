@@ -6,7 +6,7 @@ module fuge_c_matrices
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -134,10 +134,8 @@ contains
     ! Where the columns do not begin at 0 the last one may end beyond the entries: no entry is read then.
     entries = merge(int(begin(size(begin))), 0, begin(1) == 0)
     allocate (column(size(begin)), i(entries), stat=status)
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of '//text(entries)//' indices')
-      return
-    end if
+    call require_memory(status, 'a copy of', entries, 'indices', info)
+    if (status /= 0) return
     call c_f_pointer(row, rows_from_zero, [entries])
     call c_f_pointer(value, entry, [entries])
     column = from_zero(begin)

@@ -7,7 +7,7 @@ module fuge_c_mesh_writer
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_field, move_mesh, TYPE_LENGTH
   use fuge_mesh_writer, only: fuge_write_mesh
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, FUGE_ERR_SIZE
   use fuge_text_fields, only: quoted
   implicit none
   private
@@ -40,7 +40,7 @@ contains
     if (.not. info%failed()) call copy_types(int(types), element_type, all_types, info)
     if (.not. info%failed()) then
       allocate (connection(most, elements), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(elements))//' elements')
+      call require_memory(stat, '', int(elements), 'elements', info)
     end if
     if (.not. info%failed()) then
       call c_f_pointer(position, positions, [dimensions, nodes])
@@ -64,10 +64,8 @@ contains
     call require_pointer(addresses, 'type', info)
     if (info%failed()) return
     allocate (all_types(types), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(types)//' types')
-      return
-    end if
+    call require_memory(stat, '', types, 'types', info)
+    if (stat /= 0) return
     call c_f_pointer(addresses, address, [types])
     do k = 1, types
       call copy_name(address(k), 'type', k, all_types(k), info)
@@ -100,10 +98,8 @@ contains
 
     if (info%failed()) return
     allocate (handle, stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a mesh')
-      return
-    end if
+    call require_memory(stat, 'a mesh', info)
+    if (stat /= 0) return
     call move_mesh(mesh, handle)
     call set_handle(c_loc(handle), destination)
   end subroutine hand_over
@@ -153,7 +149,7 @@ contains
     if (.not. info%failed()) then
       call c_f_pointer(source, mesh)
       allocate (fields(count), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(int(count))//' fields')
+      call require_memory(stat, '', int(count), 'fields', info)
       if (.not. info%failed()) call copy_fields(mesh, names, components, elements, values, fields, info)
       if (.not. info%failed()) call fuge_write_mesh(from_c_string(path), mesh, fields, info)
     end if

@@ -5,7 +5,7 @@ module fuge_c_surfaces
     require_pointer
   use fuge_field_files, only: fuge_write_fields, fuge_write_volume
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
   use fuge_surface_filling, only: fuge_fill_surface
   use fuge_surface_levelling, only: fuge_level_surface
@@ -77,7 +77,7 @@ contains
     call find_heights(nx, ny, height, heights, info)
     if (.not. info%failed()) then
       allocate (surface%height, source=heights, stat=failure)
-      if (failure /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a copy of the heights')
+      call require_memory(failure, 'a copy of the heights', info)
     end if
     if (c_associated(spacing)) then
       call c_f_pointer(spacing, spacings, [2])

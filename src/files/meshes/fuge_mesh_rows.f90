@@ -8,8 +8,8 @@ module fuge_mesh_rows
   use fuge_mesh_type, only: fuge_mesh
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
-  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
-    FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, &
+    FUGE_ERR_OPTION, FUGE_ERR_SIZE
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_text_fields, only: quoted
   implicit none
@@ -100,10 +100,8 @@ contains
       if (rows(along, member(k)) > 0) count = count + 1
     end do
     allocate (found(count), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(count)//' degrees of freedom')
-      return
-    end if
+    call require_memory(stat, '', count, 'degrees of freedom', info)
+    if (stat /= 0) return
     count = 0
     do k = 1, size(member)
       if (rows(along, member(k)) == 0) cycle
@@ -160,10 +158,8 @@ contains
     do i = 1, size(mesh%node)
       if (stat == 0) call places%number_of(mesh%node(i), 0, number, stat)
     end do
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the rows of '//text(size(mesh%node))//' nodes')
-      return
-    end if
+    call require_memory(stat, 'the rows of', size(mesh%node), 'nodes', info)
+    if (stat /= 0) return
     rows = 0
     do k = 1, size(node)
       if (direction(k) < 1 .or. direction(k) > DIRECTIONS) cycle
@@ -222,10 +218,8 @@ contains
     integer :: f, k, n, stat
 
     allocate (member(count(faces > 0)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the nodes of '//text(size(faces, 2))//' faces')
-      return
-    end if
+    call require_memory(stat, 'the nodes of', size(faces, 2), 'faces', info)
+    if (stat /= 0) return
     n = 0
     do f = 1, size(faces, 2)
       do k = 1, size(faces, 1)

@@ -7,7 +7,7 @@ module fuge_mesh_writer
   use fuge_mesh_checks, only: check_mesh, element_name
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_field, NAME_LENGTH
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, FUGE_ERR_NOT_FINITE, &
+  use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, &
     FUGE_ERR_SIZE
   use fuge_text_writer, only: text_output
   use fuge_vtk_cells, only: vtk_cell, vtk_node, CELL_UNKNOWN
@@ -41,10 +41,8 @@ contains
     call check_mesh(mesh, info)
     if (info%failed()) return
     allocate (cells(size(mesh%element_type)), nodes(size(mesh%element_type)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(mesh%element_type))//' cells')
-      return
-    end if
+    call require_memory(stat, '', size(mesh%element_type), 'cells', info)
+    if (stat /= 0) return
     call find_cells(mesh, cells, nodes, info)
     if (.not. info%failed()) call check_fields(mesh, fields, info)
     if (.not. info%failed()) call file%create(path, info)

@@ -14,7 +14,7 @@ module fuge_line_halfplane
   use fuge_rank_communicator, only: free_communicator, members_here, rank_communicator, split_communicator
   use fuge_point_space, only: point_space
   use fuge_shared_operator, only: owns, shared_operator
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory, FUGE_DONE
   use mpi_f08, only: MPI_Comm
   implicit none
   private
@@ -129,7 +129,7 @@ contains
     stat = 0
     if (active > 1 .and. me < active) allocate (operator%shared, stat=stat)
     if (active == 1 .and. me < active) allocate (operator%whole, stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for an operator')
+    call require_memory(stat, 'an operator', info)
     call operator%group%agree(info)
     if (info%failed()) return
     if (active > 1) call split_communicator(operator%group, active, operator%part)

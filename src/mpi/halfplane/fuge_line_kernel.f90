@@ -4,9 +4,8 @@ module fuge_line_kernel
   use fuge_halfplane_spectra, only: free_factor
   use fuge_kinds, only: dp
   use fuge_line_transform, only: line_transform
-  use fuge_number_text, only: text
   use fuge_rank_communicator, only: rank_communicator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -52,7 +51,7 @@ contains
     length = transform%rows*transform%columns
     allocate (inverse%spectrum(transform%columns, transform%own_waves), &
               influence%spectrum(transform%columns, transform%own_waves), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the spectra of '//text(line%cells)//' cells')
+    call require_memory(stat, 'the spectra of', line%cells, 'cells', info)
     call group%agree(info)
     if (stat /= 0 .or. info%failed()) return
     do k = 1, transform%own_waves

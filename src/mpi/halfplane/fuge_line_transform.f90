@@ -16,9 +16,8 @@ module fuge_line_transform
   use fuge_line_cells, only: block_begins, rows_of_circle, rows_of_ranks
   use fuge_line_numbers, only: gather_lines, multiply_exchanging, multiply_line, quarter_root, root_of_one, &
     scale_line, scatter_lines
-  use fuge_number_text, only: text
   use fuge_rank_communicator, only: rank_communicator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -89,10 +88,8 @@ contains
                 self%column_twist(2, self%own_columns), stat=stat)
     end if
     if (stat == 0) call allocate_buffers(self, stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for transforms of '//text(length)//' cells')
-      return
-    end if
+    call require_memory(stat, 'transforms of', length, 'cells', info)
+    if (stat /= 0) return
     call self%along_column%set(2*self%rows, info, measured=measured, separate=.true.)
     if (.not. info%failed()) call self%along_wave%set(2*self%columns, info, measured=measured, separate=.true.)
     call compute_factors(self)

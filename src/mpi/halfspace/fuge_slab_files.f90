@@ -9,7 +9,7 @@ module fuge_slab_files
   use fuge_number_text, only: text
   use fuge_point_space, only: point_space
   use fuge_shared_operator, only: shared_operator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_FILE, FUGE_ERR_SIZE
   use mpi_f08, only: MPI_Bcast, MPI_File, MPI_File_close, MPI_File_open, MPI_File_read_at, MPI_File_read_at_all, &
     MPI_File_set_size, MPI_File_set_view, MPI_File_write_at, MPI_File_write_at_all, MPI_Get_count, MPI_Status, &
     MPI_CHARACTER, MPI_DOUBLE_PRECISION, MPI_INFO_NULL, MPI_INTEGER, MPI_MODE_CREATE, MPI_MODE_RDONLY, &
@@ -50,7 +50,7 @@ contains
     if (info%failed()) return
     space = operator%ranks()
     allocate (rows(operator%points()), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(operator%points())//' values')
+    call require_memory(stat, '', operator%points(), 'values', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call require_file(path, 'read', 'cannot be opened', space, info)

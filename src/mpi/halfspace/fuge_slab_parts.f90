@@ -12,7 +12,7 @@ module fuge_slab_parts
   use fuge_slab_plan, only: slab_plan
   use fuge_slab_rows, only: active_ranks
   use fuge_slab_spectra, only: compute_slab_spectra
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -69,7 +69,7 @@ contains
       else
         allocate (parts%whole, stat=stat)
       end if
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for an operator')
+      call require_memory(stat, 'an operator', info)
     end if
     call group%agree(info)
     if (info%failed()) return

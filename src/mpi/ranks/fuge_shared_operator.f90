@@ -8,7 +8,7 @@ module fuge_shared_operator
   use fuge_number_text, only: text
   use fuge_point_space, only: point_space
   use fuge_shared_problem, only: differ
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, &
     FUGE_ERR_UNSUPPORTED
   use mpi_f08, only: MPI_Comm
   implicit none
@@ -62,7 +62,7 @@ contains
     if (info%failed()) return
     call new_communicator(comm, own)
     allocate (self%group, stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a communicator')
+    call require_memory(stat, 'a communicator', info)
     call own%agree(info)
     if (info%failed()) then
       if (stat == 0) deallocate (self%group)

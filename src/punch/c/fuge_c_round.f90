@@ -9,7 +9,7 @@ module fuge_c_round
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_punch, only: fuge_solve_round_punch
   use fuge_smooth_profile_type, only: fuge_smooth_profile
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory
   implicit none
   private
 
@@ -95,10 +95,8 @@ contains
     call require_pointer(destination, 'contact', info)
     if (info%failed()) return
     allocate (handle, stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact')
-      return
-    end if
+    call require_memory(stat, 'the contact', info)
+    if (stat /= 0) return
     ! An actual argument that is a null pointer is an absent one.
     nullify (given_load, given_approach, given_radius)
     if (c_associated(load)) call c_f_pointer(load, given_load)

@@ -9,7 +9,7 @@ module fuge_c_smooth
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_profile_type, only: fuge_smooth_profile
   use fuge_smooth_punch, only: fuge_solve_smooth_punch
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -70,7 +70,7 @@ contains
     call require_pointer(destination, 'contact', info)
     if (.not. info%failed()) then
       allocate (handle, stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact')
+      call require_memory(stat, 'the contact', info)
     end if
     if (.not. info%failed()) then
       punch%lower = lower

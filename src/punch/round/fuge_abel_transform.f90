@@ -1,12 +1,12 @@
 !> Abel's transform of the profile of a round punch, on which its contact depends in closed form.
 !>
-!> A rigid punch with the profile f(r) that touches a half-space in a disc of radius a has
+!> A rigid punch with the profile g(r) that touches a half-space in a disc of radius a has
 !>
-!>     g(t) = t integral of f'(r)/sqrt(t**2 - r**2) dr, r = 0 .. t,
-!>     approach = f(0) + g(a),   load = 2 E* integral of t g'(t) dt, t = 0 .. a
+!>     chi(t) = t integral of g'(r)/sqrt(t**2 - r**2) dr, r = 0 .. t,
+!>     approach = g(0) + chi(a),   load = 2 E* integral of t chi'(t) dt, t = 0 .. a
 !>
-!> (I. N. Sneddon, Int. J. Engng Sci. 3, 1965; L. A. Galin). The derivative g' has no unit. It is a Chebyshev series in
-!> t from 0 to a: smooth wherever f is smooth from the axis on, also for a tip. A power r**n becomes one of t.
+!> (I. N. Sneddon, Int. J. Engng Sci. 3, 1965; L. A. Galin). The derivative chi' has no unit. It is a Chebyshev series
+!> in t from 0 to a: smooth wherever g is smooth from the axis on, also for a tip. A power r**n becomes one of t.
 module fuge_abel_transform
   use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points, chebyshev_sum
   use fuge_constants, only: PI
@@ -29,7 +29,7 @@ module fuge_abel_transform
   !> Above this argument the gamma function itself might overflow.
   real(dp), parameter :: LARGEST_ARGUMENT = 150.0_dp
 
-  !> g'(t) = sum_k coefficients(k + 1) T_k(2 t/radius - 1) + sum_k factors(k) (t/radius)**(powers(k) - 1), and the
+  !> chi'(t) = sum_k coefficients(k + 1) T_k(2 t/radius - 1) + sum_k factors(k) (t/radius)**(powers(k) - 1), and the
   !> edges.
   type, public :: abel_transform
     !> Radius of the contact; length.
@@ -37,11 +37,11 @@ module fuge_abel_transform
     real(dp), allocatable :: coefficients(:), factors(:), powers(:)
     !> Terms that begin within the contact, in units of its radius.
     type(profile_edge), allocatable :: edges(:)
-    !> g'(0), which is not 0 for a tip.
+    !> chi'(0), which is not 0 for a tip.
     real(dp) :: tip = 0.0_dp
-    !> The slope f' from which the series was made, without powers.
+    !> The slope g' from which the series was made, without powers.
     type(slope_series) :: slope
-    !> Estimated error of g'.
+    !> Estimated error of chi'.
     real(dp) :: error = 0.0_dp
   contains
     procedure :: slopes
@@ -111,7 +111,7 @@ contains
     end do
   end subroutine set_powers
 
-  !> Terms of a series up to the last one above its error: the derivative in g' would magnify what is noise.
+  !> Terms of a series up to the last one above its error: the derivative in chi' would magnify what is noise.
   pure function terms_above_noise(series) result(terms)
     type(slope_series), intent(in) :: series
     integer :: terms
@@ -136,8 +136,8 @@ contains
     coefficients(2::2) = coefficients(2::2) - change
   end subroutine fix_tip
 
-  !> Factors of g' for the profile sum_k c_k r**n_k: c n**2 B(n) radius**(n - 1), B the integral of sin**(n - 1) over a
-  !> quarter of the circle.
+  !> Factors of chi' for the profile sum_k c_k r**n_k: c n**2 B(n) radius**(n - 1), B the integral of sin**(n - 1) over
+  !> a quarter of the circle.
   elemental function power_factors(coefficient, power, radius) result(factor)
     real(dp), intent(in) :: coefficient, power, radius
     real(dp) :: factor
@@ -151,7 +151,7 @@ contains
     if (power > 1.0_dp) factor = factor*radius**(power - 1.0_dp)
   end function power_factors
 
-  !> Coefficients of g' from those of f': g(t)/t is the integral of f'(t sin(angle)) over a quarter of the circle.
+  !> Coefficients of chi' from those of g': chi(t)/t is the integral of g'(t sin(angle)) over a quarter of the circle.
   pure function transformed(a) result(derivative)
     real(dp), intent(in) :: a(0:)
     real(dp) :: derivative(0:size(a) - 1)
@@ -175,7 +175,7 @@ contains
     derivative = chebyshev_derivative(g)
   end function transformed
 
-  !> The least power of two that is not below the degree of a series with so many terms.
+  !> The least power of two that is not below the degree of a series of `terms` terms.
   pure function degree_for(terms) result(n)
     integer, intent(in) :: terms
     integer :: n
@@ -186,25 +186,25 @@ contains
     end do
   end function degree_for
 
-  !> g' without the edges at `part` (m), 0 to 1, times the radius; no unit.
-  pure function slopes(self, part) result(values)
+  !> chi' without the edges at the `fraction` (m), 0 to 1, of the radius; no unit.
+  pure function slopes(self, fraction) result(values)
     class(abel_transform), intent(in) :: self
-    real(dp), intent(in) :: part(:)
-    real(dp) :: values(size(part))
+    real(dp), intent(in) :: fraction(:)
+    real(dp) :: values(size(fraction))
     integer :: k
 
     values = 0.0_dp
-    if (size(self%coefficients) > 0) values = chebyshev_sum(self%coefficients, 2.0_dp*part - 1.0_dp)
+    if (size(self%coefficients) > 0) values = chebyshev_sum(self%coefficients, 2.0_dp*fraction - 1.0_dp)
     do k = 1, size(self%powers)
       if (self%powers(k) > 1.0_dp) then
-        values = values + self%factors(k)*part**(self%powers(k) - 1.0_dp)
+        values = values + self%factors(k)*fraction**(self%powers(k) - 1.0_dp)
       else
         values = values + self%factors(k)
       end if
     end do
   end function slopes
 
-  !> g' at the rim; no unit.
+  !> chi' at the rim; no unit.
   pure function rim_slope(self) result(slope)
     class(abel_transform), intent(in) :: self
     real(dp) :: slope
@@ -212,7 +212,7 @@ contains
     slope = sum(self%coefficients) + sum(self%factors) + sum(edge_rim_slope(self%edges))
   end function rim_slope
 
-  !> g(a) over the radius a; no unit.
+  !> chi(a) over the radius a; no unit.
   pure function depth(self)
     class(abel_transform), intent(in) :: self
     real(dp) :: depth

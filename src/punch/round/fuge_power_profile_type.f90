@@ -12,9 +12,10 @@ module fuge_power_profile_type
   !> cannot follow at the axis. A flat end of radius b with an edge rounded by R is (r - b)**2/(2 R); a ball worn flat
   !> there has b (r - b)/R in addition.
   type, extends(fuge_smooth_profile), public :: fuge_power_profile
-    !> Of the same size; for the power n, length per length**n.
+    !> Coefficients and powers, of the same size; the coefficient of the power n has the unit length per length**n.
     real(dp), allocatable :: coefficients(:), powers(:)
-    !> Of that size too, >= 0, length; all are 0 if it is not allocated. Where one is not 0 the power is 1 or 2.
+    !> Radii from which on the terms act, of that size too, >= 0, length; all are 0 if it is not allocated. Where one is
+    !> not 0 the power is 1 or 2.
     real(dp), allocatable :: starts(:)
   contains
     procedure :: evaluate

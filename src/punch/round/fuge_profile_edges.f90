@@ -1,9 +1,9 @@
 !> Parts of a round profile that begin at a radius of their own: flat ends, rounded edges, worn balls.
 !>
-!> A term c (r - b) or c (r - b)**2 from r = b on is not smooth there, but its Abel transform g is smooth in w, w**2 =
+!> A term c (r - b) or c (r - b)**2 from r = b on is not smooth there, but its Abel transform chi is smooth in w, w**2 =
 !> t**2 - b**2. With cos(theta) = b/t and lengths in units of the radius of the contact it has
 !>
-!>     g' dt = G dw,   G = c (theta w + b)/t   or   2 c (2 w - b theta) w/t
+!>     chi' dt = G dw,   G = c (theta w + b)/t   or   2 c (2 w - b theta) w/t
 !>
 !> (M. Ciavarella, D. A. Hills, G. Monno, J. Mech. Engng Sci. 212, 1998, for the rounded edge). All integrals over t
 !> become integrals of G over w, by a Gauss rule on (0, 1) of EDGE_NODES nodes or more.
@@ -58,7 +58,7 @@ contains
     end if
   end function edge_density
 
-  !> g' at the rim; no unit.
+  !> chi' at the rim; no unit.
   elemental function edge_rim_slope(edge) result(slope)
     type(profile_edge), intent(in) :: edge
     real(dp) :: slope
@@ -66,7 +66,7 @@ contains
     slope = edge_density(edge, rim_sine(edge))/rim_sine(edge)
   end function edge_rim_slope
 
-  !> The integral of g' dt up to the rim.
+  !> The integral of chi' dt up to the rim.
   pure function edge_depth(edge) result(depth)
     type(profile_edge), intent(in) :: edge
     real(dp) :: depth
@@ -83,7 +83,7 @@ contains
     end if
   end function edge_depth
 
-  !> The integral of t g' dt up to the rim.
+  !> The integral of t chi' dt up to the rim.
   pure function edge_thrust(edge) result(thrust)
     type(profile_edge), intent(in) :: edge
     real(dp) :: thrust
@@ -112,7 +112,7 @@ contains
     moment = rim_sine(edge)*dot_product(weight, edge_density(edge, node)*hypot(node, edge%start)**order)
   end function density_moment
 
-  !> The integral of g'/sqrt(t**2 - r**2) dt from max(r, b) to the rim; no unit.
+  !> The integral of chi'/sqrt(t**2 - r**2) dt from max(r, b) to the rim; no unit.
   !>
   !> With w = epsilon sinh(eta) inside the edge, r < b, and epsilon cosh(eta) outside, epsilon**2 = |r**2 - b**2|, it is
   !> that of G d(eta).
@@ -141,7 +141,7 @@ contains
     end do
   end function edge_pressure
 
-  !> The integral of g' arcsin(t/r) dt up to the rim, r > 1.
+  !> The integral of chi' arcsin(t/r) dt up to the rim, r > 1.
   pure function edge_displacement(edge, r, node, weight) result(integral)
     type(profile_edge), intent(in) :: edge
     real(dp), intent(in) :: r, node(:), weight(:)
@@ -150,7 +150,7 @@ contains
     integral = arc_integral(edge, r, rim_sine(edge), .true., node, weight)
   end function edge_displacement
 
-  !> The integral of g' arccos(t/r) dt up to r <= 1: pi/2 times the height of the profile there.
+  !> The integral of chi' arccos(t/r) dt up to r <= 1: pi/2 times the height of the profile there.
   pure function edge_height(edge, r, node, weight) result(integral)
     type(profile_edge), intent(in) :: edge
     real(dp), intent(in) :: r, node(:), weight(:)

@@ -62,7 +62,7 @@ contains
     if (.not. residual <= huge(residual)) residual = huge(residual)
   end subroutine certify_round
 
-  !> The profile above its axis at `r`, by the inverse transform of g: approach less displacement.
+  !> The profile above its axis at `r`, by the inverse transform of chi: approach less displacement.
   pure function recovered_heights(transform, r) result(height)
     type(abel_transform), intent(in) :: transform
     real(dp), intent(in) :: r(:)
@@ -93,20 +93,20 @@ contains
     type(fuge_round_contact), intent(in) :: contact
     type(abel_transform), intent(in) :: transform
     real(dp), intent(out) :: load, displacement
-    real(dp), dimension(nodes_of(transform)) :: node, weight, part, r, pressure
+    real(dp), dimension(nodes_of(transform)) :: node, weight, fraction, r, pressure
     real(dp) :: ends(0:size(transform%edges) + 1)
     integer :: k
 
     call gauss_rule(node, weight)
-    ! Smooth at both ends, where the pressure has a root or a logarithm: the part grows like the sixth power there.
-    part = node**6*(462.0_dp - node*(1980.0_dp - node*(3465.0_dp - node*(3080.0_dp - node*(1386.0_dp &
+    ! Smooth at both ends, where the pressure has a root or a logarithm: the fraction grows like the sixth power there.
+    fraction = node**6*(462.0_dp - node*(1980.0_dp - node*(3465.0_dp - node*(3080.0_dp - node*(1386.0_dp &
                                                                                           - 252.0_dp*node)))))
     weight = weight*2772.0_dp*(node*(1.0_dp - node))**5
     ends = sorted([0.0_dp, transform%edges%start, 1.0_dp])
     load = 0.0_dp
     displacement = 0.0_dp
     do k = 1, ubound(ends, 1)
-      r = min(1.0_dp, ends(k - 1) + (ends(k) - ends(k - 1))*part)
+      r = min(1.0_dp, ends(k - 1) + (ends(k) - ends(k - 1))*fraction)
       ! In units of the mean pressure, which keeps extreme numbers in range.
       pressure = contact%pressure(contact%radius*r)/(contact%load/contact%radius/contact%radius)
       load = load + 2.0_dp*PI*(ends(k) - ends(k - 1))*dot_product(weight, r*pressure)

@@ -1,10 +1,10 @@
 !> The contact of a round punch with a half-space, in closed form once its radius is known.
 !>
-!> With Abel's transform g of the profile (`fuge_abel_transform`) the pressure is
+!> With Abel's transform chi of the profile (`fuge_abel_transform`) the pressure is
 !>
-!>     p(r) = (E*/pi) integral of g'(t)/sqrt(t**2 - r**2) dt, t = r .. a,
+!>     p(r) = (E*/pi) integral of chi'(t)/sqrt(t**2 - r**2) dt, t = r .. a,
 !>
-!> and the displacement beside the contact (2/pi) integral of g'(t) arcsin(t/r) dt, t = 0 .. a (I. N. Sneddon 1965).
+!> and the displacement beside the contact (2/pi) integral of chi'(t) arcsin(t/r) dt, t = 0 .. a (I. N. Sneddon 1965).
 !> t = r cosh(xi) and t = r sin(phi) make both integrands smooth; neither has a difference.
 module fuge_round_contact_type
   use fuge_abel_transform, only: abel_transform
@@ -44,7 +44,7 @@ module fuge_round_contact_type
     generic :: gap => gap_at, gaps_at
   end type fuge_round_contact
 
-  !> Length of a panel of xi, and the number of panels after which only g'(0) is left.
+  !> Length of a panel of xi, and the number of panels after which only chi'(0) is left.
   real(dp), parameter :: PANEL = 1.0_dp, LAST_PANEL = 40.0_dp
   !> Nodes of a quadrature rule beyond half of the degree.
   integer, parameter :: MORE_NODES = 14
@@ -68,7 +68,7 @@ contains
     self%pressure_error = transform%error/max(tiny(1.0_dp), transform%thrust())
   end subroutine set_contact
 
-  !> The Chebyshev coefficients of g' from 0 to the radius, no unit; none for a `fuge_power_profile` or without load.
+  !> The Chebyshev coefficients of chi' from 0 to the radius, no unit; none for a `fuge_power_profile` or without load.
   pure function slope_coefficients(self) result(coefficients)
     class(fuge_round_contact), intent(in) :: self
     real(dp), allocatable :: coefficients(:)
@@ -121,7 +121,7 @@ contains
     end do
   end function pressures_at
 
-  !> Nodes for a panel: half of the degree of g', and some more.
+  !> Nodes for a panel: half of the degree of chi', and some more.
   pure function nodes_of(transform) result(nodes)
     type(abel_transform), intent(in) :: transform
     integer :: nodes
@@ -131,14 +131,14 @@ contains
     if (size(transform%powers) > 0) nodes = nodes + int(min(200.0_dp, 0.5_dp*maxval(transform%powers)))
   end function nodes_of
 
-  !> The integral of g'(t)/sqrt(t**2 - r**2) dt from `r` to the radius; no unit.
+  !> The integral of chi'(t)/sqrt(t**2 - r**2) dt from `r` to the radius; no unit.
   !>
-  !> Panel by panel from the rim. Close to the axis only g'(0) is left, unless there are powers between 1 and 2.
+  !> Panel by panel from the rim. Close to the axis only chi'(0) is left, unless there are powers between 1 and 2.
   pure function pressure_integral(transform, r, node, weight) result(integral)
     type(abel_transform), intent(in) :: transform
     real(dp), intent(in) :: r, node(:), weight(:)
     real(dp) :: integral
-    real(dp) :: ratio, length, upper, lower, part(size(node))
+    real(dp) :: ratio, length, upper, lower, fraction(size(node))
     integer :: k
 
     integral = 0.0_dp
@@ -152,8 +152,8 @@ contains
     do while (upper > 0.0_dp)
       if (length - upper > LAST_PANEL .and. .not. size(transform%powers) > 0) exit
       lower = max(0.0_dp, upper - PANEL)
-      part = min(1.0_dp, ratio*cosh(lower + (upper - lower)*node))
-      integral = integral + (upper - lower)*dot_product(weight, transform%slopes(part))
+      fraction = min(1.0_dp, ratio*cosh(lower + (upper - lower)*node))
+      integral = integral + (upper - lower)*dot_product(weight, transform%slopes(fraction))
       upper = lower
     end do
     integral = integral + max(0.0_dp, upper)*transform%tip
@@ -212,17 +212,17 @@ contains
     type(abel_transform), intent(in) :: transform
     real(dp), intent(in) :: r, node(:), weight(:)
     real(dp) :: displacement
-    real(dp), dimension(size(node)) :: angle, part
+    real(dp), dimension(size(node)) :: angle, fraction
     real(dp) :: ratio, rim_angle
 
     ratio = r/transform%radius
     rim_angle = atan2(1.0_dp, sqrt(((r - transform%radius)/transform%radius)*(ratio + 1.0_dp)))
     angle = rim_angle*node
-    part = min(1.0_dp, ratio*sin(angle))
-    displacement = 2.0_dp/PI*r*rim_angle*dot_product(weight, transform%slopes(part)*angle*cos(angle))
+    fraction = min(1.0_dp, ratio*sin(angle))
+    displacement = 2.0_dp/PI*r*rim_angle*dot_product(weight, transform%slopes(fraction)*angle*cos(angle))
   end function displacement_integral
 
-  !> What the edges add to it; length.
+  !> The displacement that the edges add; length.
   pure function edges_displacement(transform, r) result(displacement)
     type(abel_transform), intent(in) :: transform
     real(dp), intent(in) :: r

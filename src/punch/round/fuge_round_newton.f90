@@ -1,7 +1,7 @@
 !> The radius of a round contact under a given load or approach: Newton's method between two bounds.
 !>
 !> Logarithms are compared, so that a power of the radius takes one step. The derivatives are exact: with the radius a,
-!> d load = 2 E* a g'(a) da and d approach = g'(a) da.
+!> d load = 2 E* a chi'(a) da and d approach = chi'(a) da.
 module fuge_round_newton
   use fuge_abel_transform, only: abel_transform, expand_transform
   use fuge_kinds, only: dp
@@ -12,7 +12,7 @@ module fuge_round_newton
 
   public :: find_radius, measure_radius
 
-  !> What is given: a load, an approach or the radius itself.
+  !> The given quantity: a load, an approach or the radius itself.
   integer, parameter, public :: GIVEN_LOAD = 1, GIVEN_APPROACH = 2, GIVEN_RADIUS = 3
 
   type, public :: round_target
@@ -31,7 +31,7 @@ module fuge_round_newton
   !> Newton's method ends after a step this small: the error is its square. Smaller steps than the second may be
   !> rounding.
   real(dp), parameter :: LAST_STEP = 1.0e-10_dp, ROUNDING_STEP = 1.0e-5_dp
-  !> A load or approach that rounding of the radius keeps this far from the one given is not accepted.
+  !> The largest relative error of load or approach that rounding of the radius may leave.
   real(dp), parameter :: LARGEST_ERROR = 1.0e-6_dp
 
 contains
@@ -70,7 +70,7 @@ contains
 
   !> The radius between `bounds` (2), length, of which the first one carries too little or is 0, and the second one too
   !> much. `transform` is the one on the radius found, `error` the estimated relative error of the radius. `steps`
-  !> counts the series formed. Errors: those of the profile. Nine arguments: what is wanted, and how it went.
+  !> counts the series formed. Errors: those of the profile. Nine arguments: the target, and the whole outcome.
   subroutine find_radius(profile, target, bounds, lowest_degree, transform, error, converged, steps, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(round_target), intent(in) :: target

@@ -34,11 +34,11 @@ module fuge_round_search
     integer :: steps = 0
   end type disc_search
 
-  !> Violations of the sign conditions up to this, or up to so many times the estimated error, are accepted.
+  !> A violation of the sign conditions is accepted up to SIGN_TOLERANCE, or ERROR_FACTOR times the estimated error.
   real(dp), parameter :: SIGN_TOLERANCE = 1.0e-10_dp, ERROR_FACTOR = 10.0_dp
-  !> A pressure that may be off by more than the mean is none.
+  !> The largest estimated error of the pressure of a contact, relative to the mean pressure.
   real(dp), parameter :: LARGEST_ERROR = 1.0_dp
-  !> Radii of the second search: so many equal steps, and halvings of the first one.
+  !> Radii of the second search: EQUAL_STEPS equal steps, and HALVINGS halvings of the first one.
   integer, parameter :: EQUAL_STEPS = 64, HALVINGS = 40
   !> The degree of a series that has missed a detail is raised to this one.
   integer, parameter :: RAISED_DEGREE = 64

@@ -1,9 +1,9 @@
 !> Signs of a round contact: pressure in it and gaps beside it are not negative.
 !>
 !> The answer of the contact problem is unique, so a disc that meets both conditions is the answer, however it
-!> was found. Where g' is not negative the pressure cannot be; otherwise the pressure over its root is expanded in
+!> was found. Where chi' is not negative the pressure cannot be; otherwise the pressure over its root is expanded in
 !> Chebyshev series on panels, which are halved until they decide. Beside the contact, r = cosh(xi) times
-!> the radius, the gap is examined by `fuge_smooth_exterior`, unless (r f')' is nowhere negative: then no gap can be.
+!> the radius, the gap is examined by `fuge_smooth_exterior`, unless (r g')' is nowhere negative: then no gap can be.
 module fuge_round_signs
   use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points
   use fuge_abel_transform, only: abel_transform, expand_transform
@@ -29,7 +29,7 @@ module fuge_round_signs
     real(dp) :: tension = 0.0_dp, tension_radius = 0.0_dp
     !> The deepest penetration relative to the magnitude of the gap there, no unit, and its radius, length.
     real(dp) :: penetration = 0.0_dp, penetration_radius = 0.0_dp
-    !> A bound for what may have been overlooked; no unit.
+    !> A bound for the penetration that may have been overlooked; no unit.
     real(dp) :: undecided = 0.0_dp
   end type round_violation
 
@@ -40,10 +40,10 @@ module fuge_round_signs
     procedure :: gaps_at => round_gaps
   end type exterior_view
 
-  !> Signs are decided to this fraction: of the mean pressure, of the slope at the rim.
+  !> Signs are resolved to this fraction of the mean pressure, and of the slope at the rim.
   real(dp), parameter :: RESOLUTION = 1.0e-11_dp
-  !> Degree of the series of a panel, a power of two, where its tail begins, and the sum of what it neglects in sums of
-  !> its tail.
+  !> Degree of the series of a panel, a power of two, where its tail begins, and a bound for its neglected terms in
+  !> sums of its tail.
   integer, parameter :: DEGREE = 16, TAIL = 13
   real(dp), parameter :: BEYOND_TAIL = 4.0_dp
   !> Width of the smallest panel over the radius, and closest distance from the axis over it.
@@ -80,7 +80,7 @@ contains
     violation%undecided = max(violation%undecided, exterior%undecided)
   end subroutine check_signs
 
-  !> Is g' nowhere negative in the contact?
+  !> Is chi' nowhere negative in the contact?
   pure function slopes_are_positive(transform) result(positive)
     type(abel_transform), intent(in) :: transform
     logical :: positive
@@ -92,7 +92,7 @@ contains
     positive = least >= -RESOLUTION*transform%thrust()
   end function slopes_are_positive
 
-  !> Is (r f')' known to be nowhere negative on the whole profile? Then g grows everywhere.
+  !> Is (r g')' known to be nowhere negative on the whole profile? Then chi grows everywhere.
   subroutine rises_everywhere(profile, transform, rises, info)
     class(fuge_smooth_profile), intent(in) :: profile
     type(abel_transform), intent(in) :: transform
@@ -122,7 +122,7 @@ contains
     rises = least >= -allowed .and. 4.0_dp*epsilon(allowed)*real(n, dp)*maxval(abs(q)) <= allowed
   end subroutine rises_everywhere
 
-  !> Coefficients of ((1 + x) sum_k a_k T_k)', the derivative of r f'.
+  !> Coefficients of ((1 + x) sum_k a_k T_k)', the derivative of r g'.
   pure function derivative_of_product(a) result(derivative)
     real(dp), intent(in) :: a(0:)
     real(dp) :: derivative(0:size(a) - 1)
@@ -145,24 +145,25 @@ contains
     type(round_violation), intent(inout) :: violation
     real(dp) :: pending(2, MAX_PENDING), panel(2), middle
     logical :: decided
-    integer :: parts
+    integer :: waiting
 
     pending(:, 1) = [0.0_dp, 1.0_dp]
-    parts = 1
-    do while (parts > 0)
-      panel = pending(:, parts)
-      parts = parts - 1
+    waiting = 1
+    do while (waiting > 0)
+      panel = pending(:, waiting)
+      waiting = waiting - 1
       middle = 0.5_dp*(panel(1) + panel(2))
       call examine_panel(contact, transform, panel, &
-                         panel(2) - panel(1) <= LEAST_PANEL .or. parts + 2 > MAX_PENDING, decided, violation)
+                         panel(2) - panel(1) <= LEAST_PANEL .or. waiting + 2 > MAX_PENDING, decided, violation)
       if (decided) cycle
-      pending(:, parts + 1) = [panel(1), middle]
-      pending(:, parts + 2) = [middle, panel(2)]
-      parts = parts + 2
+      pending(:, waiting + 1) = [panel(1), middle]
+      pending(:, waiting + 2) = [middle, panel(2)]
+      waiting = waiting + 2
     end do
   end subroutine find_tension
 
-  !> Look for tension in one panel, parts of the radius; `decided` unless it has to be halved. The `last` one is not.
+  !> Look for tension in one panel, in fractions of the radius; `decided` unless it has to be halved. The `last` one is
+  !> not.
   subroutine examine_panel(contact, transform, panel, last, decided, violation)
     type(fuge_round_contact), intent(in) :: contact
     type(abel_transform), intent(in) :: transform
@@ -170,11 +171,11 @@ contains
     logical, intent(in) :: last
     logical, intent(out) :: decided
     type(round_violation), intent(inout) :: violation
-    real(dp) :: part(0:DEGREE), value(0:DEGREE), a(0:DEGREE), neglected, least(1), place(1), t
+    real(dp) :: fraction(0:DEGREE), value(0:DEGREE), a(0:DEGREE), neglected, least(1), place(1), t
 
-    part = panel(1) + (panel(2) - panel(1))*(0.5_dp + 0.5_dp*chebyshev_points(DEGREE))
-    value = shape_values(contact, transform, part)
-    call note_tension(contact, part, value, violation)
+    fraction = panel(1) + (panel(2) - panel(1))*(0.5_dp + 0.5_dp*chebyshev_points(DEGREE))
+    value = shape_values(contact, transform, fraction)
+    call note_tension(contact, fraction, value, violation)
     a = chebyshev_coefficients(value)
     neglected = BEYOND_TAIL*sum(abs(a(TAIL:)))
     decided = a(0) - sum(abs(a(1:))) - neglected >= -RESOLUTION .or. last .or. violation%tension > 1.0_dp
@@ -186,15 +187,15 @@ contains
     call note_tension(contact, place, shape_values(contact, transform, place), violation)
   end subroutine examine_panel
 
-  !> Pressure over the mean pressure and over sqrt(1 - part**2); finite at the rim.
-  pure function shape_values(contact, transform, part) result(value)
+  !> Pressure over the mean pressure and over sqrt(1 - fraction**2); finite at the rim.
+  pure function shape_values(contact, transform, fraction) result(value)
     type(fuge_round_contact), intent(in) :: contact
     type(abel_transform), intent(in) :: transform
-    real(dp), intent(in) :: part(:)
-    real(dp) :: value(size(part))
-    real(dp) :: clipped(size(part))
+    real(dp), intent(in) :: fraction(:)
+    real(dp) :: value(size(fraction))
+    real(dp) :: clipped(size(fraction))
 
-    clipped = max(CLOSEST, part)
+    clipped = max(CLOSEST, fraction)
     value = contact%pressure(clipped*contact%radius)/contact%e_star
     where (clipped < 1.0_dp)
       value = value/sqrt((1.0_dp - clipped)*(1.0_dp + clipped))
@@ -204,16 +205,16 @@ contains
     value = value*acos(-1.0_dp)/(2.0_dp*transform%thrust())
   end function shape_values
 
-  pure subroutine note_tension(contact, part, value, violation)
+  pure subroutine note_tension(contact, fraction, value, violation)
     type(fuge_round_contact), intent(in) :: contact
-    real(dp), intent(in) :: part(:), value(:)
+    real(dp), intent(in) :: fraction(:), value(:)
     type(round_violation), intent(inout) :: violation
     integer :: k
 
     k = minloc(value, 1)
     if (-value(k) <= violation%tension) return
     violation%tension = -value(k)
-    violation%tension_radius = part(k)*contact%radius
+    violation%tension_radius = fraction(k)*contact%radius
   end subroutine note_tension
 
   pure function round_gaps(self, x, initial_gap) result(gap)

@@ -10,7 +10,7 @@ module fuge_smooth_accuracy
   public :: report_accuracy
 
   type(fuge_options), parameter :: DEFAULTS = fuge_options()
-  !> An error up to so many times the rounding of the ends may come from it.
+  !> An error of up to ROUNDINGS times the rounding of the ends may come from it.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
 contains

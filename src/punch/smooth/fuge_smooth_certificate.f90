@@ -17,8 +17,8 @@ module fuge_smooth_certificate
 
   public :: certify_contact
 
-  !> Positions where the gap equation is evaluated: x = centre + half_width cos(angle), so many for each point
-  !> of the quadrature rule, at equidistant angles. The offset of the angles, in steps, keeps them off the
+  !> Positions where the gap equation is evaluated: x = centre + half_width cos(angle), POSITIONS_PER_POINT for
+  !> each point of the quadrature rule, at equidistant angles. The offset of the angles, in steps, keeps them off the
   !> nodes of a Chebyshev series and the points of the rule.
   integer, parameter :: POSITIONS_PER_POINT = 2
   real(dp), parameter :: ANGLE_OFFSET = 0.39_dp

@@ -20,7 +20,7 @@ module fuge_smooth_exterior
   type, public :: exterior_violation
     !> The deepest one found, and its position, length.
     real(dp) :: penetration = 0.0_dp, position = 0.0_dp
-    !> What may have been overlooked where the profile is too rough for a series.
+    !> A bound for the penetration that may have been overlooked where the profile is too rough for a series.
     real(dp) :: undecided = 0.0_dp
   end type exterior_violation
 
@@ -36,11 +36,11 @@ module fuge_smooth_exterior
   real(dp), parameter :: MAX_ANGLE = 1.0_dp, MAX_LENGTH = 1.0_dp/32.0_dp
   !> Panels in all, and pending ones.
   integer, parameter :: MAX_PANELS = 4096, MAX_PENDING = 128
-  !> The sum of what a series neglects, in sums of its tail; the amplitude of noise and its largest value, in
+  !> A bound for the neglected terms of a series, in sums of its tail; the amplitude of noise and its largest value, in
   !> largest coefficients of the tail.
   real(dp), parameter :: BEYOND_TAIL = 4.0_dp, NOISE_OF_TAIL = 2.0_dp, LARGEST_OF_TAIL = 10.0_dp
-  !> The tail is noise if parts of this length at both ends of a panel have this part of it. Waves shorter than that
-  !> and a detail at one place are not noise.
+  !> The tail of a panel counts as noise if short panels at both of its ends, SHORT_PART of its length, have at least
+  !> NOISE_RATIO of it. A detail at one place, and a wave that the short panels resolve, are not noise.
   real(dp), parameter :: SHORT_PART = 1.0_dp/16.0_dp, NOISE_RATIO = 0.5_dp
   !> A gap is resolved to this fraction of its magnitude, or to its rounding.
   real(dp), parameter :: RESOLUTION = 1.0e-11_dp
@@ -59,29 +59,29 @@ contains
     type(exterior_side) :: side
     real(dp) :: pending(2, MAX_PENDING), panel(2), middle
     logical :: decided
-    integer :: parts, panels
+    integer :: waiting, panels
 
     side = side_of(profile, contact, number)
     if (.not. side%length > 0.0_dp) return
     pending(:, 1) = [0.0_dp, 2.0_dp*asinh(sqrt(0.5_dp*(side%length/contact%half_width)))]
-    parts = 1
+    waiting = 1
     panels = 0
-    do while (parts > 0)
-      panel = pending(:, parts)
-      parts = parts - 1
+    do while (waiting > 0)
+      panel = pending(:, waiting)
+      waiting = waiting - 1
       middle = 0.5_dp*(panel(1) + panel(2))
       decided = .false.
       if (.not. is_too_long(profile, contact, side, panel)) then
         panels = panels + 1
-        call examine_panel(profile, contact, side, panel, panels >= MAX_PANELS .or. parts + 2 > MAX_PENDING, decided, &
-                           violation, info)
+        call examine_panel(profile, contact, side, panel, panels >= MAX_PANELS .or. waiting + 2 > MAX_PENDING, &
+                           decided, violation, info)
         if (info%failed()) return
       end if
       if (decided .or. .not. (middle > panel(1) .and. middle < panel(2))) cycle
       ! The panel next to the contact comes first.
-      pending(:, parts + 1) = [middle, panel(2)]
-      pending(:, parts + 2) = [panel(1), middle]
-      parts = parts + 2
+      pending(:, waiting + 1) = [middle, panel(2)]
+      pending(:, waiting + 2) = [panel(1), middle]
+      waiting = waiting + 2
     end do
   end subroutine find_penetration
 
@@ -155,7 +155,7 @@ contains
     call note_penetration(x(:0), gap(:0), magnitude(:0), rounding(:0) + largest_noise, violation)
   end subroutine examine_panel
 
-  !> Does the tail exceed `level`, length, in short parts at both ends of a panel?
+  !> Does the tail exceed `level`, length, in short panels at both ends of a panel?
   subroutine compare_noise(profile, contact, side, panel, level, exceeds, info)
     class(fuge_smooth_profile), intent(in) :: profile
     class(fuge_smooth_contact), intent(in) :: contact
@@ -164,15 +164,15 @@ contains
     logical, intent(out) :: exceeds
     type(fuge_info), intent(inout) :: info
     real(dp), dimension(0:DEGREE) :: gap, magnitude, rounding, a
-    real(dp) :: length, part(2)
+    real(dp) :: length, short_panel(2)
     integer :: k
 
     length = SHORT_PART*(panel(2) - panel(1))
     exceeds = .true.
     do k = 1, 2
-      part = merge([panel(1), panel(1) + length], [panel(2) - length, panel(2)], k == 1)
-      call exterior_gaps(profile, contact, positions(profile, contact, side, part, chebyshev_points(DEGREE)), gap, &
-                         magnitude, rounding, info)
+      short_panel = merge([panel(1), panel(1) + length], [panel(2) - length, panel(2)], k == 1)
+      call exterior_gaps(profile, contact, positions(profile, contact, side, short_panel, chebyshev_points(DEGREE)), &
+                         gap, magnitude, rounding, info)
       if (info%failed()) return
       a = chebyshev_coefficients(gap)
       exceeds = exceeds .and. NOISE_OF_TAIL*maxval(abs(a(TAIL:))) > level

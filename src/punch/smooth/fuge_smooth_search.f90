@@ -43,7 +43,7 @@ module fuge_smooth_search
     integer :: steps = 0
   end type interval_search
 
-  !> Violations of the sign conditions up to this, or up to so many times the estimated error, are accepted.
+  !> A violation of the sign conditions is accepted up to SIGN_TOLERANCE, or ERROR_FACTOR times the estimated error.
   real(dp), parameter :: SIGN_TOLERANCE = 1.0e-10_dp, ERROR_FACTOR = 10.0_dp
   !> Halvings of the distance from a starting point.
   integer, parameter :: HALVINGS = 60

@@ -2,17 +2,12 @@
 module fuge_c_halfplane_stress
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array
+  use fuge_c_pressed_arrays, only: find_line, line_arrays
   use fuge_c_types, only: report_to_c, require_count
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_status, only: fuge_info
   implicit none
   private
-
-  !> Cells with their forces, and points.
-  type :: loaded_points
-    real(c_double), pointer :: x(:) => null(), width(:) => null(), force(:) => null()
-    real(c_double), pointer :: px(:) => null(), pz(:) => null()
-  end type loaded_points
 
 contains
 
@@ -23,14 +18,15 @@ contains
     type(c_ptr), intent(in), value :: x, width, force, px, pz, stress, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(loaded_points) :: model
-    real(c_double), pointer :: components(:, :)
+    type(line_arrays) :: line
+    real(c_double), pointer :: along(:), down(:), components(:, :)
     type(fuge_info) :: info
 
-    call find_arrays(n, x, width, force, points, px, pz, model, info)
+    call find_line(n, x, width, force, line, info)
+    call find_points(points, px, pz, along, down, info)
     call find_array(3, points, stress, 'stress', components, info)
-    if (.not. info%failed()) call fuge_halfplane_stress(model%x, model%width, model%force, int(element), model%px, &
-                                                        model%pz, components, info, symmetric /= 0)
+    if (.not. info%failed()) call fuge_halfplane_stress(line%x, line%width, line%force, int(element), along, down, &
+                                                        components, info, symmetric /= 0)
     status = report_to_c(info, message, length)
   end function c_halfplane_stress
 
@@ -43,33 +39,29 @@ contains
     real(c_double), intent(in), value :: young, poisson
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(loaded_points) :: model
-    real(c_double), pointer :: components(:, :)
+    type(line_arrays) :: line
+    real(c_double), pointer :: along(:), down(:), components(:, :)
     type(fuge_info) :: info
 
-    call find_arrays(n, x, width, force, points, px, pz, model, info)
+    call find_line(n, x, width, force, line, info)
+    call find_points(points, px, pz, along, down, info)
     call find_array(2, points, displacement, 'displacement', components, info)
-    if (.not. info%failed()) call fuge_halfplane_displacement(model%x, model%width, model%force, int(element), young, &
-                                                              poisson, int(plane_state), model%px, model%pz, &
-                                                              components, info, symmetric /= 0)
+    if (.not. info%failed()) call fuge_halfplane_displacement(line%x, line%width, line%force, int(element), young, &
+                                                              poisson, int(plane_state), along, down, components, &
+                                                              info, symmetric /= 0)
     status = report_to_c(info, message, length)
   end function c_halfplane_displacement
 
-  !> The arrays behind pointers, none of which may be NULL. The arguments are nine, because each pointer has an array
-  !> that it stands for.
-  subroutine find_arrays(n, x, width, force, points, px, pz, model, info)
-    integer(c_int), intent(in) :: n, points
-    type(c_ptr), intent(in) :: x, width, force, px, pz
-    type(loaded_points), intent(inout) :: model
+  !> The coordinates of the points, along the surface and into the body.
+  subroutine find_points(points, px, pz, along, down, info)
+    integer(c_int), intent(in) :: points
+    type(c_ptr), intent(in) :: px, pz
+    real(c_double), pointer, intent(out) :: along(:), down(:)
     type(fuge_info), intent(inout) :: info
 
-    call require_count(n, 1, 'n', 'cells', info)
     call require_count(points, 0, 'points', 'points', info)
-    call find_array(n, x, 'x', model%x, info)
-    call find_array(n, width, 'width', model%width, info)
-    call find_array(n, force, 'force', model%force, info)
-    call find_array(points, px, 'px', model%px, info)
-    call find_array(points, pz, 'pz', model%pz, info)
-  end subroutine find_arrays
+    call find_array(points, px, 'px', along, info)
+    call find_array(points, pz, 'pz', down, info)
+  end subroutine find_points
 
 end module fuge_c_halfplane_stress

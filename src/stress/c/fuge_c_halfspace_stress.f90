@@ -2,17 +2,17 @@
 module fuge_c_halfspace_stress
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array
+  use fuge_c_pressed_arrays, only: area_arrays, find_area
   use fuge_c_types, only: report_to_c, require_count
   use fuge_halfspace_interior, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_status, only: fuge_info
   implicit none
   private
 
-  !> The arrays of C that all calls take.
-  type :: c_arrays
-    real(c_double), pointer :: x(:) => null(), y(:) => null(), width_x(:) => null(), width_y(:) => null()
-    real(c_double), pointer :: force(:) => null(), px(:) => null(), py(:) => null(), pz(:) => null()
-  end type c_arrays
+  !> Coordinates of points.
+  type :: point_arrays
+    real(c_double), pointer :: x(:) => null(), y(:) => null(), z(:) => null()
+  end type point_arrays
 
 contains
 
@@ -24,16 +24,17 @@ contains
     real(c_double), intent(in), value :: poisson
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(c_arrays) :: arrays
+    type(area_arrays) :: area
+    type(point_arrays) :: point
     real(c_double), pointer :: found(:, :)
     type(fuge_info) :: info
 
-    call find_rectangles(n, x, y, width_x, width_y, force, arrays, info)
-    call find_points(points, px, py, pz, arrays, info)
+    call find_area(n, x, y, width_x, width_y, force, area, info)
+    call find_points(points, px, py, pz, point, info)
     call find_array(6, points, stress, 'stress', found, info)
-    if (.not. info%failed()) call fuge_halfspace_stress(arrays%x, arrays%y, arrays%width_x, arrays%width_y, &
-                                                        arrays%force, poisson, arrays%px, arrays%py, arrays%pz, found, &
-                                                        info, symmetric_x /= 0, symmetric_y /= 0)
+    if (.not. info%failed()) call fuge_halfspace_stress(area%x, area%y, area%width_x, area%width_y, area%force, &
+                                                        poisson, point%x, point%y, point%z, found, info, &
+                                                        symmetric_x /= 0, symmetric_y /= 0)
     status = report_to_c(info, message, length)
   end function c_halfspace_stress
 
@@ -47,46 +48,31 @@ contains
     real(c_double), intent(in), value :: young, poisson
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(c_arrays) :: arrays
+    type(area_arrays) :: area
+    type(point_arrays) :: point
     real(c_double), pointer :: found(:, :)
     type(fuge_info) :: info
 
-    call find_rectangles(n, x, y, width_x, width_y, force, arrays, info)
-    call find_points(points, px, py, pz, arrays, info)
+    call find_area(n, x, y, width_x, width_y, force, area, info)
+    call find_points(points, px, py, pz, point, info)
     call find_array(3, points, displacement, 'displacement', found, info)
-    if (.not. info%failed()) call fuge_halfspace_displacement(arrays%x, arrays%y, arrays%width_x, arrays%width_y, &
-                                                              arrays%force, young, poisson, arrays%px, arrays%py, &
-                                                              arrays%pz, found, info, symmetric_x /= 0, &
-                                                              symmetric_y /= 0)
+    if (.not. info%failed()) call fuge_halfspace_displacement(area%x, area%y, area%width_x, area%width_y, &
+                                                              area%force, young, poisson, point%x, point%y, point%z, &
+                                                              found, info, symmetric_x /= 0, symmetric_y /= 0)
     status = report_to_c(info, message, length)
   end function c_halfspace_displacement
 
-  !> The arrays of `n` rectangles. Eight arguments, those of the functions that call it.
-  subroutine find_rectangles(n, x, y, width_x, width_y, force, arrays, info)
-    integer(c_int), intent(in) :: n
-    type(c_ptr), intent(in) :: x, y, width_x, width_y, force
-    type(c_arrays), intent(inout) :: arrays
-    type(fuge_info), intent(inout) :: info
-
-    call require_count(n, 1, 'n', 'rectangles', info)
-    call find_array(n, x, 'x', arrays%x, info)
-    call find_array(n, y, 'y', arrays%y, info)
-    call find_array(n, width_x, 'width_x', arrays%width_x, info)
-    call find_array(n, width_y, 'width_y', arrays%width_y, info)
-    call find_array(n, force, 'force', arrays%force, info)
-  end subroutine find_rectangles
-
   !> The arrays of the points.
-  subroutine find_points(points, px, py, pz, arrays, info)
+  subroutine find_points(points, px, py, pz, point, info)
     integer(c_int), intent(in) :: points
     type(c_ptr), intent(in) :: px, py, pz
-    type(c_arrays), intent(inout) :: arrays
+    type(point_arrays), intent(inout) :: point
     type(fuge_info), intent(inout) :: info
 
     call require_count(points, 0, 'points', 'points', info)
-    call find_array(points, px, 'px', arrays%px, info)
-    call find_array(points, py, 'py', arrays%py, info)
-    call find_array(points, pz, 'pz', arrays%pz, info)
+    call find_array(points, px, 'px', point%x, info)
+    call find_array(points, py, 'py', point%y, info)
+    call find_array(points, pz, 'pz', point%z, info)
   end subroutine find_points
 
 end module fuge_c_halfspace_stress

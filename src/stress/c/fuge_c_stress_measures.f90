@@ -116,7 +116,7 @@ contains
     end do
   end subroutine evaluate
 
-  !> The tensors or stresses of the points, so many `components` each.
+  !> The tensors or stresses of the points, `components` of each.
   subroutine find_components(components, points, address, name, array, info)
     integer, intent(in) :: components
     integer(c_int), intent(in) :: points

@@ -2,6 +2,7 @@
 module fuge_c_stress_peak
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_f_pointer
   use fuge_c_arrays, only: find_array
+  use fuge_c_pressed_arrays, only: area_arrays, find_area, find_line, line_arrays
   use fuge_c_round, only: find_round => find_contact, round_handle
   use fuge_c_smooth, only: find_smooth => find_contact, smooth_handle
   use fuge_c_types, only: report_to_c, require_count, require_pointer
@@ -32,17 +33,15 @@ contains
     real(c_double), intent(in), value :: poisson
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    real(c_double), pointer :: centre(:), breadth(:), forces(:)
+    type(line_arrays) :: line
     type(fuge_stress_peak) :: peak
     type(fuge_info) :: info
 
-    call require_count(n, 1, 'n', 'cells', info)
-    call find_array(n, x, 'x', centre, info)
-    call find_array(n, width, 'width', breadth, info)
-    call find_array(n, force, 'force', forces, info)
+    call find_line(n, x, width, force, line, info)
     call require_pointer(destination, 'peak', info)
-    if (.not. info%failed()) call fuge_halfplane_peak(centre, breadth, forces, int(element), int(plane_state), &
-                                                      poisson, int(measure), peak, info, symmetric /= 0)
+    if (.not. info%failed()) call fuge_halfplane_peak(line%x, line%width, line%force, int(element), &
+                                                      int(plane_state), poisson, int(measure), peak, info, &
+                                                      symmetric /= 0)
     call give_peak(peak, destination, info)
     status = report_to_c(info, message, length)
   end function c_halfplane_peak
@@ -73,19 +72,15 @@ contains
     real(c_double), intent(in), value :: poisson
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    real(c_double), pointer :: centre_x(:), centre_y(:), breadth_x(:), breadth_y(:), forces(:)
+    type(area_arrays) :: area
     type(fuge_stress_peak) :: peak
     type(fuge_info) :: info
 
-    call require_count(n, 1, 'n', 'rectangles', info)
-    call find_array(n, x, 'x', centre_x, info)
-    call find_array(n, y, 'y', centre_y, info)
-    call find_array(n, width_x, 'width_x', breadth_x, info)
-    call find_array(n, width_y, 'width_y', breadth_y, info)
-    call find_array(n, force, 'force', forces, info)
+    call find_area(n, x, y, width_x, width_y, force, area, info)
     call require_pointer(destination, 'peak', info)
-    if (.not. info%failed()) call fuge_halfspace_peak(centre_x, centre_y, breadth_x, breadth_y, forces, poisson, &
-                                                      int(measure), peak, info, symmetric_x /= 0, symmetric_y /= 0)
+    if (.not. info%failed()) call fuge_halfspace_peak(area%x, area%y, area%width_x, area%width_y, area%force, &
+                                                      poisson, int(measure), peak, info, symmetric_x /= 0, &
+                                                      symmetric_y /= 0)
     call give_peak(peak, destination, info)
     status = report_to_c(info, message, length)
   end function c_halfspace_peak

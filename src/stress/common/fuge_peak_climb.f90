@@ -7,10 +7,9 @@
 !> that its maxima are not at its kinks.
 module fuge_peak_climb
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_starts, only: peak_start
   use fuge_peak_values, only: evaluate_measure
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   implicit none
   private
@@ -21,13 +20,13 @@ module fuge_peak_climb
   !> differ by less than NEARLY_SAME of the largest. Where they do not, as at a cusp of the stress at the rim of a
   !> contact, finer ones follow.
   real(dp), parameter :: FIRST_STEP = 0.25_dp, LAST_STEP = 2.0e-4_dp, NEARLY_SAME = 3.0e-7_dp
-  !> A step is at least so many roundings of the coordinates.
+  !> The least step, in roundings of the coordinates.
   real(dp), parameter :: LEAST_ROUNDINGS = 64.0_dp
-  !> Newton's step is at most so many steps of the stencil along each axis.
+  !> The longest step of Newton's method along each axis, in steps of the stencil.
   real(dp), parameter :: REACH = 2.0_dp
-  !> A slope above this part of the curvature, in steps of the stencil, is not that along a ridge.
+  !> A slope above this fraction of the curvature, in steps of the stencil, does not belong to a ridge.
   real(dp), parameter :: STEEP = 0.1_dp
-  !> A curvature below this part of the greatest derivative counts as no curvature.
+  !> A curvature below this fraction of the greatest derivative counts as zero.
   real(dp), parameter :: LEAST_CURVATURE = 1.0e-6_dp
   integer, parameter :: MOST_ROUNDS = 120
   !> Points of a stencil with two and with three axes.
@@ -35,11 +34,11 @@ module fuge_peak_climb
   !> Without those of mixed derivatives, in the first round, from which few go on.
   integer, parameter :: FEW_POINTS(2:3) = [5, 7]
 
-  !> One that climbs: its best place so far and the middle of its next stencil.
+  !> The ascent from one start: its best place so far and the middle of its next stencil.
   type :: climber
     type(peak_start) :: best
     real(dp) :: middle(3) = 0.0_dp, step = 0.0_dp, last_step = 0.0_dp, least_step = 0.0_dp
-    !> What it may reach, as far as the model knows.
+    !> A bound for the value that it may reach, by the quadratic model.
     real(dp) :: promise = huge(1.0_dp)
     logical :: active = .true.
     !> 1 where the stress is curved equally along all axes, 0 on a ridge.
@@ -64,10 +63,8 @@ contains
 
     flatness = 1.0_dp
     allocate (climbers(size(starts)), active(size(starts)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(starts))//' starts of the search')
-      return
-    end if
+    call require_memory(stat, '', size(starts), 'starts of the search', info)
+    if (stat /= 0) return
     do k = 1, size(starts)
       climbers(k) = climber_from(starts(k))
     end do
@@ -101,7 +98,7 @@ contains
     new%active = .not. start%fixed
   end function climber_from
 
-  !> One round of the active climbers, in coordinates `axes` (2: x and z; 3: x, y and z), with so many `points` each.
+  !> One round of the active climbers, in coordinates `axes` (2: x and z; 3: x, y and z), with stencils of `points`.
   subroutine advance(field, axes, points, measure, climbers, active, info)
     class(stress_field), intent(inout) :: field
     integer, intent(in) :: axes, points, measure, active(:)
@@ -112,10 +109,8 @@ contains
 
     total = points*size(active)
     allocate (place(3, total), value(total), normal(total), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(total)//' places of the search')
-      return
-    end if
+    call require_memory(stat, '', total, 'places of the search', info)
+    if (stat /= 0) return
     do k = 1, size(active)
       first = (k - 1)*points
       associate (one => climbers(active(k)))
@@ -185,7 +180,7 @@ contains
     call fit(axes, value, gradient, hessian)
     room = (one%middle(3) - one%best%least_depth)/one%step
     if (room < 1.5_dp .and. gradient(axes) < -STEEP*maxval(abs(hessian))) then
-      ! It falls from the bound on: no ridge leads away from there.
+      ! The stress falls from the least depth on: no ridge leads away from there.
       one%flatness = flatness_of(hessian(:axes - 1, :axes - 1))
     else
       one%flatness = flatness_of(hessian)
@@ -325,7 +320,7 @@ contains
     end do
   end subroutine solve_concave
 
-  !> Stop those that cannot reach the best value, and those beside one that is not worse.
+  !> Stop the climbers that cannot reach the best value, and those beside another one that is not worse.
   pure subroutine drop_losers(climbers)
     type(climber), intent(inout) :: climbers(:)
     real(dp) :: best, near

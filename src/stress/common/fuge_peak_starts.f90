@@ -8,10 +8,9 @@
 module fuge_peak_starts
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_values, only: evaluate_measure
   use fuge_pressed_cells, only: pressed_cells
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   use fuge_surface_scan, only: scan_surface, surface_place
   implicit none
@@ -19,13 +18,14 @@ module fuge_peak_starts
 
   public :: find_starts
 
-  !> Candidates below this part of the best one are not followed: those beside the largest stress keep more of it.
+  !> Candidates below this fraction of the best value are not followed: those beside the largest stress have more.
   real(dp), parameter, public :: START_SHARE = 0.7_dp
-  !> A part is not halved if its best value and what its cells could add remain below this part of the best one. Uniform
-  !> pressure on a patch adds up to UNSEEN_SHARE of itself, at the surface with a negative Poisson's ratio more, and as
-  !> much again beside a patch that is pulled.
+  !> A part is not halved if the sum of its best value and of what its cells could add is below HALVED_SHARE of the best
+  !> value. Uniform pressure on a patch adds up to UNSEEN_SHARE of itself, at the surface with a negative Poisson's
+  !> ratio more, and as much again beside a patch that is pulled.
   real(dp), parameter :: HALVED_SHARE = 0.8_dp, UNSEEN_SHARE = 0.85_dp
-  !> After so many candidates at the surface there are no more unless the best of them has this part of the best one.
+  !> After FIRST_SURFACE candidates at the surface, more are tried only if the best of them has at least SURFACE_SHARE
+  !> of the best value.
   integer, parameter :: FIRST_SURFACE = 64
   real(dp), parameter :: SURFACE_SHARE = 0.5_dp
   !> Depth of a candidate over the size of its part; below a single cell it is halved twice.
@@ -33,9 +33,9 @@ module fuge_peak_starts
   !> Candidates of a part: DEPTHS below its middle, one at the surface, and those below the edges of a cell, where the
   !> pressure jumps.
   integer, parameter :: DEPTHS = 3, AT_SURFACE = DEPTHS + 1, CANDIDATES = AT_SURFACE + 4
-  !> The size of a long part is at most so many times its breadth.
+  !> The greatest size of a part, in its breadths.
   real(dp), parameter :: LONGEST = 3.0_dp
-  !> Two starts that are closer than this part of the lesser depth climb to the same maximum.
+  !> Two starts climb to the same maximum if their distance is below this fraction of the lesser length of them.
   real(dp), parameter :: NEARNESS = 0.75_dp
   !> Parts in one portion, and the number of starts at most.
   integer, parameter :: PORTION = 2**13, MOST_STARTS = 2000
@@ -58,13 +58,13 @@ module fuge_peak_starts
     integer :: tried = 0
   end type part
 
-  !> The best candidate so far, the best one at the surface, and how many are there.
+  !> The best value so far, the best one at the surface, and the number of candidates there.
   type :: tally
     real(dp) :: best = -1.0_dp, surface_best = -1.0_dp
     integer :: surface_count = 0
   end type tally
 
-  !> What is known of a part.
+  !> Extent and pressure of a part.
   type :: survey
     real(dp) :: middle(2) = 0.0_dp, length = 0.0_dp, split_at = 0.0_dp, pressure = 0.0_dp
     integer :: split_axis = 0, strongest = 0
@@ -88,10 +88,8 @@ contains
 
     number = size(cells%pressure)
     allocate (list(LONG_LIST), parts(number), halves(number), order(number), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the search below '//text(number)//' cells')
-      return
-    end if
+    call require_memory(stat, 'the search below', number, 'cells', info)
+    if (stat /= 0) return
     order = [(k, k=1, number)]
     parts(1)%first = 1
     parts(1)%last = number
@@ -114,11 +112,8 @@ contains
     call thin_out(list, count, info)
     if (info%failed()) return
     allocate (starts(count), stat=stat)
-    if (stat == 0) then
-      starts = list(:count)
-    else
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(count)//' starts of the search')
-    end if
+    call require_memory(stat, '', count, 'starts of the search', info)
+    if (stat == 0) starts = list(:count)
   end subroutine find_starts
 
   !> Evaluate the candidates of `parts`, add the good ones to the `list`, and halve the parts that may hide better ones.
@@ -142,10 +137,8 @@ contains
     hidden_share = UNSEEN_SHARE*max(1.0_dp, cells%surface_factor)
     if (minval(cells%pressure) < 0.0_dp .and. maxval(cells%pressure) > 0.0_dp) hidden_share = 2.0_dp*hidden_share
     allocate (surveys(size(parts)), tried(CANDIDATES, size(parts)), normal(CANDIDATES, size(parts)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(parts))//' parts of the search')
-      return
-    end if
+    call require_memory(stat, '', size(parts), 'parts of the search', info)
+    if (stat /= 0) return
     do p = 1, size(parts)
       surveys(p) = survey_of(cells, order(parts(p)%first:parts(p)%last))
       tried(:, p) = candidates_of(cells, surveys(p), parts(p)%tried)
@@ -190,7 +183,7 @@ contains
       if (count == size(list)) call thin_out(list, count, info)
       if (info%failed()) return
       count = count + 1
-      list(count) = peak_start(best(k)%place, best(k)%value, best(k)%length, 0.0_dp, .not. best(k)%smooth)
+      list(count) = peak_start(best(k)%place, best(k)%value, best(k)%length, 0.0_dp, .not. best(k)%continuous)
     end do
   end subroutine add_surface
 
@@ -214,10 +207,8 @@ contains
     normal = 0.0_dp
     total = count(tried%length > 0.0_dp)
     allocate (place(3, total), value(total), zz(total), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(total)//' places of the search')
-      return
-    end if
+    call require_memory(stat, '', total, 'places of the search', info)
+    if (stat /= 0) return
     total = 0
     do p = 1, size(tried, 2)
       do c = 1, CANDIDATES
@@ -366,10 +357,8 @@ contains
     if (count == 0) return
     best = maxval(list(:count)%value)
     allocate (order(count), kept(MOST_STARTS), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(count)//' candidates of the search')
-      return
-    end if
+    call require_memory(stat, 'the order of', count, 'candidates of the search', info)
+    if (stat /= 0) return
     order = [(k, k=1, count)]
     call heap_sort(-list(:count)%value, order)
     number = 0

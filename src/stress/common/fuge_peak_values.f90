@@ -2,7 +2,7 @@
 module fuge_peak_values
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   use fuge_stress_measures, only: fuge_tresca, fuge_von_mises
   use fuge_stress_peak_type, only: FUGE_MEASURE_TRESCA
@@ -31,10 +31,8 @@ contains
     normal = 0.0_dp
     if (info%failed() .or. size(value) == 0) return
     allocate (stress(6, min(PORTION, size(value))), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the stresses at the places of the search')
-      return
-    end if
+    call require_memory(stat, 'the stresses at the places of the search', info)
+    if (stat /= 0) return
     do first = 1, size(value), PORTION
       last = min(first + PORTION - 1, size(value))
       call field%stresses(place(:, first:last), stress(:, :last - first + 1), info)

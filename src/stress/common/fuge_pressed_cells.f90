@@ -1,8 +1,7 @@
 !> The cells of a surface that carry force, as the search for the largest stress needs them.
 module fuge_pressed_cells
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -31,7 +30,7 @@ module fuge_pressed_cells
     procedure :: least_depth
   end type pressed_cells
 
-  !> Below cells of uniform pressure the search begins at this part of a width.
+  !> The least depth of the search below a cell of uniform pressure, in widths of the cell.
   real(dp), parameter :: RESOLVED_DEPTH = 0.25_dp
 
 contains
@@ -46,7 +45,7 @@ contains
     if (info%failed()) return
     cells%axes = axes
     allocate (cells%centre(axes, number), cells%width(axes, number), cells%pressure(number), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the '//text(number)//' cells with a force')
+    call require_memory(stat, 'the', number, 'cells with a force', info)
   end subroutine allocate_cells
 
   !> Is a cell of a symmetric model its own mirror image? The checks of such models refuse cells that overlap their

@@ -6,9 +6,8 @@
 module fuge_pressure_rims
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_pressed_cells, only: pressed_cells
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -19,13 +18,13 @@ module fuge_pressure_rims
   integer, parameter :: MOST_FITTED = 7, FITTED_WHOLE = 4, FITTED_AREA = 5, FITTED_PIECE = 7
   !> A shorter run of cells side by side has too few for any fit.
   integer, parameter :: SHORTEST_RUN = 2*(FITTED_WHOLE - 1)
-  !> On an area so many neighbouring rows have such a rim.
+  !> On an area at least this number of neighbouring rows has such a rim.
   integer, parameter :: ROWS = 3
-  !> The first cell over any other one, at least: 2.4 for K alone and the second cell. With 1.5 a square root with the
-  !> same K and L would end three cells beyond the rim.
+  !> The least ratio of the pressure of the first cell to that of any other one: 2.4 for K alone and the second cell.
+  !> With 1.5 a square root with the same K and L would end three cells beyond the rim.
   real(dp), parameter :: LEAST_DROP = 1.5_dp
-  !> The fit is good if its errors are below this part of the largest pressure in it, and if the first cell, where the
-  !> discrete forces differ from the means of the pressure by up to 16 %, is in this range of what it foretells.
+  !> The fit is good if its errors are below FIT_ERROR of the largest pressure in it, and if the first cell, where the
+  !> discrete forces differ from the means of the pressure by up to 16 %, is in this range of the value foretold.
   real(dp), parameter :: FIT_ERROR = 0.09_dp, FIRST_RANGE(2) = [0.65_dp, 1.4_dp]
   !> Relative tolerance for cells side by side.
   real(dp), parameter :: PLACE_TOLERANCE = 1.0e-3_dp
@@ -54,10 +53,8 @@ contains
     if (info%failed()) return
     ! A run of cells side by side has two rims at most.
     allocate (order(size(cells%pressure)), rims(2*size(cells%pressure)/SHORTEST_RUN), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the order of '//text(size(cells%pressure))//' cells')
-      return
-    end if
+    call require_memory(stat, 'the order of', size(cells%pressure), 'cells', info)
+    if (stat /= 0) return
     order = [(k, k=1, size(order))]
     strength = 0.0_dp
     do along = 1, cells%axes

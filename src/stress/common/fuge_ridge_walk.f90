@@ -17,7 +17,7 @@ module fuge_ridge_walk
 
   !> Lengths of the first and the longest step, of the last one, and of the differences, over that of the start.
   real(dp), parameter :: FIRST_STEP = 0.1_dp, LONGEST_STEP = 0.3_dp, LAST_STEP = 1.0e-5_dp, DIFFERENCE = 3.0e-4_dp
-  !> Heights that differ by less than this part are the same.
+  !> Values whose relative difference is at most this count as equal.
   real(dp), parameter :: SAME = 2.0e-15_dp
   !> Steps across the ridge to its top, and along it at most.
   integer, parameter :: CORRECTIONS = 3, MOST_STEPS = 80

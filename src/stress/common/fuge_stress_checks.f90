@@ -12,7 +12,7 @@ module fuge_stress_checks
 
 contains
 
-  !> Refuse forces that are not as many as the `number` of `pieces` of the surface, cells or rings, or not finite:
+  !> Refuse forces that are not finite, or not one for each of the `number` of `pieces` of the surface, cells or rings:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE.
   pure subroutine check_forces(force, number, pieces, info)
     real(dp), intent(in) :: force(:)
@@ -43,7 +43,7 @@ contains
                   //text(young)//' are out of range: choose other units')
   end subroutine check_displacement_range
 
-  !> Refuse coordinates that are not as many as `depth` or not finite: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE.
+  !> Refuse coordinates that are not finite, or not one for each `depth`: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE.
   pure subroutine check_coordinate(values, name, depth, info)
     real(dp), intent(in) :: values(:), depth(:)
     character(len=*), intent(in) :: name

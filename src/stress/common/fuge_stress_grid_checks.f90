@@ -11,12 +11,12 @@ module fuge_stress_grid_checks
 
   public :: check_grid_depth, check_grid_force, check_grid_result, check_grid_strain
 
-  !> No depth is larger than 2**DEEPEST spacings, 1.8e75.
+  !> A depth is at most 2**DEEPEST spacings, 1.8e75.
   integer, parameter :: DEEPEST = 250
 
 contains
 
-  !> Refuse forces that are not finite, or whose sizes over that of `area`, on which they act, are out of range:
+  !> Refuse forces that are not finite, or whose pressure on the `area` of a cell is out of range:
   !> FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW.
   pure subroutine check_grid_force(force, area, info)
     real(dp), intent(in) :: force(:), area

@@ -7,10 +7,9 @@
 module fuge_surface_scan
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_values, only: evaluate_measure
   use fuge_pressed_cells, only: pressed_cells
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   implicit none
   private
@@ -21,14 +20,14 @@ module fuge_surface_scan
   integer, parameter :: PORTION = 2**12
   !> Places beside a cell, at most.
   integer, parameter :: NEIGHBOURS = 8
-  !> A place lies beside a cell if it is farther from it than this part of the cell's lesser width.
+  !> A place lies beside a cell if its distance from it exceeds this fraction of the lesser width of the cell.
   real(dp), parameter :: BESIDE = 0.499_dp
 
   !> A place of the surface, its value, -1 for none, and the length of the cell there. A search may go on from it if the
-  !> pressure is `smooth` there.
+  !> pressure is `continuous` there.
   type, public :: surface_place
     real(dp) :: place(3) = 0.0_dp, value = -1.0_dp, length = 0.0_dp
-    logical :: smooth = .false.
+    logical :: continuous = .false.
   end type surface_place
 
 contains
@@ -48,10 +47,8 @@ contains
 
     number = size(cells%pressure)
     allocate (order(number), places(NEIGHBOURS*PORTION), found(merge(number, 1, cells%continuous) + 1), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for places at the surface of '//text(number)//' cells')
-      return
-    end if
+    call require_memory(stat, 'places at the surface of', number, 'cells', info)
+    if (stat /= 0) return
     order = [(k, k=1, number)]
     call heap_sort(cells%centre(1, :), order)
     do first = 1, size(order), PORTION
@@ -85,7 +82,7 @@ contains
     do k = 1, size(which)
       if (is_image(cells, cells%centre(:, which(k)))) cycle
       number = number + 1
-      places(number) = surface_place(smooth=cells%continuous, length=cells%size_of(which(k)))
+      places(number) = surface_place(continuous=cells%continuous, length=cells%size_of(which(k)))
       places(number)%place(:cells%axes) = cells%centre(:, which(k))
     end do
   end subroutine list_middles
@@ -196,10 +193,8 @@ contains
 
     if (info%failed()) return
     allocate (place(3, size(places)), value(size(places)), normal(size(places)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for stresses at '//text(size(places))//' places of the surface')
-      return
-    end if
+    call require_memory(stat, 'stresses at', size(places), 'places of the surface', info)
+    if (stat /= 0) return
     do k = 1, size(places)
       place(:, k) = places(k)%place
     end do

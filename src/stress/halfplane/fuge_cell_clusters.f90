@@ -10,8 +10,7 @@ module fuge_cell_clusters
   use fuge_constants, only: PI
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -62,10 +61,8 @@ contains
     end do
     allocate (self%first(most), self%last(most), self%child(most), self%middle(most), self%half_length(most), &
               self%force(ORDER, most), self%moment(0:ORDER - 1, most), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for clusters of '//text(size(centre))//' cells')
-      return
-    end if
+    call require_memory(stat, 'clusters of', size(centre), 'cells', info)
+    if (stat /= 0) return
     call set_nodes(self%node, self%polynomial)
     self%number = 1
     self%first(1) = 1
@@ -138,12 +135,12 @@ contains
     class(cell_clusters), intent(inout) :: self
     real(dp), intent(in) :: centre(:), width(:), pressure(:)
     logical, intent(in) :: hats
-    real(dp) :: place(2*FULL, 2), weight(2*FULL, 2)
+    real(dp) :: node(2*FULL, 2), weight(2*FULL, 2)
     real(dp) :: points(max(2*FULL*LEAF_CELLS, 2*ORDER)), shares(max(2*FULL*LEAF_CELLS, 2*ORDER)), scaled_width
     integer :: child, j, k, n, number, rule
 
-    call cell_quadrature(hats, place(:2*SHORT, 1), weight(:2*SHORT, 1))
-    call cell_quadrature(hats, place(:, 2), weight(:, 2))
+    call cell_quadrature(hats, node(:2*SHORT, 1), weight(:2*SHORT, 1))
+    call cell_quadrature(hats, node(:, 2), weight(:, 2))
     do k = self%number, 1, -1
       n = 0
       if (self%child(k) == 0) then
@@ -152,7 +149,7 @@ contains
           rule = merge(1, 2, scaled_width < NARROW)
           number = merge(2*SHORT, 2*FULL, scaled_width < NARROW)
           points(n + 1:n + number) = (centre(j) - self%middle(k))/self%half_length(k) &
-                                     + scaled_width*place(:number, rule)
+                                     + scaled_width*node(:number, rule)
           shares(n + 1:n + number) = pressure(j)*width(j)*weight(:number, rule)
           n = n + number
         end do
@@ -169,21 +166,21 @@ contains
     end do
   end subroutine fill
 
-  !> Places, in widths from the centre, and weights of a quadrature over the pressure of a cell with a unit force.
-  pure subroutine cell_quadrature(hat, place, weight)
+  !> Nodes, in widths from the centre, and weights of a quadrature over the pressure of a cell with a unit force.
+  pure subroutine cell_quadrature(hat, node, weight)
     logical, intent(in) :: hat
-    real(dp), intent(out) :: place(:), weight(:)
+    real(dp), intent(out) :: node(:), weight(:)
     integer :: half
 
-    half = size(place)/2
-    call gauss_rule(place(half + 1:), weight(half + 1:))
+    half = size(node)/2
+    call gauss_rule(node(half + 1:), weight(half + 1:))
     if (hat) then
-      weight(half + 1:) = weight(half + 1:)*(1.0_dp - place(half + 1:))
+      weight(half + 1:) = weight(half + 1:)*(1.0_dp - node(half + 1:))
     else
       weight(half + 1:) = 0.5_dp*weight(half + 1:)
-      place(half + 1:) = 0.5_dp*place(half + 1:)
+      node(half + 1:) = 0.5_dp*node(half + 1:)
     end if
-    place(:half) = -place(half + 1:)
+    node(:half) = -node(half + 1:)
     weight(:half) = weight(half + 1:)
   end subroutine cell_quadrature
 

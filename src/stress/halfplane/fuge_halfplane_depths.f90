@@ -12,8 +12,7 @@ module fuge_halfplane_depths
   use fuge_halfplane_interior, only: displacement_factors, fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_halfplane_wave_factors, only: fill_wave_factors, wave_response
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_grid_checks, only: check_grid_strain
   implicit none
   private
@@ -23,7 +22,7 @@ module fuge_halfplane_depths
   !> Kinds of kernels.
   logical, parameter :: EVEN(2) = .false., ODD(2) = [.true., .false.]
 
-  !> What all depths share.
+  !> Data that all depths share.
   type :: grid_work
     type(grid_waves) :: waves
     !> Distances of the cells from the first one and depth of the points, in units of the spacing.
@@ -131,7 +130,7 @@ contains
       allocate (work%offset(n), work%level(n), stat=stat)
       if (stat == 0) call fill_offsets(work%offset)
     end if
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(n)//' cells')
+    call require_memory(stat, '', n, 'cells', info)
     if (.not. info%failed()) call work%waves%set([n, 1], [periodic, .true.], .not. periodic, info)
     if (.not. info%failed()) call work%waves%transform(force)
   end subroutine start

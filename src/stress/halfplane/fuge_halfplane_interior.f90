@@ -1,20 +1,19 @@
 !> Stresses and displacements inside an elastic half-plane under the forces of its cells.
 module fuge_halfplane_interior
-  use fuge_cell_overlaps, only: check_overlaps
   use fuge_constants, only: LARGEST_EXPONENT_OF_4, PI
   use fuge_elastic_moduli, only: fuge_plane_modulus, FUGE_PLANE_STRAIN
-  use fuge_halfplane_influence, only: check_halfplane, datum_length
+  use fuge_halfplane_influence, only: datum_length
   use fuge_kinds, only: dp
-  use fuge_loaded_cells, only: loaded_cells
   use fuge_number_text, only: text
+  use fuge_pressed_line, only: check_line, pressed_line
   use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW
-  use fuge_stress_checks, only: check_coordinate, check_depth, check_forces, check_result
+  use fuge_stress_checks, only: check_coordinate, check_depth, check_result
   implicit none
   private
 
   public :: fuge_halfplane_stress, fuge_halfplane_displacement, displacement_factors
 
-  !> From so many points on it pays to put many cells into clusters.
+  !> Many cells are put into clusters for this number of points or more: for fewer it takes longer than the plain sum.
   integer, parameter :: MANY_POINTS = 32
 
 contains
@@ -41,20 +40,21 @@ contains
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: symmetric
-    type(loaded_cells) :: cells
+    type(pressed_line) :: line
     logical :: folded
     integer :: k
 
     folded = .false.
     if (present(symmetric)) folded = symmetric
-    call check_cells_and_points(x, width, force, element, folded, px, pz, info)
+    call check_line(x, width, force, element, folded, info)
+    call check_points(px, pz, info)
     call check_result(shape(stress), 'stress', 3, size(pz), info)
-    if (.not. info%failed()) call cells%set(x, width, force, element, info)
-    call check_distances(cells, px, pz, info)
-    if (size(pz) >= MANY_POINTS) call cells%gather(info)
+    call line%set(x, width, force, element, folded, info)
+    call line%check_distances(px, pz, info)
+    if (size(pz) >= MANY_POINTS) call line%gather(info)
     if (info%failed()) return
     do k = 1, size(pz)
-      call cells%find_stress(px(k), pz(k), folded, stress(:, k))
+      call line%find_stress(px(k), pz(k), stress(:, k))
     end do
   end subroutine fuge_halfplane_stress
 
@@ -77,36 +77,30 @@ contains
     real(dp), intent(inout) :: displacement(:, :)
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: symmetric
-    type(loaded_cells) :: cells
+    type(pressed_line) :: line
     logical :: folded
-    real(dp) :: total(4), image(4), scaled(2), factor(3), datum
+    real(dp) :: integral(4), factor(3), datum
     integer :: k
 
     folded = .false.
     if (present(symmetric)) folded = symmetric
     call displacement_factors(young, poisson, plane_state, factor, info)
-    if (.not. info%failed()) call check_cells_and_points(x, width, force, element, folded, px, pz, info)
+    if (.not. info%failed()) call check_line(x, width, force, element, folded, info)
+    call check_points(px, pz, info)
     call check_result(shape(displacement), 'displacement', 2, size(pz), info)
-    if (.not. info%failed()) call cells%set(x, width, force, element, info)
-    call check_distances(cells, px, pz, info)
-    if (size(pz) >= MANY_POINTS) call cells%gather(info)
+    call line%set(x, width, force, element, folded, info)
+    call line%check_distances(px, pz, info)
+    if (size(pz) >= MANY_POINTS) call line%gather(info)
     if (info%failed()) return
-    datum = log(scale(datum_length(x, width, folded), cells%power))*sum(force)
+    datum = log(scale(datum_length(x, width, folded), line%power))*sum(force)
     do k = 1, size(pz)
-      scaled = scale([px(k), pz(k)], cells%power)
-      total = 0.0_dp
-      call cells%add_displacements(scaled(1), scaled(2), total)
-      if (folded) then
-        image = 0.0_dp
-        call cells%add_displacements(-scaled(1), scaled(2), image)
-        total = 0.5_dp*(total + [image(:2), -image(3:)])
-      end if
-      displacement(1, k) = factor(1)*total(3) - factor(3)*total(4)
-      displacement(2, k) = factor(1)*total(2) - factor(2)*(total(1) - datum)
+      call line%find_integrals(px(k), pz(k), integral)
+      displacement(1, k) = factor(1)*integral(3) - factor(3)*integral(4)
+      displacement(2, k) = factor(1)*integral(2) - factor(2)*(integral(1) - datum)
     end do
   end subroutine fuge_halfplane_displacement
 
-  !> What the displacements are made of: 1/(2 pi mu), 2/(pi E*) and (1 - 2 nu)/(2 pi mu), the last one for plane strain,
+  !> The factors of the displacements: 1/(2 pi mu), 2/(pi E*) and (1 - 2 nu)/(2 pi mu), the last one for plane strain,
   !> mu being the shear modulus. Errors as for `fuge_plane_modulus`, and FUGE_ERR_OVERFLOW.
   pure subroutine displacement_factors(young, poisson, plane_state, factor, info)
     real(dp), intent(in) :: young, poisson
@@ -128,32 +122,13 @@ contains
     factor = factor/young/PI
   end subroutine displacement_factors
 
-  !> Arguments and errors as above.
-  pure subroutine check_cells_and_points(x, width, force, element, symmetric, px, pz, info)
-    real(dp), intent(in) :: x(:), width(:), force(:), px(:), pz(:)
-    integer, intent(in) :: element
-    logical, intent(in) :: symmetric
-    type(fuge_info), intent(inout) :: info
-
-    call check_halfplane(x, width, 1.0_dp, element, symmetric, info)
-    if (.not. info%failed()) call check_overlaps(x, width, symmetric, info)
-    call check_forces(force, size(x), 'cells', info)
-    call check_depth(pz, 'pz', info)
-    call check_coordinate(px, 'px', pz, info)
-  end subroutine check_cells_and_points
-
-  !> Refuse points that are too far away (FUGE_ERR_OVERFLOW).
-  pure subroutine check_distances(cells, px, pz, info)
-    type(loaded_cells), intent(in) :: cells
+  !> Refuse points that are not in the body: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_GRID.
+  pure subroutine check_points(px, pz, info)
     real(dp), intent(in) :: px(:), pz(:)
     type(fuge_info), intent(inout) :: info
-    integer :: k
 
-    do k = 1, size(pz)
-      if (info%failed()) return
-      call cells%check_range(px(k), 'px', k, info)
-      call cells%check_range(pz(k), 'pz', k, info)
-    end do
-  end subroutine check_distances
+    call check_depth(pz, 'pz', info)
+    call check_coordinate(px, 'px', pz, info)
+  end subroutine check_points
 
 end module fuge_halfplane_interior

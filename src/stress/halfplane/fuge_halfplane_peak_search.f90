@@ -1,60 +1,36 @@
 !> The largest stress in a half-plane, under cells and under smooth punches.
 module fuge_halfplane_peak_search
+  use fuge_component_field, only: component_field
   use fuge_constants, only: PI
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
-  use fuge_halfplane_influence, only: FUGE_HAT
-  use fuge_halfplane_interior, only: fuge_halfplane_stress
   use fuge_kinds, only: dp
-  use fuge_loaded_cells, only: loaded_cells
-  use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
   use fuge_pressed_cells, only: allocate_cells, is_own_image, pressed_cells
+  use fuge_pressed_line, only: check_line, pressed_line
   use fuge_pressure_rims, only: find_singular_rim
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_smooth_interior, only: fuge_smooth_stress
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
-  use fuge_stress_field, only: stress_field
-  use fuge_stress_measures, only: check_plane, fuge_halfplane_tensor
+  use fuge_status, only: fuge_info
+  use fuge_stress_measures, only: check_plane
   use fuge_stress_peak_type, only: check_measure, fuge_stress_peak
   implicit none
   private
 
   public :: fuge_halfplane_peak, fuge_smooth_peak
 
-  !> A field in a plane: its three components become tensors.
-  type, abstract, extends(stress_field) :: plane_field
-    integer :: plane_state = 0
-    real(dp) :: poisson = 0.0_dp
+  type, extends(component_field) :: field_of_line
+    type(pressed_line) :: line
   contains
-    procedure :: stresses => tensors_in_plane
-    procedure(in_plane), deferred :: components
-  end type plane_field
+    procedure :: components => components_under_line
+  end type field_of_line
 
-  abstract interface
-    !> `stress` (3, points): xx, zz, xz.
-    subroutine in_plane(self, px, pz, stress, info)
-      import :: plane_field, dp, fuge_info
-      class(plane_field), intent(inout) :: self
-      real(dp), intent(in) :: px(:), pz(:)
-      real(dp), intent(inout) :: stress(:, :)
-      type(fuge_info), intent(out) :: info
-    end subroutine in_plane
-  end interface
-
-  type, extends(plane_field) :: field_of_cells
-    type(loaded_cells) :: cells
-    logical :: folded = .false.
-  contains
-    procedure :: components => components_under_cells
-  end type field_of_cells
-
-  type, extends(plane_field) :: field_of_punch
+  type, extends(component_field) :: field_of_punch
     type(fuge_smooth_contact) :: contact
   contains
     procedure :: components => components_under_punch
   end type field_of_punch
 
-  !> Cells that stand for the pressure of a smooth punch: so many for each coefficient, and at least.
+  !> Cells that stand for the pressure of a smooth punch: for each coefficient, and at least.
   integer, parameter :: CELLS_EACH = 4, FEWEST_CELLS = 64
 
 contains
@@ -85,32 +61,28 @@ contains
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: symmetric
-    type(field_of_cells) :: field
+    type(field_of_line) :: field
     type(pressed_cells) :: cells
-    real(dp) :: nowhere(0), nothing(3, 0), edge(2)
+    real(dp) :: edge(2)
     logical :: folded, singular
 
     folded = .false.
     if (present(symmetric)) folded = symmetric
-    nowhere = 0.0_dp
-    call fuge_halfplane_stress(x, width, force, element, nowhere, nowhere, nothing, info, folded)
+    call check_line(x, width, force, element, folded, info)
+    call field%line%set(x, width, force, element, folded, info)
     call check_plane(plane_state, poisson, info)
     call check_measure(measure, info)
     if (info%failed()) return
-    call collect_cells(x, width, force, folded, cells, info)
+    call collect_cells(field%line, cells, info)
     call find_singular_rim(cells, singular, edge, info)
     if (info%failed()) return
     if (singular) then
       peak = singular_peak([edge(1), 0.0_dp, 0.0_dp])
     else
-      cells%continuous = element == FUGE_HAT
-      cells%symmetric(1) = folded
       if (plane_state == FUGE_PLANE_STRAIN) cells%surface_factor = 1.0_dp - 2.0_dp*poisson
       field%plane_state = plane_state
       field%poisson = poisson
-      field%folded = folded
-      call field%cells%set(x, width, force, element, info)
-      call field%cells%gather(info)
+      call field%line%gather(info)
       call find_peak(field, cells, measure, peak, info)
     end if
     if (folded .and. .not. info%failed()) call to_right_half(peak)
@@ -143,36 +115,30 @@ contains
     call find_peak(field, cells, measure, peak, info)
   end subroutine fuge_smooth_peak
 
-  !> The cells with a force, of a `folded` model those on both sides.
-  pure subroutine collect_cells(x, width, force, folded, cells, info)
-    real(dp), intent(in) :: x(:), width(:), force(:)
-    logical, intent(in) :: folded
+  !> The cells of the line, of a symmetric one those on both sides.
+  pure subroutine collect_cells(line, cells, info)
+    type(pressed_line), intent(in) :: line
     type(pressed_cells), intent(inout) :: cells
     type(fuge_info), intent(inout) :: info
-    logical :: has_image
     integer :: k, number
 
-    number = 0
-    do k = 1, size(x)
-      if (.not. abs(force(k)) > 0.0_dp) cycle
-      number = number + 1
-      if (folded .and. .not. is_own_image(x(k), width(k))) number = number + 1
-    end do
+    number = size(line%centre)
+    if (line%symmetric) number = number + count(.not. is_own_image(line%centre, line%width))
     call allocate_cells(1, number, cells, info)
     if (info%failed()) return
+    cells%continuous = line%hats
+    cells%symmetric(1) = line%symmetric
     number = 0
-    do k = 1, size(x)
-      if (.not. abs(force(k)) > 0.0_dp) cycle
-      has_image = folded .and. .not. is_own_image(x(k), width(k))
+    do k = 1, size(line%centre)
       number = number + 1
-      cells%centre(1, number) = x(k)
-      cells%width(1, number) = width(k)
-      cells%pressure(number) = force(k)/width(k)
-      if (.not. has_image) cycle
+      cells%centre(1, number) = scale(line%centre(k), -line%power)
+      cells%width(1, number) = scale(line%width(k), -line%power)
+      cells%pressure(number) = scale(line%pressure(k), line%power)
+      if (.not. line%symmetric .or. is_own_image(line%centre(k), line%width(k))) cycle
       cells%pressure(number) = 0.5_dp*cells%pressure(number)
       number = number + 1
-      cells%centre(1, number) = -x(k)
-      cells%width(1, number) = width(k)
+      cells%centre(1, number) = -cells%centre(1, number - 1)
+      cells%width(1, number) = cells%width(1, number - 1)
       cells%pressure(number) = cells%pressure(number - 1)
     end do
   end subroutine collect_cells
@@ -209,35 +175,17 @@ contains
     peak%tensor(5) = -peak%tensor(5)
   end subroutine to_right_half
 
-  subroutine tensors_in_plane(self, place, stress, info)
-    class(plane_field), intent(inout) :: self
-    real(dp), intent(in) :: place(:, :)
-    real(dp), intent(out) :: stress(:, :)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: component(:, :)
-    integer :: stat
-
-    if (info%failed()) return
-    allocate (component(3, size(place, 2)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for stresses at '//text(size(place, 2))//' points')
-      return
-    end if
-    call self%components(place(1, :), place(3, :), component, info)
-    if (.not. info%failed()) call fuge_halfplane_tensor(component, self%plane_state, self%poisson, stress, info)
-  end subroutine tensors_in_plane
-
-  subroutine components_under_cells(self, px, pz, stress, info)
-    class(field_of_cells), intent(inout) :: self
+  subroutine components_under_line(self, px, pz, stress, info)
+    class(field_of_line), intent(inout) :: self
     real(dp), intent(in) :: px(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
     integer :: k
 
     do k = 1, size(pz)
-      call self%cells%find_stress(px(k), pz(k), self%folded, stress(:, k))
+      call self%line%find_stress(px(k), pz(k), stress(:, k))
     end do
-  end subroutine components_under_cells
+  end subroutine components_under_line
 
   subroutine components_under_punch(self, px, pz, stress, info)
     class(field_of_punch), intent(inout) :: self

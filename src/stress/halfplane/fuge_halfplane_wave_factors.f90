@@ -1,4 +1,4 @@
-!> What a wave of forces on equal cells of a periodic half-plane does at a depth, at the centres of the cells.
+!> The response of a periodic half-plane to a wave of forces on equal cells, at a depth below the centres of the cells.
 !>
 !> A wave exp(iqx) of pressure at the surface gives at the depth z, with s = |q|, stresses and displacements of the form
 !> (a + b s z) exp(-s z)/s**power times itself, those that are odd in x also times the imaginary unit and the sign of q
@@ -30,14 +30,15 @@ module fuge_halfplane_wave_factors
   integer, parameter :: DEGREE = 32
   !> Terms of the alternating series, whose error is 5.8**(-TERMS).
   integer, parameter :: TERMS = 24
-  !> From this depth on only the wave itself counts: the others are below exp(-pi DEEP).
+  !> From this depth on, in cells, the waves that coincide with it on the cells are left out: they are below
+  !> exp(-pi DEEP).
   real(dp), parameter :: DEEP = 12.0_dp
   !> Waves whose sums are computed together.
   integer, parameter :: BLOCK = 128
 
 contains
 
-  !> `factor` (0:n/2): what the wave of that many periods in `n` cells is multiplied by; 0 for the wave 0.
+  !> `factor` (0:n/2): factor(k) multiplies the wave of k periods in `n` cells; it is 0 for the wave 0.
   !>
   !> `hat`: the element is a hat. `depth` >= 0 in units of a cell.
   pure subroutine fill_wave_factors(response, n, hat, depth, factor)
@@ -59,7 +60,7 @@ contains
     if (depth < DEEP) call add_others(response, n, hat, depth, factor)
   end subroutine fill_wave_factors
 
-  !> Add what the waves do that are the same on the cells.
+  !> Add the responses to the other waves, which coincide with these on the cells.
   pure subroutine add_others(response, n, hat, depth, factor)
     type(wave_response), intent(in) :: response
     integer, intent(in) :: n

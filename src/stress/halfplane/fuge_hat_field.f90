@@ -28,10 +28,10 @@ module fuge_hat_field
   !> Terms of the series for displacements from two half bases on, and from eight on.
   integer, parameter :: TERMS = 24, TERMS_FAR = 9
 
-  !> Places in the half base, 0 .. 1, and weights of the rules for a unit force in half a hat.
+  !> Nodes in the half base, 0 .. 1, and weights of the rules for a unit force in half a hat.
   type, public :: hat_rules
     private
-    real(dp) :: place(MOST_NODES, RULES) = 0.0_dp, weight(MOST_NODES, RULES) = 0.0_dp
+    real(dp) :: node(MOST_NODES, RULES) = 0.0_dp, weight(MOST_NODES, RULES) = 0.0_dp
   contains
     procedure :: prepare
   end type hat_rules
@@ -43,8 +43,8 @@ contains
     integer :: k
 
     do k = 1, RULES
-      call gauss_rule(self%place(:NODES(k), k), self%weight(:NODES(k), k))
-      self%weight(:, k) = self%weight(:, k)*(1.0_dp - self%place(:, k))
+      call gauss_rule(self%node(:NODES(k), k), self%weight(:NODES(k), k))
+      self%weight(:, k) = self%weight(:, k)*(1.0_dp - self%node(:, k))
     end do
   end subroutine prepare
 
@@ -66,7 +66,7 @@ contains
         call close_terms(px, centre(k), width(k), pz, terms)
       else
         associate (rule => count(away >= FROM*width(k)))
-          call quadrature(NODES(rule), rules%place(:, rule), rules%weight(:, rule), distance, width(k), pz, terms)
+          call quadrature(NODES(rule), rules%node(:, rule), rules%weight(:, rule), distance, width(k), pz, terms)
         end associate
       end if
       total = total + pressure(k)*terms
@@ -74,17 +74,17 @@ contains
   end subroutine add_hats
 
   !> -pi times the stresses under a hat with a unit peak, from the half base on.
-  pure subroutine quadrature(n, place, weight, distance, width, z, terms)
+  pure subroutine quadrature(n, node, weight, distance, width, z, terms)
     integer, intent(in) :: n
-    real(dp), intent(in) :: place(n), weight(n), distance, width, z
+    real(dp), intent(in) :: node(n), weight(n), distance, width, z
     real(dp), intent(out) :: terms(3)
     real(dp) :: s(2), across(2), along(2)
     integer :: k
 
     terms = 0.0_dp
     do k = 1, n
-      s(1) = distance + width*place(k)
-      s(2) = distance - width*place(k)
+      s(1) = distance + width*node(k)
+      s(2) = distance - width*node(k)
       across = z/(s**2 + z**2)
       along = s/(s**2 + z**2)
       terms(1) = terms(1) + weight(k)*sum(along**2)

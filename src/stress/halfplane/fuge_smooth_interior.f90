@@ -13,7 +13,7 @@ module fuge_smooth_interior
 
   public :: fuge_smooth_displacement, fuge_smooth_stress
 
-  !> No distance is larger than 2**FARTHEST half widths, 1.8e75.
+  !> A distance is at most 2**FARTHEST half widths, 1.8e75.
   integer, parameter :: FARTHEST = 250
 
 contains

@@ -3,12 +3,12 @@
 !> Points are taken in batches of neighbours, for which one walk through the clusters decides. A part of a batch that is
 !> small against a cluster and too near to it goes on to the halves of the cluster; one that is large is halved itself.
 module fuge_area_field
-  use fuge_area_loads, only: area_loads, load_part, new_area_loads
-  use fuge_force_clusters, only: cluster_classes, force_clusters, new_force_clusters, place_cluster_forces, &
+    use fuge_force_clusters, only: cluster_classes, force_clusters, new_force_clusters, place_cluster_forces, &
     prepare_cluster, set_single_cluster, CLASS_POINTS, FINEST, LEAST
   use fuge_kinds, only: dp
   use fuge_median_split, only: sort_by_place
   use fuge_point_forces, only: add_force_displacements, add_force_stresses, finish_displacement, finish_stress
+  use fuge_pressed_area, only: pressed_area
   use fuge_rectangle_field, only: new_rectangle_rules, part_displacement, part_stress, place_nodes, rectangle_rules, &
     rule_order, MOST_NODES
   implicit none
@@ -18,23 +18,21 @@ module fuge_area_field
 
   !> Points of a batch, at most.
   integer, parameter :: MOST_POINTS = 64
-  !> Forces that are collected before they are summed.
+  !> Forces that are collected before they are summed, at most.
   integer, parameter :: SOURCES = 1024
-  !> From so many units of the loads on, these are one force.
-  integer, parameter :: FAR_EXPONENT = 60
-  !> As many points cost less than the moments of clusters.
+  !> Up to this number of points, a sum over all loads takes less time than the moments of clusters.
   integer, parameter :: FEW_POINTS = 8
-  !> A batch is halved if its extent is a greater part of that of the cluster.
+  !> A batch is halved if its extent exceeds this fraction of that of the cluster.
   real(dp), parameter :: BATCH_EXTENT = 0.5_dp
 
   !> The loads of an area, for any number of points. Clusters are made when they are needed.
   type, public :: area_field
     private
-    type(area_loads) :: loads
+    type(pressed_area) :: loads
     type(force_clusters) :: clusters
     type(rectangle_rules) :: rules
     real(dp) :: poisson = 0.0_dp
-    !> Points asked for so far.
+    !> Points evaluated so far, as far as they matter for the clusters.
     integer :: asked = 0
   end type area_field
 
@@ -50,17 +48,16 @@ module fuge_area_field
 
 contains
 
-  !> The field under `force` (n) on rectangles at `x`, `y` (n) of the widths `width_x`, `width_y` (n), all of them
-  !> checked; `symmetric` (2): about x = 0, about y = 0. `stat` as in an allocate statement. The arguments are nine,
-  !> because rectangles are plain arrays, as the caller has them.
-  pure subroutine new_area_field(x, y, width_x, width_y, force, symmetric, poisson, field, stat)
-    real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), poisson
-    logical, intent(in) :: symmetric(2)
+  !> The field under an area, whose rectangles it takes over. `stat` as in an allocate statement.
+  pure subroutine new_area_field(area, poisson, field, stat)
+    type(pressed_area), intent(inout) :: area
+    real(dp), intent(in) :: poisson
     type(area_field), intent(out) :: field
     integer, intent(out) :: stat
 
-    call new_area_loads(x, y, width_x, width_y, force, symmetric, field%loads, stat)
-    if (stat /= 0 .or. field%loads%count < 1) return
+    stat = 0
+    call area%move_to(field%loads)
+    if (field%loads%count < 1) return
     call new_rectangle_rules(field%rules)
     field%poisson = poisson
     call set_single_cluster(field%loads, field%clusters, stat)
@@ -91,7 +88,7 @@ contains
       order(k) = k
       ! Points beyond FAR_EXPONENT do without a place.
       places(k, :) = 0.0_dp
-      if (.not. is_far(field%loads, x(k), y(k), z(k))) places(k, :) = scale([x(k), y(k), z(k)], -field%loads%unit)
+      if (.not. field%loads%is_far_from(x(k), y(k), z(k))) places(k, :) = scale([x(k), y(k), z(k)], -field%loads%unit)
     end do
     call sort_by_place(places, 1, order)
     call add_batches(field, x, y, z, places, order, values, stat)
@@ -122,7 +119,7 @@ contains
     call add_cluster_field(field, batch, 1, batch%count, [1, 1, field%loads%count], stat)
     if (stat /= 0) return
     do k = 1, batch%count
-      if (is_far(field%loads, x(order(k)), y(order(k)), z(order(k)))) then
+      if (field%loads%is_far_from(x(order(k)), y(order(k)), z(order(k)))) then
         values(:, order(k)) = values(:, order(k)) + far_values(field, x(order(k)), y(order(k)), z(order(k)), &
                                                                size(values, 1))
       else
@@ -130,18 +127,6 @@ contains
       end if
     end do
   end subroutine add_batches
-
-  !> Is the point so far that the loads are one force?
-  elemental function is_far(loads, x, y, z) result(far)
-    type(area_loads), intent(in) :: loads
-    real(dp), intent(in) :: x, y, z
-    logical :: far
-    real(dp) :: distance
-
-    distance = max(abs(x), abs(y), z)
-    ! The exponent of zero would be that of 1/2.
-    far = distance > 0.0_dp .and. exponent(distance) > loads%unit + FAR_EXPONENT
-  end function is_far
 
   !> The values at a far point.
   pure function far_values(field, x, y, z, components) result(values)
@@ -173,7 +158,7 @@ contains
 
   !> Stresses, or displacements times Young's modulus, of lengths in multiples of 2**unit in the units of the caller.
   pure function in_caller_units(loads, values, unit) result(scaled)
-    type(area_loads), intent(in) :: loads
+    type(pressed_area), intent(in) :: loads
     real(dp), intent(in) :: values(:)
     integer, intent(in) :: unit
     real(dp) :: scaled(size(values))
@@ -181,7 +166,7 @@ contains
     scaled = scale(values, loads%force_unit - unit*merge(2, 1, size(values) == 6))
   end function in_caller_units
 
-  !> What the sums over point forces come to at depth `z`.
+  !> The values that belong to sums over point forces, at depth `z`.
   pure function finished(sums, z, poisson, components) result(values)
     real(dp), intent(in) :: sums(6), z, poisson
     integer, intent(in) :: components
@@ -273,7 +258,7 @@ contains
 
   !> Nodes along x and y for load `k` and all points between `low` and `high`.
   pure function load_orders(loads, k, low, high) result(order)
-    type(area_loads), intent(in) :: loads
+    type(pressed_area), intent(in) :: loads
     integer, intent(in) :: k
     real(dp), intent(in) :: low(3), high(3)
     integer :: order(2)
@@ -360,11 +345,11 @@ contains
     do i = first, last
       if (batch%components == 6) then
         batch%values(:, i) = batch%values(:, i) &
-                             + pressure*part_stress(field%rules, load_part(field%loads, k, batch%x(i), batch%y(i)), &
+                             + pressure*part_stress(field%rules, field%loads%seen_from(k, batch%x(i), batch%y(i)), &
                                                     batch%z(i), field%poisson)
       else
         batch%values(:3, i) = batch%values(:3, i) &
-          + pressure*part_displacement(field%rules, load_part(field%loads, k, batch%x(i), batch%y(i)), batch%z(i), &
+          + pressure*part_displacement(field%rules, field%loads%seen_from(k, batch%x(i), batch%y(i)), batch%z(i), &
                                        field%poisson)
       end if
     end do

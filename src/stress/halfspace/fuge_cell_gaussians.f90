@@ -17,8 +17,8 @@ module fuge_cell_gaussians
   integer, parameter :: NEIGHBOURS = 5, ALIASES = 3
   !> exp(-x) is less than rounding.
   real(dp), parameter :: NEGLIGIBLE = 80.0_dp
-  !> From this width on a Gaussian is smooth over a cell, for a rule of NODES nodes.
-  real(dp), parameter :: SMOOTH = 2.0_dp
+  !> From this width on, a Gauss rule of NODES nodes integrates a Gaussian over a cell to rounding.
+  real(dp), parameter :: RESOLVED = 2.0_dp
   integer, parameter :: NODES = 8
   !> From this width on, in units of a circle, few waves make up a Gaussian on it.
   real(dp), parameter :: WIDE = 0.18_dp
@@ -31,13 +31,13 @@ contains
     integer, intent(in) :: n
     real(dp), intent(in) :: t
     real(dp), intent(out) :: factor(0:, 0:)
-    real(dp) :: part(0:NEIGHBOURS, 0:2)
+    real(dp) :: share(0:NEIGHBOURS, 0:2)
     integer :: k
 
     if (t < SWITCH) then
-      call fill_parts(t, part)
+      call fill_shares(t, share)
       do k = 0, ubound(factor, 1)
-        factor(k, :) = sum_over_cells(part, real(k, dp)/real(n, dp))
+        factor(k, :) = sum_over_cells(share, real(k, dp)/real(n, dp))
       end do
     else
       do k = 0, ubound(factor, 1)
@@ -51,22 +51,22 @@ contains
   pure subroutine fill_gaussian_places(t, value)
     real(dp), intent(in) :: t
     real(dp), intent(out) :: value(0:, 0:)
-    real(dp) :: place(NODES), weight(NODES), x
+    real(dp) :: node(NODES), weight(NODES), x
     integer :: j, k, last
 
     ! Beyond, everything is less than rounding.
     last = int(min(real(ubound(value, 1), dp), 1.0_dp + 2.0_dp*sqrt(NEGLIGIBLE)*t))
     value(last + 1:, :) = 0.0_dp
-    if (t < SMOOTH) then
-      call fill_parts(t, value(:last, :))
+    if (t < RESOLVED) then
+      call fill_shares(t, value(:last, :))
       value(:last, 1) = -value(:last, 1)
       return
     end if
-    call gauss_rule(place, weight)
+    call gauss_rule(node, weight)
     value(:last, :) = 0.0_dp
     do k = 1, NODES
       do j = 0, last
-        x = real(j, dp) + (place(k) - 0.5_dp)
+        x = real(j, dp) + (node(k) - 0.5_dp)
         value(j, :) = value(j, :) + weight(k)*gaussian(x, t)*[1.0_dp, -0.5_dp*x/t**2, (0.5_dp - (0.5_dp*x/t)**2)/t**2]
       end do
     end do
@@ -124,22 +124,22 @@ contains
     end do
   end subroutine add_waves
 
-  !> At the distances 0, 1, ..: the part of a Gaussian of variance 2 t**2 that lies in a cell, minus its slope, and
+  !> At the distances 0, 1, ..: the share of a Gaussian of variance 2 t**2 that lies in a cell, minus its slope, and
   !> minus the slope of that.
-  pure subroutine fill_parts(t, part)
+  pure subroutine fill_shares(t, share)
     real(dp), intent(in) :: t
-    real(dp), intent(out) :: part(0:, 0:)
+    real(dp), intent(out) :: share(0:, 0:)
     real(dp) :: left, right
     integer :: j
 
-    do j = 0, ubound(part, 1)
+    do j = 0, ubound(share, 1)
       left = real(j, dp) - 0.5_dp
       right = real(j, dp) + 0.5_dp
-      part(j, 0) = 0.5_dp*(erfc(left/(2.0_dp*t)) - erfc(right/(2.0_dp*t)))
-      part(j, 1) = gaussian(left, t) - gaussian(right, t)
-      part(j, 2) = (right*gaussian(right, t) - left*gaussian(left, t))/(2.0_dp*t**2)
+      share(j, 0) = 0.5_dp*(erfc(left/(2.0_dp*t)) - erfc(right/(2.0_dp*t)))
+      share(j, 1) = gaussian(left, t) - gaussian(right, t)
+      share(j, 2) = (right*gaussian(right, t) - left*gaussian(left, t))/(2.0_dp*t**2)
     end do
-  end subroutine fill_parts
+  end subroutine fill_shares
 
   pure function gaussian(x, t) result(density)
     real(dp), intent(in) :: x, t
@@ -149,17 +149,17 @@ contains
     if ((x/(2.0_dp*t))**2 < NEGLIGIBLE) density = exp(-(x/(2.0_dp*t))**2)/(2.0_dp*sqrt(PI)*t)
   end function gaussian
 
-  !> The transforms of what `fill_parts` gives, even, odd and even, at `mu` periods for each cell.
-  pure function sum_over_cells(part, mu) result(total)
-    real(dp), intent(in) :: part(0:, 0:), mu
+  !> The transforms of what `fill_shares` gives, even, odd and even, at `mu` periods for each cell.
+  pure function sum_over_cells(share, mu) result(total)
+    real(dp), intent(in) :: share(0:, 0:), mu
     real(dp) :: total(0:2)
     real(dp) :: angle
     integer :: j
 
-    total = [part(0, 0), 0.0_dp, part(0, 2)]
-    do j = 1, ubound(part, 1)
+    total = [share(0, 0), 0.0_dp, share(0, 2)]
+    do j = 1, ubound(share, 1)
       angle = 2.0_dp*PI*(mu*real(j, dp))
-      total = total + 2.0_dp*[part(j, 0)*cos(angle), part(j, 1)*sin(angle), part(j, 2)*cos(angle)]
+      total = total + 2.0_dp*[share(j, 0)*cos(angle), share(j, 1)*sin(angle), share(j, 2)*cos(angle)]
     end do
   end function sum_over_cells
 

@@ -7,11 +7,11 @@
 !> S. Tlupova, A kernel-independent treecode based on barycentric Lagrange interpolation, Commun. Comput. Phys. 28,
 !> 2020.
 module fuge_force_clusters
-  use fuge_area_loads, only: area_loads, reorder_loads
   use fuge_constants, only: PI
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
   use fuge_median_split, only: sort_by_place
+  use fuge_pressed_area, only: pressed_area
   implicit none
   private
 
@@ -24,9 +24,9 @@ module fuge_force_clusters
   integer, parameter, public :: CLASS_POINTS(CLASSES) = [FINEST, 22, 20, 17, 14, 12, 10, 8]
   real(dp), parameter :: CLASS_DISTANCE(CLASSES) = &
     [2.77_dp, 3.13_dp, 3.64_dp, 4.9_dp, 7.46_dp, 11.1_dp, 19.3_dp, 43.7_dp]
-  !> A cluster of at most this many loads is not divided.
+  !> A cluster of at most LEAST loads is not divided.
   integer, parameter, public :: LEAST = 32
-  !> Gauss's rule of this many nodes is exact for the finest grid's polynomials.
+  !> Nodes of the Gauss rule that is exact for the polynomials of the finest grid.
   integer, parameter :: NODES = FINEST/2
 
   !> The forces on one grid of one cluster.
@@ -58,7 +58,7 @@ contains
 
   !> Sort the loads into clusters and form their moments. `stat` as in an allocate statement.
   pure subroutine new_force_clusters(loads, clusters, stat)
-    type(area_loads), intent(inout) :: loads
+    type(pressed_area), intent(inout) :: loads
     type(force_clusters), intent(out) :: clusters
     integer, intent(out) :: stat
     integer, allocatable :: order(:)
@@ -84,7 +84,7 @@ contains
     places(:, 2) = loads%y
     ! Lists of the last level have `most` loads or one less.
     call sort_by_place(places, most - 1, order)
-    call reorder_loads(order, loads, stat)
+    call loads%reorder(order, stat)
     if (stat /= 0) return
     call set_tables(clusters)
     call form_cluster(loads, clusters, 1, 1, loads%count)
@@ -92,14 +92,14 @@ contains
 
   !> One cluster of all loads, whose sums take these one by one. `stat` as in an allocate statement.
   pure subroutine set_single_cluster(loads, clusters, stat)
-    type(area_loads), intent(in) :: loads
+    type(pressed_area), intent(in) :: loads
     type(force_clusters), intent(out) :: clusters
     integer, intent(out) :: stat
 
     allocate (clusters%box(4, 1), stat=stat)
     if (stat /= 0) return
     clusters%count = 1
-    clusters%box(:, 1) = box_around(loads, 1, loads%count)
+    clusters%box(:, 1) = loads%box_around(1, loads%count)
   end subroutine set_single_cluster
 
   !> Chebyshev points of the first kind, and the weights by which values of polynomials there become coefficients.
@@ -122,14 +122,14 @@ contains
 
   !> The rectangle and the moments of cluster `k`, loads `first` to `last`, and of its parts.
   pure recursive subroutine form_cluster(loads, clusters, k, first, last)
-    type(area_loads), intent(in) :: loads
+    type(pressed_area), intent(in) :: loads
     type(force_clusters), intent(inout) :: clusters
     integer, intent(in) :: k, first, last
     real(dp) :: low(2), high(2)
     integer :: middle, part
 
     if (2*k > clusters%count) then
-      clusters%box(:, k) = box_around(loads, first, last)
+      clusters%box(:, k) = loads%box_around(first, last)
       call add_load_moments(loads, first, last, clusters%box(:, k), clusters%moment(:, :, k))
       return
     end if
@@ -147,22 +147,9 @@ contains
     end do
   end subroutine form_cluster
 
-  !> The rectangle around loads: centre and half widths.
-  pure function box_around(loads, first, last) result(box)
-    type(area_loads), intent(in) :: loads
-    integer, intent(in) :: first, last
-    real(dp) :: box(4), low(2), high(2)
-
-    low = [minval(loads%x(first:last) - loads%half_x(first:last)), &
-           minval(loads%y(first:last) - loads%half_y(first:last))]
-    high = [maxval(loads%x(first:last) + loads%half_x(first:last)), &
-            maxval(loads%y(first:last) + loads%half_y(first:last))]
-    box = [0.5_dp*(low + high), 0.5_dp*(high - low)]
-  end function box_around
-
   !> The moments of loads in a rectangle `box`.
   pure subroutine add_load_moments(loads, first, last, box, moment)
-    type(area_loads), intent(in) :: loads
+    type(pressed_area), intent(in) :: loads
     integer, intent(in) :: first, last
     real(dp), intent(in) :: box(4)
     real(dp), intent(out) :: moment(FINEST, FINEST)

@@ -17,7 +17,7 @@ module fuge_halfspace_depths
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
   use fuge_rectangle_field, only: new_rectangle_rules, rectangle_displacement, rectangle_rules, rectangle_stress
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   use fuge_stress_grid_checks, only: check_grid_depth, check_grid_force, check_grid_result, check_grid_strain
   implicit none
   private
@@ -32,7 +32,7 @@ module fuge_halfspace_depths
   logical, parameter :: STRESS_KINDS(2, 6) = reshape([EVEN, EVEN, EVEN, ODD_Y, ODD_X, ODD], [2, 6]), &
     DISPLACEMENT_KINDS(2, 3) = reshape([ODD_X, ODD_Y, EVEN], [2, 3])
 
-  !> What all depths share.
+  !> Data that all depths share.
   type :: grid_work
     type(halfspace_grid) :: grid
     real(dp) :: poisson = 0.0_dp
@@ -346,8 +346,7 @@ contains
 
     if (info%failed() .or. work%grid%boundary == FUGE_FREE .or. work%grid%boundary == FUGE_PERIODIC) return
     allocate (work%mean(components, cells_across(work), size(depth)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the mean along the rows at '//text(size(depth)) &
-                               //' depths: ask for fewer at once')
+    call require_memory(stat, 'the mean along the rows at', size(depth), 'depths: ask for fewer at once', info)
     do k = 1, size(depth)
       if (info%failed()) return
       if (components == 6) then

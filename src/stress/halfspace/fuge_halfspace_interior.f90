@@ -1,18 +1,15 @@
 !> Stresses and displacements inside an elastic half-space, under uniform pressures on rectangles.
 module fuge_halfspace_interior
   use fuge_area_field, only: add_area_field, area_field, new_area_field
-  use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_4
   use fuge_elastic_moduli, only: check_poisson, fuge_plane_modulus, FUGE_PLANE_STRAIN
-  use fuge_halfplane_influence, only: FUGE_MEAN
   use fuge_kinds, only: dp
-  use fuge_number_text, only: index_text, text
-  use fuge_rectangle_checks, only: check_places
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
-  use fuge_stress_checks, only: check_coordinate, check_depth, check_displacement_range, check_forces, check_result
+  use fuge_pressed_area, only: check_area, pressed_area
+  use fuge_status, only: fuge_info, require_memory
+  use fuge_stress_checks, only: check_coordinate, check_depth, check_displacement_range, check_result
   implicit none
   private
 
-  public :: check_loaded_rectangles, fuge_halfspace_displacement, fuge_halfspace_stress
+  public :: fuge_halfspace_displacement, fuge_halfspace_stress
 
 contains
 
@@ -39,28 +36,27 @@ contains
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: symmetric_x, symmetric_y
+    type(pressed_area) :: area
     type(area_field), allocatable :: field
     real(dp), allocatable :: found(:, :)
     logical :: symmetric(2)
     integer :: stat
 
     symmetric = given_symmetry(symmetric_x, symmetric_y)
-    call check_loaded_rectangles(x, y, width_x, width_y, force, symmetric, info)
+    call check_area(x, y, width_x, width_y, force, symmetric, info)
     if (.not. info%failed()) call check_poisson(poisson, info)
     call check_points(px, py, pz, info)
     call check_result(shape(stress), 'stress', 6, size(pz), info)
     if (info%failed()) return
     allocate (field, found(6, size(pz)), stat=stat)
-    if (stat == 0) call new_area_field(x, y, width_x, width_y, force, symmetric, poisson, field, stat)
+    if (stat == 0) call area%set(x, y, width_x, width_y, force, symmetric, stat)
+    if (stat == 0) call new_area_field(area, poisson, field, stat)
     if (stat == 0) then
       found = 0.0_dp
       call add_area_field(field, px, py, pz, found, stat)
     end if
-    if (stat == 0) then
-      stress = found
-    else
-      call report_memory(size(x), size(pz), info)
-    end if
+    call require_memory(stat, 'the stresses at', size(pz), 'points', info)
+    if (stat == 0) stress = found
   end subroutine fuge_halfspace_stress
 
   !> Displacements at points of a half-space under the forces of rectangles, each a uniform pressure.
@@ -78,59 +74,33 @@ contains
     real(dp), intent(inout) :: displacement(:, :)
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: symmetric_x, symmetric_y
+    type(pressed_area) :: area
     type(area_field), allocatable :: field
     real(dp), allocatable :: found(:, :)
     logical :: symmetric(2)
     integer :: stat
 
     symmetric = given_symmetry(symmetric_x, symmetric_y)
-    call check_loaded_rectangles(x, y, width_x, width_y, force, symmetric, info)
-    call check_body(width_x, width_y, force, young, poisson, info)
+    call check_area(x, y, width_x, width_y, force, symmetric, info)
+    call check_body(young, poisson, info)
+    call check_displacement_range(force, min(minval(width_x), minval(width_y)), young, info)
     call check_points(px, py, pz, info)
     call check_result(shape(displacement), 'displacement', 3, size(pz), info)
     if (info%failed()) return
     allocate (field, found(3, size(pz)), stat=stat)
-    if (stat == 0) call new_area_field(x, y, width_x, width_y, force, symmetric, poisson, field, stat)
+    if (stat == 0) call area%set(x, y, width_x, width_y, force, symmetric, stat)
+    if (stat == 0) call new_area_field(area, poisson, field, stat)
     if (stat == 0) then
       found = 0.0_dp
       if (young <= huge(young)) call add_area_field(field, px, py, pz, found, stat)
     end if
-    if (stat == 0) then
-      displacement = found/young
-    else
-      call report_memory(size(x), size(pz), info)
-    end if
+    call require_memory(stat, 'the displacements at', size(pz), 'points', info)
+    if (stat == 0) displacement = found/young
   end subroutine fuge_halfspace_displacement
 
-  !> Refuse rectangles and forces that are no load: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
-  !> FUGE_ERR_OVERFLOW.
-  pure subroutine check_loaded_rectangles(x, y, width_x, width_y, force, symmetric, info)
-    real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:)
-    logical, intent(in) :: symmetric(2)
-    type(fuge_info), intent(inout) :: info
-    integer :: k, reach
-
-    call check_places(x, y, width_x, width_y, FUGE_MEAN, symmetric, info)
-    if (info%failed()) return
-    call check_forces(force, size(x), 'rectangles', info)
-    if (info%failed()) return
-    reach = exponent(max(maxval(abs(x)), maxval(abs(y)), maxval(width_x), maxval(width_y)))
-    do k = 1, size(x)
-      if (min(exponent(width_x(k)), exponent(width_y(k))) < reach - LARGEST_EXPONENT_OF_4) then
-        call report(info, FUGE_ERR_OVERFLOW, 'rectangle '//index_text(k)//' of widths '//text(width_x(k))//' and ' &
-                    //text(width_y(k))//' is too small beside the others')
-      else if (exponent(force(k)) - exponent(width_x(k)) - exponent(width_y(k)) > LARGEST_EXPONENT) then
-        call report(info, FUGE_ERR_OVERFLOW, 'the pressure of rectangle '//index_text(k)//' under force(' &
-                    //index_text(k)//') = '//text(force(k))//' is out of range: choose another unit of force')
-      end if
-      if (info%failed()) return
-    end do
-  end subroutine check_loaded_rectangles
-
-  !> Refuse moduli of a body (FUGE_ERR_NOT_FINITE, FUGE_ERR_MODULUS), and those by which displacements overflow
-  !> (FUGE_ERR_OVERFLOW).
-  pure subroutine check_body(width_x, width_y, force, young, poisson, info)
-    real(dp), intent(in) :: width_x(:), width_y(:), force(:), young, poisson
+  !> Refuse moduli of a body (FUGE_ERR_NOT_FINITE, FUGE_ERR_MODULUS).
+  pure subroutine check_body(young, poisson, info)
+    real(dp), intent(in) :: young, poisson
     type(fuge_info), intent(inout) :: info
     type(fuge_info) :: of_body
     real(dp) :: modulus
@@ -138,7 +108,6 @@ contains
     if (info%failed()) return
     call fuge_plane_modulus(young, poisson, FUGE_PLANE_STRAIN, modulus, of_body)
     if (of_body%failed()) info = of_body
-    call check_displacement_range(force, min(minval(width_x), minval(width_y)), young, info)
   end subroutine check_body
 
   pure subroutine check_points(px, py, pz, info)
@@ -158,12 +127,5 @@ contains
     if (present(symmetric_x)) symmetric(1) = symmetric_x
     if (present(symmetric_y)) symmetric(2) = symmetric_y
   end function given_symmetry
-
-  pure subroutine report_memory(n, points, info)
-    integer, intent(in) :: n, points
-    type(fuge_info), intent(inout) :: info
-
-    call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(n)//' rectangle(s) and '//text(points)//' point(s)')
-  end subroutine report_memory
 
 end module fuge_halfspace_interior

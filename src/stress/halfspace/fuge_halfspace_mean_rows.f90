@@ -7,8 +7,7 @@ module fuge_halfspace_mean_rows
   use fuge_halfplane_influence, only: FUGE_CENTRE
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -75,10 +74,8 @@ contains
     integer :: k, stat
 
     allocate (offset(n), level(n), plane(components, n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(n)//' cells')
-      return
-    end if
+    call require_memory(stat, '', n, 'cells', info)
+    if (stat /= 0) return
     do k = 1, n
       offset(k) = real(k - 1, dp)
     end do

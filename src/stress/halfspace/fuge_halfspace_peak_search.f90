@@ -2,13 +2,12 @@
 module fuge_halfspace_peak_search
   use fuge_area_field, only: add_area_field, area_field, new_area_field
   use fuge_elastic_moduli, only: check_poisson
-  use fuge_halfspace_interior, only: check_loaded_rectangles
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
+  use fuge_pressed_area, only: check_area, pressed_area
   use fuge_pressed_cells, only: allocate_cells, is_own_image, pressed_cells
   use fuge_pressure_rims, only: find_singular_rim
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   use fuge_stress_peak_type, only: check_measure, fuge_stress_peak
   implicit none
@@ -22,7 +21,7 @@ module fuge_halfspace_peak_search
     procedure :: stresses
   end type field_of_rectangles
 
-  !> The search cuts rectangles that are longer than this many widths, into so many pieces at most.
+  !> Rectangles longer than LONGEST widths are cut for the search, into at most MOST_PIECES pieces.
   real(dp), parameter :: LONGEST = 4.0_dp
   integer, parameter :: MOST_PIECES = 32
 
@@ -54,18 +53,22 @@ contains
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: symmetric_x, symmetric_y
+    type(pressed_area) :: area
     type(pressed_cells) :: cells
     real(dp) :: edge(2)
     logical :: singular, symmetric(2)
+    integer :: stat
 
     symmetric = .false.
     if (present(symmetric_x)) symmetric(1) = symmetric_x
     if (present(symmetric_y)) symmetric(2) = symmetric_y
-    call check_loaded_rectangles(x, y, width_x, width_y, force, symmetric, info)
+    call check_area(x, y, width_x, width_y, force, symmetric, info)
     if (.not. info%failed()) call check_poisson(poisson, info)
     call check_measure(measure, info)
     if (info%failed()) return
-    call collect_cells(x, y, width_x, width_y, force, symmetric, cells, info)
+    call area%set(x, y, width_x, width_y, force, symmetric, stat)
+    call require_memory(stat, 'the area of', size(x), 'rectangles', info)
+    call collect_cells(area, cells, info)
     cells%surface_factor = 1.0_dp - 2.0_dp*poisson
     call find_singular_rim(cells, singular, edge, info)
     if (info%failed()) return
@@ -73,16 +76,17 @@ contains
       peak = singular_peak([edge, 0.0_dp])
     else
       call divide_long(cells, info)
-      call search(x, y, width_x, width_y, force, poisson, cells, measure, peak, info)
+      call search(area, poisson, cells, measure, peak, info)
     end if
     if (info%failed()) return
     if (symmetric(1) .and. peak%place(1) < 0.0_dp) call reflect(1, peak)
     if (symmetric(2) .and. peak%place(2) < 0.0_dp) call reflect(2, peak)
   end subroutine fuge_halfspace_peak
 
-  !> The search with the field of the rectangles; arguments as above.
-  subroutine search(x, y, width_x, width_y, force, poisson, cells, measure, peak, info)
-    real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), poisson
+  !> The search in the field of the area, which is used up.
+  subroutine search(area, poisson, cells, measure, peak, info)
+    type(pressed_area), intent(inout) :: area
+    real(dp), intent(in) :: poisson
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
@@ -91,44 +95,51 @@ contains
     integer :: stat
 
     allocate (field, stat=stat)
-    if (stat == 0) call new_area_field(x, y, width_x, width_y, force, cells%symmetric, poisson, field%area, stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the field of '//text(size(x))//' rectangles')
-      return
-    end if
+    if (stat == 0) call new_area_field(area, poisson, field%area, stat)
+    call require_memory(stat, 'the field of', size(cells%pressure), 'rectangles', info)
+    if (stat /= 0) return
     call find_peak(field, cells, measure, peak, info)
   end subroutine search
 
-  !> The rectangles with a force, of a symmetric model with their mirror images.
-  pure subroutine collect_cells(x, y, width_x, width_y, force, symmetric, cells, info)
-    real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:)
-    logical, intent(in) :: symmetric(2)
+  !> The rectangles of the area. Of one that is its own image but for rounding the image is left out.
+  pure subroutine collect_cells(area, cells, info)
+    type(pressed_area), intent(in) :: area
     type(pressed_cells), intent(inout) :: cells
     type(fuge_info), intent(inout) :: info
-    integer :: i, j, k, images(2), number
+    integer :: k, number, side(2)
 
+    if (info%failed()) return
     number = 0
-    do k = 1, size(x)
-      if (abs(force(k)) > 0.0_dp) number = number + product(images_of(x(k), y(k), width_x(k), width_y(k), symmetric))
+    do k = 1, area%count
+      if (all(doubled_sides(area, k) >= 0)) number = number + 1
     end do
     call allocate_cells(2, number, cells, info)
     if (info%failed()) return
-    cells%symmetric = symmetric
+    cells%symmetric = area%symmetric
     cells%spreads = .true.
     number = 0
-    do k = 1, size(x)
-      if (.not. abs(force(k)) > 0.0_dp) cycle
-      images = images_of(x(k), y(k), width_x(k), width_y(k), symmetric)
-      do j = 1, images(2)
-        do i = 1, images(1)
-          number = number + 1
-          cells%centre(:, number) = [merge(x(k), -x(k), i == 1), merge(y(k), -y(k), j == 1)]
-          cells%width(:, number) = [width_x(k), width_y(k)]
-          cells%pressure(number) = force(k)/real(product(images), dp)/width_x(k)/width_y(k)
-        end do
-      end do
+    do k = 1, area%count
+      side = doubled_sides(area, k)
+      if (any(side < 0)) cycle
+      number = number + 1
+      cells%centre(:, number) = area%place_of(k)
+      cells%width(:, number) = area%width_of(k)
+      cells%pressure(number) = area%pressure_of(k, product(1 + side))
     end do
   end subroutine collect_cells
+
+  !> Along each axis: 1 if the image of the rectangle lies on it but for rounding, -1 if it is this image, otherwise 0.
+  pure function doubled_sides(area, k) result(side)
+    type(pressed_area), intent(in) :: area
+    integer, intent(in) :: k
+    integer :: side(2)
+    real(dp) :: place(2)
+
+    place = area%place_of(k)
+    side = 0
+    where (area%symmetric .and. is_own_image(place, area%width_of(k)) .and. abs(place) > 0.0_dp) &
+      side = nint(sign(1.0_dp, place))
+  end function doubled_sides
 
   !> Cut long rectangles, because the largest stress may lie below any part of them.
   pure subroutine divide_long(cells, info)
@@ -173,15 +184,6 @@ contains
     if (modulo(pieces, 2) == 0) pieces = pieces + 1
   end function pieces_of
 
-  !> Along each axis: one rectangle, or two with the mirror image.
-  pure function images_of(x, y, width_x, width_y, symmetric) result(images)
-    real(dp), intent(in) :: x, y, width_x, width_y
-    logical, intent(in) :: symmetric(2)
-    integer :: images(2)
-
-    images = merge(2, 1, symmetric .and. .not. [is_own_image(x, width_x), is_own_image(y, width_y)])
-  end function images_of
-
   !> The mirror image along an axis.
   pure subroutine reflect(axis, peak)
     integer, intent(in) :: axis
@@ -203,7 +205,7 @@ contains
     stress = 0.0_dp
     if (info%failed()) return
     call add_area_field(self%area, place(1, :), place(2, :), place(3, :), stress, stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for stresses at '//text(size(place, 2))//' points')
+    call require_memory(stat, 'stresses at', size(place, 2), 'points', info)
   end subroutine stresses
 
 end module fuge_halfspace_peak_search

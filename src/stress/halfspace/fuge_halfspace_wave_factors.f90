@@ -1,4 +1,4 @@
-!> What a wave of forces on a grid of rectangles on a periodic half-space does at a depth, at the centres of the cells.
+!> The response of a periodic half-space to a wave of forces on a grid of rectangles, at a depth below their centres.
 !>
 !> A wave of pressure exp(i(q_x x + q_y y)) gives at the depth z, with s = |q|, stresses and displacements that are
 !> powers of q_x and q_y times exp(-s z), exp(-s z)/s, exp(-s z)/s**2 and (1 + s z) exp(-s z). Waves that are the same
@@ -58,7 +58,7 @@ module fuge_halfspace_wave_factors
   real(dp), parameter :: SHORT = 0.04_dp
   !> erfc(x) and exp(-x**2) are less than rounding.
   real(dp), parameter :: NEGLIGIBLE = 6.3_dp
-  !> From this depth on, in units of the greater spacing, only the wave itself counts.
+  !> From this depth on, in units of the greater spacing, the waves that coincide with it on the cells are left out.
   real(dp), parameter :: DEEP = 12.0_dp
   !> Depths below this one are the surface.
   real(dp), parameter :: SHALLOW = 1.0e-30_dp
@@ -174,9 +174,9 @@ contains
     end do
   end subroutine allocate_sums
 
-  !> Add a `term` at a `depth` >= 0 to `factor` (0:nx/2, 0:ny/2), of the waves with that many periods along x and y;
-  !> what it adds to the wave (0, 0) means nothing. After `prepare_places`: to the influence of unit pressure on a cell,
-  !> `factor` (0:nx/2, 0:ny - 1) or (0:nx - 1, 0:ny/2), at these distances. Lengths in `unit`.
+  !> Add a `term` at a `depth` >= 0 to `factor` (0:nx/2, 0:ny/2): factor(j, k) belongs to the wave with j and k periods
+  !> along x and y, and that of the wave (0, 0) has no meaning. After `prepare_places`: to the influence of unit
+  !> pressure on a cell, `factor` (0:nx/2, 0:ny - 1) or (0:nx - 1, 0:ny/2), at these distances. Lengths in `unit`.
   subroutine add_term(self, term, depth, factor)
     class(wave_sums), intent(inout) :: self
     type(wave_term), intent(in) :: term
@@ -235,7 +235,7 @@ contains
     end do
   end function part_of_cell
 
-  !> What exp(-t**2 s**2) is multiplied by in the trapezoidal rule.
+  !> The factor of exp(-t**2 s**2) in the trapezoidal rule.
   pure function weight_of(term, depth, t) result(weight)
     type(wave_term), intent(in) :: term
     real(dp), intent(in) :: depth, t
@@ -248,7 +248,7 @@ contains
     weight = STEP*t*weight
   end function weight_of
 
-  !> Without the waves that are the same on the cells.
+  !> As `add_term`, without the waves that coincide with these on the cells.
   pure subroutine add_wave_itself(self, term, depth, factor)
     class(wave_sums), intent(inout) :: self
     type(wave_term), intent(in) :: term

@@ -1,4 +1,4 @@
-!> What a wave of pressure does to a half-space, as terms of fuge_halfspace_wave_factors.
+!> The response of a half-space to a wave of pressure, as terms of fuge_halfspace_wave_factors.
 !>
 !> A wave exp(i(q_x x + q_y y)) of pressure p, with s = |q|, gives at the depth z, by Boussinesq's potentials (K. L.
 !> Johnson, Contact Mechanics, 1985, section 3.2),

@@ -16,7 +16,7 @@ module fuge_rectangle_corners
 
   public :: corner_displacement, corner_stress
 
-  !> What all formulas share: of the corners (i, j), the angles A and F, r and r + z.
+  !> Terms that all formulas share: of the corners (i, j), the angles A and F, r and r + z.
   type :: corner_angles
     real(dp) :: solid(2, 2) = 0.0_dp, first(2, 2) = 0.0_dp, r(2, 2) = 0.0_dp, sum(2, 2) = 0.0_dp
   end type corner_angles

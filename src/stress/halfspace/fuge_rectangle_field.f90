@@ -4,7 +4,7 @@
 !> each of its sides, is summed by Gauss's rule over point forces, in which nothing cancels. Others are
 !> cut in two until each part is far, or close enough and compact enough for the closed form.
 module fuge_rectangle_field
-  use fuge_gauss_legendre, only: gauss_rule
+  use fuge_gauss_legendre, only: gauss_rules
   use fuge_kinds, only: dp
   use fuge_point_forces, only: add_force_displacements, add_force_stresses, finish_displacement, finish_stress
   use fuge_rectangle_corners, only: corner_displacement, corner_stress
@@ -22,9 +22,9 @@ module fuge_rectangle_field
      3.0_dp, 2.7_dp, 2.45_dp, 2.27_dp, 2.12_dp, 2.0_dp]
   !> The closed form takes sides of at most this ratio.
   real(dp), parameter :: COMPACT_RATIO = 2.0_dp
-  !> Outside of the rectangle, the closed form takes points deeper than this part of the distance to it.
+  !> Outside of the rectangle, the closed form takes points deeper than this fraction of the distance to it.
   real(dp), parameter :: DEEP = 0.5_dp
-  !> Points outside by a smaller part of the rectangle count as lying at its edge.
+  !> Points count as lying at the edge up to this distance from it, in the greater half width of the rectangle.
   real(dp), parameter :: SMALLEST = 1.0e-18_dp
 
   !> Gauss's rules of 1 .. MOST_NODES nodes on (-1, 1): (node, rule). Their weights add up to 1.
@@ -47,12 +47,9 @@ contains
   !> The rules that all rectangles share: make them once.
   pure subroutine new_rectangle_rules(rules)
     type(rectangle_rules), intent(out) :: rules
-    integer :: k
 
-    do k = 1, MOST_NODES
-      call gauss_rule(rules%node(:k, k), rules%weight(:k, k))
-      rules%node(:k, k) = 2.0_dp*rules%node(:k, k) - 1.0_dp
-    end do
+    call gauss_rules(rules%node, rules%weight)
+    rules%node = 2.0_dp*rules%node - 1.0_dp
   end subroutine new_rectangle_rules
 
   !> Stresses xx, yy, zz, yz, xz, xy under unit pressure on a rectangle; tension is positive.
@@ -172,14 +169,14 @@ contains
     real(dp), intent(in) :: z, poisson
     real(dp), intent(inout) :: stress(6)
     real(dp), dimension(MOST_NODES) :: x, y, depth, origin
-    real(dp) :: lines(order(1), 6)
+    real(dp) :: node_sums(order(1), 6)
 
     call nodes_of(rules, part, order, z, x, y, depth, origin)
-    lines = 0.0_dp
+    node_sums = 0.0_dp
     call add_force_stresses(origin(:order(2)), y(:order(2)), rules%weight(:order(2), order(2)), poisson, &
-                            x(:order(1)), origin(:order(1)), depth(:order(1)), lines)
+                            x(:order(1)), origin(:order(1)), depth(:order(1)), node_sums)
     stress = stress + 4.0_dp*product(part%half) &
-             *finish_stress(matmul(rules%weight(:order(1), order(1)), lines), z)
+             *finish_stress(matmul(rules%weight(:order(1), order(1)), node_sums), z)
   end subroutine add_distant_stress
 
   !> Add the displacements of a distant part, likewise.
@@ -190,14 +187,14 @@ contains
     real(dp), intent(in) :: z, poisson
     real(dp), intent(inout) :: displacement(3)
     real(dp), dimension(MOST_NODES) :: x, y, depth, origin
-    real(dp) :: lines(order(1), 3)
+    real(dp) :: node_sums(order(1), 3)
 
     call nodes_of(rules, part, order, z, x, y, depth, origin)
-    lines = 0.0_dp
+    node_sums = 0.0_dp
     call add_force_displacements(origin(:order(2)), y(:order(2)), rules%weight(:order(2), order(2)), poisson, &
-                                 x(:order(1)), origin(:order(1)), depth(:order(1)), lines)
+                                 x(:order(1)), origin(:order(1)), depth(:order(1)), node_sums)
     displacement = displacement + 4.0_dp*product(part%half) &
-                   *finish_displacement(matmul(rules%weight(:order(1), order(1)), lines), poisson)
+                   *finish_displacement(matmul(rules%weight(:order(1), order(1)), node_sums), poisson)
   end subroutine add_distant_displacement
 
   !> Points at `x` to which the origin lies as the nodes along x do to the point, and forces at `y` that lie to the

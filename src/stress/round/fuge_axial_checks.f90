@@ -10,12 +10,12 @@ module fuge_axial_checks
 
   public :: check_axial_points
 
-  !> Binary orders between the radius of the contact and the farthest point.
+  !> A distance from the contact is at most about 2**MOST_ORDERS of its radii.
   integer, parameter :: MOST_ORDERS = 200
 
 contains
 
-  !> Refuse points that are none of the body, or out of the range of a contact of this `radius`, and a result of
+  !> Refuse points outside of the body, or out of the range of a contact of this `radius`, and a result of
   !> `shape_given` that is not (`components`, points).
   !>
   !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_GRID for a point above the surface, FUGE_ERR_WIDTH for a

@@ -151,14 +151,14 @@ contains
     field(SIDEWARD) = 2.0_dp/PI/large*(2.0_dp*s*(z/large)/large*d - side*depth*(b + square*d))
   end function near_field
 
-  !> Part of the force that lies nearer to the axis than the point.
-  pure function passed(offset) result(part)
+  !> The fraction of the force that lies nearer to the axis than the point.
+  pure function passed(offset) result(fraction)
     real(dp), intent(in) :: offset
-    real(dp) :: part
+    real(dp) :: fraction
 
-    part = 0.5_dp
-    if (offset > 0.0_dp) part = 0.0_dp
-    if (offset < 0.0_dp) part = 1.0_dp
+    fraction = 0.5_dp
+    if (offset > 0.0_dp) fraction = 0.0_dp
+    if (offset < 0.0_dp) fraction = 1.0_dp
   end function passed
 
   !> Integrals over a quarter of the circle, with c = cos**2, s = sin**2, Delta = sqrt(c + ratio**2 s), 0 < `ratio` < 1:

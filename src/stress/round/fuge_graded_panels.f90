@@ -6,7 +6,7 @@
 !> Approximation Practice, 2013, chapter 19). So the panels grow in proportion to this distance, and the number of nodes
 !> is only as large as it needs to be.
 module fuge_graded_panels
-  use fuge_gauss_legendre, only: gauss_rule
+  use fuge_gauss_legendre, only: gauss_rules
   use fuge_kinds, only: dp
   implicit none
   private
@@ -22,7 +22,7 @@ module fuge_graded_panels
   !> Rules of 1 to MOST_NODES nodes on (0, 1).
   type, public :: panel_rules
     real(dp) :: node(MOST_NODES, MOST_NODES) = 0.0_dp, weight(MOST_NODES, MOST_NODES) = 0.0_dp
-    !> Least sum of the distances of the singularity from the ends, over the length, for so many nodes.
+    !> For a rule of n nodes: the least sum of the distances of the singularity from the ends, over the length.
     real(dp) :: reach(SINGULAR_NODES) = 0.0_dp
   end type panel_rules
 
@@ -32,9 +32,7 @@ contains
     type(panel_rules) :: rules
     integer :: n
 
-    do n = 1, MOST_NODES
-      call gauss_rule(rules%node(:n, n), rules%weight(:n, n))
-    end do
+    call gauss_rules(rules%node, rules%weight)
     do n = 1, SINGULAR_NODES
       rules%reach(n) = cosh(-log(ERROR)/real(2*n, dp))
     end do
@@ -56,7 +54,7 @@ contains
     right = length
     least = rules%reach(SINGULAR_NODES)
     if (near + far < least*(length - left)) then
-      ! The longest panel for which that many nodes suffice.
+      ! The longest panel for which SINGULAR_NODES nodes suffice.
       right = left + 2.0_dp*((distance + left) + least*near)/((least - 1.0_dp)*(least + 1.0_dp))
       ! No sliver is left, whose nodes might fall on the end.
       if (length - right < 0.5_dp*(right - left)) right = 0.5_dp*(left + length)

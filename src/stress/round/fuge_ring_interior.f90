@@ -11,7 +11,7 @@ module fuge_ring_interior
   use fuge_number_text, only: index_text, text
   use fuge_ring_field, only: new_ring_rules, ring_field, ring_rules
   use fuge_ring_influence, only: check_rings
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OVERFLOW
   use fuge_stress_checks, only: check_displacement_range, check_forces
   implicit none
   private
@@ -81,7 +81,7 @@ contains
     end do
   end subroutine fuge_ring_interior_displacement
 
-  !> Refuse rings that are none, and forces that are not as many, not finite, or a pressure out of range.
+  !> Refuse radii of no rings, forces that are not finite or not one for each ring, and pressures out of range.
   pure subroutine check_ring_forces(radius, force, info)
     real(dp), intent(in) :: radius(:), force(:)
     type(fuge_info), intent(inout) :: info
@@ -106,11 +106,8 @@ contains
 
     if (info%failed()) return
     allocate (rules, stat=stat)
-    if (stat == 0) then
-      rules = new_ring_rules()
-    else
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the quadrature rules')
-    end if
+    call require_memory(stat, 'the quadrature rules', info)
+    if (stat == 0) rules = new_ring_rules()
   end subroutine start_rules
 
   !> The sum of the fields of all rings at one point, in the caller's units.

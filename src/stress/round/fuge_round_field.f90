@@ -1,7 +1,7 @@
-!> The field of a round punch: that of flat punches of all radii up to its own, with g' as their density.
+!> The field of a round punch: that of flat punches of all radii up to its own, with chi' as their density.
 !>
-!> The pressure (E*/pi) integral of g'(t)/sqrt(t**2 - r**2) dt (`fuge_abel_transform`) is that of flat punches, and so
-!> are the stresses below it (I. N. Sneddon 1965). Where g' is not negative, one-signed integrals are sums of terms of
+!> The pressure (E*/pi) integral of chi'(t)/sqrt(t**2 - r**2) dt (`fuge_abel_transform`) is that of flat punches, and so
+!> are the stresses below it (I. N. Sneddon 1965). Where chi' is not negative, one-signed integrals are sums of terms of
 !> one sign, so that no digit is lost close to the surface or far away.
 module fuge_round_field
   use fuge_abel_transform, only: abel_transform
@@ -15,7 +15,7 @@ module fuge_round_field
 
   public :: new_round_rules, round_field
 
-  !> Up to this degree g' is a polynomial that the nodes for a smooth factor follow.
+  !> Up to this degree chi' is a polynomial that the nodes for a smooth factor follow.
   integer, parameter :: EASY_DEGREE = 16
   !> Half waves of a Chebyshev polynomial on one part of the radius.
   integer, parameter :: HALF_WAVES = 5
@@ -33,12 +33,12 @@ module fuge_round_field
   !> A bound from below for the distance of a singularity of the angle 45 degrees or more, over its modulus.
   real(dp), parameter :: SINE = 0.7_dp
 
-  !> Quadrature rules, and the parts of the radius on which g' is smooth.
+  !> Quadrature rules, and the parts of the radius on which chi' is smooth.
   type, public :: round_rules
     private
     type(panel_rules) :: panels
     real(dp), allocatable :: parts(:)
-    !> Nodes for g' beyond those for the kernel.
+    !> Nodes for chi' beyond those for the kernel.
     integer :: more_nodes = 0
   end type round_rules
 

@@ -29,7 +29,7 @@ contains
   !> zz, rz; force per length squared, tension positive. At the surface, pz = 0, they are the limits from inside. In the
   !> tip of a cone, where the pressure is infinite, zz is minus the largest number, and rr and tt are (1 + 2 poisson)/2
   !> times it. Without load all are 0.
-  !> Accurate to rounding of the largest stress; zz in relation to itself too, if g' of `fuge_abel_transform` is nowhere
+  !> Accurate to rounding of the largest stress; zz relative to itself too, if chi' of `fuge_abel_transform` is nowhere
   !> negative, as for spheres, cones and other profiles that become steeper outwards.
   !> Errors, stress untouched: FUGE_ERR_MODULUS, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for a negative pr,
   !> FUGE_ERR_GRID for pz < 0, FUGE_ERR_OVERFLOW for points beyond 1e60 radii.

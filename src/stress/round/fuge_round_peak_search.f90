@@ -1,51 +1,30 @@
 !> The largest stress in a half-space about an axis, under rings and under round punches.
 module fuge_round_peak_search
   use fuge_abel_transform, only: abel_transform
+  use fuge_component_field, only: component_field
   use fuge_constants, only: PI
   use fuge_elastic_moduli, only: check_poisson
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_peak_search, only: find_peak, singular_peak
   use fuge_pressed_cells, only: allocate_cells, pressed_cells
   use fuge_pressure_rims, only: find_singular_rim
   use fuge_ring_interior, only: fuge_ring_stress
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_interior, only: fuge_round_stress
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
-  use fuge_stress_field, only: stress_field
-  use fuge_stress_measures, only: fuge_round_tensor
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_peak_type, only: check_measure, fuge_stress_peak
   implicit none
   private
 
   public :: fuge_ring_peak, fuge_round_peak
 
-  !> A field about an axis: its four components become tensors. Its places lie on both sides of the axis.
-  type, abstract, extends(stress_field) :: axial_stress_field
-    real(dp) :: poisson = 0.0_dp
-  contains
-    procedure :: stresses => tensors_about_axis
-    procedure(about_axis), deferred :: components
-  end type axial_stress_field
-
-  abstract interface
-    !> `stress` (4, points): rr, tt, zz, rz.
-    subroutine about_axis(self, pr, pz, stress, info)
-      import :: axial_stress_field, dp, fuge_info
-      class(axial_stress_field), intent(inout) :: self
-      real(dp), intent(in) :: pr(:), pz(:)
-      real(dp), intent(inout) :: stress(:, :)
-      type(fuge_info), intent(out) :: info
-    end subroutine about_axis
-  end interface
-
-  type, extends(axial_stress_field) :: field_of_rings
+  type, extends(component_field) :: field_of_rings
     real(dp), allocatable :: radius(:), force(:)
   contains
     procedure :: components => components_under_rings
   end type field_of_rings
 
-  type, extends(axial_stress_field) :: field_of_punch
+  type, extends(component_field) :: field_of_punch
     type(fuge_round_contact) :: contact
   contains
     procedure :: components => components_under_punch
@@ -95,12 +74,11 @@ contains
       return
     end if
     allocate (field%radius(size(radius)), field%force(size(force)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(force))//' rings')
-      return
-    end if
+    call require_memory(stat, '', size(force), 'rings', info)
+    if (stat /= 0) return
     field%radius = radius
     field%force = force
+    field%about_axis = .true.
     field%poisson = poisson
     call find_peak(field, cells, measure, peak, info)
     if (.not. info%failed()) peak%place(1) = abs(peak%place(1))
@@ -139,6 +117,7 @@ contains
       return
     end if
     field%contact = contact
+    field%about_axis = .true.
     field%poisson = poisson
     call collect_pressure(contact, cells, info)
     cells%surface_factor = 1.0_dp - 2.0_dp*poisson
@@ -213,40 +192,22 @@ contains
     if (number > 0) cells%rim = reshape([contact%radius], [1, 1])
   end subroutine collect_pressure
 
-  subroutine tensors_about_axis(self, place, stress, info)
-    class(axial_stress_field), intent(inout) :: self
-    real(dp), intent(in) :: place(:, :)
-    real(dp), intent(out) :: stress(:, :)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: component(:, :)
-    integer :: stat
-
-    if (info%failed()) return
-    allocate (component(4, size(place, 2)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for stresses at '//text(size(place, 2))//' points')
-      return
-    end if
-    call self%components(abs(place(1, :)), place(3, :), component, info)
-    if (.not. info%failed()) call fuge_round_tensor(component, stress, info)
-  end subroutine tensors_about_axis
-
-  subroutine components_under_rings(self, pr, pz, stress, info)
+  subroutine components_under_rings(self, px, pz, stress, info)
     class(field_of_rings), intent(inout) :: self
-    real(dp), intent(in) :: pr(:), pz(:)
+    real(dp), intent(in) :: px(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
 
-    call fuge_ring_stress(self%radius, self%force, self%poisson, pr, pz, stress, info)
+    call fuge_ring_stress(self%radius, self%force, self%poisson, px, pz, stress, info)
   end subroutine components_under_rings
 
-  subroutine components_under_punch(self, pr, pz, stress, info)
+  subroutine components_under_punch(self, px, pz, stress, info)
     class(field_of_punch), intent(inout) :: self
-    real(dp), intent(in) :: pr(:), pz(:)
+    real(dp), intent(in) :: px(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
 
-    call fuge_round_stress(self%contact, self%poisson, pr, pz, stress, info)
+    call fuge_round_stress(self%contact, self%poisson, px, pz, stress, info)
   end subroutine components_under_punch
 
 end module fuge_round_peak_search

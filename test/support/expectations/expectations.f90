@@ -7,14 +7,13 @@
 module expectations
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dpotrf
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: FUGE_MESSAGE_LENGTH, fuge_info
   implicit none
   private
 
-  public :: add_difference, add_excess, add_words, marked_solution, relative_difference, unexpected, unlike_influence
+  public :: add_difference, add_excess, add_words, marked_solution, relative_difference, unexpected
 
   interface unexpected
     module procedure unexpected_outcome, unexpected_values, unexpected_solution
@@ -82,21 +81,6 @@ contains
     report = unexpected_values(found, expected%force, expected%gap, expected%motion, tolerance, lengths)
   end function unexpected_solution
 
-  !> Influence coefficients: symmetric to the last bit, positive, positive definite.
-  function unlike_influence(alpha) result(report)
-    real(dp), intent(in) :: alpha(:, :)
-    character(len=REPORT_LENGTH) :: report
-    real(dp) :: factor(size(alpha, 1), size(alpha, 2))
-    integer :: status
-
-    report = ''
-    if (.not. all(alpha <= transpose(alpha))) call add_words('not symmetric', report)
-    if (.not. minval(alpha) > 0.0_dp) call add_words('least coefficient '//text(minval(alpha)), report)
-    factor = alpha
-    call dpotrf('L', size(alpha, 1), factor, size(alpha, 1), status)
-    if (status /= 0) call add_words('not positive definite at row '//text(status), report)
-  end function unlike_influence
-
   !> No solution: what a refused solve must leave as it is.
   pure function marked_solution() result(solution)
     type(fuge_solution) :: solution
@@ -145,6 +129,7 @@ contains
     if (.not. is_close) is_close = abs(found - expected) <= tolerance
   end function is_close
 
+  !> Add to what is not as expected.
   pure subroutine add_words(words, report)
     character(len=*), intent(in) :: words
     character(len=*), intent(inout) :: report

@@ -36,8 +36,8 @@ contains
     difference = relative_difference(strain, expected)
   end function plane_strain_difference
 
-  !> Relative difference of the strains about the axis, from the displacements (2, 6) along r and along z, the radial
-  !> one of the point itself as strain round the axis, `hoop`, and the stresses rr, hoop, zz, rz.
+  !> Relative difference of the strains about the axis, from the displacements (2, 6) along r and along z, the `hoop`
+  !> strain, which is the radial displacement over the radius, and the stresses rr, hoop, zz, rz.
   pure function round_strain_difference(along_r, along_z, hoop, step, stress, young, poisson) result(difference)
     real(dp), intent(in) :: along_r(:, :), along_z(:, :), hoop, step, stress(4), young, poisson
     real(dp) :: difference, strain(4), expected(4)

@@ -15,8 +15,7 @@ module fuge_active_set_engine
   use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_refinement_error, only: LARGEST
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_MEMORY, &
-    FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NOT_DEFINITE
   use fuge_unbounded_forces, only: equal_forces_hold_nothing, forces_are_unbounded
   use fuge_unresisted_motions, only: report_unresisted_motion
   use fuge_working_set, only: working_set
@@ -25,7 +24,7 @@ module fuge_active_set_engine
 
   public :: solve_by_active_set, solve_from_set
 
-  !> Ratio of the pivots above which forces are checked for energy.
+  !> Ratio of the pivots above which it is checked whether the forces store any energy.
   real(dp), parameter :: NEARLY_SINGULAR = 1.0e8_dp
 
 contains
@@ -117,7 +116,7 @@ contains
       ambiguous = open_ones
       if (open_ones) then
         call find_singularity(canonical, factor, touching, ambiguous, status)
-        if (status /= FUGE_DONE) call report(info, FUGE_ERR_MEMORY, 'no memory to tell whether forces are unique')
+        call require_memory(status, 'the test whether forces are unique', info)
         if (info%failed()) return
       end if
       if (ambiguous) call find_ambiguous_forces(canonical, solution, touching, ambiguous, info)

@@ -12,6 +12,7 @@ module fuge_block_pivoting
   use fuge_kkt_solution, only: translation_at_shallowest
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
   use fuge_primal_active_set, only: joined_stop, run_primal_active_set, NOISE
+  use fuge_stall_counter, only: stall_counter
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
   use fuge_working_set, only: working_set, SIGN_TOLERANCE
   implicit none
@@ -19,13 +20,16 @@ module fuge_block_pivoting
 
   public :: run_block_pivoting
 
-  !> Block exchanges with points that join, and without a new minimum of wrong points, before single exchanges begin.
-  integer, parameter, public :: MAX_STALLS = 3
+  !> Block exchanges in a row with points that join, and without a new minimum of wrong points, before single exchanges
+  !> begin.
+  integer, parameter :: MAX_STALLS = 3
+  !> Points whose forces are rounding are left out at most this many times, because others may lose theirs.
+  integer, parameter :: MOST_ATTEMPTS = 3
   !> Forces on a singular contact below this fraction of the largest one of the body are rounding.
   real(dp), parameter :: IDLE_FORCE = 1.0e-10_dp
-  !> A length below this fraction of its terms is rounding.
+  !> A length up to this fraction of its terms is rounding.
   real(dp), parameter :: NO_LENGTH = 16.0_dp*epsilon(1.0_dp)
-  !> A large ratio of the pivots raises the violations that count as rounding.
+  !> Violations that count as rounding grow with the ratio of the pivots, times this factor.
   real(dp), parameter :: NOISE_GROWTH = 1.0e-8_dp
   !> A violation above this fraction of the last one is not on its way to zero.
   real(dp), parameter :: LASTING = 0.5_dp
@@ -38,9 +42,8 @@ module fuge_block_pivoting
     logical :: refine_now = .false.
     !> The set is a new one, not the last one again with refinement.
     logical :: is_new_set = .true.
-    !> Fewest wrong points of all sets, and the exchanges that may still go without fewer.
-    integer :: fewest_wrong = huge(1)
-    integer :: stalls_left = MAX_STALLS
+    !> Of the block exchanges; once they have stalled, single exchanges go on to the end.
+    type(stall_counter) :: stalls = stall_counter(limit=MAX_STALLS, left=MAX_STALLS)
     !> The largest violation that the primal active-set method has left.
     real(dp) :: violation_left = huge(1.0_dp)
   end type pivoting_progress
@@ -98,13 +101,13 @@ contains
         call refine_working_set(canonical, set, factor, solution)
       end if
       if (all(set%violation <= SIGN_TOLERANCE)) then
-        if (progress%stalls_left < 0 .or. canonical%is_carried_by(solution%force)) exit
+        if (progress%stalls%has_stalled() .or. canonical%is_carried_by(solution%force)) exit
         ! Soft springs carry the rest of the load, because the motions that it causes close no gap.
-        progress%stalls_left = -1
+        call progress%stalls%give_up()
       else
         if (is_noise(set, progress, factor)) exit
-        if (progress%stalls_left < 0) then
-          ! What the primal active-set method leaves twice stays: signs that are rounding of gaps and motions.
+        if (progress%stalls%has_stalled()) then
+          ! A violation that the primal active-set method leaves twice is rounding of gaps and motions.
           if (maxval(set%violation) > LASTING*progress%violation_left) exit
           progress%violation_left = maxval(set%violation)
         end if
@@ -114,7 +117,7 @@ contains
         status = FUGE_ERR_ITERATION_LIMIT
         return
       end if
-      if (progress%stalls_left < 0) then
+      if (progress%stalls%has_stalled()) then
         call run_primal_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
         if (status /= FUGE_DONE) return
       else
@@ -167,22 +170,19 @@ contains
     type(kkt_factor), intent(in) :: factor
     logical :: is_noise
 
-    is_noise = progress%stalls_left < 0 .and. maxval(set%violation) < NOISE*max(1.0_dp, NOISE_GROWTH*factor%pivot_ratio)
+    is_noise = progress%stalls%has_stalled() &
+               .and. maxval(set%violation) < NOISE*max(1.0_dp, NOISE_GROWTH*factor%pivot_ratio)
   end function is_noise
 
-  !> Count an exchange of the `wrong` points (n), of which the `open` ones join. Fewer wrong points than ever before
-  !> renew the stalls left, unless there are none. An exchange that only opens points is no stall: as long as none
-  !> joins, the contact shrinks, be it by a layer of points at a time, and no set comes again.
+  !> Count an exchange of the `wrong` points (n), of which the `open` ones join. An exchange that only opens points is
+  !> no stall: as long as none joins, the contact shrinks, be it by a layer of points at a time, and no set comes again.
   pure subroutine count_progress(wrong, open, progress)
     logical, intent(in) :: wrong(:), open(:)
     type(pivoting_progress), intent(inout) :: progress
-    integer :: number
 
-    number = count(wrong)
-    if (any(wrong .and. open)) progress%stalls_left = progress%stalls_left - 1
-    if (number < progress%fewest_wrong .and. progress%stalls_left >= 0) progress%stalls_left = MAX_STALLS
-    progress%fewest_wrong = min(progress%fewest_wrong, number)
-    progress%refine_now = progress%stalls_left < MAX_STALLS
+    if (any(wrong .and. open)) call progress%stalls%spend()
+    if (.not. progress%stalls%has_stalled()) call progress%stalls%renew_if_fewer(count(wrong))
+    progress%refine_now = progress%stalls%left < MAX_STALLS
   end subroutine count_progress
 
   !> A point in contact with a tensile force opens; an open one beyond a stop joins it.
@@ -202,9 +202,9 @@ contains
     type(working_set), intent(inout) :: set
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(inout) :: solution
-    real(dp) :: given(size(solution%force))
+    real(dp) :: before(size(solution%force))
 
-    given = solution%force
+    before = solution%force
     if (factor%regularisation > 0.0_dp) then
       call set%refine(canonical, factor, 0.0_dp, solution)
       call solve_without_idle(canonical, set, solution)
@@ -218,10 +218,10 @@ contains
         motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, set%contact, force, &
                                               motion(1))
       end if
-      solution%force_error = solution%force_error + maxval(abs(force - given))
+      solution%force_error = solution%force_error + maxval(abs(force - before))
       ! A motion is rounding then.
       if (set%has_no_length(canonical)) motion = 0.0_dp
-      if (any(abs(force - given) > 0.0_dp)) call set%measure(canonical, .false., solution)
+      if (any(abs(force - before) > 0.0_dp)) call set%measure(canonical, .false., solution)
       call set%find_gaps(canonical, solution)
       where (state == FUGE_OPEN .and. .not. canonical%excluded) solution%gap = min(max(solution%gap, 0.0_dp), upper)
       if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + canonical%datum*canonical%load(1)
@@ -242,7 +242,7 @@ contains
 
     trial = solution
     left_out = 0
-    do attempt = 1, MAX_STALLS
+    do attempt = 1, MOST_ATTEMPTS
       where (canonical%upper > 0.0_dp .and. &
              trial%state*trial%force <= IDLE_FORCE*canonical%force_scale(trial%force)) trial%state = FUGE_OPEN
       idle = solution%state /= trial%state

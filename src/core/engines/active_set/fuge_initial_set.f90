@@ -14,21 +14,21 @@ module fuge_initial_set
 
   public :: guess_initial_set
 
-  !> Most iterations; one costs about as much as a few percent of a factorisation.
+  !> At most this many iterations are made; one costs about as much as a few percent of a factorisation.
   integer, parameter :: MOST_ITERATIONS = 12
-  !> Converged when fewer than one contact point in this many changes, this many times in a row: once is not enough
-  !> on graded grids.
+  !> The set has converged when fewer than 1/SETTLED of the contact points change, QUIET times in a row: once is not
+  !> enough on graded grids.
   integer, parameter :: SETTLED = 64, QUIET = 2
-  !> For the plain problem, not converged while more than one open point in this many changes: those may be few
-  !> and far apart.
+  !> For the plain problem the set has not converged while more than 1/FEW_OPEN of the open points change: these may be
+  !> few and far apart.
   integer, parameter :: FEW_OPEN = 8
-  !> Rounds of restoring equilibrium and opening the points that then pull.
+  !> Equilibrium is restored, and the points that then pull are opened, this many times.
   integer, parameter :: ROUNDS = 2
-  !> Slopes below this fraction of the lengths that make them are rounding.
+  !> Slopes below this fraction of the gaps that they are differences of are rounding.
   real(dp), parameter :: ROUNDING = 1.0e-13_dp
-  !> Modes that the contact resists by less than this fraction are left alone.
+  !> Resistance to a mode below this fraction of that of all points together is not used.
   real(dp), parameter :: HARDLY_RESISTED = 1.0e-12_dp
-  !> A play beyond this many lengths of the problem counts as none.
+  !> A play beyond this many times the length of the problem counts as unlimited.
   real(dp), parameter :: FAR = 1.0e8_dp
 
   !> Forces as fractions of a force of the problem, lengths as fractions of a length of it, so that units do not
@@ -80,7 +80,7 @@ contains
       call find_step(canonical, scaled, now, step, products)
       if (.not. step > 0.0_dp) exit
       before = state
-      call take_step(canonical, scaled, step, state, now)
+      call take_descent_step(canonical, scaled, step, state, now)
       if (.not. any(state /= FUGE_OPEN)) then
         state = before
         exit
@@ -160,7 +160,7 @@ contains
     now%gap = scaled%gap + now%displacement
     now%slope = now%gap
     where (state < FUGE_OPEN) now%slope = now%gap - scaled%upper
-    call remove_rigid_part(canonical, now%contact, now%slope, now%gap)
+    call subtract_rigid_motion(canonical, now%contact, now%slope, now%gap)
     where (.not. now%contact) now%slope = 0.0_dp
   end subroutine find_slope
 
@@ -172,7 +172,7 @@ contains
     type(descent), intent(inout) :: now
     real(dp), intent(out) :: step
     integer, intent(inout) :: products
-    real(dp) :: curvature, kept_part, squares
+    real(dp) :: curvature, conjugacy, squares
     integer :: n
 
     n = size(now%slope)
@@ -180,21 +180,21 @@ contains
     if (maxval(abs(now%slope)) <= ROUNDING*maxval(abs(now%gap))) return
     squares = ddot(n, now%slope, 1, now%slope, 1)
     if (.not. squares > 0.0_dp) return
-    kept_part = 0.0_dp
-    if (now%previous > 0.0_dp) kept_part = squares/now%previous
-    now%direction = merge(now%slope + kept_part*now%direction, 0.0_dp, now%contact)
+    conjugacy = 0.0_dp
+    if (now%previous > 0.0_dp) conjugacy = squares/now%previous
+    now%direction = merge(now%slope + conjugacy*now%direction, 0.0_dp, now%contact)
     now%previous = squares
     now%change = 0.0_dp
     call add_rough_product(canonical%alpha, scaled%factor, now%direction, now%change)
     products = products + 1
     now%elastic_change = now%change
-    call remove_rigid_part(canonical, now%contact, now%elastic_change)
+    call subtract_rigid_motion(canonical, now%contact, now%elastic_change)
     curvature = ddot(n, now%elastic_change, 1, now%direction, 1)
     if (curvature > 0.0_dp) step = ddot(n, now%slope, 1, now%direction, 1)/curvature
   end subroutine find_step
 
   !> Take the step, exchange points and restore equilibrium; the displacements follow.
-  subroutine take_step(canonical, scaled, step, state, now)
+  subroutine take_descent_step(canonical, scaled, step, state, now)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
     real(dp), intent(in) :: step
@@ -219,7 +219,7 @@ contains
     now%displacement = now%displacement - step*now%change
     call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
     now%displacement = stretch*now%displacement
-  end subroutine take_step
+  end subroutine take_descent_step
 
   !> Points whose force no longer pushes at their stop open; open ones beyond a stop join it. `joined` if any did.
   pure subroutine exchange_points(scaled, excluded, gap, step, state, force, joined)
@@ -261,7 +261,7 @@ contains
   end function is_settled
 
   !> Subtract from displacements their least-squares rigid motion over the contact, from `other` (n) the same motion.
-  subroutine remove_rigid_part(canonical, contact, length, other)
+  subroutine subtract_rigid_motion(canonical, contact, length, other)
     type(canonical_problem), intent(in) :: canonical
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: length(:)
@@ -273,12 +273,12 @@ contains
       length = length - translation
       if (present(other)) other = other - translation
     else if (size(canonical%load) > 0) then
-      call remove_motions(canonical%modes, contact, length, other)
+      call subtract_rigid_modes(canonical%modes, contact, length, other)
     end if
-  end subroutine remove_rigid_part
+  end subroutine subtract_rigid_motion
 
-  !> As `remove_rigid_part`, for any modes.
-  subroutine remove_motions(modes, contact, length, other)
+  !> As `subtract_rigid_motion`, for any modes.
+  subroutine subtract_rigid_modes(modes, contact, length, other)
     real(dp), intent(in) :: modes(:, :)
     logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: length(:)
@@ -289,7 +289,7 @@ contains
     call solve_on_contact(modes, contact, matmul(in_contact, modes), motion)
     length = length - matmul(modes, motion)
     if (present(other)) other = other - matmul(modes, motion)
-  end subroutine remove_motions
+  end subroutine subtract_rigid_modes
 
   !> Bring the forces of the plain problem back into equilibrium: a factor, `stretch`, keeps all of them pushing.
   pure subroutine stretch_forces(state, force, stretch)

@@ -14,13 +14,13 @@ module fuge_kkt_base_set
   !> A pivot below this fraction of its diagonal, for each point of the base set, is rounding.
   real(dp), parameter, public :: PIVOT_TOLERANCE = 16.0_dp*epsilon(1.0_dp)
   !> A pivot below this fraction of its diagonal may be rounding that the pivots before it have made larger.
-  real(dp), parameter :: SUSPECT_PART = 1.0e-10_dp
+  real(dp), parameter :: SUSPECT_PIVOT = 1.0e-10_dp
   !> An energy below this fraction of its terms is rounding, which no refinement overcomes.
   real(dp), parameter :: ENERGY_TOLERANCE = 4.0_dp*epsilon(1.0_dp)
   !> Regularisations tried where alpha is singular, relative to its range.
   real(dp), parameter :: REGULARISATIONS(3) = [1.0e-12_dp, 1.0e-11_dp, 1.0e-10_dp]
 
-  !> Its parts are for the factor that extends it.
+  !> Its components are for the factor that extends it.
   type, public :: kkt_base_set
     !> Points of the base set, and the position of each point in it (0: not in it).
     integer, allocatable :: base_set(:), position(:)
@@ -170,7 +170,7 @@ contains
     integer :: j
 
     if (self%augmentation > 0.0_dp) then
-      suspect = SUSPECT_PART*maxval(self%diagonal)
+      suspect = SUSPECT_PIVOT*maxval(self%diagonal)
       do j = 1, size(self%diagonal)
         rounding = self%lower(j, j)**2 <= suspect
         if (rounding) rounding = pivot_is_rounding(self, j, PIVOT_TOLERANCE*real(size(self%diagonal), dp))
@@ -178,13 +178,13 @@ contains
       end do
     else
       j = minloc([(self%lower(j, j)**2/self%diagonal(j), j=1, size(self%diagonal))], dim=1)
-      rounding = self%lower(j, j)**2 <= SUSPECT_PART*self%diagonal(j)
+      rounding = self%lower(j, j)**2 <= SUSPECT_PIVOT*self%diagonal(j)
       if (rounding) rounding = pivot_is_rounding(self, j, ENERGY_TOLERANCE)
     end if
   end function any_pivot_is_rounding
 
   !> Is pivot `j` of the base set below the fraction `tolerance` of its terms? It is the energy of a force of 1 at its
-  !> point and the forces that this one asks for at the points before it, which may be far larger.
+  !> point and the forces that this one requires at the points before it, which may be far larger.
   function pivot_is_rounding(self, j, tolerance) result(rounding)
     class(kkt_base_set), intent(in) :: self
     integer, intent(in) :: j

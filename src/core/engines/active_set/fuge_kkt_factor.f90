@@ -15,8 +15,8 @@ module fuge_kkt_factor
   implicit none
   private
 
-  !> Borders allowed: so many, and one for each POINTS_PER_BORDER points of the base set. With more a new base set is
-  !> cheaper.
+  !> A factor has at most FEWEST_BORDERS borders, and one more for every POINTS_PER_BORDER points of the base set. With
+  !> more of them a new base set is cheaper.
   integer, parameter :: FEWEST_BORDERS = 16
   integer, parameter :: POINTS_PER_BORDER = 8
   !> Stiffness of the springs that resist a mode which the contact set leaves free, relative to the mode's own
@@ -111,7 +111,7 @@ contains
     is_set = allocated(self%base_set)
   end function is_set
 
-  !> Make room for the borders of a base set of so many `points`, with so many `modes`. Error: FUGE_ERR_MEMORY.
+  !> Make room for the borders of a base set of `points` points, with `modes` modes. Error: FUGE_ERR_MEMORY.
   pure subroutine make_room(self, points, modes, status)
     class(kkt_factor), intent(inout) :: self
     integer, intent(in) :: points, modes
@@ -274,7 +274,7 @@ contains
     do j = 1, size(added)
       if (singular) return
       own = diagonal(added(j))
-      ! As in the base set, but without a solve for the forces that the point asks for.
+      ! As in the base set, but without a solve for the forces that the point requires.
       if (self%augmentation > 0.0_dp .and. size(self%diagonal) > 0) own = max(own, maxval(self%diagonal))
       singular = block(j, j)**2 <= PIVOT_TOLERANCE*real(points, dp)*own
       if (.not. singular) self%pivot_ratio = max(self%pivot_ratio, diagonal(added(j))/block(j, j)**2)

@@ -2,10 +2,10 @@
 module fuge_kkt_solution
   use fuge_canonical_problem, only: canonical_problem
   use fuge_compensated_sums, only: add_column, add_terms, add_two_columns, bias_above, compensated_dot
-  use fuge_displacements, only: displacement_magnitude, displacement_terms
+  use fuge_displacements, only: displacement_magnitude, displacement_magnitude_at
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
-  use fuge_refinement_error, only: as_rounding, error_left, LARGEST, RANDOM_SIGNS
+  use fuge_refinement_error, only: error_left, make_random_errors, LARGEST, RANDOM_SIGNS
   implicit none
   private
 
@@ -15,20 +15,21 @@ module fuge_kkt_solution
   real(dp), parameter :: EXACT_ENOUGH = 0.1_dp*epsilon(1.0_dp)
   !> A correction of the forces below this fraction of the largest is rounding.
   real(dp), parameter :: NO_CHANGE = 8.0_dp*epsilon(1.0_dp)
+  !> A refinement makes at most this many corrections.
   integer, parameter :: REFINEMENTS = 10
   !> A first correction beyond this fraction of the largest force shows a condition with which the rounding of
   !> residuals counts.
   real(dp), parameter :: RESIDUALS_COUNT = 1.0e-10_dp
   !> Rounding of a residual relative to its terms: the lower halves of the products are summed in double precision.
   real(dp), parameter :: RESIDUAL_ROUNDING = 2.0_dp**(-79)
-  !> Rows that are gathered at a time.
+  !> At most this many rows are gathered at a time.
   integer, parameter :: PANEL = 256
-  !> Most points whose terms are compared.
+  !> The terms of at most this many points are compared.
   integer, parameter :: CANDIDATES = 8
 
   !> Arrays of a refinement, kept so that small problems do not spend their time on allocations.
   type, public :: refinement_arrays
-    !> What rounding took from the gaps that `refine_solution` is given, (n), length; zero unless it is set.
+    !> The rounding errors of the gaps of `refine_solution`, (n), length; zero unless they are set.
     real(dp), allocatable :: gap_rounding(:)
     !> The last refinement: the largest force before it, the largest changes by its corrections, how many there were,
     !> and whether the last one was applied.
@@ -128,7 +129,7 @@ contains
       end do
       if (next == 0) exit
       last_depth = least_depth
-      terms = least_depth + displacement_terms(alpha, datum, contact, force, next)
+      terms = least_depth + displacement_magnitude_at(alpha, datum, contact, force, next)
       if (terms >= least) cycle
       least = terms
       point = next
@@ -204,7 +205,8 @@ contains
       arrays%residual = arrays%residual + abs(canonical%modes(:, j)*motion(j))
       arrays%missing(j) = RESIDUAL_ROUNDING*sum(abs(canonical%modes(:, j)*force))
     end do
-    arrays%residual = RANDOM_SIGNS*RESIDUAL_ROUNDING*as_rounding(arrays%residual)
+    call make_random_errors(arrays%residual)
+    arrays%residual = RANDOM_SIGNS*RESIDUAL_ROUNDING*arrays%residual
     call factor%solve(arrays%residual, arrays%missing, arrays%correction, arrays%shift)
     error = error + maxval(abs(arrays%correction))
     ! Also where it is NaN.

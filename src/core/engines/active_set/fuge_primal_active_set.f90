@@ -9,9 +9,10 @@ module fuge_primal_active_set
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_point_space, only: point_space
   use fuge_kkt_factor, only: kkt_factor
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
+  use fuge_point_space, only: point_space
+  use fuge_stall_counter, only: stall_counter
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
   use fuge_working_set, only: working_set, SIGN_TOLERANCE
   implicit none
@@ -39,13 +40,14 @@ contains
     integer, intent(out) :: status
     real(dp) :: force(size(solution%state)), previous(size(solution%state)), rounding(size(solution%state))
     logical :: locked(size(solution%state)), tied(size(solution%state)), lenient
-    integer :: newest, stalls
+    type(stall_counter) :: stalls
+    integer :: newest
 
     tied = canonical%is_tied()
-    call make_feasible(canonical, solution, force)
+    call find_feasible_forces(canonical, solution, force)
     locked = .false.
     newest = 0
-    stalls = 0
+    call stalls%start(size(force))
     lenient = .false.
     do
       call set%mark(canonical, solution%state)
@@ -57,7 +59,7 @@ contains
       call set%measure(canonical, .true., solution)
       call tell_monitor(monitor, iterations, maxval(set%violation), count(solution%state /= FUGE_OPEN), status)
       if (status /= FUGE_DONE .or. all(set%violation <= SIGN_TOLERANCE)) return
-      rounding = tension_by_rounding(canonical, set, solution, lenient .or. stalls > size(force))
+      rounding = tension_by_rounding(canonical, set, solution, lenient .or. stalls%has_stalled())
       previous = force
       if (any(is_tensile(solution%force, rounding, solution%state, tied))) then
         call step_to_blocking(solution%force, rounding, tied, solution%state, force, newest, locked, &
@@ -65,19 +67,20 @@ contains
       else
         force = solution%force
         if (newest > 0) locked = locked .and. locked(newest)
-        newest = entering_point(canonical, set, solution, locked, stalls)
+        newest = entering_point(canonical, set, solution, locked, stalls%has_stalled())
         if (newest > 0) then
           solution%state(newest) = joined_stop(solution%gap(newest), canonical%upper(newest))
         else if (lenient .or. .not. any(locked)) then
           return
         else
-          ! What locked the points out was more than SIGN_TOLERANCE, yet rounding: of resultants near the edge of those
-          ! that the contact can carry.
+          ! The tension that locked the points out was above SIGN_TOLERANCE, yet rounding: of resultants near the edge
+          ! of those that the contact can carry.
           lenient = .true.
           locked = .false.
         end if
       end if
-      stalls = merge(stalls + 1, 0, maxval(abs(force - previous)) <= NOISE*maxval(abs(force)))
+      call stalls%spend()
+      if (.not. maxval(abs(force - previous)) <= NOISE*maxval(abs(force))) call stalls%renew()
       if (iterations >= limit) then
         status = FUGE_ERR_ITERATION_LIMIT
         return
@@ -108,26 +111,25 @@ contains
     rounding = max(merge(NOISE, SIGN_TOLERANCE, lenient)*canonical%force_scale(solution%force), set%zero_force)
   end function tension_by_rounding
 
-  !> The open point furthest beyond a stop, 0 if there is none. After many stalls the one of the least index, which
-  !> ends circles (Y.-Y. Chang, R. W. Cottle, Mathematical Programming 18, 1980).
-  pure function entering_point(canonical, set, solution, locked, stalls) result(point)
+  !> The open point furthest beyond a stop, 0 if there is none; where the search has `stalled`, the one of the least
+  !> index, which ends circles (Y.-Y. Chang, R. W. Cottle, Mathematical Programming 18, 1980).
+  pure function entering_point(canonical, set, solution, locked, stalled) result(point)
     type(canonical_problem), intent(in) :: canonical
     type(working_set), intent(in) :: set
     type(contact_solution), intent(in) :: solution
-    logical, intent(in) :: locked(:)
-    integer, intent(in) :: stalls
+    logical, intent(in) :: locked(:), stalled
     integer :: point
     real(dp) :: beyond(size(locked))
 
     beyond = max(-solution%gap, solution%gap - canonical%upper)
-    if (stalls > size(locked)) beyond = 1.0_dp
+    if (stalled) beyond = 1.0_dp
     point = maxloc(beyond, dim=1, mask=solution%state == FUGE_OPEN .and. set%violation > SIGN_TOLERANCE &
                    .and. .not. locked)
   end function entering_point
 
   !> Forces (n) in equilibrium that push at their stops, and the states that belong to them: for the plain problem the
   !> compressive forces of the solution, scaled to the load; else those known from the start.
-  pure subroutine make_feasible(canonical, solution, force)
+  pure subroutine find_feasible_forces(canonical, solution, force)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(inout) :: solution
     real(dp), intent(out) :: force(:)
@@ -142,6 +144,6 @@ contains
     where (force > 0.0_dp) solution%state = FUGE_AT_LOWER_STOP
     where (force < 0.0_dp) solution%state = FUGE_AT_UPPER_STOP
     where (canonical%is_tied()) solution%state = FUGE_AT_LOWER_STOP
-  end subroutine make_feasible
+  end subroutine find_feasible_forces
 
 end module fuge_primal_active_set

@@ -5,13 +5,13 @@ module fuge_refinement_error
   implicit none
   private
 
-  public :: as_rounding, error_left
+  public :: error_left, make_random_errors
 
-  !> Rounding errors of random signs may add up to so many times what one choice of signs shows.
+  !> Rounding errors of random signs may add up to this many times what one choice of signs shows.
   real(dp), parameter, public :: RANDOM_SIGNS = 3.0_dp
-  !> The sum of a slow geometric series of corrections counts as at most so many times the last one.
+  !> The sum of a slow geometric series of corrections counts as at most this many times the last one.
   real(dp), parameter :: SLOWEST = 100.0_dp
-  !> Errors beyond this one are not told apart.
+  !> Errors above this one all count as this one, so that sums and quotients of errors do not overflow.
   real(dp), parameter, public :: LARGEST = huge(1.0_dp)/(2.0_dp*SLOWEST)
 
 contains
@@ -53,20 +53,19 @@ contains
     if (change < before) ratio = change/before
   end function ratio
 
-  !> Stand-ins for rounding errors up to these `sizes`, (n): of either sign, without a pattern that a matrix could have
-  !> too, and the same in each call.
-  pure function as_rounding(sizes) result(errors)
-    real(dp), intent(in) :: sizes(:)
-    real(dp) :: errors(size(sizes))
+  !> Replace bounds of rounding errors, `errors` (n), by errors within them: of either sign, without a pattern that a
+  !> matrix could have too, and the same in each call.
+  pure subroutine make_random_errors(errors)
+    real(dp), intent(inout) :: errors(:)
     integer(int64) :: seed
     integer :: k
 
     ! The minimal standard generator (S. K. Park, K. W. Miller, Communications of the ACM 31, 1988).
     seed = 1043618065_int64
-    do k = 1, size(sizes)
+    do k = 1, size(errors)
       seed = mod(16807_int64*seed, 2147483647_int64)
-      errors(k) = sizes(k)*(2.0_dp*real(seed, dp)/2147483647.0_dp - 1.0_dp)
+      errors(k) = errors(k)*(2.0_dp*real(seed, dp)/2147483647.0_dp - 1.0_dp)
     end do
-  end function as_rounding
+  end subroutine make_random_errors
 
 end module fuge_refinement_error

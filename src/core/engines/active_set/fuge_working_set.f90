@@ -7,7 +7,7 @@ module fuge_working_set
   use fuge_compensated_sums, only: difference_rounding
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_OPEN
-  use fuge_displacements, only: add_open_displacement, displacement_terms
+  use fuge_displacements, only: add_open_displacement, displacement_magnitude_at
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: find_force_error, refine_solution, refinement_arrays, solve_set
@@ -75,7 +75,7 @@ contains
     self%reduced_gap = canonical%gap - self%gap_datum
     self%violation = 0.0_dp
     self%elastic = 0.0_dp
-    self%zero_force = rounding_force(canonical, self%reduced_gap)
+    self%zero_force = largest_zero_force(canonical, self%reduced_gap)
     where (canonical%excluded) state = FUGE_OPEN
     where (.not. (canonical%upper > 0.0_dp .or. canonical%excluded)) state = FUGE_AT_LOWER_STOP
   end subroutine start
@@ -102,7 +102,7 @@ contains
     end do
   end subroutine find_gap_at_stops
 
-  !> What rounding has taken from the gaps at the stops.
+  !> The rounding errors of the gaps at the stops.
   pure subroutine find_gap_rounding(self, canonical, state)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
@@ -119,9 +119,9 @@ contains
     end associate
   end subroutine find_gap_rounding
 
-  !> Without a load all forces may be rounding. Those count that displace by SIGN_TOLERANCE times the gaps, or,
-  !> if no mode is free, times the largest overlap. Zero if there is a load.
-  pure function rounding_force(canonical, reduced_gap) result(zero_force)
+  !> The largest force that counts as zero: 0 if there is a load; without one, all forces may be rounding, and it is the
+  !> force that displaces by SIGN_TOLERANCE times the gaps or, if no mode is free, times the largest overlap.
+  pure function largest_zero_force(canonical, reduced_gap) result(zero_force)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: reduced_gap(:)
     real(dp) :: zero_force
@@ -143,7 +143,7 @@ contains
     ! Where alpha is zero, the factor regularises it by such a coefficient.
     if (.not. largest > 0.0_dp) largest = 1.0e-12_dp
     zero_force = SIGN_TOLERANCE*(length/largest)
-  end function rounding_force
+  end function largest_zero_force
 
   !> Count gaps from where the bodies meet under the motion of the solution, which follows: one point far below the
   !> others would cost them digits.
@@ -206,8 +206,8 @@ contains
     solution%unrefined_error = self%arrays%changes(1)
   end subroutine estimate_error
 
-  !> Does nothing on the contact have a length, neither the gaps that displacements have to close nor displacements, and
-  !> does no open point need a motion?
+  !> Are the displacements on the contact zero, and the gaps that they have to close, and does no open point need a
+  !> motion?
   pure function has_no_length(self, canonical)
     class(working_set), intent(in) :: self
     type(canonical_problem), intent(in) :: canonical
@@ -291,7 +291,7 @@ contains
         terms = abs((canonical%alpha(j, strongest) - canonical%datum)*largest)
         ! The other forces can only make the violation smaller.
         if (exact .and. beyond > SIGN_TOLERANCE*(rigid_gap + terms)) then
-          terms = displacement_terms(canonical%alpha, canonical%datum, self%contact, solution%force, j)
+          terms = displacement_magnitude_at(canonical%alpha, canonical%datum, self%contact, solution%force, j)
         end if
         self%violation(j) = beyond/max(rigid_gap + terms, beyond)
       end associate

@@ -14,7 +14,7 @@ contains
   !> The fraction of the step from `force` to `target` at which the first force reaches zero, and its point.
   !>
   !> All (n); `blocks` marks the points in contact whose target is tensile. `step_length` is at most 1; `point` is 0,
-  !> and the step whole, if there are none.
+  !> and the step is whole, if there are none.
   pure subroutine find_blocking(force, target, blocks, step_length, point)
     real(dp), intent(in) :: force(:), target(:)
     logical, intent(in) :: blocks(:)

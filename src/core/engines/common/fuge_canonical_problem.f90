@@ -9,12 +9,12 @@ module fuge_canonical_problem
   use fuge_equilibrium_report, only: report_no_equilibrium
   use fuge_kinds, only: dp
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
-  use fuge_number_text, only: index_text, text
+  use fuge_number_text, only: index_text
   use fuge_orthogonal_modes, only: bodies_of_modes, make_orthogonal, mode_change, mode_fault
-  use fuge_problem_type, only: fuge_problem
   use fuge_point_space, only: point_space
+  use fuge_problem_type, only: fuge_problem
   use fuge_shared_equilibrium, only: find_shared_equilibrium, move_to_edge
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, &
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_UNSUPPORTED
   implicit none
   private
@@ -25,7 +25,7 @@ module fuge_canonical_problem
   type, public :: canonical_problem
     !> Influence matrix, (at least n rows, n columns), length per force; owned by the caller.
     real(dp), pointer, contiguous :: alpha(:, :) => null()
-    !> What is known of it, and the number that tells it from other matrices, 0 if there is none.
+    !> Its survey, and the number that tells it from other matrices, 0 if there is none.
     type(matrix_survey) :: survey = matrix_survey()
     integer(c_long_long) :: stamp = 0
     !> Taken out of all of alpha, where it costs digits: the coefficient nearest to zero if there is a
@@ -102,9 +102,7 @@ contains
       m = size(canonical%free)
       allocate (canonical%modes(n, m), canonical%load(m), stat=stat)
     end if
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
-    end if
+    call require_memory(stat, 'the modes of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call allocate_rows(problem, canonical, info)
@@ -135,7 +133,7 @@ contains
     self%load = problem%resultant
   end subroutine set_again
 
-  !> Allocate the parts of R that are kept. Error: FUGE_ERR_MEMORY.
+  !> Allocate the rows and columns of R that are kept. Error: FUGE_ERR_MEMORY.
   subroutine allocate_rows(problem, canonical, info)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
@@ -148,7 +146,7 @@ contains
     allocate (canonical%prescribed(m), canonical%excluded_points(excluded), canonical%excluded_rows(excluded, m), &
               stat=stat)
     if (stat == 0 .and. allocated(problem%prescribed)) allocate (canonical%prescribed_modes(n, m), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+    call require_memory(stat, 'the motions of', n, 'points', info)
     call canonical%space%agree(info)
   end subroutine allocate_rows
 
@@ -196,7 +194,7 @@ contains
     integer :: j, stat
 
     allocate (columns(size(modes, 1), size(canonical%free)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(size(modes, 1))//' points')
+    call require_memory(stat, 'the modes of', size(modes, 1), 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     do j = 1, size(canonical%free)
@@ -205,7 +203,7 @@ contains
     call make_orthogonal(columns, canonical%excluded, canonical%modes, canonical%change, canonical%has_translation, &
                          fault, canonical%space)
     if (fault%stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to make the modes orthogonal')
+      call require_memory(fault%stat, 'orthogonal modes of', size(modes, 1), 'points', info)
     else if (fault%idle > 0) then
       call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(fault%idle))//' moves no point')
     else if (fault%dependent > 0) then
@@ -214,8 +212,9 @@ contains
     end if
   end subroutine orthogonalise
 
-  !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero, `survey` what is known
-  !> of it; without one it is surveyed here. `stamp` tells it from other matrices; without one factors are not kept.
+  !> Set the influence matrix: `alpha` as in the type, `datum` its coefficient nearest to zero, `survey` that of
+  !> the matrix; without one it is surveyed here. `stamp` tells it from other matrices; without one factors are not
+  !> kept.
   subroutine set_matrix(self, alpha, datum, survey, stamp)
     class(canonical_problem), intent(inout) :: self
     real(dp), intent(in), pointer, contiguous :: alpha(:, :)
@@ -292,8 +291,8 @@ contains
     has_bodies = allocated(self%body)
   end function has_bodies
 
-  !> What forces (n) are compared with, (n): the largest force of the body if there is a load on it, else the largest of
-  !> all, beside which they may be rounding.
+  !> The force with which each of the forces (n) is compared, (n): the largest one of the body if there is a load on it,
+  !> else the largest of all, beside which they may be rounding.
   pure function force_scale(self, force) result(scale)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: force(:)
@@ -332,17 +331,25 @@ contains
   end function dominant_mode
 
   !> Changes of gaps (n) and of resultants or prescribed motions (m), as changes of the gaps and loads of the canonical
-  !> problem.
-  subroutine transform_change(self, gap_change, load_change, reduced_gap, load)
+  !> problem. Error: FUGE_ERR_MEMORY.
+  subroutine transform_change(self, gap_change, load_change, reduced_gap, load, info)
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: gap_change(:), load_change(:)
     real(dp), allocatable, intent(out) :: reduced_gap(:), load(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: rigid(:)
+    integer :: stat
 
+    allocate (reduced_gap(size(gap_change)), load(size(self%free)), stat=stat)
+    if (stat == 0 .and. allocated(self%prescribed_modes)) allocate (rigid(size(gap_change)), stat=stat)
+    call require_memory(stat, 'changes of', size(gap_change), 'gaps', info)
+    call self%space%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     reduced_gap = gap_change
     if (allocated(self%prescribed_modes)) then
-      reduced_gap = reduced_gap - matmul(self%prescribed_modes, merge(load_change, 0.0_dp, self%prescribed))
+      rigid = matmul(self%prescribed_modes, merge(load_change, 0.0_dp, self%prescribed))
+      reduced_gap = reduced_gap - rigid
     end if
-    allocate (load(size(self%free)))
     call self%change%orthogonal_load(load_change(self%free), load)
   end subroutine transform_change
 
@@ -401,9 +408,7 @@ contains
     integer :: body(size(canonical%load)), j, stat
 
     allocate (canonical%feasible_force(size(canonical%gap)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium')
-    end if
+    call require_memory(stat, 'the equilibrium of', size(canonical%gap), 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     canonical%feasible_force = 0.0_dp
@@ -465,7 +470,7 @@ contains
 
     n = size(canonical%gap)
     allocate (modes(n, size(columns)), force(n), pushes(n), pulls(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium of '//text(n)//' points')
+    call require_memory(stat, 'the equilibrium of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     columns = pack([(j, j=1, size(member))], member)

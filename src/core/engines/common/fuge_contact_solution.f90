@@ -2,9 +2,8 @@
 module fuge_contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -42,14 +41,12 @@ contains
     if (stat == 0 .and. .not. allocated(solution%gap)) allocate (solution%gap(n), stat=stat)
     if (stat == 0 .and. .not. allocated(solution%motion)) allocate (solution%motion(m), stat=stat)
     if (stat == 0) allocate (solution%state(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
-      return
-    end if
+    call require_memory(stat, 'the forces and gaps of', n, 'points', info)
+    if (stat /= 0) return
     solution%state = FUGE_OPEN
   end subroutine allocate_solution
 
-  !> Move an array of the right `length` to another place.
+  !> Move the array `spare` to `values` if it has the right `length`.
   pure subroutine take_over(spare, length, values)
     real(dp), allocatable, intent(inout) :: spare(:), values(:)
     integer, intent(in) :: length

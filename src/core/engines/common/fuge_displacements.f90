@@ -6,17 +6,18 @@
 module fuge_displacements
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemv, dsymv
+  use fuge_marked_runs, only: next_run
   implicit none
   private
 
   public :: add_elastic_displacement, add_open_displacement, add_rough_product, displacement_magnitude, &
-    displacement_terms, rigid_displacement
+    displacement_magnitude_at, rigid_displacement
 
   !> Runs of points in contact, or open, that are shorter than this on average are not worth a loop each.
   integer, parameter :: SHORT_RUN = 16
   !> Runs of columns from this length on are left to BLAS, where rounding does not matter.
   integer, parameter :: LONG_RUN = 8
-  !> With force at more than this part of the points, half of the matrix is read instead of columns.
+  !> With force at more than this fraction of the points, half of the matrix is read instead of columns.
   real(dp), parameter :: MANY = 0.6_dp
 
 contains
@@ -88,21 +89,6 @@ contains
     end do
     point = to
   end function findloc_contact
-
-  !> The next run of marked points from `start` on; `first` is beyond the last point if there is none.
-  pure subroutine next_run(marked, start, first, last)
-    logical, intent(in) :: marked(:)
-    integer, intent(in) :: start
-    integer, intent(out) :: first, last
-
-    do first = start, size(marked)
-      if (marked(first)) exit
-    end do
-    do last = first, size(marked) - 1
-      if (.not. marked(last + 1)) return
-    end do
-    last = size(marked)
-  end subroutine next_run
 
   !> (row - datum).force, in four sums that the processor can add side by side.
   pure function displacement_at(row, datum, force) result(displacement)
@@ -188,19 +174,19 @@ contains
   end function displacement_magnitude
 
   !> As `displacement_magnitude`, at point k only.
-  pure function displacement_terms(alpha, datum, contact, force, k) result(terms)
+  pure function displacement_magnitude_at(alpha, datum, contact, force, k) result(magnitude)
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(in) :: datum, force(:)
     logical, intent(in) :: contact(:)
     integer, intent(in) :: k
-    real(dp) :: terms
+    real(dp) :: magnitude
     integer :: j
 
-    terms = 0.0_dp
+    magnitude = 0.0_dp
     do j = 1, size(contact)
-      if (contact(j)) terms = terms + abs((alpha(j, k) - datum)*force(j))
+      if (contact(j)) magnitude = magnitude + abs((alpha(j, k) - datum)*force(j))
     end do
-  end function displacement_terms
+  end function displacement_magnitude_at
 
   !> u := u + factor alpha f, (n), for a guess: with the digits that BLAS leaves, and where many points have force
   !> from half of the matrix. Columns without force are not read otherwise.

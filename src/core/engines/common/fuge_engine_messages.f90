@@ -39,7 +39,7 @@ contains
     end select
   end subroutine explain_status
 
-  !> Report that the set which the tableau found in so many `pivots` was still wrong after `limit` more sets.
+  !> Report that the set which the tableau found in `pivots` pivots was still wrong after `limit` more sets.
   pure subroutine report_uncorrected(pivots, limit, info)
     integer, intent(in) :: pivots, limit
     type(fuge_info), intent(inout) :: info

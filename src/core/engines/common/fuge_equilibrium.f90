@@ -18,13 +18,13 @@ module fuge_equilibrium
   !> remainder below this fraction of a resultant, or of its terms, may be the rounding of the data that the resultant
   !> was made of.
   real(dp), parameter :: NEGLIGIBLE = 1.0e-11_dp
-  !> A remainder of so many units in the last place of a resultant, or of its terms, is rounding.
+  !> A remainder up to this many units in the last place of a resultant, or of its terms, is rounding.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
   !> A closing displacement below this fraction of its terms counts as zero.
   real(dp), parameter :: PROOF = 1.0e-10_dp
   !> Points whose rows of the modes agree to this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-13_dp
-  !> Points that are looked at together.
+  !> Points whose work is computed together, so that no array of all points is needed.
   integer, parameter :: BLOCK_SIZE = 512
 
   !> The points that carry the resultant, in their order: some for each mode.

@@ -92,8 +92,8 @@ contains
     if (present(sharing)) call sharing%add(load)
   end function load_rounding
 
-  !> What is lost when prescribed motions are subtracted from the gap of point `k` one after the other; the rounding of
-  !> the products is not included.
+  !> The rounding error of the gap of point `k` less the prescribed motions, subtracted one after the other; without the
+  !> rounding of the products.
   pure function gap_rounding_at(problem, k) result(rounding)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: k

@@ -31,8 +31,8 @@ module fuge_orthogonal_modes
     procedure :: contributions
   end type mode_change
 
-  !> What was wrong with modes: the position of one that moves no point, or that is a combination of others; 0 if
-  !> none is. `stat` is not zero without memory.
+  !> A fault of the modes: the position of one that moves no point, or that is a combination of others; 0 if there is
+  !> none. `stat` is not zero without memory.
   type, public :: mode_fault
     integer :: idle = 0, dependent = 0, stat = 0
   contains
@@ -202,12 +202,12 @@ contains
     call find_coefficients(own, basis, points, space, coefficients, fault)
   end subroutine orthogonalise_columns
 
-  !> By what the modes of one body, the columns of `own` (n, m), are counted from far away: `datum` (m), to be
-  !> subtracted from them where mode `constant` moves a point; the difference is exact. Without it their rounding would
-  !> be that of the distance.
+  !> The `datum` (m) of the modes of one body, the columns of `own` (n, m), which may be counted from far away. Where
+  !> mode `constant` moves a point the datum is to be subtracted from them, which is exact; without that their rounding
+  !> would be that of the distance.
   !>
-  !> `constant` is 0, and so are all of `datum`, if no mode is a constant on the points that it moves. `space` share the
-  !> points.
+  !> `constant` is 0, and so are all of `datum`, if no mode is a constant on the points that it moves. The ranks of
+  !> `space` share the points.
   subroutine find_datum(own, space, constant, datum)
     real(dp), intent(in) :: own(:, :)
     type(point_space), intent(in) :: space

@@ -15,7 +15,7 @@ contains
   !>
   !> By Gram-Schmidt orthogonalisation, twice (L. Giraud, J. Langou, M. Rozloznik, The loss of orthogonality in the
   !> Gram-Schmidt orthogonalization process, 2005). `matrix` (rows of this rank, n); `pivoted`: the longest remaining
-  !> column comes next, else the columns come in their order; `order` (n): place of each column before.
+  !> column comes next, else the columns come in their order; `order` (n): position of each column before.
   subroutine orthonormalise_shared(space, matrix, tolerance, pivoted, order, rank)
     type(point_space), intent(in) :: space
     real(dp), intent(inout), contiguous :: matrix(:, :)
@@ -62,20 +62,20 @@ contains
     end do
   end subroutine swap_columns
 
-  !> Take from the columns behind number `k` what they have of those up to it.
+  !> Subtract from the columns behind number `k` their components along those up to it.
   subroutine project_rest(space, k, matrix)
     type(point_space), intent(in) :: space
     integer, intent(in) :: k
     real(dp), intent(inout), contiguous :: matrix(:, :)
-    real(dp) :: parts(k)
+    real(dp) :: products(k)
     integer :: i, j, pass
 
     do j = k + 1, size(matrix, 2)
       do pass = 1, 2
-        parts = [(dot_product(matrix(:, i), matrix(:, j)), i=1, k)]
-        call space%add(parts)
+        products = [(dot_product(matrix(:, i), matrix(:, j)), i=1, k)]
+        call space%add(products)
         do i = 1, k
-          matrix(:, j) = matrix(:, j) - parts(i)*matrix(:, i)
+          matrix(:, j) = matrix(:, j) - products(i)*matrix(:, i)
         end do
       end do
     end do

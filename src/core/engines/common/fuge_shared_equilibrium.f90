@@ -3,19 +3,18 @@
 module fuge_shared_equilibrium
   use fuge_equilibrium, only: find_equilibrium, find_newest, is_in_equilibrium, is_negligible, proves_no_equilibrium
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   public :: find_shared_equilibrium, move_to_edge
 
-  !> A load may miss the edge of what the contact can carry by so many units in its last place.
+  !> A load may miss the edge of what the contact can carry by this many units in its last place.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
   !> A force below this fraction of the largest may be due to such rounding.
   real(dp), parameter :: NO_FORCE = 1.0e-10_dp
-  !> Points that are offered, at most: some for each mode, and some more.
+  !> At most OFFERS_PER_MODE points are offered for each mode, and MORE_OFFERS in addition.
   integer, parameter :: OFFERS_PER_MODE = 20, MORE_OFFERS = 200
 
   !> The points that have been offered, with their rows of the modes, (m, :), on all ranks.
@@ -29,7 +28,7 @@ module fuge_shared_equilibrium
 
 contains
 
-  !> As find_equilibrium, with the arguments of the points of this rank; all `space` call it.
+  !> As find_equilibrium, with the arguments of the points of this rank; all ranks of `space` call it.
   subroutine find_shared_equilibrium(space, modes, resultant, pushes, pulls, force, remainder, rounding)
     type(point_space), intent(in) :: space
     real(dp), intent(in) :: modes(:, :), resultant(:), rounding(:)
@@ -57,7 +56,7 @@ contains
     allocate (offered%rows(size(resultant), most), offered%force(most), offered%pushes(most), offered%pulls(most), &
               offered%own(most))
     do iteration = 1, most
-      call judge(offered, resultant, rounding, remainder, terms, balanced)
+      call judge_balance(offered, resultant, rounding, remainder, terms, balanced)
       if (balanced) exit
       rest = rounding + epsilon(rest)*terms
       call offer(space, modes, remainder, rest, pushes, pulls, offered, found)
@@ -76,7 +75,7 @@ contains
   end subroutine find_shared_equilibrium
 
   !> Are the forces at the offered points in equilibrium? `terms` (m) sum their sizes in each resultant.
-  subroutine judge(offered, resultant, rounding, remainder, terms, balanced)
+  subroutine judge_balance(offered, resultant, rounding, remainder, terms, balanced)
     type(offered_points), intent(in) :: offered
     real(dp), intent(in) :: resultant(:), rounding(:), remainder(:)
     real(dp), intent(out) :: terms(:)
@@ -89,7 +88,7 @@ contains
     end do
     balanced = is_in_equilibrium(transpose(offered%rows(:, :offered%count)), resultant, rounding, &
                                  offered%force(:offered%count), remainder)
-  end subroutine judge
+  end subroutine judge_balance
 
   !> Offer the point of all ranks that closes most along the remainder, unless it has been offered; `found` if there is
   !> one.
@@ -161,7 +160,7 @@ contains
     associate (n => size(force))
       allocate (nearest(n), weighted(n, size(noise)), pushes(n), pulls(n), stat=stat)
     end associate
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the load of '//text(size(force))//' points')
+    call require_memory(stat, 'the load of', size(force), 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     ! Loads with little rounding are met best.

@@ -9,7 +9,7 @@ module fuge_iterative_engine
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_contact_iterate, only: contact_iterate, deformed_gap, evaluate_iterate, make_feasible, start_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_set_search, only: find_contact_set, search_settings, states_of
+  use fuge_contact_set_search, only: find_contact_set, find_states, search_settings
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_engine_messages, only: report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
@@ -29,7 +29,7 @@ module fuge_iterative_engine
   use fuge_set_compliance, only: probe_compliance
   use fuge_shared_rows, only: rows_of
   use fuge_shared_transfer, only: prolong_to
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
     FUGE_WARN_NOT_UNIQUE
   use fuge_warm_start, only: load_history
   use fuge_wrong_points, only: choose_contact
@@ -113,7 +113,7 @@ contains
     else
       call history%record_cold(iterate%start_error, options%tolerance, coarse_products, fine_products)
     end if
-    call assemble(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    call assemble_solution(operator, problem, canonical, scene, scaling, iterate, solution, info)
     if (info%failed()) return
     call find_rounding(problem, canonical, scene, scaling%load, iterate, solution, length, force)
     call judge_forces(operator, scene, length, force, monitor, iterate, info)
@@ -126,7 +126,7 @@ contains
   end subroutine solve_by_iteration
 
   !> The solution in the units of the problem. Error: FUGE_ERR_MEMORY.
-  subroutine assemble(operator, problem, canonical, scene, scaling, iterate, solution, info)
+  subroutine assemble_solution(operator, problem, canonical, scene, scaling, iterate, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
@@ -141,7 +141,7 @@ contains
     else
       call assemble_simple(operator, scene, scaling, iterate, solution, info)
     end if
-  end subroutine assemble
+  end subroutine assemble_solution
 
   !> The estimated error of the forces, info%force_error, and a warning where two points are repeated, so that forces
   !> are not unique. `length` and `force` as from `find_rounding`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED, those of
@@ -215,8 +215,7 @@ contains
     end if
     if (.not. allocated(last%state)) then
       allocate (last%state(size(iterate%contact)), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of ' &
-                                 //text(size(iterate%contact))//' points')
+      call require_memory(stat, 'the contact set of', size(iterate%contact), 'points', info)
     else
       same = all((last%state /= FUGE_OPEN) .eqv. iterate%contact)
     end if
@@ -227,7 +226,7 @@ contains
         if (space%everywhere(same)) iterate%least_compliance = last%least_compliance
       end if
     end associate
-    last%state = states_of(iterate)
+    call find_states(iterate, last%state)
     last%least_compliance = iterate%least_compliance
   end subroutine keep_set
 
@@ -315,8 +314,8 @@ contains
     if (.not. info%failed()) call start_iterate(iterate, scene, start, info)
   end subroutine start_on_coarser_grids
 
-  !> What the iteration subtracts from gaps, the prescribed motion or else the least gap, and what
-  !> it divides forces and lengths by: the load, or 1 for a prescribed motion.
+  !> The scaling of the iteration: gaps less the prescribed motion, or else less the least gap; forces and lengths over
+  !> the load, or over 1 for a prescribed motion.
   subroutine choose_scaling(problem, space, scaling)
     type(fuge_problem), intent(in) :: problem
     type(point_space), intent(in) :: space
@@ -339,11 +338,8 @@ contains
     integer :: stat
 
     allocate (reduced_gap(size(gap)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(size(gap))//' points')
-    else
-      reduced_gap = (gap - scaling%gap_datum)/scaling%load
-    end if
+    call require_memory(stat, 'the gaps of', size(gap), 'points', info)
+    if (stat == 0) reduced_gap = (gap - scaling%gap_datum)/scaling%load
   end subroutine reduce_gap
 
   !> Forces, gaps and motion in the units of the problem. Error: FUGE_ERR_MEMORY.
@@ -360,7 +356,7 @@ contains
 
     n = size(scene%gap)
     allocate (force(n), gap(n), motion(1), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces and gaps of '//text(n)//' points')
+    call require_memory(stat, 'the forces and gaps of', n, 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     largest = scene%rows%largest(maxval(iterate%force))

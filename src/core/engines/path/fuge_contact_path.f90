@@ -19,8 +19,8 @@ module fuge_contact_path
   use fuge_path_position, only: load_line, path_position, position_at
   use fuge_path_type, only: fuge_path, move_path, trim_path
   use fuge_problem_type, only: fuge_problem, check_problem, check_load, set_problem
-  use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, &
-    FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED, FUGE_WARN_RESIDUAL
+  use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, require_memory, FUGE_DONE, &
+    FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED, FUGE_WARN_RESIDUAL
   implicit none
   private
 
@@ -89,7 +89,7 @@ contains
       line%start = start_values(problem)
       line%rate = finish - line%start
       line%last = 1.0_dp
-      line%origin = 1.0_dp + min(ratio(line%start, line%rate), LARGEST_ORIGIN)
+      line%origin = 1.0_dp + min(size_ratio(line%start, line%rate), LARGEST_ORIGIN)
       call follow(operator, problem, line, path, info)
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'the path needs the coefficients of a dense operator')
@@ -150,7 +150,8 @@ contains
     if (allocated(problem%prescribed)) where (problem%prescribed) values = problem%motion
   end function start_values
 
-  pure function ratio(values, changes)
+  !> The largest value over the largest change, at most LARGEST_ORIGIN; 0 without values.
+  pure function size_ratio(values, changes) result(ratio)
     real(dp), intent(in) :: values(:), changes(:)
     real(dp) :: ratio, largest, change
 
@@ -163,7 +164,7 @@ contains
     else if (change > 0.0_dp) then
       ratio = largest/change
     end if
-  end function ratio
+  end function size_ratio
 
   !> Follow a checked problem along a line whose start, rate and end are set; the rest of `line` is set here.
   subroutine follow(operator, problem, line, path, info)
@@ -176,14 +177,18 @@ contains
     type(path_certificate) :: certificate
     type(path_position) :: position
     type(fuge_path) :: followed
-    real(dp) :: no_change(problem%points())
-    integer :: status
+    real(dp), allocatable :: no_change(:)
+    integer :: stat, status
 
     call make_canonical(problem, canonical, info)
     if (info%failed()) return
     call canonical%set_matrix(operator%alpha, operator%datum(), operator%known())
+    allocate (no_change(problem%points()), stat=stat)
+    call require_memory(stat, 'changes of', problem%points(), 'gaps', info)
+    if (stat /= 0) return
     no_change = 0.0_dp
-    call canonical%transform_change(no_change, line%rate, line%reduced_gap_rate, line%load_rate)
+    call canonical%transform_change(no_change, line%rate, line%reduced_gap_rate, line%load_rate, info)
+    if (info%failed()) return
     if (canonical%has_translation) line%gap_datum = minval(canonical%gap, mask=.not. canonical%excluded)
     line%flexibility = canonical%survey%largest()
     call find_start(line, canonical, position, info)
@@ -214,7 +219,7 @@ contains
 
     call allocate_solution(size(canonical%gap), size(canonical%load), solution, info)
     if (info%failed()) return
-    if (is_unloaded(canonical)) then
+    if (starts_unloaded(canonical)) then
       solution%force = 0.0_dp
       solution%motion = 0.0_dp
       canonical%gap = canonical%gap - line%gap_datum
@@ -232,14 +237,14 @@ contains
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
   end subroutine find_start
 
-  !> The plain problem without a load, where the bodies just touch.
-  pure function is_unloaded(canonical)
+  !> Is it the plain problem without a load, where the bodies just touch?
+  pure function starts_unloaded(canonical)
     type(canonical_problem), intent(in) :: canonical
-    logical :: is_unloaded
+    logical :: starts_unloaded
 
-    is_unloaded = canonical%plain
-    if (is_unloaded) is_unloaded = .not. canonical%load(1) > 0.0_dp
-  end function is_unloaded
+    starts_unloaded = canonical%plain
+    if (starts_unloaded) starts_unloaded = .not. canonical%load(1) > 0.0_dp
+  end function starts_unloaded
 
   !> Put the status at the end of a path into words.
   pure subroutine explain_end(status, entries, parameter, info)

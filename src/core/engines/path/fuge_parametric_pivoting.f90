@@ -21,7 +21,7 @@ module fuge_parametric_pivoting
 
   public :: follow_line
 
-  !> Events between two renewals of the values where the factor is well conditioned; else every event renews them.
+  !> Values are renewed after this many events where the factor is well conditioned; else at every event.
   integer, parameter :: EVENTS_PER_RENEWAL = 64
 
 contains
@@ -70,7 +70,7 @@ contains
   end subroutine follow_line
 
   !> Are the values to be solved for with the set of the piece that begins? They then belong to that set to the last
-  !> digit, and so does the place of the next event. Not without any force, which is exact.
+  !> digit, and so does the parameter of the next event. Not without any force, which is exact.
   pure function is_renewal_due(canonical, factor, position, turn) result(due)
     type(canonical_problem), intent(in) :: canonical
     type(path_factor), intent(in) :: factor

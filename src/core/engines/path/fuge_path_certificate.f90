@@ -19,9 +19,9 @@ module fuge_path_certificate
   implicit none
   private
 
-  !> Ends of pieces whose forces are multiplied at once.
+  !> The forces at this many ends of pieces are multiplied at once.
   integer, parameter :: ENDS = 48
-  !> Columns of the matrix gathered at a time.
+  !> This many columns of the matrix are gathered at a time.
   integer, parameter :: COLUMNS = 64
 
   !> An operator whose product with the forces at hand is known.
@@ -88,7 +88,7 @@ contains
     real(dp), intent(in) :: parameter, force(:)
     type(fuge_path), intent(in) :: path
 
-    call add_column(self, parameter, force, path%entries, path)
+    call add_forces(self, parameter, force, path%entries, path)
   end subroutine add
 
   !> Take the forces (n) where the piece of the last entry of the path ends, if the next one begins with others.
@@ -97,7 +97,7 @@ contains
     real(dp), intent(in) :: parameter, force(:)
     type(fuge_path), intent(in) :: path
 
-    call add_column(self, parameter, force, 0, path)
+    call add_forces(self, parameter, force, 0, path)
   end subroutine add_end
 
   !> Take the forces (n) at the end of the path, at the parameter `last`, and check what waits.
@@ -106,11 +106,11 @@ contains
     real(dp), intent(in) :: force(:), last
     type(fuge_path), intent(in) :: path
 
-    call add_column(self, last, force, 0, path)
+    call add_forces(self, last, force, 0, path)
     if (.not. self%info%failed()) call check(self, path)
   end subroutine finish
 
-  subroutine add_column(self, parameter, force, entry, path)
+  subroutine add_forces(self, parameter, force, entry, path)
     type(path_certificate), intent(inout) :: self
     real(dp), intent(in) :: parameter, force(:)
     integer, intent(in) :: entry
@@ -122,7 +122,7 @@ contains
     self%force(:, self%waiting) = force
     self%entry(self%waiting) = entry
     if (self%waiting == ENDS) call check(self, path)
-  end subroutine add_column
+  end subroutine add_forces
 
   !> Check the pieces whose ends wait; the last end goes on waiting, because the next piece may begin there.
   subroutine check(self, path)
@@ -147,27 +147,27 @@ contains
   !> than the rounding of its parameter has no inside.
   !>
   !> Where the forces fall to zero at an end, they are rounding there, and nothing is left to compare them with: the
-  !> check then takes place a little inside.
+  !> check is then made a little inside.
   subroutine check_piece(self, path, k, displacement)
     type(path_certificate), intent(inout) :: self
     type(fuge_path), intent(in) :: path
     integer, intent(in) :: k
     real(dp), intent(in) :: displacement(:, :)
     real(dp), parameter :: INSIDE = 0.0625_dp, SHORTEST = 1.0e-12_dp, VANISHING = 1.0e-3_dp
-    real(dp) :: largest(2), place
+    real(dp) :: largest(2), fraction
 
     associate (first => self%parameter(k), last => self%parameter(k + 1))
       if (last - first <= SHORTEST*(last + self%origin)) return
       largest = maxval(abs(self%force(:, k:k + 1)), dim=1)
-      place = merge(INSIDE, 0.0_dp, largest(1) < VANISHING*largest(2))
-      if (place > 0.0_dp .or. .not. goes_on(self, path, k)) call check_place(self, path, k, place, displacement)
-      place = merge(INSIDE, 0.0_dp, largest(2) < VANISHING*largest(1))
-      call check_place(self, path, k, 1.0_dp - place, displacement)
+      fraction = merge(INSIDE, 0.0_dp, largest(1) < VANISHING*largest(2))
+      if (fraction > 0.0_dp .or. .not. goes_on(self, path, k)) call check_at(self, path, k, fraction, displacement)
+      fraction = merge(INSIDE, 0.0_dp, largest(2) < VANISHING*largest(1))
+      call check_at(self, path, k, 1.0_dp - fraction, displacement)
     end associate
   end subroutine check_piece
 
   !> Does the piece begin with the forces and, but for the last digit, the motions with which the one before it ends?
-  !> Then the check of that end is one of this begin too.
+  !> Then the check of that end is one of this beginning too.
   pure function goes_on(self, path, k)
     type(path_certificate), intent(in) :: self
     type(fuge_path), intent(in) :: path
@@ -185,12 +185,12 @@ contains
     end associate
   end function goes_on
 
-  !> Hold a piece against the conditions at a `place` from 0, its begin, to 1, its end.
-  subroutine check_place(self, path, k, place, displacement)
+  !> Hold a piece against the conditions at the `fraction` of it from 0, its beginning, to 1, its end.
+  subroutine check_at(self, path, k, fraction, displacement)
     type(path_certificate), intent(inout) :: self
     type(fuge_path), intent(in) :: path
     integer, intent(in) :: k
-    real(dp), intent(in) :: place, displacement(:, :)
+    real(dp), intent(in) :: fraction, displacement(:, :)
     type(fuge_solution) :: solution
     type(fuge_violation) :: violation
     real(dp) :: here(size(self%first)), parameter, worst
@@ -198,12 +198,12 @@ contains
 
     if (self%info%failed()) return
     entry = self%entry(k)
-    parameter = (1.0_dp - place)*self%parameter(k) + place*self%parameter(k + 1)
-    self%product%displacement = (1.0_dp - place)*displacement(:, 1) + place*displacement(:, 2)
+    parameter = (1.0_dp - fraction)*self%parameter(k) + fraction*self%parameter(k + 1)
+    self%product%displacement = (1.0_dp - fraction)*displacement(:, 1) + fraction*displacement(:, 2)
     here = self%first + parameter*self%rate
     if (allocated(self%problem%resultant)) self%problem%resultant = here
     if (allocated(self%problem%prescribed)) where (self%problem%prescribed) self%problem%motion = here
-    allocate (solution%force, source=(1.0_dp - place)*self%force(:, k) + place*self%force(:, k + 1))
+    allocate (solution%force, source=(1.0_dp - fraction)*self%force(:, k) + fraction*self%force(:, k + 1))
     allocate (solution%motion, source=path%motion(:, entry) + (parameter - path%parameter(entry))*path%rate(:, entry))
     allocate (solution%gap(size(solution%force)))
     call find_gaps(self%problem, self%product%matrix%datum(), path%states(entry), self%product%displacement, solution)
@@ -218,7 +218,7 @@ contains
     if (worst <= self%residual) return
     self%residual = worst
     self%worst_parameter = path%parameter(entry)
-  end subroutine check_place
+  end subroutine check_at
 
   !> The largest force that the entries of the path deny, as a fraction of the largest force.
   pure function force_at_open_points(state, force) result(fraction)

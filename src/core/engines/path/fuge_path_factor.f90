@@ -17,7 +17,7 @@ module fuge_path_factor
   real(dp), parameter :: WELL_CONDITIONED = 1.0e2_dp
   !> A pivot below this fraction of its diagonal is rounding.
   real(dp), parameter :: PIVOT_TOLERANCE = 1.0e-12_dp
-  !> Rows for which there is room at first.
+  !> At first there is room for this many rows.
   integer, parameter :: FIRST_ROOM = 64
 
   type, public :: path_factor

@@ -1,15 +1,14 @@
-!> A place on a line of loads: the values there, their rates from there on, and which of them are zero.
+!> A position on a line of loads: the values there, their rates from there on, and which of them are zero.
 module fuge_path_position
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
-  use fuge_displacements, only: rigid_displacement
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
 
-  public :: given_motions, gaps_to_close, largest_of_bodies, load_at, position_at
+  public :: given_motions, gaps_to_close, largest_force_of_body, largest_forces, load_at, position_at
 
   !> Forces below this fraction of the largest one of the body, and lengths below this fraction of their terms, are
   !> zero.
@@ -41,7 +40,7 @@ module fuge_path_position
     real(dp), allocatable :: force(:), gap(:), motion(:), force_rate(:), gap_rate(:), motion_rate(:)
     !> An orthonormal basis of the motions that the points at their stops do not resist, (m, any number).
     real(dp), allocatable :: unresisted(:, :)
-    !> What counts as zero: ROUNDING or ROUNDING_OF_SUMS.
+    !> The fraction up to which values count as zero: ROUNDING or ROUNDING_OF_SUMS.
     real(dp) :: rounding = ROUNDING
     !> The rates are those with which the position was reached.
     logical :: has_rates = .false.
@@ -86,52 +85,64 @@ contains
     type(load_line), intent(in) :: line
     real(dp), intent(in) :: step
     real(dp), parameter :: LAST_DIGITS = 8.0_dp*epsilon(1.0_dp)
-    real(dp), dimension(size(self%state)) :: data_rounding, largest, magnitude
+    real(dp) :: data_rounding, largest(0:size(canonical%modes, 2)), magnitude
     integer :: j, k
 
-    largest = largest_of_bodies(canonical, self%force)
-    magnitude = abs(canonical%gap + self%parameter*line%reduced_gap_rate)
-    ! The caller's gaps are rounded, whatever is left of them here.
-    data_rounding = 2.0_dp*epsilon(data_rounding)*(abs(canonical%gap + line%gap_datum) + abs(line%gap_datum))
-    do j = 1, size(self%motion)
-      magnitude = magnitude + abs(canonical%modes(:, j)*self%motion(j))
-    end do
+    largest = largest_forces(canonical, self%force)
     self%weakly_active = FUGE_OPEN
     do k = 1, size(self%state)
       if (canonical%excluded(k) .or. .not. canonical%upper(k) > 0.0_dp) cycle
       associate (state => self%state(k), gap => self%gap(k), upper => canonical%upper(k))
         if (state /= FUGE_OPEN) then
-          if (state*self%force(k) <= max(self%rounding*largest(k), LAST_DIGITS*step*abs(self%force_rate(k)))) &
-            self%weakly_active(k) = state
-        else if (min(gap, upper - gap) <= max(self%rounding*magnitude(k), data_rounding(k), &
-                                           LAST_DIGITS*step*abs(self%gap_rate(k)))) then
+          if (state*self%force(k) <= max(self%rounding*largest_force_of_body(canonical, largest, k), &
+                                         LAST_DIGITS*step*abs(self%force_rate(k)))) self%weakly_active(k) = state
+          cycle
+        end if
+        magnitude = abs(canonical%gap(k) + self%parameter*line%reduced_gap_rate(k))
+        do j = 1, size(self%motion)
+          magnitude = magnitude + abs(canonical%modes(k, j)*self%motion(j))
+        end do
+        ! The caller's gaps are rounded, whatever is left of them here.
+        data_rounding = 2.0_dp*epsilon(data_rounding)*(abs(canonical%gap(k) + line%gap_datum) + abs(line%gap_datum))
+        if (min(gap, upper - gap) <= max(self%rounding*magnitude, data_rounding, &
+                                         LAST_DIGITS*step*abs(self%gap_rate(k)))) then
           self%weakly_active(k) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, gap <= upper - gap)
         end if
       end associate
     end do
   end subroutine mark_weakly_active
 
-  !> At each point, the largest magnitude of `force` (n) among the points that some mode moves together with it; among
-  !> all points where no mode does.
-  pure function largest_of_bodies(canonical, force) result(largest)
+  !> The largest magnitude of `force` (n): at number 0 that of all points, behind it that of the points that each mode
+  !> moves, (0:m), for `largest_force_of_body`.
+  pure function largest_forces(canonical, force) result(largest)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: force(:)
-    real(dp) :: largest(size(force))
+    real(dp) :: largest(0:size(canonical%modes, 2))
     integer :: j
 
-    if (canonical%has_translation .or. size(canonical%modes, 2) < 1) then
-      ! A translation of all points makes them one body.
-      largest = maxval(abs(force))
-      return
-    end if
-    largest = 0.0_dp
+    largest(0) = maxval(abs(force))
     do j = 1, size(canonical%modes, 2)
-      associate (moved => abs(canonical%modes(:, j)) > 0.0_dp)
-        where (moved) largest = max(largest, maxval(abs(force), mask=moved))
-      end associate
+      largest(j) = maxval(abs(force), mask=abs(canonical%modes(:, j)) > 0.0_dp)
     end do
-    where (.not. any(abs(canonical%modes) > 0.0_dp, dim=2)) largest = maxval(abs(force))
-  end function largest_of_bodies
+  end function largest_forces
+
+  !> The largest force among the points that some mode moves together with point `k`; among all points where no mode
+  !> does. `largest` (0:m) as from `largest_forces`.
+  pure function largest_force_of_body(canonical, largest, k) result(force)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: largest(0:)
+    integer, intent(in) :: k
+    real(dp) :: force
+    integer :: j
+
+    force = largest(0)
+    ! A translation of all points makes them one body.
+    if (canonical%has_translation .or. .not. any(abs(canonical%modes(k, :)) > 0.0_dp)) return
+    force = 0.0_dp
+    do j = 1, ubound(largest, 1)
+      if (abs(canonical%modes(k, j)) > 0.0_dp) force = max(force, largest(j))
+    end do
+  end function largest_force_of_body
 
   !> The resultants at a parameter, (m).
   pure function load_at(canonical, line, parameter) result(load)

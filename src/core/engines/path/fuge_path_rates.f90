@@ -1,10 +1,10 @@
-!> The rates of a contact at a place on a line of loads, and its values solved for anew.
+!> The rates of a contact at a position on a line of loads, and its values solved for anew.
 !>
 !> Points with force stay at their stop, open ones stay open. Which of the weakly active points are in contact on the
 !> next piece is a contact problem in the rates. It is solved by block pivoting on them; if that stalls, the
 !> active-set engine solves it, which ends.
 module fuge_path_rates
-  use fuge_block_pivoting, only: MAX_STALLS, run_block_pivoting
+  use fuge_block_pivoting, only: run_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
@@ -15,9 +15,10 @@ module fuge_path_rates
   use fuge_monitor_type, only: monitor_relay
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_path_factor, only: path_factor
-  use fuge_path_position, only: gaps_to_close, largest_of_bodies, load_at, load_line, path_position, ROUNDING, &
-    ROUNDING_OF_SUMS
+  use fuge_path_position, only: gaps_to_close, largest_force_of_body, largest_forces, load_at, load_line, &
+    path_position, ROUNDING, ROUNDING_OF_SUMS
   use fuge_row_displacements, only: add_displacement, extended_gaps
+  use fuge_stall_counter, only: stall_counter
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   use fuge_unresisted_motions, only: find_unresisted_basis, is_resisted, without_unresisted
   implicit none
@@ -27,7 +28,10 @@ module fuge_path_rates
 
   !> A correction above this fraction of the largest force calls for another one.
   real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
+  !> Values are corrected at most this many times.
   integer, parameter :: REFINEMENTS = 10
+  !> Block exchanges in a row without a new minimum of wrong points, before the active-set engine takes over.
+  integer, parameter :: MAX_STALLS = 3
 
 contains
 
@@ -39,20 +43,18 @@ contains
     type(path_position), intent(inout) :: position
     integer, intent(out) :: status
     logical :: wrong(size(position%state))
-    integer :: fewest_wrong, stalls_left
+    type(stall_counter) :: stalls
 
     call follow_last_rates(position)
-    fewest_wrong = huge(fewest_wrong)
-    stalls_left = MAX_STALLS
+    call stalls%start(MAX_STALLS)
     do
       call solve_for_rates(canonical, line, factor, position, status)
       if (status /= FUGE_DONE) return
       call find_wrong(canonical, line, position, wrong)
       if (.not. any(wrong)) exit
-      stalls_left = stalls_left - 1
-      if (count(wrong) < fewest_wrong) stalls_left = MAX_STALLS
-      fewest_wrong = min(fewest_wrong, count(wrong))
-      if (stalls_left < 0) then
+      call stalls%spend()
+      call stalls%renew_if_fewer(count(wrong))
+      if (stalls%has_stalled()) then
         call solve_rate_problem(canonical, line, factor, position, status)
         if (status /= FUGE_DONE) return
         exit
@@ -110,19 +112,19 @@ contains
       call correct(canonical, line%flexibility, factor, line%reduced_gap_rate, line%load_rate, contact, &
                    position%unresisted, position%force_rate, position%motion_rate)
     end if
-    call remove_rounding(line, line%reduced_gap_rate, line%load_rate, position%force_rate)
+    call clear_small_forces(line, line%reduced_gap_rate, line%load_rate, position%force_rate)
   end subroutine solve_for_rates
 
-  !> Without a load all forces may be rounding: those that displace nothing by more than the rounding of the gaps are
-  !> zero.
-  pure subroutine remove_rounding(line, gap, load, force)
+  !> Without a load all forces may be rounding: those that displace no point by more than the rounding of the gaps
+  !> become zero.
+  pure subroutine clear_small_forces(line, gap, load, force)
     type(load_line), intent(in) :: line
     real(dp), intent(in) :: gap(:), load(:)
     real(dp), intent(inout) :: force(:)
 
     if (any(abs(load) > 0.0_dp)) return
     where (abs(force)*line%flexibility <= ROUNDING*maxval(abs(gap))) force = 0.0_dp
-  end subroutine remove_rounding
+  end subroutine clear_small_forces
 
   !> Solve anew for the forces and motions of the set of the factor at the position, except for motions that nothing
   !> resists, and compute the gaps.
@@ -136,8 +138,8 @@ contains
     gap = gaps_to_close(canonical, line, position)
     call correct(canonical, line%flexibility, factor, gap, load_at(canonical, line, position%parameter), &
                  position%state /= FUGE_OPEN, position%unresisted, position%force, position%motion)
-    call remove_rounding(line, canonical%gap + position%parameter*line%reduced_gap_rate, &
-                         load_at(canonical, line, position%parameter), position%force)
+    call clear_small_forces(line, canonical%gap + position%parameter*line%reduced_gap_rate, &
+                            load_at(canonical, line, position%parameter), position%force)
     call open_gaps(canonical, line%flexibility, factor, position%state, gap, position%force, position%motion, &
                    position%gap)
     where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
@@ -221,18 +223,19 @@ contains
     type(load_line), intent(in) :: line
     type(path_position), intent(in) :: position
     logical, intent(out) :: wrong(:)
-    real(dp) :: largest(size(wrong)), rate, magnitude
+    real(dp) :: largest(0:size(canonical%modes, 2)), rate, magnitude
     integer :: k
 
     wrong = .false.
     largest = 0.0_dp
     if (any(position%weakly_active /= FUGE_OPEN .and. position%state /= FUGE_OPEN)) then
-      largest = largest_of_bodies(canonical, position%force_rate)
+      largest = largest_forces(canonical, position%force_rate)
     end if
     do k = 1, size(wrong)
       if (position%weakly_active(k) == FUGE_OPEN) cycle
       if (position%state(k) /= FUGE_OPEN) then
-        wrong(k) = position%weakly_active(k)*position%force_rate(k) < -ROUNDING*largest(k)
+        wrong(k) = position%weakly_active(k)*position%force_rate(k) &
+                   < -ROUNDING*largest_force_of_body(canonical, largest, k)
       else
         call gap_rate_at(canonical, line, position, k, rate, magnitude)
         wrong(k) = position%weakly_active(k)*rate < -ROUNDING*magnitude

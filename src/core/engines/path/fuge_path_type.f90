@@ -1,6 +1,7 @@
 !> The course of a contact along a line of loads: the type, and how entries are added.
 module fuge_path_type
   use fuge_contact_states, only: FUGE_OPEN
+  use fuge_growing_arrays, only: resize
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
@@ -55,11 +56,11 @@ contains
     integer, intent(out) :: status
     integer :: stat
 
-    allocate (path%start(size(state)), stat=stat)
+    allocate (path%start(size(state)), path%motion(m, 0), path%rate(m, 0), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) return
     path%start = state
-    call resize(path, size(state) + 8, m, status)
+    call resize_path(path, size(state) + 8, status)
   end subroutine start_path
 
   !> Add an entry. `motion` and `rate` (m); `point` is 0 for the start. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
@@ -70,7 +71,7 @@ contains
     integer, intent(out) :: status
 
     status = FUGE_DONE
-    if (path%entries == size(path%point)) call resize(path, 2*path%entries, size(motion), status)
+    if (path%entries == size(path%point)) call resize_path(path, 2*path%entries, status)
     if (status /= FUGE_DONE) return
     path%entries = path%entries + 1
     associate (last => path%entries)
@@ -89,7 +90,7 @@ contains
     type(fuge_path), intent(inout) :: path
     integer, intent(out) :: status
 
-    call resize(path, path%entries, size(path%motion, 1), status)
+    call resize_path(path, path%entries, status)
   end subroutine trim_path
 
   !> Replace `path` by another one, which is left empty.
@@ -99,42 +100,30 @@ contains
     path%entries = source%entries
     source%entries = 0
     call move_alloc(source%start, path%start)
-    call move_arrays(source, path)
-  end subroutine move_path
-
-  pure subroutine move_arrays(source, path)
-    type(fuge_path), intent(inout) :: source, path
-
     call move_alloc(source%parameter, path%parameter)
     call move_alloc(source%motion, path%motion)
     call move_alloc(source%rate, path%rate)
     call move_alloc(source%point, path%point)
     call move_alloc(source%state, path%state)
     call move_alloc(source%contacts, path%contacts)
-  end subroutine move_arrays
+  end subroutine move_path
 
-  pure subroutine resize(path, capacity, m, status)
+  !> Change the number of entries for which there is memory, and keep those in use.
+  pure subroutine resize_path(path, entries, status)
     type(fuge_path), intent(inout) :: path
-    integer, intent(in) :: capacity, m
+    integer, intent(in) :: entries
     integer, intent(out) :: status
-    type(fuge_path) :: resized
     integer :: stat
 
-    allocate (resized%parameter(capacity), resized%motion(m, capacity), resized%rate(m, capacity), &
-              resized%point(capacity), resized%state(capacity), resized%contacts(capacity), stat=stat)
+    stat = 0
+    call resize(path%parameter, entries, stat)
+    call resize(path%motion, entries, stat)
+    call resize(path%rate, entries, stat)
+    call resize(path%state, entries, stat)
+    call resize(path%contacts, entries, stat)
+    ! Last, because its length tells how many entries all of them have room for.
+    call resize(path%point, entries, stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
-    if (stat /= 0) return
-    associate (used => path%entries)
-      if (used > 0) then
-        resized%parameter(:used) = path%parameter(:used)
-        resized%motion(:, :used) = path%motion(:, :used)
-        resized%rate(:, :used) = path%rate(:, :used)
-        resized%point(:used) = path%point(:used)
-        resized%state(:used) = path%state(:used)
-        resized%contacts(:used) = path%contacts(:used)
-      end if
-    end associate
-    call move_arrays(resized, path)
-  end subroutine resize
+  end subroutine resize_path
 
 end module fuge_path_type

@@ -5,24 +5,25 @@ module fuge_row_displacements
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp, xp
   use fuge_lapack, only: dgemv
+  use fuge_marked_runs, only: next_run
   implicit none
   private
 
   public :: add_displacement, extended_gaps
 
-  !> Runs of neighbours up to which open points and contact points are taken run by run.
+  !> Open points and contact points are taken run by run if there are at most about this many runs of neighbours.
   integer, parameter :: MOST_RUNS = 8
 
 contains
 
-  !> u := u + (alpha - datum) f at the points `wanted`, and anything at the others.
+  !> u := u + (alpha - datum) f at the points `needed`, and anything at the others.
   !>
   !> `flexibility` the largest coefficient of alpha; `contact` marks the points with force; all others (n). Where both
   !> kinds of points form few runs of neighbours, only the blocks of alpha that these have in common are read.
-  subroutine add_displacement(canonical, flexibility, wanted, contact, force, u)
+  subroutine add_displacement(canonical, flexibility, needed, contact, force, u)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: flexibility, force(:)
-    logical, intent(in) :: wanted(:), contact(:)
+    logical, intent(in) :: needed(:), contact(:)
     real(dp), intent(inout) :: u(:)
     integer :: top, bottom, first, last, k, n
 
@@ -36,7 +37,7 @@ contains
     end if
     bottom = 0
     do
-      call next_run(wanted, bottom + 1, top, bottom)
+      call next_run(needed, bottom + 1, top, bottom)
       if (top > n) return
       last = 0
       do
@@ -46,24 +47,6 @@ contains
       end do
     end do
   end subroutine add_displacement
-
-  !> The next run of marked points from `start` on; `first` is beyond the last point if there is none.
-  pure subroutine next_run(marked, start, first, last)
-    logical, intent(in) :: marked(:)
-    integer, intent(in) :: start
-    integer, intent(out) :: first, last
-
-    first = start
-    do while (first <= size(marked))
-      if (marked(first)) exit
-      first = first + 1
-    end do
-    last = first
-    do while (last < size(marked))
-      if (.not. marked(last + 1)) exit
-      last = last + 1
-    end do
-  end subroutine next_run
 
   !> The displacements of the rows from `top` to `bottom` by the forces from `first` to `last`.
   subroutine add_block(alpha, datum, top, bottom, first, last, force, u)

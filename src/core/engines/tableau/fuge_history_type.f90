@@ -1,5 +1,6 @@
 !> The pivots of a tableau solve: the basis and z of each step, as the paper prints them.
 module fuge_history_type
+  use fuge_growing_arrays, only: make_room
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
@@ -46,32 +47,20 @@ contains
     integer, intent(in) :: basis(:)
     real(dp), intent(in) :: z
     integer, intent(out) :: status
+    integer :: stat
 
     status = FUGE_DONE
     if (.not. allocated(self%sums)) call self%start(size(basis), status)
     if (status /= FUGE_DONE) return
-    if (self%steps == size(self%sums)) call double_capacity(self, status)
+    stat = 0
+    call make_room(self%columns, self%steps, stat)
+    call make_room(self%sums, self%steps, stat)
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (status /= FUGE_DONE) return
     self%steps = self%steps + 1
     self%columns(:, self%steps) = basis
     self%sums(self%steps) = z
   end subroutine record
-
-  pure subroutine double_capacity(self, status)
-    class(fuge_history), intent(inout) :: self
-    integer, intent(out) :: status
-    integer, allocatable :: columns(:, :)
-    real(dp), allocatable :: sums(:)
-    integer :: stat
-
-    allocate (columns(size(self%columns, 1), 2*self%steps), sums(2*self%steps), stat=stat)
-    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
-    if (status /= FUGE_DONE) return
-    columns(:, :self%steps) = self%columns
-    sums(:self%steps) = self%sums
-    call move_alloc(columns, self%columns)
-    call move_alloc(sums, self%sums)
-  end subroutine double_capacity
 
   !> Number of steps recorded, step 0 included; 0 if no history was kept.
   pure function recorded(self)

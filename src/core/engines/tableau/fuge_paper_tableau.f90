@@ -35,8 +35,8 @@ module fuge_paper_tableau
     integer, allocatable :: basis(:)
     !> Points described from their upper stop, (n).
     logical, allocatable :: complemented(:)
-    !> What was added to every gap: for the paper's problem to keep right-hand sides and v_0 non-negative, otherwise to
-    !> count gaps from the lowest; length.
+    !> The constant added to every gap: for the paper's problem to keep right-hand sides and v_0 non-negative, otherwise
+    !> to count gaps from the lowest; length.
     real(dp) :: shift = 0.0_dp
     !> A scaled length times 2**length_exponent is the caller's; forces likewise.
     integer :: length_exponent = 0

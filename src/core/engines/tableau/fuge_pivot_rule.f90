@@ -195,7 +195,7 @@ contains
     if (any(tied)) row = break_tie(table, table(:size(basis), column), bounds, tied)
   end function leaving_row
 
-  !> How far a column can enter, and what stops it there: rows, or in place 0 its own bound; nothing if it can enter
+  !> How far a column can enter, and what stops it there: rows, or at index 0 its own bound; nothing if it can enter
   !> without bound.
   !>
   !> `entering` the entries of the column, `right` the right-hand sides, `bounded` the rows of variables that must not
@@ -247,7 +247,7 @@ contains
   end function break_tie
 
   !> Of the tied rows the one whose row of the inverse basis, divided by its pivot, is lexicographically least: as if
-  !> the value of the first basis in row k had been perturbed by epsilon^k. In place 0, the bound of the column
+  !> the value of the first basis in row k had been perturbed by epsilon^k. At index 0, the bound of the column
   !> itself, nothing was perturbed.
   !>
   !> The inverse basis, relative to the first one, stands in the columns of the first one. In the paper's problem the

@@ -15,7 +15,7 @@ module fuge_tableau_engine
   use fuge_number_text, only: index_text
   use fuge_options_type, only: fuge_options, iteration_limit
   use fuge_paper_tableau, only: run_phase_one
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT
   implicit none
   private
 
@@ -70,9 +70,8 @@ contains
       call check_definite(alpha, merge(0.0_dp, canonical%datum, canonical%plain), canonical%modes, canonical%excluded, &
                           deficient, status)
     end associate
-    if (status /= FUGE_DONE) then
-      call report(info, status, 'no memory to factor alpha')
-    else if (deficient > 0) then
+    call require_memory(status, 'a factor of alpha', info)
+    if (status == FUGE_DONE .and. deficient > 0) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces '//kind_of_forces(canonical) &
                   //': point '//index_text(deficient) &
                   //' and others carry some that store no energy; look for a repeated point ' &

@@ -16,7 +16,7 @@ module fuge_variable_bounds
     logical, allocatable :: free(:)
     !> Variables fixed at zero, which never enter, (3n+2m).
     logical, allocatable :: fixed(:)
-    !> Columns of the first basis in equilibrium, with the sign in which the tableau has them: gaps in the place of
+    !> Columns of the first basis in equilibrium, with the sign in which the tableau has them: gaps instead of
     !> their artificials, then forces, (n+m). The paper's problem needs only the gaps, (n).
     integer, allocatable :: first(:)
     real(dp), allocatable :: sign(:)

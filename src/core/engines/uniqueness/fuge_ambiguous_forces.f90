@@ -9,20 +9,20 @@ module fuge_ambiguous_forces
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_pivoted_qr, only: orthogonal_complement
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   use fuge_unresisted_motions, only: find_unresisted_basis, mark_loaded
   implicit none
   private
 
   public :: find_ambiguous_forces, mark_touching
 
-  !> Units in the last place by which a gap may be rounded, of the largest displacement or motion.
+  !> A gap may be rounded by this many units in the last place of the largest displacement or motion.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
-  !> Displacements below this fraction of their terms are none.
+  !> Displacements below this fraction of their terms count as zero.
   real(dp), parameter :: NO_DISPLACEMENT = 1.0e-12_dp
-  !> Forces below this fraction of the others are none.
+  !> Forces below this fraction of the others count as zero.
   real(dp), parameter :: NO_FORCE = 1.0e-10_dp
-  !> Of more independent combinations than this, one is taken to be allowed.
+  !> Where there are more independent combinations than this, one of them is taken to be allowed.
   integer, parameter :: MOST_COMBINATIONS = 32
 
 contains
@@ -75,16 +75,14 @@ contains
       call set_equations(canonical, points, unresisted, equations)
       call orthogonal_complement(equations, NO_DISPLACEMENT, basis, status)
     end if
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to tell whether forces are unique')
-      return
-    end if
+    call require_memory(status, 'the test whether forces are unique', info)
+    if (status /= 0) return
     ambiguous = any_may_be_added(canonical, solution, points, loaded, basis(:size(points), :))
   end subroutine find_ambiguous_forces
 
   !> The equations of forces at the `points`, and of motions, that are in balance with each other, as columns: no
-  !> displacement, no resultants, no part in the `unresisted` motions. Displacements at a point are divided by the root
-  !> of the largest coefficient there, and forces multiplied by it, which keeps signs.
+  !> displacement, no resultants, no component in the `unresisted` motions. Displacements at a point are divided by the
+  !> root of the largest coefficient there, and forces multiplied by it, which keeps signs.
   pure subroutine set_equations(canonical, points, unresisted, equations)
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: points(:)
@@ -132,8 +130,8 @@ contains
     integer :: j, sense
 
     idle = .not. loaded(points) .and. maxval(abs(basis), dim=2) > NO_FORCE
-    ! Combinations give any forces to so few points. Of very many one is taken to be allowed, because the search would
-    ! take longer than the solve.
+    ! At no more points than combinations, these give any forces. Of very many combinations one is taken to be allowed,
+    ! because the search would take longer than the solve.
     may = size(basis, 2) > 0
     if (count(idle) <= size(basis, 2) .or. size(basis, 2) > MOST_COMBINATIONS) return
     ! A combination that takes forces of the wrong sign closes a point, as a motion would.

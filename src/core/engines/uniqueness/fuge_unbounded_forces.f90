@@ -1,7 +1,7 @@
 !> Forces that would have to grow without bound: the contact problem has no solution then.
 !>
-!> Where alpha is singular, some forces store no energy. If they do work on the gaps too, no answer is large enough
-!> (Farkas' lemma, for a convex quadratic program). What an engine returns is such forces, as large as rounding lets
+!> Where alpha is singular, some forces store no energy. If they do work on the gaps too, no forces are large
+!> enough (Farkas' lemma, for a convex quadratic program). An engine then returns such forces, as large as rounding lets
 !> them become.
 module fuge_unbounded_forces
   use fuge_canonical_problem, only: canonical_problem
@@ -14,14 +14,14 @@ module fuge_unbounded_forces
 
   public :: equal_forces_hold_nothing, forces_are_unbounded
 
-  !> So many units in the last place of alpha may store the energy of forces without any.
+  !> An energy below this many units in the last place of its terms counts as zero.
   real(dp), parameter :: ROUNDINGS = 256.0_dp
   !> Forces dwarf the data if the terms of displacements exceed the gaps, and those of resultants the loads, by one over
   !> this factor.
   real(dp), parameter :: DWARFED = 1.0e-6_dp
   !> A length below this fraction of the largest gap, play or displacement by a load is rounding.
   real(dp), parameter :: NO_LENGTH = 1.0e-10_dp
-  !> Unbounded forces that differ by less than this fraction are equal ones and what the gaps ask for.
+  !> Unbounded forces that differ by less than this fraction count as equal: the rest is what the gaps require.
   real(dp), parameter :: ALIKE = 1.0e-3_dp
 
 contains

@@ -4,12 +4,12 @@ module fuge_unresisted_motions
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_number_text, only: index_text, text
+  use fuge_number_text, only: index_text
   use fuge_pivoted_qr, only: orthogonal_complement
   use fuge_point_space, only: point_space
   use fuge_shared_columns, only: gather_spanning_rows
   use fuge_shared_equilibrium, only: find_shared_equilibrium
-  use fuge_status, only: fuge_info, report, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_MEMORY, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
 
@@ -20,7 +20,7 @@ module fuge_unresisted_motions
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
   !> A force below this fraction of the loads that it may carry is rounding.
   real(dp), parameter :: NO_FORCE = 1.0e-14_dp
-  !> A resultant in an unresisted motion below this fraction of its terms is none.
+  !> A resultant in an unresisted motion below this fraction of its terms counts as zero.
   real(dp), parameter :: NO_LOAD = 1.0e-10_dp
 
 contains
@@ -39,7 +39,7 @@ contains
     motion = 0.0_dp
     n = size(solution%state)
     allocate (work(n), loaded(n), resists_closing(n), resists_opening(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions of '//text(n)//' points')
+    call require_memory(stat, 'the motions of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call mark_loaded(canonical, solution, work, loaded)
@@ -147,7 +147,7 @@ contains
     end do
   end subroutine pack_rows
 
-  !> The motion (m) less its part in the `basis` of the unresisted ones.
+  !> The motion (m) less its component in the `basis` of the unresisted ones.
   pure function without_unresisted(motion, basis) result(rest)
     real(dp), intent(in) :: motion(:), basis(:, :)
     real(dp) :: rest(size(motion))

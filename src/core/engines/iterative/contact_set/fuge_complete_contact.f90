@@ -8,7 +8,7 @@ module fuge_complete_contact
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
 
@@ -37,7 +37,7 @@ contains
     nothing = .false.
     n = operator%points()
     allocate (force(n), displacement(n), magnitude(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to displace '//text(n)//' points by equal forces')
+    call require_memory(stat, 'equal forces on', n, 'points', info)
     space = operator%ranks()
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return

@@ -18,13 +18,14 @@ module fuge_contact_set_search
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_projected_gradients, only: run_projected_gradients
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_stall_counter, only: stall_counter
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE
   use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
     penetrated_stop
   implicit none
   private
 
-  public :: find_contact_set, states_of
+  public :: find_contact_set, find_states
 
   !> Relative residual required on a coarser grid, which only provides a starting point.
   real(dp), parameter :: COARSE_TOLERANCE = 1.0e-4_dp
@@ -33,13 +34,13 @@ module fuge_contact_set_search
   real(dp), parameter :: SAFETY = 0.4_dp
   !> On a coarser grid a set is good enough if at most this fraction of its points is wrong.
   real(dp), parameter :: WRONG_ON_COARSE = 0.01_dp
-  !> Block exchanges without a new minimum of wrong points before single exchanges begin; edges
-  !> are extrapolated in the first half of them only.
+  !> Block exchanges in a row without a new minimum of wrong points, before single exchanges begin; edges are
+  !> extrapolated in the first half of them only.
   integer, parameter :: MAX_STALLS = 10
-  !> Tensions up to so many units in the last place of the largest force are rounding in any case.
+  !> Tensions up to this many units in the last place of the largest force are rounding in any case.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
-  !> What is required of the search on one grid.
+  !> The requirements on the search on one grid.
   type, public :: search_settings
     !> Relative residual to reach.
     real(dp) :: tolerance = COARSE_TOLERANCE
@@ -68,13 +69,13 @@ contains
     type(fuge_info), intent(inout) :: info
     type(contact_preconditioner) :: preconditioner
     real(dp) :: previous_residual
-    integer :: cells(2), products, wrong, fewest_wrong, stalls_left
+    type(stall_counter) :: stalls
+    integer :: cells(2), products, wrong
     logical :: to_tolerance, confirmed, fresh, in_row, undetermined
 
     cells = operator%grid()
     in_row = all(cells > 0) .and. any(cells == 1)
-    fewest_wrong = huge(fewest_wrong)
-    stalls_left = MAX_STALLS
+    call stalls%start(MAX_STALLS)
     previous_residual = huge(previous_residual)
     to_tolerance = .false.
     if (.not. settings%prepared) then
@@ -88,7 +89,7 @@ contains
         call solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
         if (info%failed()) exit
         if (scene%rows%everywhere(all(iterate%contact))) exit
-        stalls_left = stalls_left - 1
+        call stalls%spend()
         cycle
       end if
       if (info%failed()) exit
@@ -114,15 +115,14 @@ contains
         if (wrong == 0) cycle
       end if
       to_tolerance = .false.
-      stalls_left = stalls_left - 1
-      if (wrong < fewest_wrong) stalls_left = MAX_STALLS
-      fewest_wrong = min(fewest_wrong, wrong)
-      if (stalls_left < 0) then
+      call stalls%spend()
+      call stalls%renew_if_fewer(wrong)
+      if (stalls%has_stalled()) then
         call exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
         exit
       end if
       call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
-                                 in_row .and. 2*stalls_left > MAX_STALLS, iterate, info)
+                                 in_row .and. 2*stalls%left > MAX_STALLS, iterate, info)
       if (info%failed()) exit
       iterate%least_compliance = 0.0_dp
       ! The residual of another set tells nothing of this one.
@@ -217,7 +217,7 @@ contains
     call tell_progress(scene, iterate, monitor, info)
   end subroutine solve_on_contact_set
 
-  !> Report that forces without energy, the largest of them at `point`, grow for ever (FUGE_ERR_NOT_DEFINITE).
+  !> Report that forces without energy, the largest of them at `point`, grow without bound (FUGE_ERR_NOT_DEFINITE).
   pure subroutine report_unbounded(point, info)
     integer, intent(in) :: point
     type(fuge_info), intent(inout) :: info
@@ -322,7 +322,7 @@ contains
 
     n = size(scene%gap)
     allocate (feasible(n), noise(n), locked(n), tied(n), state(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the active-set method on '//text(n)//' points')
+    call require_memory(stat, 'the active-set method on', n, 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     found = .false.
@@ -341,7 +341,7 @@ contains
       call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)
       if (info%failed()) exit
       noise = iterate%tension_noise
-      state = states_of(iterate)
+      call find_states(iterate, state)
       if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
         call step_to_blocking(iterate%force, noise, tied, state, feasible, newest, locked, scene%rows%point_space)
         iterate%contact = state /= FUGE_OPEN
@@ -352,7 +352,7 @@ contains
         found = scene%rows%anywhere(newest > 0)
         if (.not. (found .and. iterate%converged)) exit
         call join_contact(scene, newest, iterate)
-        ! What penetrates a contact complete but for one point is rounding.
+        ! A penetration at the only open point is rounding.
         if (has_undetermined_forces(operator, scene, iterate, info)) then
           if (newest > 0) iterate%contact(newest) = .false.
           exit
@@ -402,7 +402,7 @@ contains
     force = scene%balance
     noise = 0.0_dp
     locked = .false.
-    state = states_of(iterate)
+    call find_states(iterate, state)
     ! Where the balance is at the other stop, or open, it decides.
     where (abs(force) > 0.0_dp) state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, force > 0.0_dp)
     if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
@@ -411,13 +411,13 @@ contains
     end if
   end subroutine step_from_balance
 
-  !> The states of the points, (n).
-  pure function states_of(iterate) result(state)
+  !> The `state` of each point, (n).
+  pure subroutine find_states(iterate, state)
     type(contact_iterate), intent(in) :: iterate
-    integer :: state(size(iterate%contact))
+    integer, intent(out) :: state(:)
 
     state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
     if (allocated(iterate%at_upper)) where (iterate%contact .and. iterate%at_upper) state = FUGE_AT_UPPER_STOP
-  end function states_of
+  end subroutine find_states
 
 end module fuge_contact_set_search

@@ -6,7 +6,7 @@ module fuge_general_scene
   use fuge_contact_iterate, only: contact_iterate, deformed_gap, rounding_force
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_segments, only: contact_segments
-  use fuge_contact_set_search, only: states_of
+  use fuge_contact_set_search, only: find_states
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
   use fuge_kinds, only: dp
@@ -15,7 +15,7 @@ module fuge_general_scene
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_scene_scaling, only: scene_scaling
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OVERFLOW
   use fuge_unresisted_motions, only: report_unresisted_motion
   implicit none
   private
@@ -84,7 +84,7 @@ contains
     if (stat == 0 .and. scene%prescribed .and. m > 0) then
       allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
     end if
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps and modes of '//text(n)//' points')
+    call require_memory(stat, 'the gaps and modes of', n, 'points', info)
     call canonical%space%agree(info)
   end subroutine allocate_scene
 
@@ -143,44 +143,44 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
-    type(contact_solution) :: found
+    type(contact_solution) :: reduced
     real(dp), allocatable :: motion(:)
     integer :: stat
 
-    call allocate_solution(size(scene%gap), size(canonical%load), found, info)
+    call allocate_solution(size(scene%gap), size(canonical%load), reduced, info)
     if (.not. info%failed()) then
       allocate (motion(problem%mode_count()), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the motions')
+      call require_memory(stat, 'the motions', info)
     end if
     call canonical%space%agree(info)
     if (info%failed()) return
-    found%state = states_of(iterate)
-    call drop_rounding(scene, found%state, iterate, info)
+    call find_states(iterate, reduced%state)
+    call drop_rounding(scene, reduced%state, iterate, info)
     if (info%failed()) return
-    found%force = scaling%load*iterate%force
-    call set_gaps(scene, scaling, canonical%upper, iterate, found)
+    reduced%force = scaling%load*iterate%force
+    call set_gaps(scene, scaling, canonical%upper, iterate, reduced)
     if (allocated(scene%modes)) then
-      found%motion = scaling%load*iterate%rigid_motion
+      reduced%motion = scaling%load*iterate%rigid_motion
     else
-      found%motion = scaling%load*iterate%motion
+      reduced%motion = scaling%load*iterate%motion
     end if
     if (canonical%has_translation) then
-      found%motion(1) = (found%motion(1) + operator%datum()*canonical%space%total(sum(found%force))) &
+      reduced%motion(1) = (reduced%motion(1) + operator%datum()*canonical%space%total(sum(reduced%force))) &
                         + scaling%gap_datum
     end if
-    call report_unresisted_motion(canonical, found, info)
+    call report_unresisted_motion(canonical, reduced, info)
     if (info%failed()) return
-    call canonical%to_given_modes(problem%prescribed_motion(), found%motion, motion)
+    call canonical%to_given_modes(problem%prescribed_motion(), reduced%motion, motion)
     if (allocated(scene%excluded)) call set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, &
-                                                         iterate%displacement, found, info)
+                                                         iterate%displacement, reduced, info)
     if (info%failed()) return
-    call move_alloc(found%force, solution%force)
-    call move_alloc(found%gap, solution%gap)
+    call move_alloc(reduced%force, solution%force)
+    call move_alloc(reduced%gap, solution%gap)
     call move_alloc(motion, solution%motion)
   end subroutine assemble_general
 
-  !> Forces that are rounding, or that pull at their stop by rounding, become zero. What that takes from a resultant,
-  !> the other forces give back: beside a body under a large load, another one may have none. Error: FUGE_ERR_MEMORY.
+  !> Forces that are rounding, or that pull at their stop by rounding, become zero. The other forces make up for what a
+  !> resultant loses by that: beside a body under a large load, another one may have none. Error: FUGE_ERR_MEMORY.
   subroutine drop_rounding(scene, state, iterate, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: state(:)
@@ -195,7 +195,7 @@ contains
     call clear_rounding(scene, state, iterate, pulls)
     if (.not. (pulls .and. allocated(scene%modes))) return
     allocate (dropped, source=iterate%force, stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the forces of '//text(size(state))//' points')
+    call require_memory(stat, 'the forces of', size(state), 'points', info)
     segments%space = scene%rows%point_space
     call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
@@ -233,52 +233,52 @@ contains
   end subroutine clear_rounding
 
   !> Gaps between the stops, in the units of the problem, as is the play `upper` (n); 0 at points that are excluded.
-  pure subroutine set_gaps(scene, scaling, upper, iterate, found)
+  pure subroutine set_gaps(scene, scaling, upper, iterate, reduced)
     type(contact_scene), intent(in) :: scene
     type(scene_scaling), intent(in) :: scaling
     real(dp), intent(in) :: upper(:)
     type(contact_iterate), intent(in) :: iterate
-    type(contact_solution), intent(inout) :: found
+    type(contact_solution), intent(inout) :: reduced
     integer :: k
 
     do k = 1, size(scene%gap)
-      found%gap(k) = 0.0_dp
+      reduced%gap(k) = 0.0_dp
       if (scene%gap(k) >= OUT_OF_REACH) cycle
-      found%gap(k) = scaling%load*max(deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion), 0.0_dp)
-      if (found%state(k) == FUGE_AT_LOWER_STOP) found%gap(k) = 0.0_dp
-      found%gap(k) = min(found%gap(k), upper(k))
-      if (found%state(k) == FUGE_AT_UPPER_STOP) found%gap(k) = upper(k)
+      reduced%gap(k) = scaling%load*max(deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion), 0.0_dp)
+      if (reduced%state(k) == FUGE_AT_LOWER_STOP) reduced%gap(k) = 0.0_dp
+      reduced%gap(k) = min(reduced%gap(k), upper(k))
+      if (reduced%state(k) == FUGE_AT_UPPER_STOP) reduced%gap(k) = upper(k)
     end do
   end subroutine set_gaps
 
   !> c = g + A f - R q at the points that are excluded; `motion` q (m) in the modes R of the problem, `displacement` (n)
   !> in units of the scene. Error: FUGE_ERR_MEMORY. The arguments are nine, because excluded points need the problem
   !> both as given and as a scene.
-  subroutine set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, displacement, found, info)
+  subroutine set_excluded_gaps(operator, problem, canonical, scene, scaling, motion, displacement, reduced, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(in) :: canonical
     type(contact_scene), intent(in) :: scene
     type(scene_scaling), intent(in) :: scaling
     real(dp), intent(in) :: motion(:), displacement(:)
-    type(contact_solution), intent(inout) :: found
+    type(contact_solution), intent(inout) :: reduced
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: scaled(:)
     real(dp) :: shift
     integer :: stat
 
     allocate (scaled(size(displacement)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of the excluded points')
+    call require_memory(stat, 'the gaps of the excluded points', info)
     call canonical%space%agree(info)
     if (info%failed()) return
     shift = 0.0_dp
     if (scene%absorbs_datum .or. .not. scene%prescribed) then
-      shift = operator%datum()*canonical%space%total(sum(found%force))
+      shift = operator%datum()*canonical%space%total(sum(reduced%force))
     end if
     ! No rigid motion has been taken out of these displacements: the modes of the scene are zero there.
     scaled = 0.0_dp
     where (scene%excluded) scaled = scaling%load*displacement + shift
-    call canonical%set_excluded_gaps_from(scaled, problem%gap, motion, found%gap)
+    call canonical%set_excluded_gaps_from(scaled, problem%gap, motion, reduced%gap)
   end subroutine set_excluded_gaps
 
 end module fuge_general_scene

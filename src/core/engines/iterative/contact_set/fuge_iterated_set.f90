@@ -1,4 +1,4 @@
-!> What an iterative solve leaves for derivatives and for the next solve.
+!> The contact set of an iterative solve, kept for derivatives and for the next solve.
 module fuge_iterated_set
   use fuge_kinds, only: dp
   implicit none

@@ -12,14 +12,14 @@ module fuge_warm_start
   implicit none
   private
 
-  !> Extrapolate at most so many times the last step.
+  !> Forces are extrapolated by at most this many times the last step.
   real(dp), parameter :: FARTHEST = 3.0_dp
-  !> Steps of several resultants or motions are in line if they differ by less than this part of their length.
+  !> Steps of several resultants or motions are in line if they differ by less than this fraction of their length.
   real(dp), parameter :: IN_LINE = 0.5_dp
   !> The last forces are scaled with the resultants up to this factor, either way.
   real(dp), parameter :: LARGEST_FACTOR = 2.0_dp
-  !> The expected cost of a start from the last solutions may exceed that of a start from coarser grids by this part of
-  !> what the coarser grids cost: the norm of its errors does not tell how many points change their state.
+  !> The expected cost of a start from the last solutions may exceed that of a start from coarser grids by this
+  !> fraction of what the coarser grids cost: the norm of its errors does not tell how many points change their state.
   real(dp), parameter :: MARGIN = 0.4_dp
   !> After a start that cost more than coarser grids would have, the error has to be smaller by the first factor; each
   !> solve from coarser grids takes back the second one.
@@ -27,7 +27,7 @@ module fuge_warm_start
   !> After a start that was refused, steps of more than the first factor times its length are not tried, and each solve
   !> raises that by the second one.
   real(dp), parameter :: SHORTER = 0.8_dp, LONGER = 1.05_dp
-  !> With errors above this no start saves anything.
+  !> A start with a relative error above this saves nothing.
   real(dp), parameter :: USELESS = 0.5_dp
 
   !> A solved problem.
@@ -162,7 +162,7 @@ contains
     call space%add(sums)
   end function fingerprint
 
-  !> A sum with weights that depend on the place; scaled, so that it does not overflow.
+  !> A sum with weights that depend on the position; scaled, so that it does not overflow.
   pure function mixed_sum(values) result(total)
     real(dp), intent(in) :: values(:)
     real(dp) :: total
@@ -258,8 +258,8 @@ contains
     if (extrapolate) self%step_length = norm2(new)
   end subroutine find_steps
 
-  !> What the problem prescribes, (m): motions where it does, else resultants. Both (m), or unallocated if there are
-  !> none.
+  !> The prescribed values, (m): motions where prescribed, else resultants. `resultant` and `motion` (m), or unallocated
+  !> if there are none.
   pure function controls(problem, resultant, motion)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in), allocatable :: resultant(:), motion(:)
@@ -352,7 +352,7 @@ contains
     if (products > self%cold_products) self%greatest_error = STRICTER*error
   end subroutine record_warm
 
-  !> Is a start with this relative error expected to cost less than coarser grids? self%started_warm.
+  !> Set self%started_warm: whether a start with this relative error is expected to cost less than coarser grids.
   pure subroutine judge(self, error)
     class(load_history), intent(inout) :: self
     real(dp), intent(in) :: error

@@ -3,11 +3,11 @@
 !>
 !> The residual is a backward error: where the operator is nearly singular on the contact, small residuals belong to
 !> large errors. Divided by the smallest value of Lanczos, the preconditioned residual bounds the error in the norm of
-!> the preconditioner (doc/theory.md). What rounding leaves of gaps and motions under a light load is such a residual
-!> too, although the equations may hold exactly with it.
+!> the preconditioner (doc/theory.md). The rounding of gaps and motions under a light load is such a residual too,
+!> although the equations may hold exactly with it.
 module fuge_iteration_error
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_contact_iterate, only: contact_iterate, largest_term
+  use fuge_contact_iterate, only: contact_iterate, largest_rigid_magnitude
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: contact_segments, max_abs_over
   use fuge_kinds, only: dp
@@ -23,7 +23,7 @@ contains
   !> The largest error of the forces over the largest force; no unit, at most 1.
   !>
   !> `iterate` as evaluated last, so that iterate%work holds the magnitudes of the displacements, which rounding goes
-  !> with. What the preconditioner would make of the residual follows from what it made of those before;
+  !> with. The preconditioned residual is estimated from those before;
   !> `pair_compliance` as least_pair_compliance of fuge_operator, because conjugate gradients do not see forces that
   !> hardly displace anything; `length` and `force` as from `find_rounding`. Costs two passes over the contact, and
   !> no product.
@@ -54,8 +54,8 @@ contains
     end if
   end function estimated_force_error
 
-  !> What rounding leaves open in the scene of a problem that has been solved: of the gaps and motions at the contact a
-  !> `length`, of the resultants a `force`, both in units of the scene, whose unit of force is `load`.
+  !> The rounding in the scene of a problem that has been solved: of the gaps and motions at the contact, a `length`,
+  !> and of the resultants, a `force`, both in units of the scene, whose unit of force is `load`.
   !>
   !> `canonical` belongs to the problem if the scene has modes; `solution` in the units of the problem.
   subroutine find_rounding(problem, canonical, scene, load, iterate, solution, length, force)
@@ -69,7 +69,7 @@ contains
     logical :: exact(problem%mode_count())
 
     exact = exact_modes(problem, scene%rows%point_space)
-    length = epsilon(length)*largest_term(scene, iterate)
+    length = epsilon(length)*largest_rigid_magnitude(scene, iterate)
     if (allocated(problem%prescribed) .or. .not. all(exact)) then
       length = length + largest_rounding(problem, exact, iterate%segments, solution%motion)/load
     end if

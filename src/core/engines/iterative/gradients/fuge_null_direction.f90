@@ -8,19 +8,18 @@ module fuge_null_direction
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: max_abs_over
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   public :: find_softness, largest_energy, leave_null_direction, softness_so_far, stores_no_energy
 
-  !> So many units in the last place of the terms of an energy are none.
+  !> An energy below this many units in the last place of its terms counts as zero.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
-  !> Forces of a direction below this fraction of its largest one are what it has of others.
+  !> Forces of a direction below this fraction of its largest one come from other directions.
   real(dp), parameter :: NO_FORCE = 1.0e-4_dp
-  !> A step along the direction goes this fraction of the forces beyond the first zero.
+  !> A step along the direction goes beyond the first zero of a force by this fraction of the largest force.
   real(dp), parameter :: BEYOND = 1.0e-3_dp
 
 contains
@@ -42,8 +41,7 @@ contains
     if (.not. force > 0.0_dp) return
     if (.not. iterate%softness > 0.0_dp) then
       allocate (terms(size(iterate%work)), unit(size(iterate%work)), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements of ' &
-                                 //text(size(iterate%work))//' points')
+      call require_memory(stat, 'the displacements of', size(iterate%work), 'points', info)
       call scene%rows%agree(info)
       if (info%failed()) return
       call operator%magnitude(iterate%direction, iterate%work, terms)
@@ -142,7 +140,7 @@ contains
     if (energy <= (tolerance*length_of(scene, iterate) + iterate%rounding)*total_force(iterate)) return
     iterate%unbounded = .true.
     stays = .false.
-    ! On the way here they have grown.
+    ! The forces have grown on the way to this direction.
     if (allocated(iterate%start)) iterate%force = iterate%start
     least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
     step_length = huge(step_length)

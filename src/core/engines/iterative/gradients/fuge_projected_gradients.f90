@@ -5,10 +5,10 @@
 !> modes the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
-    find_least_magnitude, find_penetration, is_accurate, project_residual
+    find_least_magnitude, find_penetration, is_accurate, project_residual, remove_rigid_part
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, dot_over, max_abs_over, sum_over
+  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, dot_over, max_abs_over
   use fuge_contact_step, only: step_over
   use fuge_kinds, only: dp
   use fuge_null_direction, only: find_softness, largest_energy, leave_null_direction, stores_no_energy
@@ -24,7 +24,7 @@ module fuge_projected_gradients
   !> The contact set can be judged once the errors of the forces are below this fraction of the
   !> largest tension, or those of the gaps below this fraction of the deepest penetration.
   real(dp), parameter :: DECISIVE = 0.2_dp
-  !> What the preconditioner makes of residuals is measured where they are within this factor of the tolerance.
+  !> The preconditioned residual is measured where the residual is within this factor of the tolerance.
   real(dp), parameter :: NEARLY = 100.0_dp
   !> Exact conjugate gradients need as many iterations as there are points; rounded ones
   !> several times as many where alpha is badly conditioned.
@@ -174,7 +174,7 @@ contains
     if (iterate%prescribed) call find_softness(operator, scene, iterate, info)
     if (allocated(scene%modes) .and. .not. info%failed()) call remove_rigid_motion(iterate, rigid_motion)
     call dot_and_sum_over(iterate%segments, iterate%direction, iterate%work, curvature, total)
-    ! Under a load alone, forces do not grow on the way to such a direction.
+    ! Under a load alone, forces do not grow on the way to a direction without energy.
     suspect = iterate%lanczos%is_suspect(curvature/energy)
     if (suspect .and. .not. iterate%prescribed) call find_softness(operator, scene, iterate, info)
     if (info%failed()) return
@@ -196,12 +196,12 @@ contains
   subroutine remove_rigid_motion(iterate, rigid_motion)
     type(contact_iterate), intent(inout) :: iterate
     real(dp), allocatable, intent(out) :: rigid_motion(:)
-    real(dp), allocatable :: parts(:)
+    real(dp), allocatable :: factors(:)
 
-    allocate (parts(size(iterate%rigid_motion)), rigid_motion(size(iterate%rigid_motion)))
-    call iterate%projection%components(iterate%segments, iterate%work, parts)
-    call iterate%projection%subtract(parts, iterate%work)
-    rigid_motion = iterate%projection%motion(parts)
+    allocate (factors(size(iterate%rigid_motion)), rigid_motion(size(iterate%rigid_motion)))
+    call iterate%projection%components(iterate%segments, iterate%work, factors)
+    call iterate%projection%subtract(factors, iterate%work)
+    rigid_motion = iterate%projection%motion(factors)
   end subroutine remove_rigid_motion
 
   !> Subtract `step_length` times the search direction from the forces, and update what follows from them. `mean` is
@@ -225,7 +225,7 @@ contains
       if (iterate%residual_norm < SMALL*iterate%unprojected) call project_residual(scene, iterate)
     end if
     if (iterate%prescribed) return
-    ! What rounding leaves of the mean would grow, and without a preconditioner change the sum of the forces.
+    ! A mean left by rounding would grow, and without a preconditioner change the sum of the forces.
     rest = total/real(iterate%segments%points, dp)
     call center_over(iterate%segments, rest, iterate%residual, iterate%residual_norm)
     iterate%motion = iterate%motion + rest
@@ -257,7 +257,7 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: curvature
 
-    call remove_resultants(scene, iterate)
+    call remove_rigid_part(scene, iterate%prescribed, iterate%projection, iterate%segments, iterate%direction)
     call compute_displacement(operator, counts_datum(scene, iterate), iterate%direction, iterate%work, info)
     if (.not. info%failed()) call find_softness(operator, scene, iterate, info)
     if (info%failed()) return
@@ -266,22 +266,5 @@ contains
     call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces on the contact store the ' &
                 //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
   end subroutine check_curvature
-
-  !> Take the resultants in free motions out of the search direction.
-  subroutine remove_resultants(scene, iterate)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: iterate
-    real(dp), allocatable :: parts(:)
-    real(dp) :: mean, largest_ignored
-
-    if (allocated(scene%modes)) then
-      allocate (parts(size(iterate%rigid_motion)))
-      call iterate%projection%components(iterate%segments, iterate%direction, parts)
-      call iterate%projection%subtract_on(iterate%segments, parts, iterate%direction)
-    else if (.not. iterate%prescribed) then
-      mean = sum_over(iterate%segments, iterate%direction)/real(iterate%segments%points, dp)
-      call center_over(iterate%segments, mean, iterate%direction, largest_ignored)
-    end if
-  end subroutine remove_resultants
 
 end module fuge_projected_gradients

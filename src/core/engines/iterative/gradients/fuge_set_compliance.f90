@@ -1,36 +1,36 @@
 !> The least compliance of a contact set: by how little forces without resultants displace it.
 !>
-!> Conjugate gradients see only those forces that the residual asks for. Where alpha is badly conditioned, or the start
-!> was exact, others that hardly displace anything take no part, although they may be wrong by much. Random lengths ask
-!> for all forces. Points that are open by no more than the equations are wrong, or than the gaps and motions are
+!> Conjugate gradients see only those forces that the residual requires. Where alpha is badly conditioned, or the start
+!> was exact, others that hardly displace anything do not show, although they may be wrong by much. Random lengths
+!> require all forces. Points that are open by no more than the equations are wrong, or than the gaps and motions are
 !> rounded, may as well be in contact, and count.
 module fuge_set_compliance
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, deformed_gap
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, deformed_gap, &
+    remove_rigid_part
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
-  use fuge_contact_segments, only: center_over, contact_segments, dot_over, max_abs_over, sum_over
+  use fuge_contact_segments, only: contact_segments, dot_over, max_abs_over
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_null_direction, only: find_softness, softness_so_far, stores_no_energy
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_projected_gradients, only: precondition_residual, update_direction
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   public :: probe_compliance
 
-  !> Points touch within this many times the error of the equations.
+  !> Points touch if they are open by no more than this many times the error of the equations.
   real(dp), parameter :: WITHIN = 4.0_dp
-  !> The smallest value is looked at after the first of these numbers of steps, then each time after the second one.
+  !> The smallest value of Lanczos is looked at after FIRST_LOOK steps, then after every STRIDE more, up to MOST_STEPS.
   integer, parameter :: FIRST_LOOK = 2, STRIDE = 3
   integer, parameter :: MOST_STEPS = 60
-  !> The monitor hears of a long search after each of so many steps.
+  !> The monitor hears of a long search once in this many steps.
   integer, parameter :: STEPS_OF_A_REPORT = 10
-  !> It has settled if it is above this fraction of the one before.
+  !> The smallest value has settled if it is above this fraction of the one before.
   real(dp), parameter :: SETTLED = 0.7_dp
 
 contains
@@ -69,7 +69,7 @@ contains
 
   !> The points that `touch` (n): the contact set, and those whose distance from a stop is within the error of the
   !> equations and the `rounding` of gaps and motions.
-  subroutine mark_touching(scene, rounding, iterate, touch)
+  subroutine mark_possible_contact(scene, rounding, iterate, touch)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: rounding
     type(contact_iterate), intent(in) :: iterate
@@ -86,7 +86,7 @@ contains
       touch(k) = gap <= open
       if (allocated(scene%play)) touch(k) = touch(k) .or. gap >= scene%play(k) - open
     end do
-  end subroutine mark_touching
+  end subroutine mark_possible_contact
 
   !> Are the forces of the set those of equilibrium alone, whatever the operator?
   pure function follow_from_equilibrium(scene, probe) result(follow)
@@ -113,13 +113,13 @@ contains
 
     n = size(iterate%contact)
     allocate (probe%residual(n), probe%direction(n), probe%work(n), probe%contact(n), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to estimate the error of '//text(n)//' forces')
+    call require_memory(stat, 'the estimated error of', n, 'forces', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     probe%prescribed = iterate%prescribed
     probe%softness = iterate%softness
     if (.not. probe%softness > 0.0_dp) probe%softness = softness_so_far(scene, iterate)
-    call mark_touching(scene, rounding, iterate, probe%contact)
+    call mark_possible_contact(scene, rounding, iterate, probe%contact)
     probe%segments%space = scene%rows%point_space
     call probe%segments%find(probe%contact, info)
     if (allocated(scene%modes) .and. .not. info%failed()) call probe%projection%set(scene%modes, probe%segments, info)
@@ -132,25 +132,8 @@ contains
       seed = mod(16807_int64*seed, 2147483647_int64)
       probe%residual(k) = merge(2.0_dp*real(seed, dp)/2147483647.0_dp - 1.0_dp, 0.0_dp, probe%contact(k))
     end do
-    call remove_rigid_part(scene, probe)
+    call remove_rigid_part(scene, probe%prescribed, probe%projection, probe%segments, probe%residual)
   end subroutine start_probe
-
-  !> Take the rigid motion out of the lengths of the set.
-  subroutine remove_rigid_part(scene, probe)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: probe
-    real(dp), allocatable :: parts(:)
-    real(dp) :: mean
-
-    if (allocated(scene%modes)) then
-      allocate (parts(size(scene%load)))
-      call probe%projection%components(probe%segments, probe%residual, parts)
-      call probe%projection%subtract_on(probe%segments, parts, probe%residual)
-    else if (.not. probe%prescribed) then
-      mean = sum_over(probe%segments, probe%residual)/real(probe%segments%points, dp)
-      call center_over(probe%segments, mean, probe%residual, probe%residual_norm)
-    end if
-  end subroutine remove_rigid_part
 
   !> Conjugate gradients from the lengths of `probe` on, until the smallest value of Lanczos has settled: the compliance
   !> that it stands for, 0 where the operator is singular, negative where no lengths are left. Of a long search
@@ -201,7 +184,7 @@ contains
         if (info%failed()) return
       end if
       call subtract_over(probe%segments, energy/curvature, probe%work, probe%residual)
-      call remove_rigid_part(scene, probe)
+      call remove_rigid_part(scene, probe%prescribed, probe%projection, probe%segments, probe%residual)
     end do
     value = probe%lanczos%smallest()/amplification
   end subroutine find_smallest_value

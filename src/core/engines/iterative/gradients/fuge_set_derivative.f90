@@ -13,14 +13,14 @@ module fuge_set_derivative
   use fuge_problem_type, only: fuge_solution
   use fuge_projected_gradients, only: run_projected_gradients
   use fuge_shared_rows, only: rows_of
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ITERATION_LIMIT
   use fuge_unresisted_motions, only: find_unresisted_basis, refuse_unresisted
   implicit none
   private
 
   public :: find_derivative_by_products
 
-  !> Restarts with fresh products, each of which makes up for the rounding that the one before has gathered.
+  !> At most this many restarts with fresh products make up for the rounding that the run before has gathered.
   integer, parameter :: RESTARTS = 4
 
 contains
@@ -53,9 +53,7 @@ contains
       if (info%failed()) return
     end if
     allocate (gap(n), motion(size(load_change)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the derivatives of '//text(n)//' points')
-    end if
+    call require_memory(stat, 'the derivatives of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call start_iterate(iterate, scene, info=info)
@@ -63,7 +61,7 @@ contains
     iterate%contact = state /= FUGE_OPEN
     call solve_on_set(operator, scene, tolerance, iterate, info)
     if (info%failed()) return
-    call assemble(operator, canonical, scene, gap_change, load_change, iterate, gap, motion)
+    call find_gaps_and_motions(operator, canonical, scene, gap_change, load_change, iterate, gap, motion)
     where (iterate%contact .and. .not. canonical%excluded) gap = 0.0_dp
     call move_alloc(iterate%force, change%force)
     call move_alloc(gap, change%gap)
@@ -83,15 +81,14 @@ contains
     call rows_of(operator, 0, scene%rows, info)
     if (info%failed()) return
     n = size(gap_change)
-    call canonical%transform_change(gap_change, load_change, scene%gap, load)
+    call canonical%transform_change(gap_change, load_change, scene%gap, load, info)
+    if (info%failed()) return
     m = size(load)
     scene%prescribed = .true.
     scene%absorbs_datum = canonical%has_translation
     if (m < 1) return
     allocate (scene%modes(n, m), scene%balance(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(n)//' points')
-    end if
+    call require_memory(stat, 'the modes of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     scene%modes = canonical%modes
@@ -113,7 +110,7 @@ contains
     previous = huge(previous)
     iterate%force = 0.0_dp
     do restart = 0, RESTARTS
-      call prepare(operator, scene, iterate, info)
+      call correct_forces(operator, scene, iterate, info)
       if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
       if (info%failed()) return
       if (is_accurate(iterate, tolerance)) return
@@ -138,7 +135,7 @@ contains
   end subroutine solve_on_set
 
   !> Forces on the set with the resultants of the scene, and their displacements.
-  subroutine prepare(operator, scene, iterate, info)
+  subroutine correct_forces(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
@@ -154,10 +151,10 @@ contains
     end if
     if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
                                                        iterate%displacement, info)
-  end subroutine prepare
+  end subroutine correct_forces
 
   !> Gaps at all points and motions in the given modes.
-  subroutine assemble(operator, canonical, scene, gap_change, load_change, iterate, gap, motion)
+  subroutine find_gaps_and_motions(operator, canonical, scene, gap_change, load_change, iterate, gap, motion)
     class(fuge_operator), intent(in) :: operator
     type(canonical_problem), intent(in) :: canonical
     type(contact_scene), intent(in) :: scene
@@ -179,6 +176,6 @@ contains
     end if
     call canonical%to_given_modes(load_change, free_motion, motion)
     call canonical%set_excluded_gaps_from(iterate%displacement, gap_change, motion, gap)
-  end subroutine assemble
+  end subroutine find_gaps_and_motions
 
 end module fuge_set_derivative

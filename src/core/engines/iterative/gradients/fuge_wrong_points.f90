@@ -1,13 +1,12 @@
-!> Points on the wrong side: in contact although their force pulls away from the stop, or open although they penetrate a
-!> stop. How many there are, which are worst, and their exchange.
+!> Points in the wrong state: in contact although their force pulls away from the stop, or open although they penetrate
+!> a stop. How many there are, which are worst, and their exchange.
 module fuge_wrong_points
   use fuge_contact_iterate, only: contact_iterate, deformed_gap
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_set_exchange, only: exchange
   use fuge_shared_exchange, only: exchange_in_line
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -60,7 +59,7 @@ contains
     wrong = 0
     do k = 1, size(scene%gap)
       if (iterate%contact(k)) then
-        if (is_tensile(scene, iterate, k)) wrong = wrong + 1
+        if (pulls_away(scene, iterate, k)) wrong = wrong + 1
       else if (penetrated_stop(scene, noise, iterate, k) /= 0) then
         wrong = wrong + 1
       end if
@@ -69,15 +68,15 @@ contains
   end function count_wrong_points
 
   !> Does the force of point `k`, in contact, pull away from its stop?
-  pure function is_tensile(scene, iterate, k)
+  pure function pulls_away(scene, iterate, k)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     integer, intent(in) :: k
-    logical :: is_tensile
+    logical :: pulls_away
 
-    is_tensile = .false.
-    if (.not. scene%is_tied(k)) is_tensile = tension_of(iterate, k, iterate%force(k)) > iterate%tension_noise
-  end function is_tensile
+    pulls_away = .false.
+    if (.not. scene%is_tied(k)) pulls_away = tension_of(iterate, k, iterate%force(k)) > iterate%tension_noise
+  end function pulls_away
 
   !> How much `force` at point `k` pulls away from its stop.
   pure function tension_of(iterate, k, force) result(tension)
@@ -126,14 +125,13 @@ contains
     ! Allocated here only: during the products the operator may need the memory.
     allocate (tensile(size(scene%gap)), penetrating(size(scene%gap)), stat=stat)
     if (stat == 0 .and. extrapolate) allocate (measure(size(scene%gap)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(scene%gap)) &
-                               //' points')
+    call require_memory(stat, 'the contact set of', size(scene%gap), 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     if (allocated(scene%play)) then
       do k = 1, size(scene%gap)
         tensile(k) = iterate%contact(k)
-        if (tensile(k)) tensile(k) = is_tensile(scene, iterate, k)
+        if (tensile(k)) tensile(k) = pulls_away(scene, iterate, k)
         penetrating(k) = .not. iterate%contact(k)
         if (penetrating(k)) call join(scene, noise, iterate, k, penetrating(k))
       end do
@@ -151,8 +149,8 @@ contains
     end if
   end subroutine exchange_wrong_points
 
-  !> What exchange_extrapolated calls `measure`, (n): forces of points in contact, distances of open ones from the stop
-  !> that they are nearer to.
+  !> The `measure` (n) of exchange_extrapolated: forces of points in contact, distances of open ones from the stop that
+  !> they are nearer to.
   pure subroutine measure_states(scene, iterate, measure)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
@@ -241,7 +239,7 @@ contains
     tension = 0.0_dp
     do k = 1, size(scene%gap)
       if (.not. iterate%contact(k)) cycle
-      if (is_tensile(scene, iterate, k)) tension = max(tension, abs(iterate%force(k)))
+      if (pulls_away(scene, iterate, k)) tension = max(tension, abs(iterate%force(k)))
     end do
     tension = scene%rows%largest(tension)
   end function greatest_tension

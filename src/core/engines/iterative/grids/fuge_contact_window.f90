@@ -1,4 +1,4 @@
-!> A contact that fills a small part of a large grid is solved on a window of the grid, because forces
+!> A contact that fills a small fraction of a large grid is solved on a window of the grid, because forces
 !> vanish elsewhere: products with the window's cells are exact for its forces, and much cheaper.
 !>
 !> A coarse grid tells where the contact is. The window has a margin around it, and grows where the
@@ -12,12 +12,11 @@ module fuge_contact_window
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
   use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_shared_transfer, only: prolong_to
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -80,7 +79,7 @@ contains
     logical, intent(out) :: solved
     real(dp), intent(out) :: least_compliance
     type(fuge_info), intent(inout) :: info
-    class(fuge_operator), allocatable :: part
+    class(fuge_operator), allocatable :: window
     type(cell_box) :: box
     type(shared_rows) :: rows
     real(dp), allocatable :: force(:)
@@ -99,11 +98,11 @@ contains
     box = contact_box(finest, level, own, rows%point_space, start)
     do
       if (.not. is_worthwhile(box)) return
-      call operator%window(box%first, box%last, part)
-      if (.not. allocated(part)) return
-      call rows_of(part, 0, rows, info)
+      call operator%window(box%first, box%last, window)
+      if (.not. allocated(window)) return
+      call rows_of(window, 0, rows, info)
       if (info%failed()) return
-      call solve_on_part(part, rows, coarse_settings, settings, box, scene, monitor, force, compliance, work, info)
+      call solve_on_window(window, rows, coarse_settings, settings, box, scene, monitor, force, compliance, work, info)
       if (info%failed()) return
       call grow(box, rows, force, grown)
       if (.not. grown) exit
@@ -135,7 +134,7 @@ contains
   end function is_on_grid
 
   !> The cells of the finest grid that carry force on the grid that is `level` times coarser, with a margin. `force`:
-  !> those of the rows own(1) .. own(2) of that grid, which `space` share.
+  !> those of the rows own(1) .. own(2) of that grid, whose points `space` shares.
   function contact_box(finest, level, own, space, force) result(box)
     integer, intent(in) :: finest(2), level, own(2)
     type(point_space), intent(in) :: space
@@ -182,11 +181,11 @@ contains
     is_worthwhile = all(n > 1) .and. product(real(n, dp)) <= WORTHWHILE*product(real(box%cells, dp))
   end function is_worthwhile
 
-  !> Solve on the window `part`, of the rows `rows`: nested iteration on its own coarser grids, then to the tolerance.
+  !> Solve on the window `window`, of the rows `rows`: nested iteration on its own coarser grids, then to the tolerance.
   !> `force`: those of its cells; `least_compliance` as in contact_iterate. Eleven arguments, as of solve_in_window.
-  subroutine solve_on_part(part, rows, coarse_settings, settings, box, scene, monitor, force, least_compliance, work, &
-                           info)
-    class(fuge_operator), intent(in) :: part
+  subroutine solve_on_window(window, rows, coarse_settings, settings, box, scene, monitor, force, least_compliance, &
+                             work, info)
+    class(fuge_operator), intent(in) :: window
     type(shared_rows), intent(in) :: rows
     type(search_settings), intent(in) :: coarse_settings, settings
     type(cell_box), intent(in) :: box
@@ -197,28 +196,29 @@ contains
     type(shared_work), intent(inout) :: work
     type(fuge_info), intent(inout) :: info
     type(contact_iterate) :: iterate
-    type(contact_scene) :: part_scene
+    type(contact_scene) :: window_scene
     real(dp), allocatable :: start(:)
-    type(fuge_info) :: part_info
+    type(fuge_info) :: window_info
 
     least_compliance = 0.0_dp
-    part_scene%prescribed = scene%prescribed
-    part_scene%rows = rows
-    call box%gather(scene%gap, scene%rows, rows, part_scene%gap, info)
+    window_scene%prescribed = scene%prescribed
+    window_scene%rows = rows
+    call box%gather(scene%gap, scene%rows, rows, window_scene%gap, info)
     if (info%failed()) return
-    if (.not. scene%prescribed) part_scene%gap = part_scene%gap - rows%least(minval(part_scene%gap))
-    part_info = fuge_info(iterations=info%iterations)
-    call nested_iteration(part, coarse_settings, part_scene, coarsest_level(part), 1, monitor, start, work, part_info)
-    if (allocated(start) .and. .not. part_info%failed()) call prolong_to(part, start, part_info)
-    if (.not. part_info%failed()) call start_iterate(iterate, part_scene, start, part_info)
-    if (.not. part_info%failed()) call find_contact_set(part, settings, part_scene, monitor, iterate, part_info)
-    call work%add(product(box%extent()), part_info)
-    part_info%products = info%products
-    part_info%preconditionings = info%preconditionings
-    info = part_info
+    if (.not. scene%prescribed) window_scene%gap = window_scene%gap - rows%least(minval(window_scene%gap))
+    window_info = fuge_info(iterations=info%iterations)
+    call nested_iteration(window, coarse_settings, window_scene, coarsest_level(window), 1, monitor, start, work, &
+                          window_info)
+    if (allocated(start) .and. .not. window_info%failed()) call prolong_to(window, start, window_info)
+    if (.not. window_info%failed()) call start_iterate(iterate, window_scene, start, window_info)
+    if (.not. window_info%failed()) call find_contact_set(window, settings, window_scene, monitor, iterate, window_info)
+    call work%add(product(box%extent()), window_info)
+    window_info%products = info%products
+    window_info%preconditionings = info%preconditionings
+    info = window_info
     least_compliance = iterate%least_compliance
     if (.not. info%failed()) call move_alloc(iterate%force, force)
-  end subroutine solve_on_part
+  end subroutine solve_on_window
 
   !> Grow the window by half its cells on each side where the contact reaches its rim, but not that of the grid.
   !> `force`: those of the `rows` of the window that this rank has.
@@ -255,13 +255,13 @@ contains
     where (at_last) box%last = min(box%last + cells, box%cells)
   end subroutine grow
 
-  !> `part`: the values of `whole` in the box, where ranks share the rows of both: `fine` those of the grid, `rows`
+  !> `inside`: the values of `whole` in the box, where ranks share the rows of both: `fine` those of the grid, `rows`
   !> those of the box. Error: FUGE_ERR_MEMORY.
-  subroutine gather(self, whole, fine, rows, part, info)
+  subroutine gather(self, whole, fine, rows, inside, info)
     class(cell_box), intent(in) :: self
     real(dp), intent(in), contiguous :: whole(:)
     type(shared_rows), intent(in) :: fine, rows
-    real(dp), allocatable, intent(out) :: part(:)
+    real(dp), allocatable, intent(out) :: inside(:)
     type(fuge_info), intent(inout) :: info
     type(shared_rows) :: box_rows
     real(dp), allocatable :: cut(:)
@@ -270,22 +270,22 @@ contains
     n = self%extent()
     range = self%rows_here(fine)
     allocate (cut(n(1)*max(range(2) - range(1) + 1, 0)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for a window of '//text(product(n))//' points')
+    call require_memory(stat, 'a window of', product(n), 'points', info)
     call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call self%copy_rows(range, first_row(fine), whole, cut)
     if (fine%is_alone()) then
-      call move_alloc(cut, part)
+      call move_alloc(cut, inside)
     else
       call self%place_rows(fine, box_rows)
-      call box_rows%fetch(n(1), cut, first_rows(rows), last_rows(rows), part, info)
+      call box_rows%fetch(n(1), cut, first_rows(rows), last_rows(rows), inside, info)
     end if
   end subroutine gather
 
-  !> `whole`: the values of `part` in the box, zero outside; `rows` and `fine` as for `gather`. Error: FUGE_ERR_MEMORY.
-  subroutine scatter(self, part, rows, fine, whole, info)
+  !> `whole`: the values `inside` the box, zero outside; `rows` and `fine` as for `gather`. Error: FUGE_ERR_MEMORY.
+  subroutine scatter(self, inside, rows, fine, whole, info)
     class(cell_box), intent(in) :: self
-    real(dp), intent(inout), allocatable :: part(:)
+    real(dp), intent(inout), allocatable :: inside(:)
     type(shared_rows), intent(in) :: rows, fine
     real(dp), allocatable, intent(inout) :: whole(:)
     type(fuge_info), intent(inout) :: info
@@ -297,16 +297,15 @@ contains
     own = [1, self%cells(2)]
     if (.not. fine%is_alone()) own = fine%own()
     allocate (whole(self%cells(1)*(own(2) - own(1) + 1)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the starting forces on ' &
-                               //text(self%cells(1)*(own(2) - own(1) + 1))//' points')
+    call require_memory(stat, 'the starting forces on', self%cells(1)*(own(2) - own(1) + 1), 'points', info)
     call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     n = self%extent()
     if (fine%is_alone()) then
-      call move_alloc(part, cut)
+      call move_alloc(inside, cut)
     else
       call self%place_rows(fine, box_rows)
-      call rows%fetch(n(1), part, first_rows(box_rows), last_rows(box_rows), cut, info)
+      call rows%fetch(n(1), inside, first_rows(box_rows), last_rows(box_rows), cut, info)
       if (info%failed()) return
     end if
     whole = 0.0_dp

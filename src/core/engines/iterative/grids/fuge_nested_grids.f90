@@ -20,7 +20,7 @@ module fuge_nested_grids
 
   public :: coarsest_level, nested_iteration
 
-  !> Products and preconditionings on parts or coarser grids, each counted as the fraction of its cells.
+  !> Products and preconditionings on windows or coarser grids, each counted as the fraction of its cells.
   type, public :: shared_work
     real(dp) :: products = 0.0_dp, preconditionings = 0.0_dp
   contains
@@ -66,7 +66,7 @@ contains
     do k = first, last, -1
       cells = coarser_cells(finest, k)
       coarse_info = fuge_info(iterations=info%iterations)
-      ! What a coarse grid spends in vain, the finer ones must not lack.
+      ! A coarse grid must not spend in vain the iterations of the finer ones.
       coarse_settings%limit = min(settings%limit, info%iterations + iteration_limit(fuge_options(), product(cells)))
       call operator%kept_coarser(k, kept)
       if (associated(kept)) then

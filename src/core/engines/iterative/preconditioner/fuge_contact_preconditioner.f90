@@ -19,7 +19,7 @@ module fuge_contact_preconditioner
   use fuge_rigid_images, only: rigid_images
   use fuge_shared_exchange, only: count_segments
   use fuge_shared_rows, only: rows_of, shared_rows
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
 
@@ -52,7 +52,7 @@ module fuge_contact_preconditioner
     !> A residual, (n), zero off the present set; allocated if it is needed.
     real(dp), allocatable, private :: centred(:)
     real(dp), private :: sum_of_uniform = 1.0_dp
-    !> What stands for `uniform` where there are several rigid modes.
+    !> Takes the role of `uniform` where there are several rigid modes.
     type(rigid_images), private :: rigid = rigid_images()
     !> Force per length that stands for the preconditioner where the operator has none.
     real(dp), private :: stiffness = 1.0_dp
@@ -164,9 +164,7 @@ contains
     if (stat == 0) allocate (self%rigid%basis(size(contact), projection%rank), &
                              self%rigid%images(size(contact), projection%rank), &
                              self%rigid%contact(size(contact)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(contact))//' points')
-    end if
+    call require_memory(stat, 'the rigid motions of', size(contact), 'points', info)
     call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     self%rigid%contact = contact
@@ -224,7 +222,7 @@ contains
     real(dp), intent(inout), contiguous :: force(:)
     real(dp), intent(out) :: energy
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: parts(:)
+    real(dp), allocatable :: factors(:)
     real(dp) :: largest
 
     energy = 0.0_dp
@@ -237,11 +235,11 @@ contains
       if (.not. info%failed()) call self%rigid%project_force(segments, force)
     end if
     if (info%failed()) return
-    ! What rounding leaves of resultants would add up.
+    ! Resultants left by rounding would add up.
     largest = max_abs_over(segments, force)
-    allocate (parts(size(projection%basis, 2)))
-    call projection%components(segments, force, parts)
-    call projection%subtract_on(segments, parts, force)
+    allocate (factors(size(projection%basis, 2)))
+    call projection%components(segments, force, factors)
+    call projection%subtract_on(segments, factors, force)
     energy = dot_over(segments, residual, force)
     if (.not. energy < 0.0_dp) return
     if (abs(energy) <= ROUNDING*largest*max_abs_over(segments, residual)) energy = 0.0_dp
@@ -306,7 +304,7 @@ contains
     self%depth = 1
     space = operator%ranks()
     if (space%everywhere(stat == 0)) call find_levels(self, operator, contact, stat, info)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(n)//' points')
+    call require_memory(stat, 'the preconditioner of', n, 'points', info)
     call space%agree(info)
     if (self%depth > 1 .and. .not. info%failed()) call count_contacts(self%levels(:self%depth), contact, info)
   end subroutine prepare_levels
@@ -354,8 +352,7 @@ contains
     integer :: stat
 
     allocate (unit(size(contact)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the preconditioner of '//text(size(contact)) &
-                               //' points')
+    call require_memory(stat, 'the preconditioner of', size(contact), 'points', info)
     space = operator%ranks()
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return

@@ -1,9 +1,8 @@
 !> Groups of cells of one level that are one cell of the next, on a line that ranks may share: sums and means over them.
 module fuge_level_groups
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_shared_rows, only: shared_rows
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -55,9 +54,9 @@ contains
     call find_groups(fine, first, last)
     me = fine%number()
     allocate (part(last(me) - first(me) + 1), stat=stat)
+    ! The ranks agree on errors where they collect.
+    call require_memory(stat, 'groups of', size(values), 'cells', info)
     if (stat /= 0) then
-      ! The ranks agree on errors where they collect.
-      call report(info, FUGE_ERR_MEMORY, 'no memory for groups of '//text(size(values))//' cells')
       allocate (part(0))
     else
       part = 0.0_dp
@@ -83,8 +82,8 @@ contains
 
     if (.not. is_local(fine)) then
       allocate (weighted(size(fine_values)), stat=stat)
+      call require_memory(stat, 'the means of', size(fine_values), 'cells', info)
       if (stat /= 0) then
-        call report(info, FUGE_ERR_MEMORY, 'no memory for means of '//text(size(fine_values))//' cells')
         allocate (weighted(0))
       else
         weighted = weight*fine_values

@@ -1,5 +1,5 @@
-!> What the preconditioner makes of rigid motions of the contact set: the forces that displace its points almost
-!> rigidly. With them a preconditioned residual is projected to forces without resultants.
+!> The preconditioner applied to rigid motions of the contact set: the forces that displace its points almost rigidly.
+!> With them a preconditioned residual is projected to forces without resultants.
 !>
 !> With B a basis of the rigid motions on the set and U = M B, P = I - U (B^T U)^-1 B^T projects forces along U to those
 !> without resultants, and P M P^T is symmetric, whatever set U was computed for (doc/theory.md). So U is kept while the
@@ -75,14 +75,14 @@ contains
     class(rigid_images), intent(in) :: self
     type(contact_segments), intent(in) :: segments
     real(dp), intent(inout), contiguous :: residual(:)
-    real(dp) :: parts(size(self%images, 2))
+    real(dp) :: factors(size(self%images, 2))
     integer :: i, stat
 
-    do i = 1, size(parts)
-      parts(i) = dot_over(segments, self%images(:, i), residual)
+    do i = 1, size(factors)
+      factors(i) = dot_over(segments, self%images(:, i), residual)
     end do
-    call solve(transpose(self%products), parts, stat)
-    call subtract_columns(segments, self%basis, parts, residual)
+    call solve(transpose(self%products), factors, stat)
+    call subtract_columns(segments, self%basis, factors, residual)
   end subroutine project_residual
 
   !> force := P force, (n), on the set.
@@ -90,14 +90,14 @@ contains
     class(rigid_images), intent(in) :: self
     type(contact_segments), intent(in) :: segments
     real(dp), intent(inout), contiguous :: force(:)
-    real(dp) :: parts(size(self%images, 2))
+    real(dp) :: factors(size(self%images, 2))
     integer :: i, stat
 
-    do i = 1, size(parts)
-      parts(i) = dot_over(segments, self%basis(:, i), force)
+    do i = 1, size(factors)
+      factors(i) = dot_over(segments, self%basis(:, i), force)
     end do
-    call solve(self%products, parts, stat)
-    call subtract_columns(segments, self%images, parts, force)
+    call solve(self%products, factors, stat)
+    call subtract_columns(segments, self%images, factors, force)
   end subroutine project_force
 
   pure subroutine subtract_columns(segments, columns, factors, x)

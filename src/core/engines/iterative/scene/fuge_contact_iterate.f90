@@ -6,18 +6,18 @@ module fuge_contact_iterate
   use fuge_kinds, only: dp
   use fuge_lanczos_values, only: lanczos_values
   use fuge_mode_projection, only: mode_projection
-  use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   public :: clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
-    find_penetration, is_accurate, largest_term, make_feasible, project_residual, rounding_force, start_iterate
+    find_penetration, is_accurate, largest_rigid_magnitude, make_feasible, project_residual, remove_rigid_part, &
+    rounding_force, start_iterate
 
-  !> Units in the last place by which gaps less rigid displacements may be rounded.
+  !> Gaps less rigid displacements may be rounded by this many units in the last place of their terms.
   real(dp), parameter :: ROUNDINGS = 2.0_dp
   !> Displacements below this fraction of the gaps are rounding.
   real(dp), parameter :: NO_LENGTH = 1.0e-14_dp
@@ -54,14 +54,14 @@ module fuge_contact_iterate
     real(dp) :: rounding = 0.0_dp
     !> Tensions up to this are rounding.
     real(dp) :: tension_noise = 0.0_dp
-    !> The largest displacement by forces of size 1, as far as it has been asked for; 0 before; length per force.
+    !> The largest displacement by forces of size 1, as far as it has been needed; 0 before; length per force.
     real(dp) :: softness = 0.0_dp
-    !> Do forces of the set that store no energy grow for ever, so that there is no solution?
+    !> Forces of the set that store no energy grow without bound, so that there is no solution.
     logical :: unbounded = .false.
     !> The greater of residual norm and penetration over the least magnitude, for the forces to start from; negative
     !> before that is known.
     real(dp) :: start_error = -1.0_dp
-    !> Did run_projected_gradients reduce the residual to its tolerance?
+    !> run_projected_gradients has reduced the residual to its tolerance.
     logical :: converged = .false.
     !> The least compliance of this contact set that conjugate gradients have found, length per force: the smallest
     !> value of `lanczos` over `amplification`; 0 before any step.
@@ -102,7 +102,7 @@ contains
     if (stat == 0 .and. allocated(scene%play)) allocate (iterate%at_upper(n), stat=stat)
     if (stat == 0 .and. scene%prescribed) allocate (iterate%start(n), stat=stat)
     if (stat == 0 .and. allocated(scene%modes)) allocate (iterate%rigid_motion(size(scene%load)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the work space of '//text(n)//' points')
+    call require_memory(stat, 'the work space of', n, 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     iterate%segments%space = scene%rows%point_space
@@ -286,15 +286,15 @@ contains
   subroutine project_residual(scene, iterate)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
-    real(dp), allocatable :: parts(:)
+    real(dp), allocatable :: factors(:)
     real(dp) :: mean
 
     if (allocated(scene%modes)) then
-      allocate (parts(size(scene%load)))
-      call iterate%projection%components(iterate%segments, iterate%residual, parts)
-      call iterate%projection%subtract_on(iterate%segments, parts, iterate%residual)
-      call iterate%projection%subtract(parts, iterate%displacement)
-      iterate%rigid_motion = iterate%rigid_motion + iterate%projection%motion(parts)
+      allocate (factors(size(scene%load)))
+      call iterate%projection%components(iterate%segments, iterate%residual, factors)
+      call iterate%projection%subtract_on(iterate%segments, factors, iterate%residual)
+      call iterate%projection%subtract(factors, iterate%displacement)
+      iterate%rigid_motion = iterate%rigid_motion + iterate%projection%motion(factors)
       iterate%residual_norm = max_abs_over(iterate%segments, iterate%residual)
       iterate%unprojected = iterate%residual_norm
       return
@@ -304,6 +304,27 @@ contains
     call center_over(iterate%segments, mean, iterate%residual, iterate%residual_norm)
     iterate%motion = iterate%motion + mean
   end subroutine project_residual
+
+  !> Subtract from `values` (n), on the contact set, their components in the free rigid motions: with modes in those of
+  !> the set, of which `projection` is the basis, else in the translation unless it is `prescribed`.
+  subroutine remove_rigid_part(scene, prescribed, projection, segments, values)
+    type(contact_scene), intent(in) :: scene
+    logical, intent(in) :: prescribed
+    type(mode_projection), intent(in) :: projection
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(inout), contiguous :: values(:)
+    real(dp), allocatable :: factors(:)
+    real(dp) :: mean, largest_ignored
+
+    if (allocated(scene%modes)) then
+      allocate (factors(size(scene%load)))
+      call projection%components(segments, values, factors)
+      call projection%subtract_on(segments, factors, values)
+    else if (.not. prescribed) then
+      mean = sum_over(segments, values)/real(segments%points, dp)
+      call center_over(segments, mean, values, largest_ignored)
+    end if
+  end subroutine remove_rigid_part
 
   !> The deepest penetration of an open point, through either stop; 0 if none penetrates.
   function find_penetration(scene, iterate) result(depth)
@@ -338,7 +359,7 @@ contains
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
     if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%total(sum(iterate%force))
     if (allocated(scene%modes)) then
-      iterate%rounding = ROUNDINGS*epsilon(offset)*largest_term(scene, iterate)
+      iterate%rounding = ROUNDINGS*epsilon(offset)*largest_rigid_magnitude(scene, iterate)
       call add_magnitudes(operator, scene, offset, iterate, elastic, info)
       if (info%failed()) return
       iterate%least_magnitude = least_over(iterate%segments, iterate%work)
@@ -360,8 +381,7 @@ contains
     integer :: stat
 
     allocate (lengths(size(scene%gap)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(scene%gap)) &
-                               //' points')
+    call require_memory(stat, 'the rigid motions of', size(scene%gap), 'points', info)
     call scene%rows%agree(info)
   end subroutine new_lengths
 
@@ -388,8 +408,8 @@ contains
     iterate%work = abs((scene%gap - rigid) + offset) + iterate%work
   end subroutine add_magnitudes
 
-  !> The largest sum of the terms of a gap and a rigid displacement on the contact set.
-  function largest_term(scene, iterate) result(largest)
+  !> The largest magnitude of a gap and a rigid displacement, the sum of their terms, on the contact set.
+  function largest_rigid_magnitude(scene, iterate) result(largest)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     real(dp) :: largest, rigid
@@ -404,7 +424,7 @@ contains
       end do
     end do
     largest = scene%rows%largest(largest)
-  end function largest_term
+  end function largest_rigid_magnitude
 
   !> Is the residual within `tolerance`, relative to the least magnitude, or rounding?
   pure function is_accurate(iterate, tolerance)
@@ -446,8 +466,8 @@ contains
     least = segments%space%least(least)
   end function least_over
 
-  !> Forces up to this one are rounding. Without a load there is none to compare them with: then those count that
-  !> displace nothing beside the gaps.
+  !> Forces up to this one are rounding: 0 if there is a load to compare them with; without one, the largest force that
+  !> displaces nothing beside the gaps.
   function rounding_force(scene, iterate) result(rounding)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
@@ -462,7 +482,7 @@ contains
                                                            .and. scene%gap < OUT_OF_REACH))
     length = scene%rows%largest(length)
     if (.not. length > 0.0_dp) then
-      ! Nothing asks for forces.
+      ! Without lengths there are no forces.
       rounding = huge(rounding)
     else if (iterate%softness > 0.0_dp) then
       rounding = max(rounding, NO_LENGTH*(length/iterate%softness))

@@ -4,11 +4,10 @@
 !> allocated only where it has it.
 module fuge_contact_scene
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_shared_equilibrium, only: find_shared_equilibrium
   use fuge_shared_rows, only: shared_rows
   use fuge_shared_transfer, only: restrict_rows
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -41,7 +40,7 @@ module fuge_contact_scene
     procedure :: tied_points
   end type contact_scene
 
-  !> No displacement closes this gap.
+  !> The gap of excluded points: no displacement closes it.
   real(dp), parameter, public :: OUT_OF_REACH = 0.01_dp*huge(1.0_dp)
   !> A mode whose means over the cells are below this fraction of it varies within cells only: what is left of it may be
   !> rounding, which would count as a mode like any other.
@@ -118,7 +117,7 @@ contains
       return
     end if
     call restrict_share(scene, coarse%rows, finest, level, share, info)
-    if (.not. info%failed()) call restrict_part(scene, coarse%rows, scene%gap, finest, level, share, coarse%gap, info)
+    if (.not. info%failed()) call restrict_means(scene, coarse%rows, scene%gap, finest, level, share, coarse%gap, info)
     if (.not. info%failed()) call restrict_play(scene, finest, level, share, coarse, info)
     if (.not. info%failed()) call restrict_modes(scene, finest, level, share, coarse, info)
     if (info%failed()) return
@@ -140,7 +139,7 @@ contains
     integer :: stat
 
     allocate (taking_part(size(scene%gap)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(scene%gap))//' cells')
+    call require_memory(stat, 'the means of', size(scene%gap), 'cells', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     taking_part = 1.0_dp
@@ -149,7 +148,7 @@ contains
   end subroutine restrict_share
 
   !> `coarse`: the means of `values` (n) over the points that take part, 0 in cells without any. Error: FUGE_ERR_MEMORY.
-  subroutine restrict_part(scene, rows, values, finest, level, share, coarse, info)
+  subroutine restrict_means(scene, rows, values, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     type(shared_rows), intent(in) :: rows
     real(dp), intent(in), contiguous :: values(:)
@@ -162,7 +161,7 @@ contains
 
     if (allocated(scene%excluded)) then
       allocate (taking_part(size(values)), stat=stat)
-      if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(size(values))//' cells')
+      call require_memory(stat, 'the means of', size(values), 'cells', info)
       call scene%rows%agree(info)
       if (stat /= 0 .or. info%failed()) return
       taking_part = merge(0.0_dp, values, scene%excluded)
@@ -171,7 +170,7 @@ contains
     else
       call restrict_rows(scene%rows, rows, finest, level, values, coarse, info)
     end if
-  end subroutine restrict_part
+  end subroutine restrict_means
 
   !> The mean play where all points of a cell have an upper stop, else huge. Error: FUGE_ERR_MEMORY.
   subroutine restrict_play(scene, finest, level, share, coarse, info)
@@ -185,14 +184,14 @@ contains
 
     if (.not. allocated(scene%play)) return
     allocate (play(size(scene%play)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the play of '//text(size(scene%play))//' cells')
+    call require_memory(stat, 'the play of', size(scene%play), 'cells', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     play = merge(1.0_dp, 0.0_dp, scene%play >= huge(1.0_dp))
-    call restrict_part(scene, coarse%rows, play, finest, level, share, endless, info)
+    call restrict_means(scene, coarse%rows, play, finest, level, share, endless, info)
     if (info%failed()) return
     play = merge(0.0_dp, scene%play, scene%play >= huge(1.0_dp))
-    call restrict_part(scene, coarse%rows, play, finest, level, share, coarse%play, info)
+    call restrict_means(scene, coarse%rows, play, finest, level, share, coarse%play, info)
     if (.not. info%failed()) where (endless > 0.0_dp) coarse%play = huge(1.0_dp)
   end subroutine restrict_play
 
@@ -210,14 +209,12 @@ contains
     if (.not. allocated(scene%modes)) return
     allocate (coarse%modes(size(share), size(scene%load)), coarse%load(size(scene%load)), coarse%balance(size(share)), &
               stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the modes of '//text(size(share))//' cells')
-    end if
+    call require_memory(stat, 'the modes of', size(share), 'cells', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     coarse%load = scene%load
     do j = 1, size(scene%load)
-      call restrict_part(scene, coarse%rows, scene%modes(:, j), finest, level, share, mode, info)
+      call restrict_means(scene, coarse%rows, scene%modes(:, j), finest, level, share, mode, info)
       if (info%failed()) return
       sizes = [maxval(abs(scene%modes(:, j))), maxval(abs(mode))]
       call scene%rows%raise(sizes)
@@ -236,9 +233,7 @@ contains
 
     possible = .false.
     allocate (pushes(size(scene%gap)), pulls(size(scene%gap)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to look for equilibrium on '//text(size(scene%gap))//' cells')
-    end if
+    call require_memory(stat, 'the equilibrium of', size(scene%gap), 'cells', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     pushes = .true.

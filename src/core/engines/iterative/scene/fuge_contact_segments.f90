@@ -5,7 +5,7 @@
 module fuge_contact_segments
   use fuge_kinds, only: dp
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -43,7 +43,7 @@ contains
     end if
     if (allocated(self%first)) deallocate (self%first, self%last)
     allocate (self%first(number), self%last(number), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the segments of the contact set')
+    call require_memory(stat, 'the segments of the contact set', info)
     call self%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     number = 0

@@ -6,8 +6,7 @@
 !> on a rough surface half as many cells as are in contact.
 module fuge_grid_transfer
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -42,10 +41,8 @@ contains
       return
     end if
     allocate (wide(cells(1)*coarse(2)), fine(product(cells)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the starting forces on '//text(product(cells))//' points')
-      return
-    end if
+    call require_memory(stat, 'the starting forces on', product(cells), 'points', info)
+    if (stat /= 0) return
     call interpolate_rows(coarse(1), cells(1), coarse(2), force, wide)
     call interpolate_columns(cells(1), coarse(2), cells(2), 1, coarse(2), [1, cells(2)], wide, fine)
     if (all(cells > 1)) call open_cells(coarse(1), cells(1), 1, coarse(2), [1, cells(2)], force, fine)
@@ -122,11 +119,8 @@ contains
 
     coarser = coarser_cells(cells, level)
     allocate (coarse(product(coarser)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(product(coarser))//' cells')
-    else
-      call average_cells(cells, coarser, 2**level, values, coarse)
-    end if
+    call require_memory(stat, 'the gaps of', product(coarser), 'cells', info)
+    if (stat == 0) call average_cells(cells, coarser, 2**level, values, coarse)
   end subroutine restrict
 
   !> Means of `fine` (nx, ny) over blocks of `width` x `width` cells.

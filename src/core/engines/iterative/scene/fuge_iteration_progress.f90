@@ -1,4 +1,4 @@
-!> What the iteration tells the caller's monitor, which may cancel.
+!> The progress of the iteration, for the caller's monitor, which may cancel.
 module fuge_iteration_progress
   use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene

@@ -1,19 +1,18 @@
-!> What conjugate gradients tell of the system that they solve.
+!> The extreme eigenvalue of a system, from the conjugate gradients that solve it.
 !>
 !> Their coefficients are the factors L D L^T of the matrix of Lanczos: its eigenvalues approach those of the
 !> preconditioned system (G. H. Golub, C. F. Van Loan, Matrix Computations, 4th edition, 2013, section 11.3).
 module fuge_lanczos_values
+  use fuge_growing_arrays, only: make_room
   use fuge_kinds, only: dp
   use fuge_lapack, only: dpttrs
   implicit none
   private
 
-  !> So many inverse iterations find the smallest value well enough for an estimate.
+  !> This many inverse iterations find the smallest value well enough for an estimate.
   integer, parameter :: INVERSE_ITERATIONS = 6
   !> A pivot below this fraction of the largest one may be rounding.
   real(dp), parameter :: SUSPECT = 1.0e-8_dp
-  !> Steps for which there is room at first.
-  integer, parameter :: FIRST_ROOM = 64
 
   !> The coefficients of one run, step by step.
   type, public :: lanczos_values
@@ -58,8 +57,8 @@ contains
     integer :: stat
 
     stat = 0
-    if (.not. allocated(self%pivots)) allocate (self%pivots(FIRST_ROOM), self%below(FIRST_ROOM), stat=stat)
-    if (stat == 0) call enlarge(self, stat)
+    call make_room(self%pivots, self%steps, stat)
+    call make_room(self%below, self%steps, stat)
     if (stat /= 0) return
     self%steps = self%steps + 1
     self%pivots(self%steps) = 1.0_dp/step_length
@@ -67,22 +66,6 @@ contains
     ! The element below the pivot of the step before.
     if (self%steps > 1) self%below(self%steps - 1) = sqrt(ratio)
   end subroutine add
-
-  !> Twice the room where it is full.
-  pure subroutine enlarge(self, stat)
-    class(lanczos_values), intent(inout) :: self
-    integer, intent(out) :: stat
-    real(dp), allocatable :: pivots(:), below(:)
-
-    stat = 0
-    if (self%steps < size(self%pivots)) return
-    allocate (pivots(2*self%steps), below(2*self%steps), stat=stat)
-    if (stat /= 0) return
-    pivots(:self%steps) = self%pivots
-    below(:self%steps) = self%below
-    call move_alloc(pivots, self%pivots)
-    call move_alloc(below, self%below)
-  end subroutine enlarge
 
   !> An estimate of the smallest eigenvalue, from above; 0 without steps, or where it cannot be found.
   function smallest(self) result(value)

@@ -5,15 +5,14 @@
 module fuge_mode_projection
   use fuge_contact_segments, only: contact_segments, dot_over
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   !> A mode is a combination of the others on the set if its remainder is below this fraction: modes about a far-away
   !> point have lost digits when they were made orthogonal.
   real(dp), parameter :: DEPENDENT = 1.0e-10_dp
-  !> What is missing in a resultant is rounding up to so many units in the last place of its terms, times the root of
+  !> The error of a resultant counts as rounding up to this many units in the last place of its terms, times the root of
   !> their number.
   real(dp), parameter :: ROUNDINGS = 8.0_dp
 
@@ -48,9 +47,7 @@ contains
     m = size(modes, 2)
     stat = 0
     if (.not. allocated(self%basis)) allocate (self%basis(size(modes, 1), m), self%coefficients(m, m), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid motions of '//text(size(modes, 1))//' points')
-    end if
+    call require_memory(stat, 'the rigid motions of', size(modes, 1), 'points', info)
     call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     self%rank = 0
@@ -65,7 +62,7 @@ contains
     real(dp), intent(in), contiguous :: mode(:)
     integer, intent(in) :: j
     type(contact_segments), intent(in) :: segments
-    real(dp) :: part, usual_size, size_after
+    real(dp) :: component, usual_size, size_after
     integer :: i, pass, r
 
     ! Not that on the set, where all that is left of a mode may be rounding.
@@ -78,9 +75,9 @@ contains
     ! Twice, because what the first projection leaves is rounded.
     do pass = 1, 2
       do i = 1, self%rank
-        part = dot_over(segments, self%basis(:, i), self%basis(:, r))
-        self%basis(:, r) = self%basis(:, r) - part*self%basis(:, i)
-        self%coefficients(:, r) = self%coefficients(:, r) - part*self%coefficients(:, i)
+        component = dot_over(segments, self%basis(:, i), self%basis(:, r))
+        self%basis(:, r) = self%basis(:, r) - component*self%basis(:, i)
+        self%coefficients(:, r) = self%coefficients(:, r) - component*self%coefficients(:, i)
       end do
     end do
     size_after = sqrt(dot_over(segments, self%basis(:, r), self%basis(:, r)))
@@ -90,59 +87,59 @@ contains
     self%rank = r
   end subroutine append
 
-  !> Components of `x` (n) on the set in the basis, (m), zero beyond the rank.
-  subroutine components(self, segments, x, parts)
+  !> Components of `x` (n) on the set in the basis: the `factors` (m) of its columns, zero beyond the rank.
+  subroutine components(self, segments, x, factors)
     class(mode_projection), intent(in) :: self
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:)
-    real(dp), intent(out) :: parts(:)
+    real(dp), intent(out) :: factors(:)
     integer :: i
 
-    parts = 0.0_dp
+    factors = 0.0_dp
     do i = 1, self%rank
-      parts(i) = dot_over(segments, self%basis(:, i), x)
+      factors(i) = dot_over(segments, self%basis(:, i), x)
     end do
   end subroutine components
 
-  !> Subtract the motion with these components from `x` (n) on the set.
-  pure subroutine subtract_on(self, segments, parts, x)
+  !> Subtract the motion with these factors from `x` (n) on the set.
+  pure subroutine subtract_on(self, segments, factors, x)
     class(mode_projection), intent(in) :: self
     type(contact_segments), intent(in) :: segments
-    real(dp), intent(in) :: parts(:)
+    real(dp), intent(in) :: factors(:)
     real(dp), intent(inout), contiguous :: x(:)
     integer :: i, j
 
     do i = 1, size(segments%first)
       associate (a => segments%first(i), b => segments%last(i))
         do j = 1, self%rank
-          x(a:b) = x(a:b) - parts(j)*self%basis(a:b, j)
+          x(a:b) = x(a:b) - factors(j)*self%basis(a:b, j)
         end do
       end associate
     end do
   end subroutine subtract_on
 
-  !> Subtract the motion with these components from `x` (n) at all points.
-  pure subroutine subtract(self, parts, x)
+  !> Subtract the motion with these factors from `x` (n) at all points.
+  pure subroutine subtract(self, factors, x)
     class(mode_projection), intent(in) :: self
-    real(dp), intent(in) :: parts(:)
+    real(dp), intent(in) :: factors(:)
     real(dp), intent(inout), contiguous :: x(:)
     integer :: j
 
     do j = 1, self%rank
-      x = x - parts(j)*self%basis(:, j)
+      x = x - factors(j)*self%basis(:, j)
     end do
   end subroutine subtract
 
-  !> The motion (m) in the modes that has these components.
-  pure function motion(self, parts)
+  !> The motion (m) in the modes that has these factors in the basis.
+  pure function motion(self, factors)
     class(mode_projection), intent(in) :: self
-    real(dp), intent(in) :: parts(:)
-    real(dp) :: motion(size(parts))
+    real(dp), intent(in) :: factors(:)
+    real(dp) :: motion(size(factors))
     integer :: i
 
     motion = 0.0_dp
     do i = 1, self%rank
-      motion = motion + parts(i)*self%coefficients(:, i)
+      motion = motion + factors(i)*self%coefficients(:, i)
     end do
   end function motion
 
@@ -155,14 +152,14 @@ contains
     type(contact_segments), intent(in) :: segments
     real(dp), intent(inout), contiguous :: force(:)
     logical, intent(out) :: possible
-    real(dp) :: missing(size(load)), terms(size(load)), parts(size(load))
+    real(dp) :: missing(size(load)), terms(size(load)), factors(size(load))
     integer :: pass
 
     do pass = 1, 2
       call find_missing(modes, load, segments, force, missing, terms)
-      parts = 0.0_dp
-      parts(:self%rank) = -matmul(missing, self%coefficients(:, :self%rank))
-      call self%subtract_on(segments, parts, force)
+      factors = 0.0_dp
+      factors(:self%rank) = -matmul(missing, self%coefficients(:, :self%rank))
+      call self%subtract_on(segments, factors, force)
     end do
     call find_missing(modes, load, segments, force, missing, terms)
     possible = all(abs(missing) <= ROUNDINGS*epsilon(missing)*sqrt(real(segments%points, dp)) &
@@ -175,20 +172,20 @@ contains
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in) :: load(:)
     real(dp) :: force
-    real(dp) :: parts(self%rank)
+    real(dp) :: factors(self%rank)
     integer :: i, k
 
     force = 0.0_dp
-    parts = [(sum(load*abs(self%coefficients(:, i))), i=1, self%rank)]
+    factors = [(sum(load*abs(self%coefficients(:, i))), i=1, self%rank)]
     do i = 1, size(segments%first)
       do k = segments%first(i), segments%last(i)
-        force = max(force, sum(parts*abs(self%basis(k, :self%rank))))
+        force = max(force, sum(factors*abs(self%basis(k, :self%rank))))
       end do
     end do
     force = segments%space%largest(force)
   end function largest_force
 
-  !> What `force` (n) lacks of the resultants, and the sizes of their terms, (m).
+  !> The resultants that `force` (n) lacks, `missing`, and the magnitudes of their `terms`, (m).
   subroutine find_missing(modes, load, segments, force, missing, terms)
     real(dp), intent(in), contiguous :: modes(:, :), force(:)
     real(dp), intent(in) :: load(:)

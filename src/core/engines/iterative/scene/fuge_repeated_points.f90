@@ -1,21 +1,20 @@
 !> Contact points that are the same point twice: their forces are one of many possible.
 !>
-!> Conjugate gradients cannot see the difference of two such forces, because no residual has a part in it. But the two
-!> points have equal displacements under any forces, so that one product with random ones shows them.
+!> Conjugate gradients cannot see the difference of two such forces, because no residual has a component along it. But
+!> the two points have equal displacements under any forces, so that one product with random ones shows them.
 module fuge_repeated_points
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, deformed_gap
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   public :: find_repeated_points
 
-  !> Numbers that differ by so many units in the last place of the largest count as equal.
+  !> Numbers that differ by at most this many units in the last place of the largest one count as equal.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
 contains
@@ -39,13 +38,13 @@ contains
     pair = 0
     if (all(operator%grid() > 0)) return
     allocate (touches, source=touching_points(scene, iterate), stat=stat)
-    if (stat /= 0) call report_memory(size(scene%gap), info)
+    call require_memory(stat, 'a search for repeated ones among', size(scene%gap), 'points', info)
     if (info%failed()) return
     if (count(touches) < 2) return
     allocate (order, source=pack([(k, k=1, size(touches))], touches), stat=stat)
     if (stat == 0) allocate (data, source=data_at(scene, iterate), stat=stat)
     if (stat == 0) allocate (force(size(data)), displacement(size(data)), stat=stat)
-    if (stat /= 0) call report_memory(size(scene%gap), info)
+    call require_memory(stat, 'a search for repeated ones among', size(scene%gap), 'points', info)
     if (info%failed()) return
     call heap_sort(data, order)
     if (equal_neighbour(data, data, order, touches) < 1) return
@@ -65,14 +64,7 @@ contains
                                                                                    maxval(order(k - 1:k))]
   end subroutine find_repeated_points
 
-  pure subroutine report_memory(points, info)
-    integer, intent(in) :: points
-    type(fuge_info), intent(inout) :: info
-
-    call report(info, FUGE_ERR_MEMORY, 'no memory to look for repeated points among '//text(points))
-  end subroutine report_memory
-
-  !> The contact set, and the open points that only rounding parts from their lower stop, (n).
+  !> The contact set, and the open points that are within rounding of their lower stop, (n).
   pure function touching_points(scene, iterate) result(touches)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate

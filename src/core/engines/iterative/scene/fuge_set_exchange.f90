@@ -10,6 +10,7 @@
 !> cells: a cell stays in contact as long as it would not be tensile, and joins if its middle is within the true edge.
 module fuge_set_exchange
   use fuge_kinds, only: dp
+  use fuge_marked_runs, only: next_run
   implicit none
   private
 
@@ -37,38 +38,19 @@ contains
     integer :: first, last
 
     call exchange(tensile, penetrating, contact)
-    first = 1
+    last = 0
     do
-      call next_run(tensile, first, last)
+      call next_run(tensile, last + 1, first, last)
       if (first > size(tensile)) exit
       call extend_release(first, last, measure, contact)
-      first = last + 1
     end do
-    first = 1
+    last = 0
     do
-      call next_run(penetrating, first, last)
+      call next_run(penetrating, last + 1, first, last)
       if (first > size(penetrating)) exit
       call shorten_joining(first, last, measure, contact)
-      first = last + 1
     end do
   end subroutine exchange_extrapolated
-
-  !> The next run of true elements at or after `first`; first > n if there is none.
-  pure subroutine next_run(mask, first, last)
-    logical, intent(in) :: mask(:)
-    integer, intent(inout) :: first
-    integer, intent(out) :: last
-
-    do while (first <= size(mask))
-      if (mask(first)) exit
-      first = first + 1
-    end do
-    last = first
-    do while (last < size(mask))
-      if (.not. mask(last + 1)) exit
-      last = last + 1
-    end do
-  end subroutine next_run
 
   !> A tensile run at one end of a segment takes more cells with it, up to twice as many in all.
   pure subroutine extend_release(first, last, measure, contact)

@@ -1,10 +1,9 @@
 !> The exchange of points of a line of cells that ranks may share: fuge_set_exchange looks beyond the cells of a rank.
 module fuge_shared_exchange
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_set_exchange, only: exchange_extrapolated
   use fuge_shared_rows, only: shared_rows
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -12,7 +11,7 @@ module fuge_shared_exchange
 
   !> States of a cell, as a number that ranks exchange.
   real(dp), parameter :: OPEN = 0.0_dp, CONTACT_STATE = 1.0_dp, TENSILE_STATE = 2.0_dp, PENETRATING_STATE = 3.0_dp
-  !> A cell is decided by the cells up to so many lengths of the longest run of wrong cells, and a few more, away: a run
+  !> The exchange of a cell depends on those up to RUNS lengths of the longest run of wrong cells, and MORE, away: a run
   !> of penetrating cells by the tensile run beyond the segment beside it, that one by the run at the other end of its
   !> own segment, and each reaches about as far as it is long.
   integer, parameter :: RUNS = 5, MORE = 8
@@ -56,8 +55,7 @@ contains
     integer :: last(0:size(first) - 1), k, r, reach, stat
 
     allocate (values(2*size(contact)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(size(contact)) &
-                               //' points')
+    call require_memory(stat, 'the contact set of', size(contact), 'points', info)
     call rows%agree(info)
     first = 0
     if (stat /= 0 .or. info%failed()) return
@@ -92,10 +90,8 @@ contains
 
     n = size(part)/2
     allocate (tensile(n), penetrating(n), all_contact(n), measure(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the contact set of '//text(n)//' points')
-      return
-    end if
+    call require_memory(stat, 'the contact set of', n, 'points', info)
+    if (stat /= 0) return
     do k = 1, size(measure)
       associate (state => part(2*k - 1))
         tensile(k) = abs(state - TENSILE_STATE) <= 0.0_dp
@@ -119,7 +115,7 @@ contains
     ! Of each rank: the longest run, that at the beginning, that at the end; 1 if they are all its cells.
     runs = 0.0_dp
     runs(:, rows%number()) = runs_of(mask)
-    call add_columns(rows, runs)
+    call sum_columns(rows, runs)
     longest = 0
     open_run = 0.0_dp
     do r = 0, ubound(runs, 2)
@@ -166,7 +162,7 @@ contains
     ! Of each rank: the runs that begin in it; 1 if it has cells; 1 if the first, and the last one are in contact.
     ends = 0.0_dp
     if (n > 0) ends(:, rows%number()) = real([number, 1, merge(1, 0, contact(1)), merge(1, 0, contact(n))], dp)
-    call add_columns(rows, ends)
+    call sum_columns(rows, ends)
     number = 0
     before = .false.
     do r = 0, ubound(ends, 2)
@@ -178,7 +174,7 @@ contains
   end function count_segments
 
   !> Sum the `columns` of all ranks, of which each has set its own.
-  subroutine add_columns(rows, columns)
+  subroutine sum_columns(rows, columns)
     type(shared_rows), intent(in) :: rows
     real(dp), intent(inout), contiguous :: columns(:, :)
     real(dp) :: values(size(columns))
@@ -186,6 +182,6 @@ contains
     values = reshape(columns, shape(values))
     call rows%add(values)
     columns = reshape(values, shape(columns))
-  end subroutine add_columns
+  end subroutine sum_columns
 
 end module fuge_shared_exchange

@@ -1,10 +1,9 @@
 !> The rows of a grid that ranks share, and their exchange: each rank has some rows, one after the other.
 module fuge_shared_rows
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -36,8 +35,7 @@ contains
     if (rows%is_alone()) return
     rows%cells = (operator%grid() - 1)/2**levels + 1
     call operator%first_rows(levels, rows%first)
-    if (.not. allocated(rows%first)) call report(info, FUGE_ERR_MEMORY, 'no memory for the rows of ' &
-                                                 //text(rows%members())//' ranks')
+    call require_memory(merge(0, 1, allocated(rows%first)), 'the rows of', rows%members(), 'ranks', info)
     call rows%agree(info)
   end subroutine rows_of
 
@@ -129,7 +127,7 @@ contains
     integer, intent(in) :: length, stat
     type(fuge_info), intent(inout) :: info
 
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory to exchange rows of '//text(length)//' cells')
+    call require_memory(stat, 'an exchange of rows of', length, 'cells', info)
     call rows%agree(info)
   end subroutine agree_on_memory
 

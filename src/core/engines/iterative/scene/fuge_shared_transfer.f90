@@ -1,11 +1,10 @@
 !> Gaps and forces carried between nested grids, as by fuge_grid_transfer, where ranks may share the rows.
 module fuge_shared_transfer
-  use fuge_grid_transfer, only: coarser_cells, open_cells, interpolate_columns, interpolate_rows, prolong, restrict
+  use fuge_grid_transfer, only: open_cells, interpolate_columns, interpolate_rows, prolong, restrict
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_shared_rows, only: rows_of, shared_rows
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -56,8 +55,7 @@ contains
     begin = first(fine%number())
     ends = last(fine%number())
     allocate (wide(fine%cells(1)*max(ends - begin + 1, 0)), values(fine%cells(1)*(rows(2) - rows(1) + 1)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the starting forces on ' &
-                               //text(fine%cells(1)*(rows(2) - rows(1) + 1))//' points')
+    call require_memory(stat, 'the starting forces on', fine%cells(1)*(rows(2) - rows(1) + 1), 'points', info)
     call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call interpolate_rows(coarse%cells(1), fine%cells(1), max(ends - begin + 1, 0), near, wide)
@@ -90,8 +88,7 @@ contains
     me = fine%number()
     n = coarser%cells(1)
     allocate (sums(n*(last(me) - first(me) + 1)), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the gaps of '//text(product(coarser%cells)) &
-                               //' cells')
+    call require_memory(stat, 'the gaps of', product(coarser%cells), 'cells', info)
     call fine%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call sum_cells(cells(1), fine%own(), n, level, first(me), last(me), values, sums)

@@ -1,35 +1,42 @@
-!> The cells that carry a force, in a unit of length of the order of the narrowest one.
+!> The line on which a half-plane is pressed: the cells that carry a force, in a unit of length of the order of the
+!> narrowest one.
 !>
-!> A field is a sum over the cells: a plain one, or, once `gather` has put them into clusters, one over the cells nearby
-!> and the clusters of all others.
-module fuge_loaded_cells
+!> Its field is a sum over the cells: a plain one, or, once `gather` has put them into clusters, one over the cells
+!> nearby and the clusters of all others.
+module fuge_pressed_line
   use fuge_cell_clusters, only: cell_clusters
+  use fuge_cell_overlaps, only: check_overlaps
   use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2, PI
-  use fuge_halfplane_influence, only: FUGE_HAT
+  use fuge_halfplane_influence, only: check_halfplane, FUGE_HAT
   use fuge_hat_field, only: add_hat_displacements, add_hats, hat_rules
   use fuge_heap_sort, only: heap_sort, reorder
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OVERFLOW
   use fuge_strip_field, only: add_strip_displacements, add_strips
+  use fuge_stress_checks, only: check_forces
   implicit none
   private
 
-  !> No distance is larger than 2**FARTHEST narrowest widths, 1.8e75.
+  public :: check_line
+
+  !> A distance is at most 2**FARTHEST narrowest widths, 1.8e75.
   integer, parameter :: FARTHEST = 250
 
-  !> How many sums make the stresses at a point, and the displacements.
+  !> The number of sums that give the stresses at a point, and the displacements.
   integer, parameter :: STRESSES = 3, DISPLACEMENTS = 4
   !> Fewer cells are never gathered.
   integer, parameter :: FEW_CELLS = 64
-  !> More clusters than ever wait to be looked at: two for each halving of their number.
+  !> The most clusters that can wait to be looked at: two for each halving of their number.
   integer, parameter :: MOST_WAITING = 2*bit_size(1)
 
   !> Strips or hats, in the caller's order until they are gathered.
-  type, public :: loaded_cells
+  type, public :: pressed_line
     !> Lengths here are the caller's times 2**power.
     integer :: power = 0
     logical :: hats = .false.
+    !> Symmetric about x = 0: half of each force acts on the mirror image of its cell.
+    logical :: symmetric = .false.
     !> Centres, widths of strips or half bases of hats, and pressures, of hats at the peak.
     real(dp), allocatable :: centre(:), width(:), pressure(:)
     type(hat_rules) :: rules = hat_rules()
@@ -38,28 +45,43 @@ module fuge_loaded_cells
     procedure :: set
     procedure :: gather
     procedure :: find_stress
+    procedure :: find_integrals
     procedure :: add_stresses
     procedure :: add_displacements
+    procedure :: check_distances
     procedure :: check_range
     procedure, private :: check_pressure
-  end type loaded_cells
+  end type pressed_line
 
 contains
 
-  !> Take the cells with a force. FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
-  pure subroutine set(self, x, width, force, element, info)
-    class(loaded_cells), intent(inout) :: self
+  !> Refuse cells and forces that press no line: errors of `fuge_halfplane_matrix`, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE.
+  pure subroutine check_line(x, width, force, element, symmetric, info)
     real(dp), intent(in) :: x(:), width(:), force(:)
     integer, intent(in) :: element
+    logical, intent(in) :: symmetric
+    type(fuge_info), intent(inout) :: info
+
+    call check_halfplane(x, width, 1.0_dp, element, symmetric, info)
+    if (.not. info%failed()) call check_overlaps(x, width, symmetric, info)
+    call check_forces(force, size(x), 'cells', info)
+  end subroutine check_line
+
+  !> Take the cells with a force, of those that `check_line` accepts. FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  pure subroutine set(self, x, width, force, element, symmetric, info)
+    class(pressed_line), intent(inout) :: self
+    real(dp), intent(in) :: x(:), width(:), force(:)
+    integer, intent(in) :: element
+    logical, intent(in) :: symmetric
     type(fuge_info), intent(inout) :: info
     integer :: k, n, number, stat
 
+    if (info%failed()) return
+    self%symmetric = symmetric
     number = count(abs(force) > 0.0_dp)
     allocate (self%centre(number), self%width(number), self%pressure(number), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for '//text(number)//' cells with a force')
-      return
-    end if
+    call require_memory(stat, '', number, 'cells with a force', info)
+    if (stat /= 0) return
     if (number == 0) return
     self%power = -exponent(minval(width, abs(force) > 0.0_dp))
     self%hats = element == FUGE_HAT
@@ -78,9 +100,23 @@ contains
     end do
   end subroutine set
 
+  !> Refuse points that are too far away (FUGE_ERR_OVERFLOW).
+  pure subroutine check_distances(self, px, pz, info)
+    class(pressed_line), intent(in) :: self
+    real(dp), intent(in) :: px(:), pz(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    do k = 1, size(pz)
+      if (info%failed()) return
+      call self%check_range(px(k), 'px', k, info)
+      call self%check_range(pz(k), 'pz', k, info)
+    end do
+  end subroutine check_distances
+
   !> Refuse a length that is too large beside the narrowest width (FUGE_ERR_OVERFLOW).
   pure subroutine check_range(self, length, name, k, info)
-    class(loaded_cells), intent(in) :: self
+    class(pressed_line), intent(in) :: self
     real(dp), intent(in) :: length
     character(len=*), intent(in) :: name
     integer, intent(in) :: k
@@ -94,7 +130,7 @@ contains
 
   !> Refuse a force that is out of range, or its pressure on the narrowest width (FUGE_ERR_OVERFLOW).
   pure subroutine check_pressure(self, force, k, info)
-    class(loaded_cells), intent(in) :: self
+    class(pressed_line), intent(in) :: self
     real(dp), intent(in) :: force
     integer, intent(in) :: k
     type(fuge_info), intent(inout) :: info
@@ -107,7 +143,7 @@ contains
 
   !> Order many cells and put them into clusters. FUGE_ERR_MEMORY.
   pure subroutine gather(self, info)
-    class(loaded_cells), intent(inout) :: self
+    class(pressed_line), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
     integer :: n
 
@@ -121,7 +157,7 @@ contains
 
   !> Order the cells by their centres. FUGE_ERR_MEMORY.
   pure subroutine sort(self, info)
-    class(loaded_cells), intent(inout) :: self
+    class(pressed_line), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
     integer, allocatable :: order(:)
     real(dp), allocatable :: work(:)
@@ -129,10 +165,8 @@ contains
 
     n = size(self%centre)
     allocate (order(n), work(n), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to order '//text(n)//' cells')
-      return
-    end if
+    call require_memory(stat, 'the order of', n, 'cells', info)
+    if (stat /= 0) return
     do k = 1, n
       order(k) = k
     end do
@@ -142,19 +176,17 @@ contains
     call reorder(order, self%pressure, work)
   end subroutine sort
 
-  !> The stresses xx, zz and xz at a point, in the caller's units. Of a `folded` model half of each force acts on the
-  !> mirror image of its cell.
-  pure subroutine find_stress(self, px, pz, folded, stress)
-    class(loaded_cells), intent(in) :: self
+  !> The stresses xx, zz and xz at a point, both in the caller's units.
+  pure subroutine find_stress(self, px, pz, stress)
+    class(pressed_line), intent(in) :: self
     real(dp), intent(in) :: px, pz
-    logical, intent(in) :: folded
     real(dp), intent(out) :: stress(3)
-    real(dp) :: total(3), image(3), scaled(2)
+    real(dp) :: total(STRESSES), image(STRESSES), scaled(2)
 
     scaled = scale([px, pz], self%power)
     total = 0.0_dp
     call self%add_stresses(scaled(1), scaled(2), total)
-    if (folded) then
+    if (self%symmetric) then
       image = 0.0_dp
       call self%add_stresses(-scaled(1), scaled(2), image)
       total = 0.5_dp*(total + [image(1), image(2), -image(3)])
@@ -163,9 +195,26 @@ contains
     stress = 0.0_dp - scale(total/PI, self%power)
   end subroutine find_stress
 
+  !> The integrals of ln(r), z**2/r**2, x z/r**2 and atan(x/z) over the pressure, which give the displacements at a
+  !> point in the caller's units; r is in the unit of the cells.
+  pure subroutine find_integrals(self, px, pz, integral)
+    class(pressed_line), intent(in) :: self
+    real(dp), intent(in) :: px, pz
+    real(dp), intent(out) :: integral(DISPLACEMENTS)
+    real(dp) :: image(DISPLACEMENTS), scaled(2)
+
+    scaled = scale([px, pz], self%power)
+    integral = 0.0_dp
+    call self%add_displacements(scaled(1), scaled(2), integral)
+    if (.not. self%symmetric) return
+    image = 0.0_dp
+    call self%add_displacements(-scaled(1), scaled(2), image)
+    integral = 0.5_dp*(integral + [image(:2), -image(3:)])
+  end subroutine find_integrals
+
   !> Add -pi times the stresses xx, zz and xz at a point to `total`; lengths and areas in the unit of the cells.
   pure subroutine add_stresses(self, px, pz, total)
-    class(loaded_cells), intent(in) :: self
+    class(pressed_line), intent(in) :: self
     real(dp), intent(in) :: px, pz
     real(dp), intent(inout) :: total(STRESSES)
 
@@ -174,16 +223,16 @@ contains
 
   !> Add the integrals of ln(r), z**2/r**2, x z/r**2 and atan(x/z) over the pressure to `total`.
   pure subroutine add_displacements(self, px, pz, total)
-    class(loaded_cells), intent(in) :: self
+    class(pressed_line), intent(in) :: self
     real(dp), intent(in) :: px, pz
     real(dp), intent(inout) :: total(DISPLACEMENTS)
 
     call add_clusters(self, DISPLACEMENTS, px, pz, total)
   end subroutine add_displacements
 
-  !> Add so many `sums`, STRESSES or DISPLACEMENTS, over the clusters that are far and the cells of the others.
+  !> Add the `sums`, STRESSES or DISPLACEMENTS, over the clusters that are far and the cells of the others.
   pure subroutine add_clusters(self, sums, px, pz, total)
-    class(loaded_cells), intent(in) :: self
+    class(pressed_line), intent(in) :: self
     integer, intent(in) :: sums
     real(dp), intent(in) :: px, pz
     real(dp), intent(inout) :: total(sums)
@@ -210,24 +259,24 @@ contains
     end do
   end subroutine add_clusters
 
-  !> The part of the cells `first` to `last`. Halves of many cells are added up apart, which keeps the rounding of the
-  !> sum small.
+  !> Add the sums over the cells `first` to `last`. Halves of many cells are added up apart, which keeps the rounding
+  !> of the sum small.
   pure recursive subroutine add_cells(self, sums, first, last, px, pz, total)
-    class(loaded_cells), intent(in) :: self
+    class(pressed_line), intent(in) :: self
     integer, intent(in) :: sums, first, last
     real(dp), intent(in) :: px, pz
     real(dp), intent(inout) :: total(sums)
-    real(dp) :: part(sums)
+    real(dp) :: half_sum(sums)
     integer :: half
 
     if (last - first >= FEW_CELLS) then
-      part = 0.0_dp
+      half_sum = 0.0_dp
       half = first + (last - first)/2
-      call add_cells(self, sums, first, half, px, pz, part)
-      total = total + part
-      part = 0.0_dp
-      call add_cells(self, sums, half + 1, last, px, pz, part)
-      total = total + part
+      call add_cells(self, sums, first, half, px, pz, half_sum)
+      total = total + half_sum
+      half_sum = 0.0_dp
+      call add_cells(self, sums, half + 1, last, px, pz, half_sum)
+      total = total + half_sum
       return
     end if
     associate (centre => self%centre(first:last), width => self%width(first:last), &
@@ -244,4 +293,4 @@ contains
     end associate
   end subroutine add_cells
 
-end module fuge_loaded_cells
+end module fuge_pressed_line
